@@ -1261,6 +1261,10 @@ class Gop:
             raise UnsupportedError(f"GOP method {self.method}")  # S 2.2
         self.frames, at = payload_varint(data, 1)
         require(1 <= self.frames <= longest, "a wrong number of frames")  # S 2.3
+        self.shown = list(range(self.frames))
+        if self.method == 0:
+            at = self.read_stretches(data, at)
+        own = max(self.shown) + 1
         told, widths = {}, {number: one.components for number, one in enumerate(declared) if one.moves}
         if counted:  # S 10.2
             count, at = payload_varint(data, at)
@@ -1270,8 +1274,24 @@ class Gop:
                 size, at = payload_varint(data, at)
                 require(number in widths and all(before < number for before in told), "no attribute that moves")
                 require(at + size <= len(data), "a GOP ends inside a field")
-                told[number], at = Field(data[at : at + size], self.method, self.frames, widths[number]), at + size
-        self.fields = [Field(data[at:], self.method, self.frames, 3), *(told.get(number) for number in widths)]
+                told[number], at = Field(data[at : at + size], self.method, own, widths[number]), at + size
+        self.fields = [Field(data[at:], self.method, own, 3), *(told.get(number) for number in widths)]
+
+    def read_stretches(self, data, at):
+        """S 2.5."""
+        count, at = payload_varint(data, at)
+        shown = []
+        for _ in range(count):
+            code, at = payload_varint(data, at)
+            length, at = payload_varint(data, at)
+            require(1 <= length <= self.frames - len(shown), "a stretch of a wrong length")
+            z, way = code // 3, (1, 0, -1)[code % 3]
+            first = (shown[-1] + 1 if shown else 0) + (z // 2 if z % 2 == 0 else -(z + 1) // 2)
+            require(0 <= first < self.frames and 0 <= first + way * (length - 1) < self.frames, "no frame of a GOP")
+            shown += [first + way * i for i in range(length)]
+        require(count == 0 or len(shown) == self.frames, "stretches of too few frames")
+        self.shown = shown or self.shown
+        return at
 
 
 class Field:
@@ -1543,10 +1563,11 @@ class Track:
         self.bends, self.first = bends, [np.vstack((around, known))[:, : self.width] for known, around in bends]
         self.start = self.first if base is None else [np.zeros_like(one) for one in self.first]
 
-    def learnt(self, parts, field, frames):
-        """S 7.1: fields of all frames."""
+    def learnt(self, parts, field, shown):
+        """S 7.1: fields of all frames, each number `shown` of those that are told of."""
         if field is None:  # S 10.4
-            return [np.zeros(self.shape)] * frames
+            return [np.zeros(self.shape)] * len(shown)
+        frames = max(shown) + 1
         basis, placed = temporal_basis(field, frames), np.zeros((self.shape[0], field.columns))
         shapes = [(part.basis.shape[1], field.columns) for part in parts]
         matrices = LevelModel().decode(field.levels, shapes, [None] * len(parts))
@@ -1554,7 +1575,7 @@ class Track:
             loop = Loop(known.shape[1], field.columns).begin(around, placed[part.around], field.step)
             part.place(placed, loop.decode(known, matrix, field.step))
         wide = (placed @ basis.T).reshape(len(placed), self.width, frames)
-        return [wide[:, :, t] for t in range(frames)]
+        return [wide[:, :, t] for t in shown]
 
     def following(self, parts, field, gop):
         """S 7.2: fields of frames that are told without a basis."""
@@ -1617,7 +1638,7 @@ def decode_frames(mesh, header, gops, first_frame, begin):
         gop = Gop(data, header, declared)
         require(not 0 < header["frames"] < index + gop.frames, "more frames than announced")
         if gop.method == 0:
-            fields = [track.learnt(parts, field, gop.frames) for track, field in zip(tracks, gop.fields)]
+            fields = [track.learnt(parts, field, gop.shown) for track, field in zip(tracks, gop.fields)]
             for track in tracks:
                 track.history = None
         else:

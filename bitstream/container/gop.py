@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.container.stretches import parse_stretches, write_stretches
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import CorruptError, OptionError, UnsupportedError
 
@@ -78,11 +79,24 @@ class GopBody:
         Number of frames T, at least 1.
     fields : tuple of GopField
         Of positions, and of each attribute that moves.
+    shown : int64 array, shape (T,), optional
+        Which of the frames that fields tell of each one is; None: they are these, in order.
     """
 
     method: GopMethod
     frames: int
     fields: tuple[GopField, ...]
+    shown: npt.NDArray[np.int64] | None = None
+
+    @property
+    def told(self) -> int:
+        """How many frames fields tell of."""
+        return self.frames if self.shown is None else int(self.shown.max()) + 1
+
+    @property
+    def places(self) -> npt.NDArray[np.int64]:
+        """As `shown`, always there."""
+        return np.arange(self.frames) if self.shown is None else self.shown
 
 
 def still(width: int) -> GopField:
@@ -91,11 +105,11 @@ def still(width: int) -> GopField:
 
 
 def write_gop_body(body: GopBody, run: int = 0, numbers: Sequence[int] = ()) -> bytes:
-    """Method and run (a byte), T; how many attributes are told of, and each one's number, length and field; positions.
+    """Method and run (a byte), T, with a learnt basis the stretches, attributes, positions.
 
-    `numbers`, ascending, are those of the attributes that move. A field is its step (float 32), of a learnt basis r,
-    the exponents and its coded length; all levels. Counts are varints; an exponent is the zigzag of its difference to
-    the one before.
+    Of attributes there are their count, and each one's number, length and field; `numbers`, ascending, are those of
+    the attributes that move. A field is its step (float 32), of a learnt basis r, the exponents and its coded length;
+    all levels. Counts are varints; an exponent is the zigzag of its difference to the one before.
     """
     positions, *attributes = (_write_field(field, body.method) for field in body.fields)
     if not positions:
@@ -103,6 +117,8 @@ def write_gop_body(body: GopBody, run: int = 0, numbers: Sequence[int] = ()) -> 
     told = [(number, data) for number, data in zip(numbers, attributes, strict=True) if data]
     first = body.method + (WITH_ATTRIBUTES if told else 0) + METHODS * (run % RUNS)
     parts = [bytes([first]), write_varint(body.frames)]
+    if body.method is GopMethod.LEARNT:
+        parts.append(write_stretches(body.shown))
     if told:
         parts.append(write_varint(len(told)))
         for number, data in told:
@@ -147,7 +163,12 @@ def parse_gop_body(
         For everything else that no encoder writes.
     """
     cursor = Cursor(data)
-    method, frames, told = _parse_beginning(cursor, longest, run)
+    method, frames, with_attributes = _parse_beginning(cursor, longest, run)
+    shown = parse_stretches(cursor, frames) if method is GopMethod.LEARNT else None
+    body = GopBody(method, frames, (), shown)
+    told = cursor.varint() if with_attributes else 0
+    if with_attributes and not told:
+        raise CorruptError("a GOP that tells of no attribute, and says that it does")
     fields = {number: still(width) for number, width in widths.items()}
     before = -1
     for _ in range(told):
@@ -156,8 +177,8 @@ def parse_gop_body(
             raise CorruptError(f"a GOP tells of attribute {number}, which does not move, or is not the next one")
         before = number
         if number in widths:
-            fields[number] = _parse_field(part, method, frames, widths[number])
-    return GopBody(method, frames, (_parse_field(cursor.rest(), method, frames, 3), *fields.values()))
+            fields[number] = _parse_field(part, body, widths[number])
+    return replace(body, fields=(_parse_field(cursor.rest(), body, 3), *fields.values()))
 
 
 def frames_of_gop(data: bytes, longest: int, run: int = 0) -> int:
@@ -165,8 +186,8 @@ def frames_of_gop(data: bytes, longest: int, run: int = 0) -> int:
     return _parse_beginning(Cursor(data), longest, run)[1]
 
 
-def _parse_beginning(cursor: Cursor, longest: int, run: int) -> tuple[GopMethod, int, int]:
-    """Method, frames, and how many attributes are told of."""
+def _parse_beginning(cursor: Cursor, longest: int, run: int) -> tuple[GopMethod, int, bool]:
+    """Method, frames, and whether attributes are told of."""
     of_run, kind = divmod(cursor.take(1)[0], METHODS)
     if of_run != run % RUNS:
         raise CorruptError(f"a GOP of another run than run {run}")
@@ -176,22 +197,19 @@ def _parse_beginning(cursor: Cursor, longest: int, run: int) -> tuple[GopMethod,
     method, frames = GopMethod(number), cursor.varint()
     if not 1 <= frames <= longest:
         raise CorruptError(f"a GOP of {frames} frames where 1 to {longest} are legal")
-    told = cursor.varint() if kind >= WITH_ATTRIBUTES else 0
-    if kind >= WITH_ATTRIBUTES and not told:
-        raise CorruptError("a GOP that tells of no attribute, and says that it does")
-    return method, frames, told
+    return method, frames, kind >= WITH_ATTRIBUTES
 
 
-def _parse_field(data: bytes, method: GopMethod, frames: int, width: int) -> GopField:
+def _parse_field(data: bytes, body: GopBody, width: int) -> GopField:
     cursor = Cursor(data)
     step = float(struct.unpack("<f", cursor.take(4))[0])
     if not 0.0 < step < math.inf:
         raise CorruptError(f"a GOP with the step {step}")
-    if method is not GopMethod.LEARNT:
-        return GopField(width, step, width * frames, np.empty(0, np.int32), b"", cursor.rest())
+    if body.method is not GopMethod.LEARNT:
+        return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest())
     components = cursor.varint()
-    if components > width * frames:
-        raise CorruptError(f"{components} components for {frames} frames")
+    if components > width * body.told:
+        raise CorruptError(f"{components} components for {body.told} frames")
     exponents = _parse_exponents(cursor, components)
     basis = cursor.take(cursor.varint())
     return GopField(width, step, components, exponents, basis, cursor.rest())

@@ -231,13 +231,13 @@ class SequenceEncoder:
             more = len(group) == longest and run.first + longest != self._count
             carried, movers = self._carried(run, prepared, options, group, more=more)
             moving = [mover.start for mover in movers]
-            coded = gops.first(group.positions, shelf.allowance, moving)
+            coded = gops.first(group, shelf.allowance, moving)
             yield from self._opened(run, index, prepared, coded.opening, carried)
         else:
             movers = opened.movers
             opening = opened.coded.opening
             fresh = Coded(opening, GopEncoder(opening.setting, replace(options, step=opened.coded.encoder.step)), ())
-            coded = gops.next(group.positions, 0, fresh)
+            coded = gops.next(group, 0, fresh)
             yield Header(
                 vertices=opening.header.vertices,
                 faces=opening.header.faces,
@@ -260,7 +260,7 @@ class SequenceEncoder:
             del group  # before the next one is read
             group = next_group(frames, longest, prepared, run.moving)
             if len(group):
-                coded = gops.next(group.positions, self._done, coded)
+                coded = gops.next(group, self._done, coded)
                 require_same(still, group)
         self.notes = tuple(dict.fromkeys((*self.notes, *(mover.said for mover in movers))))
         shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, coded, movers), run)

@@ -54,7 +54,7 @@ def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
 
 
 def decode_basis(field: GopField, frames: int) -> Matrix:
-    """Temporal basis of a field of a GOP of so many frames, shape (dT, r)."""
+    """Temporal basis of a field of a GOP that tells of so many frames, shape (dT, r)."""
     levels = np.zeros((field.width, frames, field.components), np.int32)
     references = level_references(list(levels), field.components)
     decode_levels(make_level_bank(), field.basis, list(levels), references, basis_leads(field.width))
@@ -278,7 +278,7 @@ class GopDecoder:
 
     def _transformed(self, body: GopBody) -> Iterator[Frame]:
         setting = self.setting
-        bases = [decode_basis(field, body.frames) if field.step else _nothing(field, body) for field in body.fields]
+        bases = [decode_basis(field, body.told) if field.step else _nothing(field, body) for field in body.fields]
         read = []
         for field in body.fields:
             levels = setting.empty_levels(field.components)
@@ -303,7 +303,7 @@ class GopDecoder:
 
         components, places = setting.field(sum(widths), decoded), np.cumsum([0, *widths[:-1]])
         batches = (
-            shown_frames(components, int(first), basis.reshape(own.width, body.frames, own.components))
+            shown_frames(components, int(first), basis.reshape(own.width, body.told, own.components)[:, body.places])
             for own, first, basis in zip(body.fields, places, bases, strict=True)
         )
         return zip(*batches, strict=True)
@@ -311,7 +311,7 @@ class GopDecoder:
 
 def _nothing(field: GopField, body: GopBody) -> Matrix:
     """The basis of a field of which nothing is told."""
-    return np.empty((field.width * body.frames, 0))
+    return np.empty((field.width * body.told, 0))
 
 
 def _energy(field: Matrix, basis: Matrix) -> float:

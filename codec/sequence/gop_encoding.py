@@ -9,12 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bsm.bitstream.container.gop import GopBody, GopField, GopMethod
-from bsm.codec.arrays import Matrix, Positions
+from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.sequence.first_frame_encoding import Opening, open_sequence
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
+from bsm.codec.sequence.groups import Group
 from bsm.codec.sequence.level_writer import ROUNDS
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.promise import Promise
+from bsm.codec.sequence.returning import told_frames
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL
 from bsm.codec.sequence.watch import Watch
 from bsm.codec.static.preamble_encoding import Prepared
@@ -103,8 +105,8 @@ class Gops:
         self._prepared, self._options = prepared, options
         self._count, self._tell = count, tell
 
-    def first(self, frames: Positions, before: Allowance, moving: Sequence[Matrix]) -> Coded:
-        """The first frame, with `moving` as of `make_setting`, and the first GOP, of frames, shape (T, n, 3).
+    def first(self, group: Group, before: Allowance, moving: Sequence[Matrix]) -> Coded:
+        """The first frame, with `moving` as of `make_setting`, and the first GOP.
 
         What decoders may still do follows from `before`, of the runs so far.
         """
@@ -119,25 +121,25 @@ class Gops:
                 fitting = replace(options, step=wish.step)
                 opened = open_sequence(self._prepared, fitting, self._count, tell, before, moving)
             encoder = GopEncoder(opened.setting, options)
-            return attempted(opened, encoder, wish, frames, 0, tell)
+            return attempted(opened, encoder, wish, group, 0, tell)
 
         if options.promise is None:
             return attempt(Wish(options.step), self._tell)
-        coded = self._settled(attempt, frames, options.promise, None)
+        coded = self._settled(attempt, group.positions, options.promise, None)
         for _ in range(2):
             self._tell(len(coded.opening.blocks), len(coded.opening.blocks))
         return coded
 
-    def next(self, frames: Positions, number: int, before: Coded) -> Coded:
-        """The GOP behind another, of frames, shape (T, n, 3), of which the first has this number."""
+    def next(self, group: Group, number: int, before: Coded) -> Coded:
+        """The GOP behind another; its first frame has this number."""
         opening = before.opening
 
         def attempt(wish: Wish, tell: Progress = silent) -> Coded:
-            return attempted(opening, before.encoder.copy(), wish, frames, number, tell)
+            return attempted(opening, before.encoder.copy(), wish, group, number, tell)
 
         if self._options.promise is None:
             return attempt(Wish(before.encoder.step), self._tell)
-        coded = self._settled(attempt, frames, self._options.promise, before.encoder.step)
+        coded = self._settled(attempt, group.positions, self._options.promise, before.encoder.step)
         self._tell(len(opening.blocks), len(opening.blocks))
         return coded
 
@@ -172,11 +174,10 @@ def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) 
     return max(FINEST_STEP, 2.0 * float(np.sqrt(most)) / scale / LARGEST_LEVEL)
 
 
-def attempted(
-    opening: Opening, encoder: GopEncoder, wish: Wish, frames: Positions, number: int, tell: Progress
-) -> Coded:
-    """Encode the next frames, shape (T, n, 3), of which the first has this number, in the way that costs least."""
+def attempted(opening: Opening, encoder: GopEncoder, wish: Wish, group: Group, number: int, tell: Progress) -> Coded:
+    """Encode the next frames, of which the first has this number, in the way that costs least."""
     encoder.step, encoder.rounds = wish.step, wish.rounds
+    frames = group.positions
     weights = np.ones(len(frames)) if wish.weights is None else wish.weights
     if encoder.low_delay:
         key = encoder.is_key(number, frames.shape[1])
@@ -185,7 +186,7 @@ def attempted(
     elif wish.singly:
         bodies = _singles(encoder.encode_singles(frames, weights))
     else:
-        bodies, cost = _learnt(opening, encoder, frames, weights, wish.cut, tell)
+        bodies, cost = _learnt(opening, encoder, frames, weights, group.same(encoder.step), wish.cut, tell)
         if wish.singly is None:
             bodies = _singles(encoder.encode_singles(frames, weights, cost)) or bodies
     return Coded(opening, encoder, bodies)
@@ -198,20 +199,39 @@ def _singles(fields: tuple[GopField, ...]) -> tuple[GopBody, ...]:
 
 
 def _learnt(
-    opening: Opening, encoder: GopEncoder, frames: Positions, weights: Matrix, cut: bool | None, tell: Progress
+    opening: Opening,
+    encoder: GopEncoder,
+    frames: Positions,
+    weights: Matrix,
+    same: Order,
+    cut: bool | None,
+    tell: Progress,
 ) -> tuple[tuple[GopBody, ...], float]:
     """Frames as one GOP, or as more where that costs less or decoders would lack the memory; with the cost."""
     half = len(frames) // 2
     whole: tuple[tuple[GopBody, ...], float] = (), math.inf
     if not (cut and half):
-        field, cost = encoder.encode_learnt(frames, weights, tell)
-        body = GopBody(GopMethod.LEARNT, len(frames), (field,))
+        body, cost = _whole(encoder, frames, weights, same, tell)
         has_room = opening.has_room(body)
         if not half or (has_room and (cut is not None or len(frames) <= HARDLY_CUT)):
             return (body,), cost
         if has_room:
             whole = (body,), cost
     parts = (slice(half), slice(half, None))
-    first, second = (_learnt(opening, encoder, frames[part], weights[part], False, silent) for part in parts)
+    first, second = (
+        _learnt(opening, encoder, frames[part], weights[part], same[part], False, silent) for part in parts
+    )
     halves = first[0] + second[0], first[1] + second[1]
     return halves if halves[1] < whole[1] else whole
+
+
+def _whole(
+    encoder: GopEncoder, frames: Positions, weights: Matrix, same: Order, tell: Progress
+) -> tuple[GopBody, float]:
+    """Frames as one GOP, which tells once of those that are the same; with the cost."""
+    told, shown = told_frames(same)
+    if len(told) == len(frames):
+        field, cost = encoder.encode_learnt(frames, weights, tell)
+        return GopBody(GopMethod.LEARNT, len(frames), (field,)), cost
+    field, cost = encoder.encode_learnt(frames[told], np.sqrt(np.bincount(shown, weights**2)), tell)
+    return GopBody(GopMethod.LEARNT, len(frames), (field,), shown), cost

@@ -9,8 +9,9 @@ from itertools import islice
 import numpy as np
 
 from bsm.bitstream.errors import OptionError
-from bsm.codec.arrays import Matrix, Positions
+from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.sequence.returning import same_frames
 from bsm.codec.static.attributes.levels import Values
 from bsm.codec.static.preamble_encoding import Prepared
 
@@ -37,6 +38,10 @@ class Group:
         """Whether the frames differ in an attribute."""
         values = self.moving[name]
         return bool((values != values[:1]).any())
+
+    def same(self, step: float) -> Order:
+        """As `same_frames` of them."""
+        return same_frames(self.positions, list(self.moving.values()), step)
 
 
 def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:

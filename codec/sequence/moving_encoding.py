@@ -14,6 +14,7 @@ from bsm.codec.arrays import Matrix
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
 from bsm.codec.sequence.moving import beyond_one, changed
+from bsm.codec.sequence.returning import told_frames
 from bsm.codec.sequence.tracks import Setting
 from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.attributes.levels import Values, restored
@@ -226,7 +227,8 @@ class Mover:
                 field = encoder.encode_next(wanted, silent, key=key)
                 assert encoder.latest is not None
                 return field, list(encoder.latest)
-            field, _ = encoder.encode_learnt(wanted, np.ones(len(wanted)), silent)
+            told, shown = told_frames(body.places)
+            field, _ = encoder.encode_learnt(wanted[told], np.sqrt(np.bincount(shown)), silent)
         except OptionError as error:
             raise self._refusal(f"{error}") from error
         decoder = GopDecoder(self._setting, [self._track])

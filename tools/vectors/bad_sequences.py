@@ -15,7 +15,7 @@ from tools.vectors.good_sequences import SEQUENCES
 
 Edit = Callable[[bytes], bytes]
 
-_STEP = slice(2, 6)  # of the data of a GOP of fewer than 128 frames
+_STEP = slice(3, 7)  # of the data of a GOP with a basis, of fewer than 128 frames, each of which is told of
 
 
 @cache
@@ -65,6 +65,12 @@ def _unknown_behind_gap(frames: Frames) -> Frames:
 
 def _step(value: float) -> Edit:
     return lambda data: data[: _STEP.start] + struct.pack("<f", value) + data[_STEP.stop :]
+
+
+def _stretches(*codes: int) -> Callable[[], bytes]:
+    """A first GOP, of six frames, with stretches of such beginnings and lengths."""
+    coded = b"".join(map(write_varint, (len(codes) // 2, *codes)))
+    return _gop(lambda data: data[:2] + coded + data[3:])
 
 
 def _headers_of(frames: Frames) -> list[int]:
@@ -117,18 +123,18 @@ def _told(*fields: tuple[int, bytes]) -> Edit:
 
     def edit(data: bytes) -> bytes:
         told = b"".join(write_varint(number) + write_varint(len(field)) + field for number, field in fields)
-        return data[:2] + write_varint(len(fields)) + told + _positions_of(data)
+        return data[:3] + write_varint(len(fields)) + told + _positions_of(data)
 
     return edit
 
 
 def _positions_of(data: bytes) -> bytes:
-    """The field of positions of a GOP of fewer than 128 frames."""
+    """The field of positions of a GOP of fewer than 128 frames, each of which is told of."""
     return _fields_of(data)[1]
 
 
 def _fields_of(data: bytes) -> tuple[list[tuple[int, bytes]], bytes]:
-    cursor = Cursor(data[2:])
+    cursor = Cursor(data[3:])
     fields = [(cursor.varint(), cursor.take(cursor.varint())) for _ in range(cursor.varint())]
     return fields, cursor.rest()
 
@@ -168,9 +174,17 @@ BAD_SEQUENCES: dict[str, Bad] = {
     "bad-sequence-step-negative": Bad("a step below 0", "corrupt", _gop(_step(-1.0))),
     "bad-sequence-step-infinite": Bad("an infinite step", "corrupt", _gop(_step(float("inf")))),
     "bad-sequence-step-nan": Bad("a step that is no number", "corrupt", _gop(_step(float("nan")))),
-    "bad-sequence-components": Bad("more components than 3 T", "corrupt", _gop(lambda d: d[:6] + b"\x13" + d[7:])),
-    "bad-sequence-exponent": Bad("an exponent of 401", "corrupt", _gop(lambda d: d[:7] + write_varint(802) + d[8:])),
-    "bad-sequence-exponent-negative": Bad("an exponent below 0", "corrupt", _gop(lambda d: d[:7] + b"\x01" + d[9:])),
+    "bad-sequence-components": Bad("more components than 3 T", "corrupt", _gop(lambda d: d[:7] + b"\x13" + d[8:])),
+    "bad-sequence-stretch-none": Bad("a stretch of no frames", "corrupt", _stretches(0, 6, 0, 0)),
+    "bad-sequence-stretch-long": Bad("stretches of more frames than there are", "corrupt", _stretches(0, 4, 0, 3)),
+    "bad-sequence-stretch-short": Bad("stretches of fewer frames than there are", "corrupt", _stretches(0, 3, 1, 2)),
+    "bad-sequence-stretch-before": Bad("a stretch that turns back before frame 0", "corrupt", _stretches(0, 3, 11, 3)),
+    "bad-sequence-stretch-behind": Bad("a stretch of frames behind the last", "corrupt", _stretches(0, 3, 12, 3)),
+    "bad-sequence-stretch-components": Bad(
+        "more components than 3 Q, as one frame is told of", "corrupt", _stretches(1, 6)
+    ),
+    "bad-sequence-exponent": Bad("an exponent of 401", "corrupt", _gop(lambda d: d[:8] + write_varint(802) + d[9:])),
+    "bad-sequence-exponent-negative": Bad("an exponent below 0", "corrupt", _gop(lambda d: d[:8] + b"\x01" + d[10:])),
     "bad-sequence-levels-short": Bad("levels that end too early", "truncated", _gop(lambda d: d[:-9])),
     "bad-sequence-levels-long": Bad("bytes behind the levels", "corrupt", _gop(lambda d: d + b"\x55" * 9)),
     "bad-sequence-moving-count": Bad(

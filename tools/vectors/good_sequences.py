@@ -72,9 +72,28 @@ def _moving(probes: str, *kinds: int, **options: object) -> Good:
     return Good(probes, make)
 
 
+def _returning(probes: str, *times: int) -> Good:
+    """Frames of a torus, with a colour, at times that come again."""
+
+    def make() -> bytes:
+        frames = []
+        for t in times:
+            mesh = torus(8, 5, phase=0.2 * t)
+            color = (128 + 120 * np.sin(mesh.positions + 0.3 * t)).astype(np.uint8)
+            worn = (Attribute("color", color, "vertex", "color"),)
+            frames.append(replace(mesh, positions=mesh.positions * (1 + 0.02 * t), attributes=worn))
+        options = replace(BASE, gop=len(times))
+        return b"".join(SequenceEncoder(frames[0].faces, options, len(times)).chunks(frames))
+
+    return Good(probes, make)
+
+
 SEQUENCES: dict[str, Good] = {
     "good-sequence-one": _sequence("a sequence of one frame", 1),
     "good-sequence-learnt": _sequence("GOPs with learnt bases, the last one shorter", 8),
+    "good-sequence-returning": _returning(
+        "frames that come again, stand still, turn back and jump", 0, 1, 2, 3, 0, 1, 2, 3, 3, 3, 2, 1, 3, 5, 0, 4
+    ),
     "good-sequence-low-delay": _sequence("frames as they come, with key frames", 7, low_delay=1, gop=3),
     "good-sequence-together": _sequence("three frames at a time, and two at the end", 11, low_delay=3, gop=6),
     "good-sequence-runs": _runs("faces that change and return", (8, 3), (6, 2), (8, 4), (5, 1), gop=3),

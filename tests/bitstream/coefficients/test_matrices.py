@@ -135,6 +135,7 @@ BODIES = [
     GopBody(GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b""),)),
     GopBody(GopMethod.KEY_FRAME, 4, (GopField(3, 1.0, 12, NONE, b"", b"x"), GopField(2, 1.0, 8, NONE, b"", b"y"))),
     GopBody(GopMethod.LEARNT, 4, (MOVING, HEAT, still(2))),
+    GopBody(GopMethod.LEARNT, 4, (MOVING, still(2)), np.array([0, 1, 0, 0])),
     GopBody(
         GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b"z"), still(4), GopField(2, 1, 2, NONE, b"", b"y"))
     ),
@@ -147,7 +148,8 @@ def test_bodies(body):
     data = write_gop_body(body, 37, list(widths))
     assert frames_of_gop(data, 4, 37) == body.frames
     parsed = parse_gop_body(data, 4, 37, widths)
-    assert (parsed.method, parsed.frames) == (body.method, body.frames)
+    assert (parsed.method, parsed.frames, parsed.told) == (body.method, body.frames, body.told)
+    assert parsed.places.tolist() == body.places.tolist()
     for one, other in zip(parsed.fields, body.fields, strict=True):
         assert (one.width, one.step, one.components) == (other.width, other.step, other.components)
         assert np.array_equal(one.exponents, other.exponents)
@@ -155,8 +157,8 @@ def test_bodies(body):
 
 
 def test_known_bytes_of_a_body():
-    # method 0, T = 4, step 0.5, r = 3, zigzag differences 7, -4, 37, length 5
-    assert write_gop_body(BODIES[0]) == b"\x00\x04\x00\x00\x00\x3f\x03\x0e\x07\x4a\x05basislevels"
+    # method 0, T = 4, no stretches, step 0.5, r = 3, zigzag differences 7, -4, 37, length 5
+    assert write_gop_body(BODIES[0]) == b"\x00\x04\x00\x00\x00\x00\x3f\x03\x0e\x07\x4a\x05basislevels"
 
 
 @pytest.mark.parametrize(
@@ -165,16 +167,17 @@ def test_known_bytes_of_a_body():
         (b"", CorruptError),
         (b"\x03\x01\x00\x00\x80\x3f\x03", UnsupportedError),
         (b"\x00\x00\x00\x00\x80\x3f\x00\x00", CorruptError),  # no frames
-        (b"\x00\x05\x00\x00\x80\x3f\x00\x00", CorruptError),  # more than the header allows
+        (b"\x00\x05\x00\x00\x00\x80\x3f\x00\x00", CorruptError),  # more than the header allows
         (b"\x01\x05\x00\x00\x80\x3f", CorruptError),  # the same without a basis
-        (b"\x00\x01\x00\x00\x80\xbf\x00\x00", CorruptError),  # negative step
-        (b"\x00\x01\x00\x00\xc0\x7f\x00\x00", CorruptError),  # step not a number
-        (b"\x00\x01\x00\x00\x80\x7f\x00\x00", CorruptError),  # infinite step
-        (b"\x00\x01\x00\x00\x80\x3f\x04\x00\x00\x00\x00\x00", CorruptError),  # more components than 3 T
-        (b"\x00\x01\x00\x00\x80\x3f\x01\x01\x00", CorruptError),  # exponent -1
-        (b"\x00\x01\x00\x00\x80\x3f\x01\xa2\x06\x00", CorruptError),  # exponent 401
-        (b"\x00\x01\x00\x00\x80\x3f\x01\x00\x02\x00", CorruptError),  # basis longer than the data
-        (b"\x00\x01\x00\x00\x80", CorruptError),
+        (b"\x00\x01\x00\x00\x00\x80\xbf\x00\x00", CorruptError),  # negative step
+        (b"\x00\x01\x00\x00\x00\xc0\x7f\x00\x00", CorruptError),  # step not a number
+        (b"\x00\x01\x00\x00\x00\x80\x7f\x00\x00", CorruptError),  # infinite step
+        (b"\x00\x02\x01\x01\x02\x00\x00\x80\x3f\x04\x00\x00\x00\x00\x00", CorruptError),  # of 2 T, but one is told of
+        (b"\x00\x01\x00\x00\x00\x80\x3f\x04\x00\x00\x00\x00\x00", CorruptError),  # more components than 3 T
+        (b"\x00\x01\x00\x00\x00\x80\x3f\x01\x01\x00", CorruptError),  # exponent -1
+        (b"\x00\x01\x00\x00\x00\x80\x3f\x01\xa2\x06\x00", CorruptError),  # exponent 401
+        (b"\x00\x01\x00\x00\x00\x80\x3f\x01\x00\x02\x00", CorruptError),  # basis longer than the data
+        (b"\x00\x01\x00\x00\x00\x80", CorruptError),
     ],
 )
 def test_illegal_bodies(data, error):

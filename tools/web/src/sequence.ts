@@ -58,6 +58,8 @@ interface Field {
 interface Gop {
     method: number;
     frames: number;
+    /** Which of the frames that fields tell of each one is (S 2.5). */
+    shown: number[];
     fields: Field[];
 }
 
@@ -425,12 +427,13 @@ export class Sequence {
     }
 
     /** Frames of method 0 (S 7.1). */
-    private transformed({ frames, fields }: Gop): (() => Fields)[] {
+    private transformed({ shown, fields }: Gop): (() => Fields)[] {
         const { memory, header } = this;
         this.histories = undefined;
         memory.release(this.behindParts);
-        const made = fields.map((field, k) => (field.step > 0 ? this.components(field, this.tracks[k], frames) : undefined));
-        return Array.from({ length: frames }, (_, t) => () => made.map((one, k) => one?.(t) ?? new Float64Array(fields[k].width * header.vertices)));
+        const told = mostOf(shown) + 1;
+        const made = fields.map((field, k) => (field.step > 0 ? this.components(field, this.tracks[k], told) : undefined));
+        return shown.map((t) => () => made.map((one, k) => one?.(t) ?? new Float64Array(fields[k].width * header.vertices)));
     }
 
     /** What gives a field of each frame: components over a temporal basis. */
@@ -466,7 +469,7 @@ export class Sequence {
         });
     }
 
-    /** B, d T rows (S 5.2). */
+    /** B, a row for each number of each frame that is told of (S 5.2). */
     private learntBasis({ width, components, exponents, basis }: Field, frames: number): Float64Array {
         const steps = exponents.map(fineness);
         const matrices = this.readLevels(makeLevelBank(this.memory), basis, Array<number>(width).fill(frames), components, undefined, width);
@@ -600,6 +603,8 @@ function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header, moving:
     if (method > NEXT_FRAMES) throw new UnsupportedError(`GOP method ${method} is unknown to this decoder`);
     const frames = cursor.varint();
     if (frames < 1 || frames > longest) throw new CorruptError(`a GOP of ${frames} frames where 1 to ${longest} are legal`);
+    const shown = parseStretches(cursor, frames, method);
+    const own = mostOf(shown) + 1;
     const told = new Map<number, Field>();
     if (kind >= WITH_ATTRIBUTES) {
         const count = cursor.varint();
@@ -610,12 +615,35 @@ function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header, moving:
             const one = moving.find((own) => own.number === number);
             if (number <= before || !(one || tolerant)) throw new CorruptError(`a GOP tells of attribute ${number}, which does not move, or is not the next one`);
             before = number;
-            if (one) told.set(number, parseField(part, method, frames, one.width));
+            if (one) told.set(number, parseField(part, method, own, one.width));
         }
     }
     const none = new Uint8Array(0);
     const others = moving.map(({ number, width }) => told.get(number) ?? { width, step: 0, components: method === LEARNT ? 0 : width * frames, exponents: [], basis: none, levels: none });
-    return { method, frames, fields: [parseField(cursor.rest(), method, frames, 3), ...others] };
+    return { method, frames, shown, fields: [parseField(cursor.rest(), method, own, 3), ...others] };
+}
+
+/** Which of the frames that fields tell of each one is: all, in order, unless a GOP with a basis says otherwise (S 2.5). */
+function parseStretches(cursor: Cursor, frames: number, method: number): number[] {
+    const pieces = method === LEARNT ? cursor.varint() : 0;
+    const shown = Array.from({ length: pieces ? 0 : frames }, (_, t) => t);
+    const refuse = (): never => {
+        throw new CorruptError("stretches of frames that a GOP has not");
+    };
+    for (let k = 0; k < pieces; k++) {
+        const [code, length] = [cursor.varint(), cursor.varint()];
+        const way = [1, 0, -1][code % 3];
+        const first = (shown.at(-1) ?? -1) + 1 + signed(Math.floor(code / 3));
+        const last = first + way * (length - 1);
+        if (length < 1 || length > frames - shown.length || Math.min(first, last) < 0 || Math.max(first, last) >= frames) refuse();
+        for (let i = 0; i < length; i++) shown.push(first + way * i);
+    }
+    return shown.length < frames ? refuse() : shown;
+}
+
+/** What a zigzag code stands for (S 2.4). */
+function signed(code: number): number {
+    return code % 2 ? -(code + 1) / 2 : code / 2;
 }
 
 function parseField(data: Uint8Array, method: number, frames: number, width: number): Field {
@@ -629,8 +657,7 @@ function parseField(data: Uint8Array, method: number, frames: number, width: num
     let basis = new Uint8Array(0);
     if (method === LEARNT) {
         for (let exponent = 0; exponents.length < components; exponents.push(exponent)) {
-            const code = cursor.varint();
-            exponent += code % 2 ? -(code + 1) / 2 : code / 2;
+            exponent += signed(cursor.varint());
             if (exponent < 0 || exponent > MOST_EXPONENT) throw new CorruptError(`the exponent ${exponent} of a basis`);
         }
         basis = cursor.take(cursor.varint()).slice();
@@ -643,6 +670,10 @@ function rowsOf(values: Float64Array, width: number, rows: Int32Array): Float64A
     const found = new Float64Array(rows.length * width);
     rows.forEach((row, i) => found.set(values.subarray(row * width, (row + 1) * width), i * width));
     return found;
+}
+
+function mostOf(numbers: number[]): number {
+    return numbers.reduce((most, number) => Math.max(most, number), 0);
 }
 
 function total(numbers: number[]): number {

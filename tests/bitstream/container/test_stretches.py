@@ -1,0 +1,56 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bsm.bitstream.container.stretches import parse_stretches, write_stretches
+from bsm.bitstream.container.wire import Cursor
+from bsm.bitstream.errors import CorruptError
+
+
+@given(st.lists(st.integers(0, 40), min_size=41, max_size=60))
+def test_any_order_of_frames_comes_back(shown):
+    cursor = Cursor(write_stretches(np.array(shown)) + b"rest")
+    assert parse_stretches(cursor, len(shown)).tolist() == shown
+    assert cursor.rest() == b"rest"
+
+
+@pytest.mark.parametrize(
+    ("shown", "coded"),
+    [
+        ([*range(24), *range(24)], b"\x02\x00\x18\x8d\x01\x18"),  # 24 on from 0; 24 on from 0, 24 behind what is due
+        ([0, 0, 1, 1, 2, 2], b"\x03\x01\x02\x01\x02\x01\x02"),  # each stands for two
+        ([0, 1, 2, 3, 2, 1, 0], b"\x02\x00\x04\x0b\x03"),  # there, and back
+        ([0, 2, 1, 1], b"\x03\x00\x01\x08\x02\x03\x01"),
+    ],
+)
+def test_known_stretches(shown, coded):
+    assert write_stretches(np.array(shown)) == coded
+    assert parse_stretches(Cursor(coded), len(shown)).tolist() == shown
+
+
+def test_frames_in_order_are_one_byte():
+    assert write_stretches(None) == b"\0"
+    assert parse_stretches(Cursor(b"\0"), 7) is None
+
+
+@pytest.mark.parametrize(
+    "coded",
+    [
+        b"\x01\x00\x04",  # too long
+        b"\x01\x00\x02",  # too short
+        b"\x02\x00\x03\x00\x00",  # of no frame
+        b"\x01\x03\x03",  # before the first
+        b"\x01\x06\x03",  # 1, 2, 3
+        b"\x01\x02\x03",  # 0, -1, -2
+        b"\x01\xff\xff\xff\xff\x7f\x03",
+        b"\xff\xff\xff\xff\x7f\x01\x03",
+        b"\x01\x00\xff\xff\xff\xff\x7f",
+        b"\x01\x00",
+    ],
+)
+def test_stretches_that_cannot_be(coded):
+    with pytest.raises(CorruptError):
+        parse_stretches(Cursor(coded), 3)

@@ -1,0 +1,118 @@
+"""Frames that come again are told of once."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.bitstream.container.gop import parse_gop_body
+from bsm.bitstream.container.packets import Gop
+from bsm.bitstream.container.reader import Reader, read_packets
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.decoder import decode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.promise import Promise
+from bsm.codec.sequence.returning import SAME, same_frames, told_frames
+from tests.motion import bending
+
+STEP = 0.002
+TURNS: dict[str, list[int]] = {
+    "loop": [*range(6), *range(6)],
+    "twos": [t for t in range(6) for _ in range(2)],
+    "there and back": [*range(6), *range(5, -1, -1)],
+    "still": [0, 1, 2, 3, 4, 5, *[5] * 6],
+    "jumps": [0, 1, 2, 3, 4, 5, 2, 0, 5, 3, 1, 4],
+}
+
+
+def options(**changes: object) -> SequenceOptions:
+    return SequenceOptions(**{"block_size": 100, "step": STEP, "threads": 1, **changes})  # type: ignore[arg-type]
+
+
+def coded(positions: Positions, faces: Faces, **changes: object) -> tuple[bytes, Positions, Positions]:
+    """The stream, what its frames are, and what they should be."""
+    encoder = SequenceEncoder(faces, options(**changes), len(positions))
+    data = b"".join(encoder.chunks(positions))
+    return data, decode_sequence(data, threads=1)[0], positions[:, encoder.vertex_order]
+
+
+def places(data: bytes, *widths: int) -> list[list[int]]:
+    """Of every GOP, which frame each one is of those that are told of; `widths` are of attributes that move."""
+    gops = (packet for packet in read_packets([data], Reader()) if isinstance(packet, Gop))
+    return [parse_gop_body(gop.data, 1024, widths=dict(enumerate(widths))).places.tolist() for gop in gops]
+
+
+@pytest.mark.parametrize("turns", TURNS.values(), ids=list(TURNS))
+def test_frames_that_come_again_cost_next_to_nothing(turns: list[int]) -> None:
+    positions, faces = bending(6)
+    once, _, _ = coded(positions, faces)
+    data, decoded, _ = coded(positions[turns], faces)
+    assert places(data) == [turns]
+    for frame, number in zip(decoded, turns, strict=True):
+        assert np.array_equal(frame, decoded[turns.index(number)])
+    again, _, _ = coded(np.concatenate([positions, bending(7)[0][6:] + 0.3 * positions[1:]]), faces)
+    assert len(once) < len(data) < 1.1 * len(once) < len(again)
+
+
+def test_what_is_shown_longer_is_nearer() -> None:
+    positions, faces = bending(6)
+    errors = []
+    for turns in ([0, 1, 2, 3, 4, 5], [0, 1, 2, 3, 4, *[5] * 30]):
+        _, decoded, original = coded(positions[turns], faces)
+        errors.append(np.square(decoded - original).mean(axis=(1, 2))[:6])
+    assert errors[1][5] < 0.5 * errors[0][5]
+
+
+def test_groups_of_frames_tell_of_their_own() -> None:
+    positions, faces = bending(6)
+    turns = [*range(6), *range(6), *[3, 4, 5, 5, 4, 3] * 2]
+    data, decoded, original = coded(positions[turns], faces, gop=12)
+    assert places(data) == [turns[:12], [0, 1, 2, 2, 1, 0] * 2]
+    assert np.abs(decoded - original).max() < 4 * STEP * np.linalg.norm(np.ptp(positions[0], axis=0))
+
+
+@pytest.mark.parametrize("look", [1.0, float("inf")])
+def test_promises_are_kept_as_frames_are_shown(look: float) -> None:
+    positions, faces = bending(6)
+    noise = 1e-5 * np.random.default_rng(0).standard_normal((12, *positions[0].shape))
+    data, decoded, original = coded(positions[TURNS["loop"]] + noise, faces, promise=Promise(0.004, look))
+    assert places(data) == [TURNS["loop"]]
+    far = np.linalg.norm(decoded - original, axis=2).max() / np.linalg.norm(np.ptp(positions[0], axis=0))
+    assert far <= 0.004
+
+
+def test_frames_whose_attributes_differ_are_not_the_same() -> None:
+    positions, faces = bending(4)
+    heat = np.linspace(0.0, 300.0, len(positions[0]))
+    turns, warm = [0, 1, 2, 3, 0, 1, 2, 3], [1.0, 2.0, 3.0, 4.0, 1.0, 5.0, 3.0, 6.0]
+    frames = [
+        TriangleMesh(positions[turn], faces, (Attribute("heat", (heat * factor).astype(np.float32)),))
+        for turn, factor in zip(turns, warm, strict=True)
+    ]
+    data = b"".join(SequenceEncoder(faces, options(keep_order=True, attributes={"heat": 0.5}), 8).chunks(frames))
+    assert places(data, 1) == [[0, 1, 2, 3, 0, 4, 2, 5]]
+    for frame, found in zip(frames, bsm.decode_frames(data), strict=True):
+        assert np.abs(found.attributes[0].values - frame.attributes[0].values).max() <= 0.5
+
+
+def test_which_frames_are_the_same() -> None:
+    frames = np.random.default_rng(0).standard_normal((5, 400, 3))
+    mean, most = SAME
+    frames[2] = frames[0] + 0.9 * mean * STEP
+    frames[3] = frames[0] + 1.1 * mean * STEP
+    frames[4] = frames[1]
+    assert same_frames(frames, [], STEP).tolist() == [0, 1, 0, 3, 1]
+    assert same_frames(frames, [np.arange(5)[:, None, None] // 4], STEP).tolist() == [0, 1, 0, 3, 4]
+    frames[4, 123, 1] += 1.1 * most * STEP
+    assert same_frames(frames, [], STEP).tolist() == [0, 1, 0, 3, 4]
+    told, shown = told_frames(np.array([0, 1, 0, 3, 1]))
+    assert told.tolist() == [0, 1, 3] and shown.tolist() == [0, 1, 0, 2, 1]
+
+
+def test_low_delay_sends_every_frame() -> None:
+    positions, faces = bending(3)
+    assert decode_sequence(encode_sequence(positions[[0, 1, 1, 0]], faces, options(low_delay=1)))[0].shape[0] == 4
