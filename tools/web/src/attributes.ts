@@ -347,7 +347,7 @@ function shapeOf({ name, semantic, kind, components }: Declaration): Pick<Attrib
 
 function taken(values: Float64Array, rows: Int32Array, components: number): Float64Array {
     const found = new Float64Array(components * rows.length);
-    rows.forEach((row, i) => found.set(values.subarray(components * row, components * row + components), components * i));
+    for (let i = 0, at = 0; i < rows.length; i++) for (let d = 0; d < components; d++) found[at++] = values[components * rows[i] + d];
     return found;
 }
 

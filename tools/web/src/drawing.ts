@@ -295,7 +295,8 @@ export class Drawing {
         const { vertices, attributes: drawn } = begun(this.shape);
         const positions = spread(points, 3, vertices);
         const normals = spread(normalsOf(this.faces, this.origin, points), 3, vertices);
-        const small = Int16Array.from(normals, (value) => Math.round(value * MOST_NORMAL));
+        const small = new Int16Array(normals.length);
+        for (let i = 0; i < small.length; i++) small[i] = Math.round(normals[i] * MOST_NORMAL);
         const attributes = moved.flatMap((one) => {
             const same = drawn.find(({ source }) => source === one.name);
             return same ? [{ ...same, values: numbersOf(one, vertices) }] : [];

@@ -47,9 +47,13 @@ export class Numbering {
 
     /** Positions of all coded vertices, as the user numbers them. */
     arranged(positions: Float64Array): Float64Array {
-        if (!this.source) return positions;
-        const arranged = new Float64Array(3 * this.source.length);
-        this.source.forEach((from, to) => from >= 0 && arranged.set(positions.subarray(3 * from, 3 * from + 3), 3 * to));
+        const { source } = this;
+        if (!source) return positions;
+        const arranged = new Float64Array(3 * source.length);
+        for (let row = 0; row < source.length; row++) {
+            const [to, from] = [3 * row, 3 * source[row]];
+            for (let d = 0; from >= 0 && d < 3; d++) arranged[to + d] = positions[from + d];
+        }
         this.loose.vertices.forEach((to, k) => arranged.set(this.loose.positions.subarray(3 * k, 3 * k + 3), 3 * to));
         return arranged;
     }

@@ -19,6 +19,8 @@ const NEXT_FRAMES = 2;
 /** Added to the method of a GOP that tells of attributes, too (S 10.2). */
 const WITH_ATTRIBUTES = 4;
 const MOST_EXPONENT = 400;
+/** Frames that are reconstructed at a time, so that kernels have columns enough. */
+const BATCH = 8;
 /** The first byte of a GOP: its method, and so many times its run, counted modulo so many. */
 const [METHODS, RUNS] = [8, 32];
 
@@ -202,7 +204,8 @@ export class Sequence {
         const bytes = gop.fields.map(({ width, components }) => {
             const columns = width * gop.frames;
             const left = gop.method === LEARNT ? 0 : 4 * header.vertices * columns;
-            return components * (16 * header.vertices + 40 * columns + 24 * components) + left;
+            const shown = 8 * width * header.vertices * Math.min(BATCH, gop.frames);
+            return components * (16 * header.vertices + 40 * columns + 24 * components) + shown + left;
         });
         checkLimit(this.limits, "sequenceBytes", total(bytes));
         const last = index + gop.frames;
@@ -431,15 +434,15 @@ export class Sequence {
         const { memory, header } = this;
         this.histories = undefined;
         memory.release(this.behindParts);
-        const told = mostOf(shown) + 1;
-        const made = fields.map((field, k) => (field.step > 0 ? this.components(field, this.tracks[k], told) : undefined));
-        return shown.map((t) => () => made.map((one, k) => one?.(t) ?? new Float64Array(fields[k].width * header.vertices)));
+        const made = fields.map((field, k) => (field.step > 0 ? this.components(field, this.tracks[k], shown) : undefined));
+        return shown.map((_, t) => () => made.map((one, k) => one?.(t) ?? new Float64Array(fields[k].width * header.vertices)));
     }
 
-    /** What gives a field of each frame: components over a temporal basis. */
-    private components(field: Field, { bends }: Track, frames: number): ((t: number) => Float64Array) | undefined {
-        const { memory, parts } = this;
+    /** What gives a field of each frame, one after the other: components over a temporal basis. */
+    private components(field: Field, { bends }: Track, shown: number[]): ((t: number) => Float64Array) | undefined {
+        const { memory, parts, header } = this;
         const { width, components, step } = field;
+        const frames = mostOf(shown) + 1;
         const basis = memory.scratch(() => this.learntBasis(field, frames));
         const rows = parts.map((part) => part.basis.width);
         const levels = memory.scratch(() => this.readLevels(makeLevelBank(memory), field.levels, rows, components));
@@ -451,21 +454,30 @@ export class Sequence {
             const moments = this.learntAround(bends[k], ends, components, step);
             this.place(part, placed, ends, this.follow(known, count, levels[k], components, moments, step));
         });
-        return (t) => this.frameOf(placed, basis, width, frames, t);
+        const columns = Math.min(BATCH, shown.length) * width;
+        const some = memory.doubles(header.vertices * columns, columns);
+        return (t) => {
+            const place = t % BATCH;
+            if (place === 0) {
+                const times = shown.slice(t, t + BATCH);
+                const rows = Array.from({ length: columns }, (_, i) => (i % width) * frames + (times[Math.floor(i / width)] ?? 0));
+                this.show(placed, basis, rows, some);
+            }
+            return someColumns(some, place * width, width);
+        };
     }
 
-    /** Frame t of components over a temporal basis. */
-    private frameOf(field: Doubles, basis: Float64Array, width: number, frames: number, t: number): Float64Array {
-        const { memory, header } = this;
-        const columns = field.width;
-        return memory.scratch(() => {
-            const weights = memory.doubles(width * columns, width);
-            for (let d = 0; d < width; d++) {
-                for (let i = 0, from = (d * frames + t) * columns; i < columns; i++) weights.view[width * i + d] = basis[from + i];
-            }
-            const values = memory.doubles(width * header.vertices, width);
-            memory.run("reconstruct", field, weights, values);
-            return values.view.slice();
+    /** A column for each of some rows of a temporal basis, of all vertices. */
+    private show(field: Doubles, basis: Float64Array, rows: number[], shown: Doubles): void {
+        const { memory } = this;
+        const { width: components } = field;
+        memory.scratch(() => {
+            const weights = memory.doubles(components * rows.length, rows.length);
+            const { view } = weights;
+            rows.forEach((row, i) => {
+                for (let k = 0; k < components; k++) view[rows.length * k + i] = basis[components * row + k];
+            });
+            memory.run("reconstruct", field, weights, shown);
         });
     }
 
@@ -554,6 +566,13 @@ function overTime(values: Float64Array, width: number, cosines: Float64Array, fr
         for (let f = 0; f < frames; f++) for (let d = 0; d < width; d++) shown[row + d] += values[from++] * cosines[t * frames + f];
     }
     return shown;
+}
+
+/** So many columns from `first` on. */
+function someColumns({ view, width: columns, rows }: Doubles, first: number, width: number): Float64Array {
+    const values = new Float64Array(rows * width);
+    for (let to = 0; to < values.length; first += columns) for (let d = 0; d < width; d++) values[to++] = view[first + d];
+    return values;
 }
 
 /** 2^(-e/4): powers with fractions are not the same in all browsers. */
