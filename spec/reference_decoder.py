@@ -1257,12 +1257,10 @@ class Gop:
         counted, self.method = divmod(kind, 4)
         require(run == header["run"] % 32, "a GOP of another run")  # S 9.2
         longest = header["gop_frames"]
-        if self.method > 2:
-            raise UnsupportedError(f"GOP method {self.method}")  # S 2.2
         self.frames, at = payload_varint(data, 1)
         require(1 <= self.frames <= longest, "a wrong number of frames")  # S 2.3
         self.shown = list(range(self.frames))
-        if self.method == 0:
+        if self.method in (0, 3):
             at = self.read_stretches(data, at)
         own = max(self.shown) + 1
         told, widths = {}, {number: one.components for number, one in enumerate(declared) if one.moves}
@@ -1302,7 +1300,7 @@ class Field:
         require(len(data) >= 4, "a GOP ends inside its step")
         self.step = struct.unpack("<f", data[:4])[0]
         require(0.0 < self.step < math.inf, "a step that is not finite and above 0")  # S 2.1
-        if method == 0:
+        if method in (0, 3):
             self.columns, at = payload_varint(data, at)
             require(self.columns <= width * frames, "too many components")
             for _ in range(self.columns):  # S 2.4
@@ -1557,29 +1555,36 @@ class Track:
     """S 3.6, S 10.3: what is known of positions, or of an attribute that moves, before the first GOP."""
 
     def __init__(self, parts, first_frame, base):
-        self.width, self.base, self.history = first_frame.shape[1], base, None
+        self.width, self.base, self.history, self.inherited = first_frame.shape[1], base, None, None
         self.shape = first_frame.shape
         bends = [part.known(first_frame, bent=base is None) for part in parts]
         self.bends, self.first = bends, [np.vstack((around, known))[:, : self.width] for known, around in bends]
         self.start = self.first if base is None else [np.zeros_like(one) for one in self.first]
 
-    def learnt(self, parts, field, shown):
-        """S 7.1: fields of all frames, each number `shown` of those that are told of."""
+    def learnt(self, parts, field, gop):
+        """S 7.1: fields of all frames, as they are shown."""
+        before = self.inherited if gop.method == 3 else [(known[:, :0], around[:, :0]) for known, around in self.bends]
+        require(before is not None, "a GOP refers to one that is not there")
         if field is None:  # S 10.4
-            return [np.zeros(self.shape)] * len(shown)
-        frames = max(shown) + 1
+            self.inherited = [(known[:, :0], around[:, :0]) for known, around in self.bends]
+            return [np.zeros(self.shape)] * gop.frames
+        self.inherited, frames = [], max(gop.shown) + 1
         basis, placed = temporal_basis(field, frames), np.zeros((self.shape[0], field.columns))
         shapes = [(part.basis.shape[1], field.columns) for part in parts]
         matrices = LevelModel().decode(field.levels, shapes, [None] * len(parts))
-        for part, matrix, (known, around) in zip(parts, matrices, self.bends):
-            loop = Loop(known.shape[1], field.columns).begin(around, placed[part.around], field.step)
-            part.place(placed, loop.decode(known, matrix, field.step))
+        for part, matrix, bends, earlier in zip(parts, matrices, self.bends, before):
+            known, around = (np.hstack(pair) for pair in zip(bends, earlier))
+            ends = placed[part.around]
+            loop = Loop(known.shape[1], field.columns).begin(around, ends, field.step)
+            difference = loop.decode(known, matrix, field.step)
+            part.place(placed, difference)
+            self.inherited.append((difference[:, :24], ends[:, :24]))
         wide = (placed @ basis.T).reshape(len(placed), self.width, frames)
-        return [wide[:, :, t] for t in shown]
+        return [wide[:, :, t] for t in gop.shown]
 
     def following(self, parts, field, gop):
         """S 7.2: fields of frames that are told without a basis."""
-        d, columns = self.width, self.width * gop.frames
+        d, columns, self.inherited = self.width, self.width * gop.frames, None
         shapes = [(part.basis.shape[1], columns) for part in parts]
         if gop.method == 1:
             self.history = [LevelModel(), [], [self.start, self.start]]
@@ -1637,8 +1642,8 @@ def decode_frames(mesh, header, gops, first_frame, begin):
         require(index == begin + len(frames), "a GOP is missing or repeated")  # S 1.2
         gop = Gop(data, header, declared)
         require(not 0 < header["frames"] < index + gop.frames, "more frames than announced")
-        if gop.method == 0:
-            fields = [track.learnt(parts, field, gop.shown) for track, field in zip(tracks, gop.fields)]
+        if gop.method in (0, 3):
+            fields = [track.learnt(parts, field, gop) for track, field in zip(tracks, gop.fields)]
             for track in tracks:
                 track.history = None
         else:

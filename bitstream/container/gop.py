@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.container.stretches import parse_stretches, write_stretches
 from bsm.bitstream.container.wire import Cursor, write_varint
-from bsm.bitstream.errors import CorruptError, OptionError, UnsupportedError
+from bsm.bitstream.errors import CorruptError, OptionError
 
 MAX_EXPONENT = 400
 METHODS, RUNS = 8, 32
@@ -32,6 +32,18 @@ class GopMethod(IntEnum):
     """Cosines over time, predicted from the sequence's first frame."""
     NEXT_FRAME = 2
     """Cosines over time, predicted from the two frames before as well."""
+    LEARNT_NEXT = 3
+    """As `LEARNT`, predicted from the components of the GOP before as well."""
+
+    @property
+    def has_basis(self) -> bool:
+        """Whether a temporal basis is sent."""
+        return self in (GopMethod.LEARNT, GopMethod.LEARNT_NEXT)
+
+    @property
+    def begins(self) -> bool:
+        """Whether the GOP needs none before it."""
+        return self in (GopMethod.LEARNT, GopMethod.KEY_FRAME)
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +129,7 @@ def write_gop_body(body: GopBody, run: int = 0, numbers: Sequence[int] = ()) -> 
     told = [(number, data) for number, data in zip(numbers, attributes, strict=True) if data]
     first = body.method + (WITH_ATTRIBUTES if told else 0) + METHODS * (run % RUNS)
     parts = [bytes([first]), write_varint(body.frames)]
-    if body.method is GopMethod.LEARNT:
+    if body.method.has_basis:
         parts.append(write_stretches(body.shown))
     if told:
         parts.append(write_varint(len(told)))
@@ -132,7 +144,7 @@ def _write_field(field: GopField, method: GopMethod) -> bytes:
     if not (0 < field.step < math.inf and float(np.float32(field.step)) == field.step):
         raise OptionError(f"a GOP cannot have the step {field.step}")
     parts = [struct.pack("<f", field.step)]
-    if method is GopMethod.LEARNT:
+    if method.has_basis:
         parts.append(write_varint(field.components))
         differences = np.diff(field.exponents, prepend=0).tolist()
         parts += [write_varint(2 * d if d >= 0 else -2 * d - 1) for d in differences]
@@ -157,14 +169,12 @@ def parse_gop_body(
 
     Raises
     ------
-    UnsupportedError
-        For an unknown method.
     CorruptError
-        For everything else that no encoder writes.
+        For everything that no encoder writes.
     """
     cursor = Cursor(data)
     method, frames, with_attributes = _parse_beginning(cursor, longest, run)
-    shown = parse_stretches(cursor, frames) if method is GopMethod.LEARNT else None
+    shown = parse_stretches(cursor, frames) if method.has_basis else None
     body = GopBody(method, frames, (), shown)
     told = cursor.varint() if with_attributes else 0
     if with_attributes and not told:
@@ -181,6 +191,11 @@ def parse_gop_body(
     return replace(body, fields=(_parse_field(cursor.rest(), body, 3), *fields.values()))
 
 
+def method_of(first: int) -> GopMethod:
+    """The method that the first byte of a GOP tells."""
+    return GopMethod(first % WITH_ATTRIBUTES)
+
+
 def frames_of_gop(data: bytes, longest: int, run: int = 0) -> int:
     """How many frames a GOP has; errors as of `parse_gop_body`."""
     return _parse_beginning(Cursor(data), longest, run)[1]
@@ -191,10 +206,7 @@ def _parse_beginning(cursor: Cursor, longest: int, run: int) -> tuple[GopMethod,
     of_run, kind = divmod(cursor.take(1)[0], METHODS)
     if of_run != run % RUNS:
         raise CorruptError(f"a GOP of another run than run {run}")
-    number = kind % WITH_ATTRIBUTES
-    if number not in set(GopMethod):
-        raise UnsupportedError(f"GOP method {number} is unknown to this decoder")
-    method, frames = GopMethod(number), cursor.varint()
+    method, frames = method_of(kind), cursor.varint()
     if not 1 <= frames <= longest:
         raise CorruptError(f"a GOP of {frames} frames where 1 to {longest} are legal")
     return method, frames, kind >= WITH_ATTRIBUTES
@@ -205,7 +217,7 @@ def _parse_field(data: bytes, body: GopBody, width: int) -> GopField:
     step = float(struct.unpack("<f", cursor.take(4))[0])
     if not 0.0 < step < math.inf:
         raise CorruptError(f"a GOP with the step {step}")
-    if body.method is not GopMethod.LEARNT:
+    if not body.method.has_basis:
         return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest())
     components = cursor.varint()
     if components > width * body.told:

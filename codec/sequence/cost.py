@@ -5,6 +5,7 @@ from __future__ import annotations
 from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.codec.basis.cost import solve_cost
 from bsm.codec.sequence.dictionaries import Site
+from bsm.codec.sequence.history import INHERITED
 from bsm.codec.sequence.shown import BATCH
 from bsm.codec.static.work import LEVEL
 
@@ -14,20 +15,25 @@ PART = 6e4
 """Of a part in a GOP, whatever its size."""
 LOOP, AROUND = 66.0, 10.0
 """Of a column in a row of a closed loop, and of a vertex around that it begins with."""
+INHERITED_LOOP, INHERITED_AROUND = 90.0, 10.0
+"""What these cost more where components of the GOP before are known."""
 
 
 def gop_memory(vertices: int, body: GopBody, sites: tuple[Site, ...] = ()) -> float:
     """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames.
 
-    And what low-delay frames leave to the next ones: levels, and what is around parts, once these are known.
+    And what GOPs leave to the next ones: components, or levels, and what is around parts, once these are known.
     """
     width = sum(field.width for field in body.fields)
     shown = (16.0 * min(body.frames, BATCH) + 32.0) * width
     bases = (field.components * (40.0 * field.width * body.frames + 24.0 * field.components) for field in body.fields)
-    left = 0.0
-    if body.method is not GopMethod.LEARNT:
-        ends = 8.0 * (body.frames + 4.0) * sum(len(site.around) for site in sites)
-        left = width * (4.0 * body.frames * vertices + ends)
+    around = sum(len(site.around) for site in sites)
+    if body.method.has_basis:
+        needed = INHERITED if body.method is GopMethod.LEARNT_NEXT else 0
+        kept = sum(min(field.components, INHERITED) + needed for field in body.fields)
+        left = 8.0 * kept * (vertices + around)
+    else:
+        left = width * (4.0 * body.frames * vertices + 8.0 * (body.frames + 4.0) * around)
     return vertices * (12.0 * _columns(body) + shown) + sum(bases) + left
 
 
@@ -39,23 +45,25 @@ def loop_memory(rows: int, body: GopBody) -> float:
 def gop_cost(sites: tuple[Site, ...], vertices: int, given: int, body: GopBody) -> float:
     """Work of the levels, loops and fields of a GOP, and of its frames, whose user knows so many vertices as given."""
     frames = body.frames
-    fields = sum(_part_cost(site, _columns(body)) for site in sites)
+    more = body.method is GopMethod.LEARNT_NEXT
+    loop, around = (LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND) if more else (LOOP, AROUND)
+    fields = sum(_part_cost(site, _columns(body), loop, around) for site in sites)
     work = PART * len(sites) + fields + frames * FRAME
     for field in body.fields:
         width, columns = field.width, field.components
-        basis = frames * width * columns * (10.0 + 2.0 * columns) if body.method is GopMethod.LEARNT else 0.0
+        basis = frames * width * columns * (10.0 + 2.0 * columns) if body.method.has_basis else 0.0
         work += basis + frames * width * (given * SHOWN + vertices * columns / 15.0)
     return work
 
 
 def _columns(body: GopBody) -> int:
     """Components of all fields; of low-delay frames those of which nothing is told take their room as well."""
-    if body.method is GopMethod.LEARNT:
+    if body.method.has_basis:
         return sum(field.components for field in body.fields)
     return sum(field.width * body.frames for field in body.fields)
 
 
-def _part_cost(site: Site, columns: int) -> float:
+def _part_cost(site: Site, columns: int, loop: float, around: float) -> float:
     rows, width = len(site.vertices), site.width
-    loop = columns * (width * (LEVEL + LOOP) + len(site.around) * AROUND)
-    return loop + solve_cost(site.fronts, columns) + rows * (width * (1.0 + 0.1 * columns) + 20.0 * columns)
+    loops = columns * (width * (LEVEL + loop) + len(site.around) * around)
+    return loops + solve_cost(site.fronts, columns) + rows * (width * (1.0 + 0.1 * columns) + 20.0 * columns)

@@ -19,7 +19,7 @@ from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMeth
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.sequence.dictionaries import Part
-from bsm.codec.sequence.history import FrameHistory, held_cosines
+from bsm.codec.sequence.history import FrameHistory, Inherited, begin_part, held_cosines
 from bsm.codec.sequence.level_writer import ROUNDS, WEIGHT, LevelWriter
 from bsm.codec.sequence.row_prediction import (
     Loop,
@@ -74,6 +74,8 @@ class GopEncoder:
         As of `LevelWriter`.
     latest : float64 array, shape (T, n, d), optional
         What decoders make of the latest frames that were sent without a basis.
+    inherited : Inherited, optional
+        Of the latest GOP, if it has a basis.
     """
 
     def __init__(self, setting: Setting, options: SequenceOptions) -> None:
@@ -83,6 +85,7 @@ class GopEncoder:
         self.step = options.step
         self.rounds = ROUNDS
         self.latest: Matrix | None = None
+        self.inherited: Inherited | None = None
         self._history = FrameHistory(self._track)
 
     @property
@@ -104,17 +107,32 @@ class GopEncoder:
         """One of another track, by the same dictionaries, that begins anew."""
         twin = copy(self)
         twin._track, twin._history = track, FrameHistory(track)
-        twin.latest, twin.rounds = None, ROUNDS
+        twin.latest, twin.inherited, twin.rounds = None, None, ROUNDS
         return twin
 
-    def stay(self, frames: int, *, key: bool) -> None:
+    def stay(self, frames: int, method: GopMethod) -> None:
         """Take note that nothing is told of so many frames, which then are the first one, or that before."""
-        if key:
+        if method.has_basis:
+            self.inherited = Inherited(self._before(method))
+            for known, around in zip(self._track.known, self._track.around, strict=True):
+                self.inherited.keep(around[:, :0], known[:, :0])
+            return
+        self.inherited = None
+        if method is GopMethod.KEY_FRAME:
             self._history = FrameHistory(self._track)
         history = self._history
         history.expect(frames)
         levels = [np.zeros_like(levels) for levels in history.levels]
         history.commit(levels, [history.base(k) for k in range(len(levels))])
+
+    def method_with_basis(self, together: int) -> GopMethod:
+        """That of the next GOP, where so many may hang together."""
+        following = self.inherited is not None and self.inherited.depth < together - 1
+        return GopMethod.LEARNT_NEXT if following else GopMethod.LEARNT
+
+    def _before(self, method: GopMethod) -> Inherited | None:
+        """What a GOP with a basis is predicted from."""
+        return self.inherited if method is GopMethod.LEARNT_NEXT else None
 
     @property
     def low_delay(self) -> bool:
@@ -130,7 +148,9 @@ class GopEncoder:
         """Encode frames, shape (T, n, d), without a basis of their own."""
         return self._next(frames, self._step, key, progress)
 
-    def encode_learnt(self, frames: Matrix, weights: Matrix, progress: Progress) -> tuple[GopField, float]:
+    def encode_learnt(
+        self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress
+    ) -> tuple[GopField, float]:
         """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them.
 
         Returns
@@ -139,7 +159,7 @@ class GopEncoder:
         cost : float
             Squared steps of all weighed errors, and what the bits are worth.
         """
-        field, error = self._transformed(frames, np.tile(weights, self._track.width), progress)
+        field, error = self._transformed(frames, np.tile(weights, self._track.width), method, progress)
         return field, error + WEIGHT * 8.0 * (field.size + SINGLE)
 
     def encode_singles(self, frames: Matrix, weights: Matrix, most: float = math.inf) -> tuple[GopField, ...]:
@@ -160,6 +180,7 @@ class GopEncoder:
         return tuple(fields)
 
     def _next(self, frames: Matrix, step: float, key: bool, progress: Progress) -> GopField:
+        self.inherited = None
         if key:
             self._history = FrameHistory(self._track)
         history, width, columns = self._history, self._track.width, self._track.width * len(frames)
@@ -180,7 +201,9 @@ class GopEncoder:
         self.latest = np.array(list(shown_frames(field, 0, basis)))
         return GopField(width, step, columns, np.empty(0, np.int32), b"", payload)
 
-    def _transformed(self, frames: Matrix, weights: Matrix, progress: Progress) -> tuple[GopField, float]:
+    def _transformed(
+        self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress
+    ) -> tuple[GopField, float]:
         """Encode frames, shape (T, n, d), the columns of whose trajectories count by `weights`, shape (dT,)."""
         motion = trajectories(frames)
         motion *= weights
@@ -191,11 +214,15 @@ class GopEncoder:
         del motion  # as large as the frames
         field = np.zeros_like(wanted)
         writer = LevelWriter(make_level_bank(), body.components, self.rounds)
-        for part, known, around in zip(self._parts, self._track.known, self._track.around, strict=True):
-            target = part.difference(wanted, field)
-            loop = Loop(known.shape[1], body.components).begin(around, field[part.site.around], self._step)
-            part.place(field, writer.write(loop, known, target, self._step))
-            progress(len(writer.levels), len(self._parts))
+        before = self._before(method)
+        self.inherited = Inherited(before)
+        for k, part in enumerate(self._parts):
+            target, ends = part.difference(wanted, field), field[part.site.around]
+            loop, known = begin_part(self._track, before, k, ends, self._step)
+            differences = writer.write(loop, known, target, self._step)
+            part.place(field, differences)
+            self.inherited.keep(ends, differences)
+            progress(k + 1, len(self._parts))
         left = energy - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
         error = float(left + _energy(wanted - field, basis)) / self._step**2
         return replace(body, levels=writer.finish()), error
@@ -220,28 +247,31 @@ class GopDecoder:
     setting : Setting
     tracks : sequence of Track, optional
         Those of the fields of its GOPs; None: all.
+    inherited : sequence of Inherited, optional
+        Of these fields in the GOP before the first.
     """
 
-    def __init__(self, setting: Setting, tracks: Sequence[Track] | None = None) -> None:
+    def __init__(
+        self, setting: Setting, tracks: Sequence[Track] | None = None, inherited: Sequence[Inherited] | None = None
+    ) -> None:
         self.setting = setting
         self._tracks = setting.tracks if tracks is None else tracks
         self._histories: list[FrameHistory] | None = None
+        self._inherited = inherited
 
     def forget(self) -> None:
         """Take note that frames are missing here."""
-        self._histories = None
+        self._histories = self._inherited = None
 
     def decode(self, body: GopBody) -> Iterator[Frame]:
         """The frames of a GOP; all that its levels can have wrong is raised before the first of them."""
-        if body.method is GopMethod.LEARNT:
-            self.forget()
-            return self._transformed(body)
-        return self._next(body)
+        return self._transformed(body) if body.method.has_basis else self._next(body)
 
     def _next(self, body: GopBody) -> Iterator[Frame]:
         if body.method is GopMethod.KEY_FRAME:
             self._histories = [FrameHistory(track) for track in self._tracks]
-        histories, self._histories = self._histories, None  # until all has gone well
+        histories = self._histories
+        self.forget()  # until all has gone well
         if histories is None:
             raise CorruptError("a frame refers to one that is not there")
         told = list(zip(histories, body.fields, strict=True))
@@ -278,6 +308,10 @@ class GopDecoder:
 
     def _transformed(self, body: GopBody) -> Iterator[Frame]:
         setting = self.setting
+        before = [None] * len(self._tracks) if body.method is GopMethod.LEARNT else self._inherited
+        self.forget()  # until all has gone well
+        if before is None:
+            raise CorruptError("a GOP refers to one that is not there")
         bases = [decode_basis(field, body.told) if field.step else _nothing(field, body) for field in body.fields]
         read = []
         for field in body.fields:
@@ -288,20 +322,22 @@ class GopDecoder:
             read.append(levels)
 
         widths = [field.components for field in body.fields]
+        found = [Inherited() for _ in self._tracks]
 
         def decoded(k: int, around: Matrix) -> Matrix:
-            told = zip(self._tracks, body.fields, read, split_columns(around, widths), strict=True)
-            loops = (
-                Loop(track.known[k].shape[1], field.components)
-                .begin(track.around[k], ends, field.step)
-                .decode(track.known[k], levels[k], field.step)
-                if field.components
-                else np.empty((len(levels[k]), 0))
-                for track, field, levels, ends in told
-            )
-            return np.hstack(list(loops))
+            told = zip(self._tracks, before, found, body.fields, read, split_columns(around, widths), strict=True)
+            differences = []
+            for track, earlier, own, field, levels, ends in told:
+                if field.components:
+                    loop, known = begin_part(track, earlier, k, ends, field.step)
+                    differences.append(loop.decode(known, levels[k], field.step))
+                else:
+                    differences.append(np.empty((len(levels[k]), 0)))
+                own.keep(ends, differences[-1])
+            return np.hstack(differences)
 
         components, places = setting.field(sum(widths), decoded), np.cumsum([0, *widths[:-1]])
+        self._inherited = found
         batches = (
             shown_frames(components, int(first), basis.reshape(own.width, body.told, own.components)[:, body.places])
             for own, first, basis in zip(body.fields, places, bases, strict=True)

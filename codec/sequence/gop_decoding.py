@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.gop import GopBody, GopMethod, parse_gop_body
+from bsm.bitstream.container.gop import GopBody, parse_gop_body
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import FrameType
@@ -46,7 +46,7 @@ class Gops:
         self._course = course
         self._attributes = tuple(request.attributes)
         self._decoder: GopDecoder | None = None  # made when a GOP is there, whose frames and bytes pay for it
-        self._skipped: list[GopBody] = []  # low-delay frames since the latest key frame, not decoded
+        self._skipped: list[GopBody] = []  # since the latest that needs none before it, not decoded
 
     def suspend(self) -> None:
         """Keep only what a later run of this mesh cannot do without."""
@@ -157,11 +157,10 @@ class Gops:
 
     def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Frame]:
         """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
-        if body.method is not GopMethod.NEXT_FRAME:
+        if body.method.begins:
             self._skipped.clear()
         if self._course.next + body.frames <= self._request.start:
-            if body.method >= GopMethod.KEY_FRAME:
-                self._skipped.append(body)
+            self._skipped.append(body)
             return iter(())
         for earlier in self._skipped:
             decoder.decode(earlier)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -13,6 +12,7 @@ from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.sequence.first_frame_encoding import Opening, open_sequence
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
 from bsm.codec.sequence.groups import Group
+from bsm.codec.sequence.history import Inherited
 from bsm.codec.sequence.level_writer import ROUNDS
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.promise import Promise
@@ -25,6 +25,9 @@ from bsm.codec.static.work import Allowance
 
 HARDLY_CUT = 256
 """So many frames are one GOP: in no sequence seen did two cost less."""
+
+TOGETHER = 4
+"""GOPs with a basis of which each but the first refers to the one before; who comes late waits no longer than that."""
 
 FINEST_STEP = 2e-5
 """Below, a search does not look."""
@@ -59,16 +62,28 @@ class Wish:
 
 @dataclass(frozen=True, eq=False)
 class Coded:
-    """GOPs that were encoded with some step, the first frame before them, and their encoder."""
+    """GOPs that were encoded with some step.
+
+    Parameters
+    ----------
+    opening : Opening
+        The first frame of the run.
+    encoder : GopEncoder
+        As it is behind them.
+    bodies : tuple of GopBody
+    before : Inherited, optional
+        What was there to refer to.
+    """
 
     opening: Opening
     encoder: GopEncoder
     bodies: tuple[GopBody, ...]
+    before: Inherited | None = None
 
     @property
     def singly(self) -> bool:
         """Whether frames are sent one by one."""
-        return self.bodies[0].method is not GopMethod.LEARNT
+        return not self.bodies[0].method.has_basis
 
     @property
     def cut(self) -> bool:
@@ -81,7 +96,7 @@ class Coded:
         if self.encoder.low_delay and self.encoder.latest is not None:
             return self.encoder.latest
         setting = self.opening.setting
-        decoder = GopDecoder(setting, setting.tracks[:1])
+        decoder = GopDecoder(setting, setting.tracks[:1], [self.before] if self.before else None)
         frames = np.empty((sum(body.frames for body in self.bodies), setting.vertices, 3))
         for number, (frame,) in enumerate(frame for body in self.bodies for frame in decoder.decode(body)):
             frames[number] = frame
@@ -177,7 +192,7 @@ def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) 
 def attempted(opening: Opening, encoder: GopEncoder, wish: Wish, group: Group, number: int, tell: Progress) -> Coded:
     """Encode the next frames, of which the first has this number, in the way that costs least."""
     encoder.step, encoder.rounds = wish.step, wish.rounds
-    frames = group.positions
+    frames, before = group.positions, encoder.inherited
     weights = np.ones(len(frames)) if wish.weights is None else wish.weights
     if encoder.low_delay:
         key = encoder.is_key(number, frames.shape[1])
@@ -186,9 +201,11 @@ def attempted(opening: Opening, encoder: GopEncoder, wish: Wish, group: Group, n
     elif wish.singly:
         bodies = _singles(encoder.encode_singles(frames, weights))
     else:
-        bodies, cost = _learnt(opening, encoder, frames, weights, group.same(encoder.step), wish.cut, tell)
-        if wish.singly is None:
-            bodies = _singles(encoder.encode_singles(frames, weights, cost)) or bodies
+        learnt = _learnt(opening, encoder, frames, weights, group.same(encoder.step), wish.cut, tell)
+        singles = encoder.encode_singles(frames, weights, learnt.cost) if wish.singly is None else ()
+        if not singles:
+            return Coded(opening, learnt.encoder, learnt.bodies, before)
+        bodies = _singles(singles)
     return Coded(opening, encoder, bodies)
 
 
@@ -196,6 +213,15 @@ def _singles(fields: tuple[GopField, ...]) -> tuple[GopBody, ...]:
     """Frames that were encoded one by one, the first of them as a key frame."""
     methods = (GopMethod.NEXT_FRAME if number else GopMethod.KEY_FRAME for number in range(len(fields)))
     return tuple(GopBody(method, 1, (field,)) for method, field in zip(methods, fields, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class _Learnt:
+    """GOPs with a basis, the encoder behind them, and their cost."""
+
+    bodies: tuple[GopBody, ...]
+    encoder: GopEncoder
+    cost: float
 
 
 def _learnt(
@@ -206,32 +232,29 @@ def _learnt(
     same: Order,
     cut: bool | None,
     tell: Progress,
-) -> tuple[tuple[GopBody, ...], float]:
-    """Frames as one GOP, or as more where that costs less or decoders would lack the memory; with the cost."""
+) -> _Learnt:
+    """Frames as one GOP, or as more where that costs less or decoders would lack the memory."""
     half = len(frames) // 2
-    whole: tuple[tuple[GopBody, ...], float] = (), math.inf
+    whole: _Learnt | None = None
     if not (cut and half):
-        body, cost = _whole(encoder, frames, weights, same, tell)
-        has_room = opening.has_room(body)
+        whole = _whole(encoder.copy(), frames, weights, same, tell)
+        has_room = opening.has_room(*whole.bodies)
         if not half or (has_room and (cut is not None or len(frames) <= HARDLY_CUT)):
-            return (body,), cost
-        if has_room:
-            whole = (body,), cost
-    parts = (slice(half), slice(half, None))
-    first, second = (
-        _learnt(opening, encoder, frames[part], weights[part], same[part], False, silent) for part in parts
-    )
-    halves = first[0] + second[0], first[1] + second[1]
-    return halves if halves[1] < whole[1] else whole
+            return whole
+        if not has_room:
+            whole = None
+    first = _learnt(opening, encoder, frames[:half], weights[:half], same[:half], False, silent)
+    second = _learnt(opening, first.encoder, frames[half:], weights[half:], same[half:], False, silent)
+    halves = _Learnt(first.bodies + second.bodies, second.encoder, first.cost + second.cost)
+    return halves if whole is None or halves.cost < whole.cost else whole
 
 
-def _whole(
-    encoder: GopEncoder, frames: Positions, weights: Matrix, same: Order, tell: Progress
-) -> tuple[GopBody, float]:
-    """Frames as one GOP, which tells once of those that are the same; with the cost."""
+def _whole(encoder: GopEncoder, frames: Positions, weights: Matrix, same: Order, tell: Progress) -> _Learnt:
+    """Frames as one GOP, which tells once of those that are the same."""
     told, shown = told_frames(same)
+    method = encoder.method_with_basis(TOGETHER)
     if len(told) == len(frames):
-        field, cost = encoder.encode_learnt(frames, weights, tell)
-        return GopBody(GopMethod.LEARNT, len(frames), (field,)), cost
-    field, cost = encoder.encode_learnt(frames[told], np.sqrt(np.bincount(shown, weights**2)), tell)
-    return GopBody(GopMethod.LEARNT, len(frames), (field,), shown), cost
+        field, cost = encoder.encode_learnt(frames, weights, method, tell)
+        return _Learnt((GopBody(method, len(frames), (field,)),), encoder, cost)
+    field, cost = encoder.encode_learnt(frames[told], np.sqrt(np.bincount(shown, weights**2)), method, tell)
+    return _Learnt((GopBody(method, len(frames), (field,), shown),), encoder, cost)

@@ -1,4 +1,4 @@
-"""What low-delay frames refer to."""
+"""What GOPs refer to: components of the one before, or frames of low delay."""
 
 from __future__ import annotations
 
@@ -9,6 +9,63 @@ from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.sequence.row_prediction import Loop, time_cosines
 from bsm.codec.sequence.tracks import Track
+
+INHERITED = 24
+"""Components of a GOP that those of the next one are predicted from: what moved comes again, mixed in another way."""
+
+
+class Inherited:
+    """The first components of a GOP, which those of the next one are predicted from; filled block after block.
+
+    Parameters
+    ----------
+    before : Inherited, optional
+        Of the GOP that it refers to.
+
+    Attributes
+    ----------
+    known : list of float64 arrays, shapes (c_i, q), q <= 24
+        Differences of the parts.
+    around : list of float64 arrays, shapes (k_i, q)
+        Values around them.
+    depth : int
+        How many GOPs before are needed for it.
+    """
+
+    def __init__(self, before: Inherited | None = None) -> None:
+        self.depth: int = before.depth + 1 if before else 0
+        self.known: list[Matrix] = []
+        self.around: list[Matrix] = []
+
+    def keep(self, ends: Matrix, differences: Matrix) -> None:
+        """Take note of the next part: its components around it, shape (k_i, r), and in it, shape (c_i, r)."""
+        self.around.append(ends[:, :INHERITED].copy())
+        self.known.append(differences[:, :INHERITED].copy())
+
+
+def begin_part(track: Track, before: Inherited | None, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix]:
+    """What the components of a part follow from, which are `ends`, shape (k_i, r), around it.
+
+    Parameters
+    ----------
+    track : Track
+    before : Inherited, optional
+        Of the GOP before.
+    block : int
+    ends : float64 array, shape (k_i, r)
+    step : float
+
+    Returns
+    -------
+    loop : Loop
+        Has learnt how they follow from what is known there.
+    known : float64 array, shape (c_i, k)
+    """
+    known, around = track.known[block], track.around[block]
+    if before is not None:
+        known = np.hstack((known, before.known[block]))
+        around = np.hstack((around, before.around[block]))
+    return Loop(known.shape[1], ends.shape[1]).begin(around, ends, step), known
 
 
 class FrameHistory:

@@ -193,7 +193,7 @@ class Mover:
             self.bound.amount is None
             or max(self.bound.off(own, before, nothing) for own in values) <= self.bound.amount
         ):
-            self._encoder.stay(body.frames, key=body.method is not GopMethod.NEXT_FRAME)
+            self._encoder.stay(body.frames, body.method)
             self._latest = before
             return still(values.shape[2])
         reach = self.bound.reach
@@ -222,16 +222,17 @@ class Mover:
         """What is told with a step, and what a decoder makes of it: the changes of each frame, shape (n, d)."""
         wanted = values.astype(np.float64) - self.first
         try:
-            if body.method is not GopMethod.LEARNT:
+            if not body.method.has_basis:
                 key = body.method is GopMethod.KEY_FRAME
                 field = encoder.encode_next(wanted, silent, key=key)
                 assert encoder.latest is not None
                 return field, list(encoder.latest)
+            before = encoder.inherited
             told, shown = told_frames(body.places)
-            field, _ = encoder.encode_learnt(wanted[told], np.sqrt(np.bincount(shown)), silent)
+            field, _ = encoder.encode_learnt(wanted[told], np.sqrt(np.bincount(shown)), body.method, silent)
         except OptionError as error:
             raise self._refusal(f"{error}") from error
-        decoder = GopDecoder(self._setting, [self._track])
+        decoder = GopDecoder(self._setting, [self._track], [before] if before else None)
         return field, [change for (change,) in decoder.decode(replace(body, fields=(field,)))]
 
 

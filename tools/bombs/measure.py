@@ -12,7 +12,7 @@ import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from bsm.bitstream.container.gop import METHODS, GopMethod
+from bsm.bitstream.container.gop import method_of
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.container.wire import Cursor, FrameType
@@ -100,7 +100,7 @@ def sequence_memory(stream: bytes, vertices: int) -> float:
             cursor = Cursor(payload)
             if kind == FrameType.HEADER and (entries := header_entries(payload)).get(HEADER_FIELDS["gop_frames"].key):
                 columns = max(columns, entries.get(HEADER_FIELDS["coefficients"].key, 0))
-            elif kind == FrameType.GOP and cursor.varint() >= 0 and cursor.take(1)[0] % METHODS == GopMethod.LEARNT:
+            elif kind == FrameType.GOP and cursor.varint() >= 0 and method_of(cursor.take(1)[0]).has_basis:
                 frames, _, components = cursor.varint(), cursor.take(4), cursor.varint()
                 gop = max(gop, components * (16 * vertices + 120 * frames + 24 * components))
     except (BsmError, ValueError, TypeError):

@@ -17,7 +17,7 @@ from bsm.bitstream.coefficients.packed import unpack_coefficients
 from bsm.bitstream.connectivity.faces import ConnectivityDecoder, decode_connectivity, encode_connectivity
 from bsm.bitstream.connectivity.partition import decode_labels
 from bsm.bitstream.connectivity.permutation import decode_permutation, decode_rotations
-from bsm.bitstream.container.gop import GopMethod, parse_gop_body
+from bsm.bitstream.container.gop import parse_gop_body
 from bsm.bitstream.container.layout import PARSERS
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
 from bsm.bitstream.container.splits import decode_order
@@ -237,7 +237,7 @@ def gops(data: bytes) -> None:
     """The data of a GOP, and the levels in it."""
     body = parse_gop_body(data[1:], 64, widths={0: 1, 2: 4}, tolerant=data[:1] > b"\x7f")
     for field in body.fields:
-        if body.method is GopMethod.LEARNT:
+        if body.method.has_basis:
             levels = np.zeros((field.width, body.told, field.components), np.int32)
             leads = basis_leads(field.width)
             decode_levels(make_level_bank(), field.basis, list(levels), [levels[0], *levels[:-1]], leads)

@@ -63,6 +63,11 @@ def _unknown_behind_gap(frames: Frames) -> Frames:
     return [*frames[:place], (FrameType.GOP, b"\x01\x04" + frames[place][1][2:]), *frames[place + 1 :]]
 
 
+def _learnt_behind_frame(frames: Frames) -> Frames:
+    place = _gops_of(frames)[1]
+    return [*frames[:place], (FrameType.GOP, b"\x01\x03\x01" + _FIELD), *frames[place + 1 :]]
+
+
 def _step(value: float) -> Edit:
     return lambda data: data[: _STEP.start] + struct.pack("<f", value) + data[_STEP.stop :]
 
@@ -153,7 +158,6 @@ def _without_values(frames: Frames) -> Frames:
 
 
 BAD_SEQUENCES: dict[str, Bad] = {
-    "unsupported-sequence-method": Bad("a GOP of method 3", "unsupported", _gop(lambda d: b"\x03" + d[1:])),
     "unsupported-sequence-smoothing": Bad(
         "smoothing of a sequence", "unsupported", lambda: with_header(_base("learnt"), smoothing=1.0)
     ),
@@ -216,6 +220,12 @@ BAD_SEQUENCES: dict[str, Bad] = {
         "a first frame that refers to the one before it",
         "corrupt",
         _gop(lambda d: b"\x02" + d[1:], base="low-delay"),
+    ),
+    "bad-sequence-learnt-next-first": Bad(
+        "a first GOP that refers to one before it", "corrupt", _gop(lambda d: b"\x03" + d[1:])
+    ),
+    "bad-sequence-learnt-next-after-frame": Bad(
+        "components that refer to frames without", "corrupt", _frames(_learnt_behind_frame, base="low-delay")
     ),
     "bad-sequence-run-number": Bad("a run that is not the next", "corrupt", _run(run=2)),
     "bad-sequence-run-frames": Bad("a run that announces other frames", "corrupt", _run(frames=9)),

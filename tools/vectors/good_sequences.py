@@ -95,6 +95,7 @@ SEQUENCES: dict[str, Good] = {
         "frames that come again, stand still, turn back and jump", 0, 1, 2, 3, 0, 1, 2, 3, 3, 3, 2, 1, 3, 5, 0, 4
     ),
     "good-sequence-longer": _sequence("a learnt basis of more frames than decoders show at a time", 19, gop=19),
+    "good-sequence-long": _sequence("more GOPs than refer to those before them", 11, gop=2),
     "good-sequence-low-delay": _sequence("frames as they come, with key frames", 7, low_delay=1, gop=3),
     "good-sequence-together": _sequence("three frames at a time, and two at the end", 11, low_delay=3, gop=6),
     "good-sequence-runs": _runs("faces that change and return", (8, 3), (6, 2), (8, 4), (5, 1), gop=3),

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from threading import Condition
 from typing import BinaryIO
 
-from bsm.bitstream.container.gop import METHODS, GopMethod
+from bsm.bitstream.container.gop import method_of
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.maps import parse_map
 from bsm.bitstream.container.wire import MAGIC, FrameType, Tag, parse_tag, parse_varint, write_preamble
@@ -17,8 +17,6 @@ from bsm.bitstream.errors import BsmError, CorruptError
 _CHUNK = 1 << 18
 _PAUSE = 0.05
 """Seconds between looks at a file that has not grown."""
-_ENTRIES = (GopMethod.LEARNT, GopMethod.KEY_FRAME)
-"""Methods of the GOPs that need none before them (S 1.4)."""
 
 
 class Growing:
@@ -112,7 +110,7 @@ class Growing:
             first = parse_varint(self._data, tag.payload)
             if first is None or first[1] >= tag.checksum:
                 raise CorruptError("a GOP has no method")
-            if self._head and self._data[first[1]] % METHODS in _ENTRIES:
+            if self._head and method_of(self._data[first[1]]).begins:
                 self._entry = place.start
         elif self._head and self._entry is None:
             self._head.append(place)

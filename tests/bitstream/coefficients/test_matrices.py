@@ -16,7 +16,7 @@ from bsm.bitstream.container.gop import (
     still,
     write_gop_body,
 )
-from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
+from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
 
 NONE = np.empty(0, np.int32)
 
@@ -165,7 +165,6 @@ def test_known_bytes_of_a_body():
     ("data", "error"),
     [
         (b"", CorruptError),
-        (b"\x03\x01\x00\x00\x80\x3f\x03", UnsupportedError),
         (b"\x00\x00\x00\x00\x80\x3f\x00\x00", CorruptError),  # no frames
         (b"\x00\x05\x00\x00\x00\x80\x3f\x00\x00", CorruptError),  # more than the header allows
         (b"\x01\x05\x00\x00\x80\x3f", CorruptError),  # the same without a basis

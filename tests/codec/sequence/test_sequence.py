@@ -281,15 +281,16 @@ def test_the_order_can_be_kept(way):
 
 
 @pytest.mark.parametrize("how", ["removed", "changed"])
-@pytest.mark.parametrize("index", [0, 1, 3])
-def test_a_lost_gop_costs_itself_only(how, index):
-    positions, faces = bending(28)
+@pytest.mark.parametrize(("index", "behind"), [(0, 4), (1, 4), (3, 4), (4, 6), (5, 6)])
+def test_a_lost_gop_costs_what_refers_to_it(how, index, behind):
+    positions, faces = bending(45)
     data, _ = encoded(positions, faces)
+    assert methods_of(data) == [0, 3, 3, 3, 0, 3]
     events = events_of(damaged(data, index, how), tolerant=True)
     lost = [event for event in events if isinstance(event, LossEvent)]
-    first, count = 8 * index, min(8, 28 - 8 * index)
-    assert [event.frames for event in lost] == [range(first, first + count)] and lost[0].error.message
-    assert_same(frames_in(events), decode_sequence(data)[0], set(range(28)) - set(range(first, first + count)))
+    missing = range(8 * index, min(8 * behind, 45))
+    assert [frame for event in lost for frame in event.frames] == list(missing) and lost[0].error.message
+    assert_same(frames_in(events), decode_sequence(data)[0], set(range(45)) - set(missing))
     assert isinstance(events[-1], EndEvent)
     with pytest.raises(CorruptError):
         decode_sequence(damaged(data, index, how))
@@ -468,10 +469,10 @@ def test_frames_are_sent_one_by_one_where_that_costs_less(monkeypatch):
     decoded, _ = decode_sequence(data)
     late = [event for event in events_of(data, start=12) if isinstance(event, FrameEvent)]
     np.testing.assert_array_equal([event.positions for event in late], decoded[12:])
-    assert methods_of(encoded(*bending(18), gop=9)[0]) == [0, 0]
+    assert methods_of(encoded(*bending(18), gop=9)[0]) == [0, 3]
     monkeypatch.setattr(GopEncoder, "encode_singles", lambda *_: ())
     other, _ = encoded(positions, faces, gop=9)
-    assert methods_of(other) == [0, 0]
+    assert methods_of(other) == [0, 3]
     assert len(data) < 0.95 * len(other)
     assert kg_error(wanted, decoded) < 1.1 * kg_error(wanted, decode_sequence(other)[0])
 

@@ -3,7 +3,7 @@ import { factorize, reconstruct, solutionCost, solve, cosineColumns, type Factor
 import { edgesOf, makeBlock, type Block, type Blocks } from "./blocks";
 import { keyDictionary, spendOn, TETHER, type Allowance } from "./chain";
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
-import { CorruptError, NumericError, UnsupportedError } from "./errors";
+import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
 import type { Doubles, Ints, Memory } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
@@ -15,7 +15,7 @@ import { blockCost, partCost, shownCost, UNCODED } from "./work";
 
 const LEARNT = 0;
 const KEY_FRAMES = 1;
-const NEXT_FRAMES = 2;
+const LEARNT_NEXT = 3;
 /** Added to the method of a GOP that tells of attributes, too (S 10.2). */
 const WITH_ATTRIBUTES = 4;
 const MOST_EXPONENT = 400;
@@ -36,6 +36,8 @@ const SPAN = unsignedSpan(14) + 4;
 const QUARTERS = [1, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605];
 const SLOTS = (5 * 12 * 12 + 12 * 40) * SPAN;
 const LEADING = 24;
+/** Components of a GOP that those of the next one are predicted from (S 7.1). */
+const INHERITED = 24;
 /** Forgetting, ridge, noise, what is around, dense rows, renewal (S 6). */
 const RULES = [0.985, 0.004, 30, 30, 16n, 8n] as const;
 const SQUARES = 0.5;
@@ -103,7 +105,7 @@ interface Part {
     basis: Doubles;
 }
 
-/** What is known of a part (S 3.7, S 10.3): differences, and values around it, of so many columns. */
+/** What is known of a part (S 3.7, S 7.1, S 10.3): differences, and values around it, of so many columns. */
 interface Bends {
     count: number;
     known: Float64Array;
@@ -130,6 +132,8 @@ export class Sequence {
     private behindBanks = 0;
     /** Of each track. */
     private histories?: History[];
+    /** Of each track, of each part, of the GOP before, if it had a basis. */
+    private inherited?: Bends[][];
     /** That of the run: of the first, or of one that has its mesh again. */
     private run: Header;
 
@@ -168,6 +172,7 @@ export class Sequence {
     /** No frame refers to one that has come. */
     forget(): void {
         this.histories = undefined;
+        this.inherited = undefined;
     }
 
     /** Make the parts; what is wrong with them is so for every GOP. */
@@ -203,7 +208,8 @@ export class Sequence {
         const gop = parseGop(data, run, this.moving, this.tolerant);
         const bytes = gop.fields.map(({ width, components }) => {
             const columns = width * gop.frames;
-            const left = gop.method === LEARNT ? 0 : 4 * header.vertices * columns;
+            const kept = Math.min(components, INHERITED) + (gop.method === LEARNT_NEXT ? INHERITED : 0);
+            const left = hasBasis(gop.method) ? 8 * header.vertices * kept : 4 * header.vertices * columns;
             const shown = 8 * width * header.vertices * Math.min(BATCH, gop.frames);
             return components * (16 * header.vertices + 40 * columns + 24 * components) + shown + left;
         });
@@ -223,11 +229,11 @@ export class Sequence {
         try {
             this.begin();
             const parts = this.parts.reduce(
-                (sum, { block, around, basis }) => sum + partCost(block.size, around.length, basis.width, columns) + solutionCost(block, columns),
+                (sum, { block, around, basis }) => sum + partCost(block.size, around.length, basis.width, columns, gop.method === LEARNT_NEXT) + solutionCost(block, columns),
                 0,
             );
             allowance.spend(parts + shownCost(header.vertices, this.given, gop.frames, gop.fields), received);
-            return gop.method === LEARNT ? this.transformed(gop) : this.following(gop);
+            return hasBasis(gop.method) ? this.transformed(gop) : this.following(gop);
         } catch (error) {
             allowance.show(-header.vertices * gop.frames);
             throw error;
@@ -429,17 +435,21 @@ export class Sequence {
         return field;
     }
 
-    /** Frames of method 0 (S 7.1). */
-    private transformed({ shown, fields }: Gop): (() => Fields)[] {
+    /** Frames of methods 0 and 3 (S 7.1). */
+    private transformed({ method, shown, fields }: Gop): (() => Fields)[] {
         const { memory, header } = this;
-        this.histories = undefined;
+        const before = method === LEARNT ? fields.map(() => undefined) : this.inherited;
+        this.forget();
+        if (!before) throw new CorruptError("a GOP refers to one that is not there");
         memory.release(this.behindParts);
-        const made = fields.map((field, k) => (field.step > 0 ? this.components(field, this.tracks[k], shown) : undefined));
+        const inherited = fields.map((): Bends[] => []);
+        const made = fields.map((field, k) => (field.step > 0 ? this.components(field, this.tracks[k], shown, inherited[k], before[k]) : undefined));
+        this.inherited = inherited;
         return shown.map((_, t) => () => made.map((one, k) => one?.(t) ?? new Float64Array(fields[k].width * header.vertices)));
     }
 
     /** What gives a field of each frame, one after the other: components over a temporal basis. */
-    private components(field: Field, { bends }: Track, shown: number[]): ((t: number) => Float64Array) | undefined {
+    private components(field: Field, { bends }: Track, shown: number[], inherited: Bends[], before?: Bends[]): ((t: number) => Float64Array) | undefined {
         const { memory, parts, header } = this;
         const { width, components, step } = field;
         const frames = mostOf(shown) + 1;
@@ -449,10 +459,14 @@ export class Sequence {
         if (components === 0) return undefined;
         const placed = this.emptyField(components);
         parts.forEach((part, k) => {
-            const { known, count } = bends[k];
+            const told = before?.[k] ? beside(bends[k], before[k]) : bends[k];
             const ends = this.endsOf(part, placed);
-            const moments = this.learntAround(bends[k], ends, components, step);
-            this.place(part, placed, ends, this.follow(known, count, levels[k], components, moments, step));
+            const moments = this.learntAround(told, ends, components, step);
+            const differences = this.follow(told.known, told.count, levels[k], components, moments, step);
+            this.place(part, placed, ends, differences);
+            const count = Math.min(components, INHERITED);
+            const first = (rows: Float64Array): Float64Array => rows.filter((_, i) => i % components < count);
+            inherited.push({ count, known: first(differences), around: first(ends) });
         });
         const columns = Math.min(BATCH, shown.length) * width;
         const some = memory.doubles(header.vertices * columns, columns);
@@ -501,6 +515,7 @@ export class Sequence {
     /** Frames of methods 1 and 2 (S 7.2). */
     private following({ method, frames, fields }: Gop): (() => Fields)[] {
         const { memory, tracks } = this;
+        this.inherited = undefined;
         if (method === KEY_FRAMES) {
             memory.release(this.behindParts);
             this.histories = tracks.map(({ start }) => ({ bank: makeLevelBank(memory), frames: 0, levels: [], latest: start, before: start }));
@@ -549,6 +564,25 @@ export class Sequence {
         Object.assign(history, { levels, latest: shown(frames - 1), before: frames > 1 ? shown(frames - 2) : latest });
         return field;
     }
+}
+
+/** Whether GOPs of a method have a temporal basis (S 2.2). */
+function hasBasis(method: number): boolean {
+    return method === LEARNT || method === LEARNT_NEXT;
+}
+
+/** What is known, and beside it components of the GOP before. */
+function beside(bends: Bends, before: Bends): Bends {
+    const count = bends.count + before.count;
+    const rows = (own: Float64Array, more: Float64Array): Float64Array => {
+        const both = new Float64Array((own.length / bends.count) * count);
+        for (let row = 0, at = 0; at < both.length; row++, at += count) {
+            both.set(own.subarray(row * bends.count, (row + 1) * bends.count), at);
+            both.set(more.subarray(row * before.count, (row + 1) * before.count), at + bends.count);
+        }
+        return both;
+    };
+    return { count, known: rows(bends.known, before.known), around: rows(bends.around, before.around) };
 }
 
 /** Rows, and behind them others. */
@@ -619,7 +653,6 @@ function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header, moving:
     const kind = first % METHODS;
     if ((first - kind) / METHODS !== run % RUNS) throw new CorruptError(`a GOP of another run than run ${run}`);
     const method = kind % WITH_ATTRIBUTES;
-    if (method > NEXT_FRAMES) throw new UnsupportedError(`GOP method ${method} is unknown to this decoder`);
     const frames = cursor.varint();
     if (frames < 1 || frames > longest) throw new CorruptError(`a GOP of ${frames} frames where 1 to ${longest} are legal`);
     const shown = parseStretches(cursor, frames, method);
@@ -638,13 +671,13 @@ function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header, moving:
         }
     }
     const none = new Uint8Array(0);
-    const others = moving.map(({ number, width }) => told.get(number) ?? { width, step: 0, components: method === LEARNT ? 0 : width * frames, exponents: [], basis: none, levels: none });
+    const others = moving.map(({ number, width }) => told.get(number) ?? { width, step: 0, components: hasBasis(method) ? 0 : width * frames, exponents: [], basis: none, levels: none });
     return { method, frames, shown, fields: [parseField(cursor.rest(), method, own, 3), ...others] };
 }
 
 /** Which of the frames that fields tell of each one is: all, in order, unless a GOP with a basis says otherwise (S 2.5). */
 function parseStretches(cursor: Cursor, frames: number, method: number): number[] {
-    const pieces = method === LEARNT ? cursor.varint() : 0;
+    const pieces = hasBasis(method) ? cursor.varint() : 0;
     const shown = Array.from({ length: pieces ? 0 : frames }, (_, t) => t);
     const refuse = (): never => {
         throw new CorruptError("stretches of frames that a GOP has not");
@@ -670,11 +703,11 @@ function parseField(data: Uint8Array, method: number, frames: number, width: num
     const bytes = cursor.take(4);
     const step = new DataView(bytes.buffer, bytes.byteOffset, 4).getFloat32(0, true);
     if (!(step > 0 && step < Infinity)) throw new CorruptError(`a GOP with the step ${step}`);
-    const components = method === LEARNT ? cursor.varint() : width * frames;
+    const components = hasBasis(method) ? cursor.varint() : width * frames;
     if (components > width * frames) throw new CorruptError(`${components} components for ${frames} frames`);
     const exponents: number[] = [];
     let basis = new Uint8Array(0);
-    if (method === LEARNT) {
+    if (hasBasis(method)) {
         for (let exponent = 0; exponents.length < components; exponents.push(exponent)) {
             exponent += signed(cursor.varint());
             if (exponent < 0 || exponent > MOST_EXPONENT) throw new CorruptError(`the exponent ${exponent} of a basis`);

@@ -1,7 +1,7 @@
 /** What all but dictionaries costs, in nanoseconds of a processor core (specification, M 14.3). */
 const BLOCK = 1.45e5;
 const PART = 6e4;
-const [ROW, LOOK, LEVEL, LOOP, AROUND] = [600, 25, 90, 66, 10];
+const [ROW, LOOK, LEVEL, LOOP, AROUND, INHERITED_LOOP, INHERITED_AROUND] = [600, 25, 90, 66, 10, 90, 10];
 /** Of a byte of coded values. */
 const CODED = 800;
 /** By which a part of a sequence is cheaper than a block, before it has its dictionary. */
@@ -91,8 +91,9 @@ export function chunkCost(received: number): number {
 }
 
 /** Of a part in a GOP of r components, with so many vertices around it, besides the solution of so many columns. */
-export function partCost(rows: number, around: number, width: number, components: number): number {
-    return PART + components * (width * (LEVEL + LOOP) + around * AROUND) + rows * (width * (1 + 0.1 * components) + 20 * components);
+export function partCost(rows: number, around: number, width: number, components: number, inherited: boolean): number {
+    const [loop, begun] = inherited ? [LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND] : [LOOP, AROUND];
+    return PART + components * (width * (LEVEL + loop) + around * begun) + rows * (width * (1 + 0.1 * components) + 20 * components);
 }
 
 /** Of showing the frames of a GOP, of fields of so many numbers and components, to a user of so many vertices as given. */
