@@ -2,6 +2,7 @@
 #include "bitstream/kernel.hpp"
 
 extern "C" {
+#include "codec/basis/completion.h"
 #include "codec/basis/cosines.h"
 #include "codec/basis/noise.h"
 #include "codec/basis/orthogonal_iteration.h"
@@ -139,6 +140,9 @@ NB_MODULE(_kernels, m) {
     m.def("iterate", &iterate, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "power"_a, "iterations"_a, "once"_a,
           "scratch"_a, "subspace"_a, Unlocked());
     m.def("cholesky_onorm", &cholesky_onorm, "columns"_a, "once"_a, "scratch"_a, "subspace"_a, Unlocked());
+    m.def("completion_space", &completion_space, "h"_a);
+    m.def("complete_columns", checked<&complete_columns>, "first"_a, "least_pivot"_a, "scratch"_a,
+          "whole"_a, Unlocked());
     m.def("householder", &householder, "work"_a, "scratch"_a, "q"_a, Unlocked());
     m.def("project", &project, "subspace"_a, "values"_a, "coefficients"_a, Unlocked());
     m.def("reconstruct", &reconstruct, "subspace"_a, "coefficients"_a, "values"_a, Unlocked());

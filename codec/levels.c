@@ -1,6 +1,7 @@
 /* Which of the compiled levels of a kernel runs: the best that the processor has. */
 #ifdef KERNEL_LEVELS
 
+#include "codec/basis/completion.h"
 #include "codec/basis/cosines.h"
 #include "codec/basis/orthogonal_iteration.h"
 #include "codec/basis/solver/solver.h"
@@ -29,6 +30,9 @@ CHOOSE(double, iterate,
        (fronts, values, inverse, start, power, iterations, once, scratch, subspace))
 CHOOSE(double, cholesky_onorm, (ConstDoubles2 columns, double once, Doubles scratch, Doubles2 subspace),
        (columns, once, scratch, subspace))
+CHOOSE(int64_t, completion_space, (int64_t h), (h))
+CHOOSE(int64_t, complete_columns, (ConstDoubles2 first, double least_pivot, Doubles scratch, Doubles2 whole),
+       (first, least_pivot, scratch, whole))
 CHOOSE(void, factorize_fronts,
        (ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts, Words column,
         Doubles scratch, Doubles values, Doubles inverse),

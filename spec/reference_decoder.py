@@ -707,12 +707,41 @@ def exact_basis(laplacian, columns, springs):
 
 def key_dictionary(header, laplacian, columns, springs):
     """M 8: of a block that follows none."""
+    first = min(columns, iterated(header, len(laplacian)))
     if header["key_seed"] == 1:
-        return exact_basis(laplacian, columns, springs)
-    start = (
-        cosine_columns(len(laplacian), 0, columns) if connected(laplacian) else noisy_columns(len(laplacian), columns)
-    )
-    return orthogonal_iterations(laplacian, start, springs + header["shift"], header["power"], header["key_iterations"])
+        return completed(exact_basis(laplacian, first, springs), columns)
+    start = cosine_columns(len(laplacian), 0, first) if connected(laplacian) else noisy_columns(len(laplacian), first)
+    diagonal = springs + header["shift"]
+    found = orthogonal_iterations(laplacian, start, diagonal, header["power"], header["key_iterations"])
+    return completed(found, columns)
+
+
+def iterated(header, rows):
+    """M 8.7: h."""
+    return -(-rows // 3) if header["gop_frames"] and rows <= header["coefficients"] else rows
+
+
+def completed(found, columns):
+    """M 8.7."""
+    rows, h = found.shape
+    if columns == h:
+        return found
+    both = found + np.eye(rows, h)
+    if least_pivot(both[:h]) < 2.0**-20:
+        raise NumericError("a dictionary cannot be completed")
+    others = np.eye(rows)[:, h:] - both @ np.linalg.solve(both[:h].T, found[h:].T)
+    return np.concatenate([found, others], axis=1)[:, :columns]
+
+
+def least_pivot(matrix):
+    """M 8.7: of an elimination without exchanges."""
+    rest, pivots = matrix.copy(), []
+    for k in range(len(rest)):
+        pivots.append(rest[k, k])
+        if not pivots[-1] > 0:
+            break
+        rest[k + 1 :] -= np.outer(rest[k + 1 :, k] / rest[k, k], rest[k])
+    return min(pivots)
 
 
 def hash_columns(rows, columns):
@@ -954,11 +983,14 @@ class Allowance:
         power, iterations = header["power"], header["iterations" if follows else "key_iterations"]
         if header["key_seed"] == 1 and not follows:
             power, iterations = 2, 128
-        whole = -(-columns // 8) * 8
-        require_limit(8 * (6 * rows * whole + 2 * whole**2), MOST_MEMORY + 1024 * self.vertices, "memory")
-        solution = 40 * rows * (0.6 * -(-columns // 32) + 0.035 * whole)
+        h = min(columns, iterated(header, rows))
+        whole, all_columns = -(-h // 8) * 8, -(-columns // 8) * 8
+        require_limit(8 * (6 * rows * all_columns + 2 * all_columns**2), MOST_MEMORY + 1024 * self.vertices, "memory")
+        solution = 40 * rows * (0.6 * -(-h // 32) + 0.035 * whole)
         rounding = rows * (3 + 0.5 * whole + whole**2 / 29)
         self.work += 5 * rows * whole + iterations * (power * solution + rounding)
+        if columns > h:  # M 8.7
+            self.work += (h**3 / 3 + (columns - h) * h * (h + rows)) / 15 + 2 * rows * columns
         require_limit(self.work, MOST_WORK + 3.2e4 * (self.before + self.vertices + self.shown), "work")
 
 
@@ -1214,12 +1246,13 @@ class Chain:
         self.mesh.allowance.spend(header, block.size, columns, follows)
         if not follows:
             return key_dictionary(header, block.laplacian, columns, springs)
-        had = self.subspace.shape[1]
-        start = np.concatenate([self.subspace, cosine_columns(block.size, had, max(had, columns))], axis=1)[:, :columns]
+        had, first = self.subspace.shape[1], min(columns, iterated(header, block.size))
+        start = np.concatenate([self.subspace, cosine_columns(block.size, had, max(had, first))], axis=1)[:, :first]
         if not connected(block.laplacian):
-            start = start + 2.0**-8 * hash_columns(block.size, columns)
+            start = start + 2.0**-8 * hash_columns(block.size, first)
         diagonal = springs + header["shift"]
-        return orthogonal_iterations(block.laplacian, start, diagonal, header["power"], header["iterations"])
+        found = orthogonal_iterations(block.laplacian, start, diagonal, header["power"], header["iterations"])
+        return completed(found, columns)
 
 
 def decode_blocks(mesh, blended):

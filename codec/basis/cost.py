@@ -46,6 +46,21 @@ def unpaid(steps: Steps) -> Matrix:
     return settle(steps, lambda price: None)
 
 
+def up_to(most: int, steps: Steps) -> Steps:
+    """`steps` of which nobody wants more than so many columns, whatever number they are priced for."""
+
+    def cut(price: Price) -> Price:
+        return lambda columns: price(min(columns, most))
+
+    while True:
+        try:
+            price = next(steps)
+        except StopIteration as end:
+            columns: Matrix = end.value
+            return columns
+        yield cut(price)
+
+
 def free(work: float) -> None:
     """Encoders of one's own meshes have no allowance to spend."""
 
@@ -83,6 +98,12 @@ def careful_dictionary_cost(fronts: Fronts, columns: int, power: int, iterations
     """Work of a dictionary whose columns are made orthonormal after every solution; no reflections."""
     rounding = CARE * onorm_cost(len(fronts.rows), columns)
     return iterations * power * (solve_cost(fronts, columns) + rounding)
+
+
+def completion_cost(rows: int, first: int, columns: int) -> float:
+    """Work of completing so many first columns to more."""
+    more = max(0, columns - first)
+    return (first**3 / 3.0 + more * first * (first + rows)) / 15.0 + 2.0 * rows * columns + 1500.0
 
 
 def iteration_memory(fronts: Fronts, columns: int) -> int:

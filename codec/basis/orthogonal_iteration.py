@@ -14,13 +14,24 @@ import numpy as np
 from bsm.bitstream.errors import NumericError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.cost import Steps, careful_dictionary_cost, dictionary_cost, reflection_cost, unpaid
+from bsm.codec.basis.cost import (
+    Steps,
+    careful_dictionary_cost,
+    completion_cost,
+    dictionary_cost,
+    reflection_cost,
+    unpaid,
+    up_to,
+)
 from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
 
 ONCE, TWICE = 1e-5, 1e-13
 """Independence (`factorize_gram` of solver/cholesky_qr.simd.c) of the columns of a panel from which Cholesky QR is
 orthogonal to 1e-11 after one pass; and of all columns, from which the whole is to 1e-9. Beyond that, Onorm after every
 solution."""
+
+LEAST_PIVOT = 2.0**-20
+"""From which columns are completed with the accuracy that is asked for."""
 
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
 """What makes a basis exact: the sum of the Rayleigh quotients of any first columns is then within a thousandth of that
@@ -119,6 +130,40 @@ def iteration_steps(factor: Factor, start: Matrix, *, power: int, iterations: in
         for _ in range(iterations * power):
             subspace = yield from onorm_steps(solve(factor, subspace, 1))
     return subspace
+
+
+def completed_steps(first: Steps, rows: int, most: int, width: int) -> Steps:
+    """The columns that `first` leads to, `most` of them at most, completed to `width`, with the price of each step.
+
+    See `completed`.
+    """
+    columns = yield from up_to(most, first)
+    if columns.shape[1] == width:
+        return columns
+    yield partial(completion_cost, rows, most)
+    return completed(columns, width)
+
+
+def completed(first: Matrix, width: int) -> Matrix:
+    """Orthonormal columns, shape (n, width): those of `first`, shape (n, h), and any that are at right angles to them.
+
+    They are a smooth function of `first`, each close to one of the rows behind the first h, and take a fraction of the
+    work of orthogonal iterations. What is coded of high frequencies is as even as noise, so that any such columns are
+    worth as much.
+
+    Raises
+    ------
+    NumericError
+        If the columns are, within their first rows, as good as the negative of some rows of the identity.
+
+    References
+    ----------
+    R. Schreiber, B. Parlett, "Block reflectors: theory and computation", 1988; this is one that is not symmetric.
+    """
+    whole, scratch = np.empty((len(first), width)), np.empty(_kernels.completion_space(first.shape[1]))
+    if not _kernels.complete_columns(np.ascontiguousarray(first), LEAST_PIVOT, scratch, whole):
+        raise NumericError("the columns of a dictionary cannot be completed")
+    return whole
 
 
 def follow_columns(previous: Matrix, width: int, noisy: bool) -> Matrix:

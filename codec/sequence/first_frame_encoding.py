@@ -115,7 +115,7 @@ def open_sequence(
     if step < finest:
         raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
     width = max(1, round(options.keep * prepared.size))
-    scheme = Scheme(prepared.blocks[0], FIRST_FRAME, Adaptive(width, single(step)))
+    scheme = Scheme(prepared.blocks[0], replace(FIRST_FRAME, whole=width), Adaptive(width, single(step)))
     blocks = encode_blocks([scheme], prepared.positions, threads=options.threads, progress=progress)
     header = Header(
         vertices=prepared.graph.size,

@@ -16,6 +16,7 @@ from bsm.codec.arrays import Matrix
 from bsm.codec.basis.cost import Steps, unpaid
 from bsm.codec.basis.laplacian import laplacian_of
 from bsm.codec.basis.orthogonal_iteration import (
+    completed_steps,
     exact_steps,
     first_columns,
     follow_columns,
@@ -74,6 +75,8 @@ class ChainRules:
         z, t_max, t_max of a block without predecessor, and delta.
     stiffness : float
         Of the springs in the prediction, see `codec.signal.predict`; 0: no prediction.
+    whole : int
+        Rows up to which a dictionary of all columns is iterated for a third of them, and completed; see `iterated`.
     trial : Trial
         What is tried in place of what the specification says.
     """
@@ -85,12 +88,17 @@ class ChainRules:
     key_iterations: int
     shift: float
     stiffness: float
+    whole: int = 0
     trial: Trial = AS_SPECIFIED
 
     @property
     def alone(self) -> bool:
         """Whether every block is a chain of its own, so that none knows of another."""
         return self.key_interval == 1
+
+    def iterated(self, rows: int) -> int:
+        """Columns of a dictionary of so many rows, at most, that follow from its Laplacian."""
+        return -(-rows // 3) if rows <= self.whole else rows
 
     def chain_starts(self, blocks: int) -> range:
         """Indices of the key blocks among `blocks` blocks."""
@@ -114,10 +122,13 @@ def even_interval(interval: int, blocks: int) -> int:
 def key_steps(rules: ChainRules, around: Suspended, width: int) -> Steps:
     """U of a block that follows no other, with `width` columns, and the price of each step."""
     block = around.laplacian.block
-    start = rules.trial.rounding(first_columns(block.size, width, rules.exact or in_pieces(block)))
+    most = rules.iterated(block.size)
+    start = rules.trial.rounding(first_columns(block.size, min(width, most), rules.exact or in_pieces(block)))
     if rules.exact:
-        return exact_steps(around.laplacian, start, around.springs)
-    return iteration_steps(around.factor, start, power=rules.power, iterations=rules.key_iterations)
+        steps = exact_steps(around.laplacian, start, around.springs)
+    else:
+        steps = iteration_steps(around.factor, start, power=rules.power, iterations=rules.key_iterations)
+    return completed_steps(steps, block.size, most, width)
 
 
 def in_pieces(block: Block) -> bool:
@@ -167,8 +178,11 @@ class Chain:
         rules, block, previous = self._rules, around.laplacian.block, self._subspace
         if previous is None or len(previous) != block.size:
             return key_steps(rules, around, width)
-        start = rules.trial.rounding(follow_columns(previous, width, in_pieces(block)))
-        return iteration_steps(around.factor, start, power=rules.power, iterations=rules.iterations, width=width)
+        most = rules.iterated(block.size)
+        first = min(width, most)
+        start = rules.trial.rounding(follow_columns(previous, first, in_pieces(block)))
+        steps = iteration_steps(around.factor, start, power=rules.power, iterations=rules.iterations, width=first)
+        return completed_steps(steps, block.size, most, width)
 
     def _tried(self, own: Dictionary, around: Surroundings, width: int) -> Steps:
         """A dictionary of somebody's own, whose price nobody knows."""

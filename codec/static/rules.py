@@ -78,4 +78,5 @@ def chain_rules(header: Header) -> ChainRules:
         key_iterations=header.key_iterations,
         shift=header.shift,
         stiffness=header.stiffness,
+        whole=header.coefficients if header.gop_frames else 0,
     )

@@ -102,7 +102,7 @@ SEQUENCES: dict[str, Good] = {
     "good-sequence-runs-low-delay": _runs("the same, frame by frame", (6, 2), (5, 3), (6, 2), low_delay=1, gop=4),
     "good-sequence-runs-many": _runs("more meshes than are kept", *((kind, 1) for kind in (*range(3, 13), 5, 12))),
     "good-sequence-splits": _parting("ORDER with copies, until some part"),
-    "good-sequence-moving": _moving("attributes that move, one of them in the first GOP only", *[9] * 8, gop=4),
+    "good-sequence-moving": _moving("attributes that move, one of them in the first GOP only", *[10] * 8, gop=4),
     "good-sequence-moving-ordered": _moving("the same, with an order of vertices", *[8] * 3, keep_order=True),
     "good-sequence-moving-low-delay": _moving("the same, frame by frame", *[8] * 7, low_delay=1, gop=5),
     "good-sequence-moving-runs": _moving("the same, and a mesh that returns", 6, 6, 5, 5, 6, 6, 6, gop=2),

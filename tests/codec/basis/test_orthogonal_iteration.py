@@ -2,13 +2,18 @@ import numpy as np
 import pytest
 import scipy.linalg
 
+from bsm.bitstream.errors import NumericError
+from bsm.codec.basis.cost import settle
 from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of, solve
 from bsm.codec.basis.orthogonal_iteration import (
+    completed,
+    completed_steps,
     cosine_columns,
     exact_basis,
     first_columns,
     hash_columns,
     householder_orthonormalize,
+    iteration_steps,
     onorm,
     orthogonal_iteration,
     resized,
@@ -155,3 +160,37 @@ def test_high_powers_lose_no_column(shift, power, width):
         expected = householder_orthonormalize(expected)
     assert np.allclose(found.T @ found, np.eye(width), atol=1e-10)
     assert np.allclose(found, expected, atol=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("rows", "first", "width"), [(2, 1, 2), (5, 2, 5), (33, 11, 30), (321, 107, 321), (322, 108, 200)]
+)
+def test_columns_are_completed_by_what_is_at_right_angles_to_them(rows, first, width):
+    columns = onorm(cosine_columns(rows, 0, first) + 0.3 * hash_columns(rows, first))
+    found = completed(columns, width)
+    assert np.array_equal(found[:, :first], columns)
+    assert np.allclose(found.T @ found, np.eye(width), rtol=0, atol=1e-13)
+    both = columns + np.eye(rows, first)
+    reflected = np.eye(rows) - both @ np.linalg.solve(both[:first].T, both.T)
+    assert np.allclose(found[:, first:], reflected[:, first:width], rtol=0, atol=1e-13)
+    assert np.allclose(completed(columns, first + 1), found[:, : first + 1], rtol=0, atol=0)
+
+
+def test_what_cannot_be_completed_is_an_error():
+    with pytest.raises(NumericError, match="completed"):
+        completed(-np.eye(6, 2), 5)
+
+
+def test_iterations_are_paid_for_the_columns_that_they_make_and_others_by_themselves():
+    block = whole(patch(15, 15).faces, 225)
+    factor = factorize(laplacian_of(block), 0.125)
+
+    def steps():
+        return iteration_steps(factor, cosine_columns(225, 0, 75), power=2, iterations=1)
+
+    own, told = [], []
+    first = settle(steps(), lambda price: own.append(price(75)))
+    found = settle(completed_steps(steps(), 225, 75, 225), lambda price: told.append(price(225)))
+    assert np.array_equal(found, completed(first, 225))
+    assert told[:-1] == own
+    assert 0 < told[-1] < own[0]

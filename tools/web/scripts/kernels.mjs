@@ -33,6 +33,7 @@ const SOURCES = [
     "bitstream/fields/light.c",
     "bitstream/fields/seen.c",
     "bitstream/fields/value.c",
+    "codec/basis/completion.simd.c",
     "codec/basis/cosines.simd.c",
     "codec/basis/orthogonal_iteration.simd.c",
     "codec/basis/solver/cholesky.simd.c",
@@ -68,7 +69,7 @@ const KERNELS = [
     "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
     "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
     "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
-    "find_fronts", "suspend", "factorize_fronts", "solve_columns", "resize_columns", "iteration_space", "iterate",
+    "find_fronts", "suspend", "factorize_fronts", "solve_columns", "resize_columns", "iteration_space", "iterate", "completion_space", "complete_columns",
     "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "smooth_all",
     "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_floats", "code_light", "place_values", "code_levels",
     "local_frames", "add_heights", "add_slides", "tangent_steps", "code_matrix", "project", "code_edges", "join_corners",
@@ -89,7 +90,7 @@ const LINK = [
 const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
 /** Kernels of sequences, and of split vertices. */
-const FRAMES = ["code_matrix", "project", "cotangents", "hold", "pull", "learn_around", "follow_rows"];
+const FRAMES = ["completion_space", "complete_columns", "code_matrix", "project", "cotangents", "hold", "pull", "learn_around", "follow_rows"];
 /** Kernels of attributes. */
 const ATTRIBUTES = ["code_edges", "join_corners", "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces"];
 /** Kernels of light grids. */

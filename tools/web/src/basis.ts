@@ -8,6 +8,8 @@ import { areFinite } from "./numbers";
 /** Independence of the columns from which one pass of Cholesky QR is enough, and from which two are. */
 const ONCE = 1e-5;
 const TWICE = 1e-13;
+/** From which pivot on columns are completed (M 8.7). */
+const LEAST_PIVOT = 2 ** -20;
 /** What makes a basis exact (M 8.5). */
 export const EXACT: Schedule = [2, 128];
 const EXACT_SHIFT = 2 ** -5;
@@ -208,6 +210,20 @@ function solveOnorm(memory: Memory, block: Block, factor: Factor, subspace: Doub
 function householder(memory: Memory, columns: Doubles, q: Doubles): void {
     if (!areFinite(columns.view)) throw new NumericError("the subspace iteration produced a value that is not finite");
     memory.scratch(() => memory.run("householder", columns, memory.doubles(3 * columns.width), q));
+}
+
+/** Columns, and any that are at right angles to them (M 8.7); `width` of them. */
+export function completed(memory: Memory, first: Doubles, width: number): Doubles {
+    if (first.width === width) return first;
+    const columns = memory.doubles(first.rows * width, width);
+    const scratch = memory.doubles(memory.call("completion_space", BigInt(first.width)));
+    if (memory.call("complete_columns", first, LEAST_PIVOT, scratch, columns) === 0) throw new NumericError("the columns of a dictionary cannot be completed");
+    return columns;
+}
+
+/** Nanoseconds that completing so many first columns takes (M 14.3). */
+export function completionCost(rows: number, first: number, columns: number): number {
+    return columns > first ? (first ** 3 / 3 + (columns - first) * first * (first + rows)) / 15 + 2 * rows * columns : 0;
 }
 
 /** The exact basis of L + springs (M 8.5). */

@@ -1,7 +1,7 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
 import { begun } from "./begun";
 import {
-    degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, suspend, whole,
+    completed, completionCost, degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, suspend, whole,
     type Factor, type Schedule,
 } from "./basis";
 import { edgesOf, makeBlock, membersOf, type Block, type Blocks } from "./blocks";
@@ -40,12 +40,19 @@ function scheduleOf(header: Header, follows: boolean): Schedule {
     return isExact(header, follows) ? EXACT : [header.power, iterationsOf(header, follows)];
 }
 
+/** Columns of a dictionary, at most, that iterations give; others complete these (M 8.7). */
+function iterated(header: Header, rows: number): number {
+    return header.gopFrames > 0 && rows <= header.coefficients ? Math.ceil(rows / 3) : rows;
+}
+
 /** Take the work and the memory of a dictionary of so many columns from what is allowed (M 14.2 to M 14.4). */
 export function spendOn(allowance: Allowance, header: Header, block: Block, columns: number, follows: boolean): void {
     const [power, iterations] = scheduleOf(header, follows);
     const rows = block.size;
     allowance.hold(8 * (6 * rows * whole(columns) + 2 * whole(columns) ** 2));
-    allowance.spend(block.fronts.work / 7 + 5 * rows * whole(columns) + iterations * (power * solutionCost(block, columns) + roundingCost(rows, columns)));
+    const first = Math.min(columns, iterated(header, rows));
+    const iterating = iterations * (power * solutionCost(block, first) + roundingCost(rows, first));
+    allowance.spend(block.fronts.work / 7 + 5 * rows * whole(first) + iterating + completionCost(rows, first, columns));
 }
 
 /** U of a block that follows none (M 8.3 to M 8.5); `held` is the factor of L + springs + delta, where there is one. */
@@ -58,10 +65,11 @@ export function keyDictionary(
     allowance: Allowance,
     held?: Factor,
 ): Doubles {
-    if (isExact(header, false)) return exactBasis(memory, block, springs, width, allowance);
+    const first = Math.min(width, iterated(header, block.size));
+    if (isExact(header, false)) return completed(memory, exactBasis(memory, block, springs, first, allowance), width);
     const factor = held ?? factorize(memory, block, springs.map((spring) => spring + header.shift));
-    const start = firstColumns(memory, block, width, false);
-    return orthogonalIteration(memory, block, factor, start, width, scheduleOf(header, false), allowance);
+    const start = firstColumns(memory, block, first, false);
+    return completed(memory, orthogonalIteration(memory, block, factor, start, first, scheduleOf(header, false), allowance), width);
 }
 
 function isExact(header: Header, follows: boolean): boolean {
@@ -257,8 +265,9 @@ export class ChainDecoder {
         const { header, memory, allowance } = this;
         const previous = this.predecessor(block);
         if (!previous) return keyDictionary(memory, header, block, springs.view.slice(), width, allowance, factor);
-        const start = followColumns(memory, block, previous, width);
-        return orthogonalIteration(memory, block, factor, start, width, scheduleOf(header, true), allowance);
+        const first = Math.min(width, iterated(header, block.size));
+        const start = followColumns(memory, block, previous, first);
+        return completed(memory, orthogonalIteration(memory, block, factor, start, first, scheduleOf(header, true), allowance), width);
     }
 
     /** Move rows along their normals (M 11.3, M 11.4). */

@@ -10,8 +10,8 @@ import { WEB } from "./shared";
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [21300, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "static meshes": [59400, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
-    "sequences": [55600, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
-    "everything": [90700, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    "sequences": [57200, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
+    "everything": [92200, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8900, ["three.js", "pool.js"]],
 };
 
