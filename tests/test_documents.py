@@ -152,6 +152,7 @@ def filled(command):
     return command
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "block"), BLOCKS, ids=[f"{n}-{b[:30]}" for n, b in BLOCKS])
 def test_blocks(name, block, folder):
     if name in PAGES and folder.name.startswith("real"):
@@ -183,6 +184,7 @@ def _run_by_ci():
     return done.stdout.splitlines()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "command"), COMMANDS)
 def test_commands(name, command, folder):
     if name in PAGES and folder.name.startswith("real"):

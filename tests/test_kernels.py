@@ -26,6 +26,7 @@ def test_stubs_are_fresh(package, tmp_path):
     assert stub.read_text() == ours.read_text(), "run tools/build_kernels.sh"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not (shutil.which("clang") and shutil.which("wasm-ld")), reason="needs clang and lld")
 def test_kernels_of_the_bitstream_are_complete_as_webassembly(tmp_path):
     """They compile, and link without any library."""

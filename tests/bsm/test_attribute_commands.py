@@ -178,6 +178,7 @@ def test_compare_tells_what_is_not_there_any_more(tmp_path, capsys):
     assert "texcoord: not there any more\n" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.real
 @pytest.mark.parametrize(
     ("name", "bounds"),

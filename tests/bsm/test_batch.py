@@ -169,6 +169,7 @@ def test_a_folder_without_a_name(tmp_path):
 # ------------------------------------------------------------------------------------------------------------ signals
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_a_signal_leaves_no_half_file_and_no_process(number, code, jobs, tmp_path):
@@ -243,6 +244,7 @@ def shell(script, *arguments):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "script",
     [
@@ -287,6 +289,7 @@ def on_a_terminal(*arguments):
     return shown.decode()
 
 
+@pytest.mark.slow
 def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     write_mesh(tmp_path / "a.npz", knot(200_000))
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=0.3", "--threads", "1"]
@@ -300,6 +303,7 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     assert on_a_terminal(*words, "-f", "-q") == ""
 
 
+@pytest.mark.slow
 def test_a_bar_for_sequences(tmp_path):
     mesh = knot(30_000)
     positions, faces = mesh.positions, mesh.faces

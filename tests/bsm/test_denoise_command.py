@@ -174,6 +174,7 @@ def test_the_command_knows_all_choices_of_the_library():
     assert set(GOALS) <= set(LIBRARY_GOALS)
 
 
+@pytest.mark.slow
 def test_no_more_than_a_few_frames_are_held(frames):
     held = most = 0
 
@@ -239,6 +240,7 @@ def test_outputs_are_not_replaced_unasked(noisy_file, tmp_path):
     assert (tmp_path / "out.ply").read_bytes() == b"mine"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_noise_is_as_strong_as_asked_for_and_seeded(tmp_path, kind):
     write_mesh(tmp_path / "clean.npz", CLEAN)

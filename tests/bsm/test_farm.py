@@ -77,6 +77,7 @@ def larger(tmp_path_factory):
     return sorted(map(str, folder.iterdir()))
 
 
+@pytest.mark.slow
 def test_a_worker_that_is_killed_loses_nothing_and_repeats_nothing(cluster, larger, tmp_path):
     distributed = pytest.importorskip("distributed")
     output, report = tmp_path / "out", tmp_path / "report.json"

@@ -89,6 +89,7 @@ def test_limits_hold_for_what_is_compared():
         bsm.show("/dev/null")
 
 
+@pytest.mark.slow
 def test_functions_show_progress_in_a_notebook(tmp_path):
     """A bar that is drawn while there is work and goes away; none outside of notebooks."""
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")

@@ -92,6 +92,7 @@ def run(found, folder, monkeypatch):
     assert [doctest.DocTestRunner(optionflags=FLAGS).run(test).failed for test in tests] == [0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_a_page_can_be_read_alone(name, folder, monkeypatch):
     if name == "show":

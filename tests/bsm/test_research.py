@@ -37,6 +37,7 @@ def test_the_codecs_own_dictionary_and_predictor_change_nothing():
     assert stream == research.MARK + research.encode(MESH, step=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "idea", [research.Idea(dictionary=eigenvectors), research.Idea(predictor=constant)], ids=["dictionary", "predictor"]
 )

@@ -175,6 +175,7 @@ def test_following_needs_no_whole(tmp_path, capsys):
         assert "--follow" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 @needs_packages
 @pytest.mark.parametrize("way", ["file", "pipe"])
 def test_what_is_still_being_written_is_watched(way, tmp_path):
@@ -262,6 +263,7 @@ def test_original_of_a_sequence_is_refused(tmp_path, capsys):
     assert "one input" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 @needs_packages
 @pytest.mark.parametrize("tests", ["vectors", "hostile", "browser", "firefox"])
 def test_javascript(tests):
@@ -350,6 +352,7 @@ def test_damage_is_survived_as_in_python(tmp_path):
     javascript("recovery", BSM_DAMAGED=str(tmp_path))
 
 
+@pytest.mark.slow
 @needs_packages
 @pytest.mark.real
 def test_real_sequence_plays(meshes, tmp_path):
@@ -360,6 +363,7 @@ def test_real_sequence_plays(meshes, tmp_path):
     javascript("browser", BSM_SEQUENCE=str(stream))
 
 
+@pytest.mark.slow
 @needs_packages
 def test_what_is_built_is_what_the_sources_build():
     run = subprocess.run(["node", "scripts/build.mjs", "--check"], cwd=WEB, capture_output=True, text=True)

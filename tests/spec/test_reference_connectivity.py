@@ -183,6 +183,7 @@ def test_damaged_order_and_labels(mesh: tuple[Faces, int], labels: list[int], da
     check_labels(damaged(payload, data), graph, neighbours, parts)
 
 
+@pytest.mark.slow
 @pytest.mark.real
 @pytest.mark.parametrize("name", ["twelve_dodecahedron", "c3d_spot"])
 def test_real_meshes(meshes: Path, name: str) -> None:

@@ -128,6 +128,7 @@ def test_levels(reference, mesh, axes, most, kind, seed, chunk, borders, data):
         assert outcome(plain(reader), payloads) == expected
 
 
+@pytest.mark.slow
 @pytest.mark.real
 @pytest.mark.parametrize(("name", "bits"), [("twelve_dodecahedron", 14), ("c3d_spot", 12)])
 def test_real_meshes(reference, meshes: Path, name: str, bits: int):

@@ -99,6 +99,7 @@ def test_values_of_faces(reference, mesh, components, most, kind, seed, chunk, d
         assert outcome(rows_of(reader), payloads) == expected
 
 
+@pytest.mark.slow
 @pytest.mark.real
 @pytest.mark.parametrize("kind", ["color", "texcoord", "normal"])
 def test_a_real_mesh(reference, meshes: Path, kind: str):

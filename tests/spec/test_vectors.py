@@ -55,6 +55,7 @@ def test_product(vector):
     assert try_product(vector) is None
 
 
+@pytest.mark.slow
 @named(VECTORS)
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_reference_decoder(vector, reference):
@@ -150,6 +151,7 @@ def test_threads_and_events_change_nothing(vector):
     assert vector.complaint(positions, whole.faces, arrays) is None
 
 
+@pytest.mark.slow
 @named(GOOD)
 def test_every_truncation_is_refused(vector):
     data = vector.stream.read_bytes()

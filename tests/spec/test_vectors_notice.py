@@ -29,6 +29,7 @@ def decoded(folder: Path, name: str) -> dict[str, np.ndarray] | None:
         return {key: found[key] for key in found.files}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", CHANGES)
 def test_it_is_noticed(change, tmp_path):
     file, which, before, after, name = CHANGES[change]

@@ -37,6 +37,7 @@ def test_the_readme_shows_what_was_measured() -> None:
     assert set(figures) == {"automatic", *denoise.TRIALS} - {"scoreboard"}  # that is for changes to come
 
 
+@pytest.mark.slow
 @pytest.mark.real
 def test_the_measured_figures_are_those_of_the_program(meshes: Path) -> None:
     figures = json.loads(tables.FIGURES.read_text(encoding="utf-8"))

@@ -69,6 +69,7 @@ def test_sequences(tmp_path):
     assert result["goal"]["kg"] <= 0.15
 
 
+@pytest.mark.slow
 def test_assets_are_drawn(tmp_path):
     pytest.importorskip("matplotlib")
     write_mesh(tmp_path / "spot_uv.obj", painted())

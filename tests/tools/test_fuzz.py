@@ -24,6 +24,7 @@ def change_a_byte(data, max_size):
     return bytes(changed[:max_size])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TARGETS)
 def test_targets_find_nothing_in_their_seeds(name):
     found = seeds(name, FOLDER)

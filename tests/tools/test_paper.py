@@ -99,6 +99,7 @@ def quick(tmp_path_factory) -> tuple[str, dict]:
     return path.read_text(), json.loads(ran.stdout)
 
 
+@pytest.mark.slow
 def test_every_table_and_figure_is_there(quick):
     text, data = quick
     outline = Outline()

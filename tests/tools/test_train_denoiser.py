@@ -30,6 +30,7 @@ def test_creases_are_kept() -> None:
     assert (np.abs(face_geometry(positions, faces).normals).max(axis=1) > 0.99).mean() > 0.95
 
 
+@pytest.mark.slow
 def test_training_learns_and_is_repeated() -> None:
     cases = []
     for seed in range(3):

@@ -39,6 +39,7 @@ def test_the_law_says_of_every_frame_type_who_charges_it():
     assert all(row[2].strip() for row in rows if row[1].strip() != "nothing")
 
 
+@pytest.mark.slow
 @linux
 def test_what_is_as_large_as_its_bytes_allow_stays_within_the_law():
     decode_all(next(iter(bases().values())), "whole", Limits())  # what is loaded once is nobody's fault

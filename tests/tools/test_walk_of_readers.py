@@ -27,6 +27,7 @@ def test_numbers_as_large_as_they_can_be_are_refused_within_the_bounds():
     assert not list(problems(list(numbers())[::60], "default"))
 
 
+@pytest.mark.slow
 @linux
 def test_files_that_are_large_for_their_bytes_stay_within_the_bounds():
     warm_up()

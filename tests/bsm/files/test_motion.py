@@ -75,6 +75,7 @@ def test_an_animation_is_sampled_at_the_rate_that_is_asked_for():
     assert len(slow) == 13 and np.allclose(slow, fast[::2], atol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["skinned", "morphing"])
 def test_a_moving_glb_through_the_program(tmp_path, capsys, name):
     stream = tmp_path / "a.bsm"

@@ -52,6 +52,7 @@ def test_it_beats_a_fixed_number_of_iterations(shape) -> None:  # type: ignore[n
     assert theta(clean, denoised, faces) < theta(clean, guided_normal_filtering(noisy, faces, 20), faces)
 
 
+@pytest.mark.slow
 def test_the_goal_decides_between_normals_and_vertices() -> None:
     clean, faces = sphere(20)
     noisy = gaussian_along_normals(clean, faces, 0.3, seed=7)
@@ -126,6 +127,7 @@ def _ratio(partners: Partners, names: tuple[str, str]) -> float:
     return theta(original.positions, denoised, mesh.faces) / BEST_BY_ORACLE[names]
 
 
+@pytest.mark.slow
 @pytest.mark.real
 @pytest.mark.parametrize("clean", ["twelve_dodecahedron", "fr_chinese_lion"])
 def test_it_is_as_good_as_the_best_fixed_scheme_with_an_oracle(partners: Partners, clean: str) -> None:

@@ -72,6 +72,7 @@ def test_noise_that_grows_with_the_distance_is_found_with_its_growth() -> None:
     assert len(finding.on(np.arange(7)).growth) == 7  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sigma", [0.05, 0.15])
 def test_rounded_positions_are_known_for_it_and_stay_in_their_cells(sigma: float) -> None:
     clean, faces = sphere(30)

@@ -58,6 +58,7 @@ def test_too_few_frames_come_back_as_they_are() -> None:
     assert TemporalFilter(FACES, len(CLEAN))(frames).frames is frames
 
 
+@pytest.mark.slow
 def test_a_sequence_is_better_than_its_frames() -> None:
     frames = turning(16)
     noisy = with_noise(frames, 0.3)

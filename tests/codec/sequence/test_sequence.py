@@ -400,6 +400,7 @@ def made(monkeypatch):
     return count
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("threads", [1, 3])
 def test_dictionaries_without_room_are_made_for_every_gop(monkeypatch, way, threads):

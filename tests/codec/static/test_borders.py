@@ -40,6 +40,7 @@ def header_of(data):
     return reader.next_packet()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("mesh", "keywords"),
     [

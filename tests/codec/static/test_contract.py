@@ -215,6 +215,7 @@ def test_a_grid_gives_exactly_the_nearest_places(bits: int) -> None:
     assert np.abs(decoded - wanted).max() <= 0.5 * step + 1e-6
 
 
+@pytest.mark.slow
 def test_many_components_cost_what_their_vertices_cost() -> None:
     many = together(*(torus(18, 12) for _ in range(100)))
     encoder = Encoder(many)

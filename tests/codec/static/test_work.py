@@ -189,6 +189,7 @@ def test_an_encoder_makes_nothing_that_decoders_refuse():
         encode(soup(1500, 6000), EncodeOptions(block_size=1500, coefficients=4))
 
 
+@pytest.mark.slow
 def test_a_promise_is_kept_by_a_grid_where_blocks_would_be_refused():
     stream = encode(soup(1500, 6000))
     assert len(decode(stream).faces) > 5000
