@@ -17,7 +17,7 @@ import math
 import struct
 import sys
 import zlib
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from pathlib import Path
 
 import msgpack
@@ -1344,6 +1344,10 @@ class Field:
             length, at = payload_varint(data, at)
             require(at + length <= len(data), "a GOP ends inside its basis")
             self.basis, at = data[at : at + length], at + length
+        self.back = 0
+        if method == 2:
+            self.back, at = payload_varint(data, at)
+            require(self.back == 0 or self.back >= frames, "frames that start from themselves")  # S 2.6
         self.levels = data[at:]
 
 
@@ -1590,6 +1594,7 @@ class Track:
     def __init__(self, parts, first_frame, base):
         self.width, self.base, self.history, self.inherited = first_frame.shape[1], base, None, None
         self.shape = first_frame.shape
+        self.kept = min(64, max(2, 2**19 // len(first_frame))) if base is None else 2  # S 7.3
         bends = [part.known(first_frame, bent=base is None) for part in parts]
         self.bends, self.first = bends, [np.vstack((around, known))[:, : self.width] for known, around in bends]
         self.start = self.first if base is None else [np.zeros_like(one) for one in self.first]
@@ -1620,30 +1625,34 @@ class Track:
         d, columns, self.inherited = self.width, self.width * gop.frames, None
         shapes = [(part.basis.shape[1], columns) for part in parts]
         if gop.method == 1:
-            self.history = [LevelModel(), [], [self.start, self.start]]
+            self.history = [LevelModel(), [], [self.start]]
         require(self.history is not None, "a frame refers to one that is not there")
-        model, references, shown = self.history
-        if not references or references[0].shape[1] != columns:  # S 7.3
+        model, references, kept = self.history
+        back = field.back if field else 0
+        require(back <= len(kept), "a frame refers to one that is not kept")
+        if not references or references[0].shape[1] != columns:  # S 7.4
             references = [np.zeros(shape, int) for shape in shapes]
         matrices = [np.zeros(shape, int) for shape in shapes]
         if field is not None:
             matrices = model.decode(field.levels, shapes, references)
         cosines, placed = cosines_over_time(gop.frames), np.zeros((self.shape[0], columns))
-        before, latest = shown[-2:]
+        ages = [min(age, len(kept) - 1) for age in (0, 1, 2, 3, 5, 8, 13, 21, 34) if age < self.kept]
+        starts = [kept[back - 1 - t if back else 0] for t in range(gop.frames)]
         told = []
         for k, part in enumerate(parts):
             ends, count = placed[part.around], len(part.around)
-            base = np.zeros((count + shapes[k][0], columns))
-            base[:, :d] = cosines[:, 0].sum() * latest[k]
+            base = np.hstack([sum(cosines[t, f] * starts[t][k] for t in range(gop.frames)) for f in range(gop.frames)])
             own = base[count:]
             if field is not None:
-                known = np.concatenate([self.first[k], latest[k], latest[k] - before[k]], axis=1)
-                loop = Loop(3 * d, columns).begin(known[:count], ends - base[:count], field.step)
+                changes = [kept[late][k] - kept[early][k] for late, early in pairwise(ages)]
+                away = [kept[back - 1][k] - kept[0][k]] if back else []
+                known = np.hstack([self.first[k], kept[0][k], *changes, *away])
+                loop = Loop(known.shape[1], columns).begin(known[:count], ends - base[:count], field.step)
                 own = own + loop.decode(known[count:], matrices[k], field.step)
             told.append(np.vstack((ends, own)))
             part.place(placed, own)
         frames = [[over_time(cosines[t], own, d) for own in told] for t in range(gop.frames)]
-        self.history = [model, matrices, shown[-1:] + frames]
+        self.history = [model, matrices, (frames[::-1] + kept)[: self.kept]]
         return [over_time(cosines[t], placed, d) for t in range(gop.frames)]
 
     def values(self, declared, change):

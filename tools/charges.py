@@ -80,6 +80,7 @@ KINDS: dict[str, Callable[[], bytes]] = {
             "gop-300",
             "gop-components",
             "gop-keys",
+            "gop-next",
             "gop-part",
             "gop-still",
             "grid",

@@ -31,7 +31,7 @@ class GopMethod(IntEnum):
     KEY_FRAME = 1
     """Cosines over time, predicted from the sequence's first frame."""
     NEXT_FRAME = 2
-    """Cosines over time, predicted from the two frames before as well."""
+    """Cosines over time, predicted from frames before as well."""
     LEARNT_NEXT = 3
     """As `LEARNT`, predicted from the components of the GOP before as well."""
 
@@ -65,6 +65,8 @@ class GopField:
         Coded levels of a learnt basis; empty otherwise.
     levels : bytes
         Coded levels of all blocks.
+    back : int
+        Next frames start from those so many frames before each, at least as many as they are; 0: all from the latest.
     """
 
     width: int
@@ -73,6 +75,7 @@ class GopField:
     exponents: npt.NDArray[np.int32]
     basis: bytes
     levels: bytes
+    back: int = 0
 
     @property
     def size(self) -> int:
@@ -120,8 +123,9 @@ def write_gop_body(body: GopBody, run: int = 0, numbers: Sequence[int] = ()) -> 
     """Method and run (a byte), T, with a learnt basis the stretches, attributes, positions.
 
     Of attributes there are their count, and each one's number, length and field; `numbers`, ascending, are those of
-    the attributes that move. A field is its step (float 32), of a learnt basis r, the exponents and its coded length;
-    all levels. Counts are varints; an exponent is the zigzag of its difference to the one before.
+    the attributes that move. A field is its step (float 32), of a learnt basis r, the exponents and its coded length,
+    of next frames what they start from; all levels. Counts are varints; an exponent is the zigzag of its difference
+    to the one before.
     """
     positions, *attributes = (_write_field(field, body.method) for field in body.fields)
     if not positions:
@@ -149,6 +153,8 @@ def _write_field(field: GopField, method: GopMethod) -> bytes:
         differences = np.diff(field.exponents, prepend=0).tolist()
         parts += [write_varint(2 * d if d >= 0 else -2 * d - 1) for d in differences]
         parts += [write_varint(len(field.basis)), field.basis]
+    elif method is GopMethod.NEXT_FRAME:
+        parts.append(write_varint(field.back))
     return b"".join([*parts, field.levels])
 
 
@@ -218,7 +224,10 @@ def _parse_field(data: bytes, body: GopBody, width: int) -> GopField:
     if not 0.0 < step < math.inf:
         raise CorruptError(f"a GOP with the step {step}")
     if not body.method.has_basis:
-        return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest())
+        back = cursor.varint() if body.method is GopMethod.NEXT_FRAME else 0
+        if 0 < back < body.frames:
+            raise CorruptError(f"{body.frames} frames that start from those {back} before them")
+        return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest(), back)
     components = cursor.varint()
     if components > width * body.told:
         raise CorruptError(f"{components} components for {body.told} frames")

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.codec.basis.cost import solve_cost
 from bsm.codec.sequence.dictionaries import Site
 from bsm.codec.sequence.history import INHERITED
 from bsm.codec.sequence.shown import BATCH
+from bsm.codec.sequence.tracks import LEAST_KEPT, frames_kept, lags
 from bsm.codec.static.work import LEVEL
 
 FRAME, SHOWN = 2.5e4, 11.0 / 3.0
@@ -17,6 +20,8 @@ LOOP, AROUND = 66.0, 10.0
 """Of a column in a row of a closed loop, and of a vertex around that it begins with."""
 INHERITED_LOOP, INHERITED_AROUND = 90.0, 10.0
 """What these cost more where components of the GOP before are known."""
+REFERRED = 1.1
+"""Of two columns that are known of low-delay frames, in a row, and of a vertex around."""
 
 
 def gop_memory(vertices: int, body: GopBody, sites: tuple[Site, ...] = ()) -> float:
@@ -33,7 +38,8 @@ def gop_memory(vertices: int, body: GopBody, sites: tuple[Site, ...] = ()) -> fl
         kept = sum(min(field.components, INHERITED) + needed for field in body.fields)
         left = 8.0 * kept * (vertices + around)
     else:
-        left = width * (4.0 * body.frames * vertices + 8.0 * (body.frames + 4.0) * around)
+        frames = 24.0 * frames_kept(vertices) * (vertices + around)
+        left = frames + width * (4.0 * body.frames * vertices + 8.0 * (body.frames + 4.0) * around)
     return vertices * (12.0 * _columns(body) + shown) + sum(bases) + left
 
 
@@ -49,11 +55,21 @@ def gop_cost(sites: tuple[Site, ...], vertices: int, given: int, body: GopBody) 
     loop, around = (LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND) if more else (LOOP, AROUND)
     fields = sum(_part_cost(site, _columns(body), loop, around) for site in sites)
     work = PART * len(sites) + fields + frames * FRAME
+    if not body.method.has_basis:
+        rows = sum(site.width + len(site.around) for site in sites)
+        work += REFERRED * rows * sum(count**2 for count in _known(vertices, body))
     for field in body.fields:
         width, columns = field.width, field.components
         basis = frames * width * columns * (10.0 + 2.0 * columns) if body.method.has_basis else 0.0
         work += basis + frames * width * (given * SHOWN + vertices * columns / 15.0)
     return work
+
+
+def _known(vertices: int, body: GopBody) -> Iterator[int]:
+    """Columns that are known of each field of low-delay frames."""
+    for number, field in enumerate(body.fields):
+        kept = LEAST_KEPT if number else frames_kept(vertices)
+        yield field.width * (2 + len(lags(kept)) + (field.back > 0))
 
 
 def _columns(body: GopBody) -> int:

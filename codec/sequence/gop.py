@@ -41,6 +41,9 @@ Frame: TypeAlias = tuple[Matrix, ...]
 
 SINGLE = 14
 """Bytes of the GOP of a single frame besides its levels, about."""
+LIKE = 0.5
+"""Where frames that were kept are nearer than this, in squares and times what the latest one is, those to come start
+from them."""
 TRIED = 8
 """Frames that are coded one by one before that is given up as dearer than a basis."""
 
@@ -85,8 +88,13 @@ class GopEncoder:
         self.step = options.step
         self.rounds = ROUNDS
         self.latest: Matrix | None = None
+        self._begin()
+
+    def _begin(self) -> None:
+        """Refer to no GOP that has come."""
         self.inherited: Inherited | None = None
         self._history = FrameHistory(self._track)
+        self._shown: list[Matrix] = []
 
     @property
     def step(self) -> float:
@@ -106,8 +114,9 @@ class GopEncoder:
     def beside(self, track: Track) -> GopEncoder:
         """One of another track, by the same dictionaries, that begins anew."""
         twin = copy(self)
-        twin._track, twin._history = track, FrameHistory(track)
-        twin.latest, twin.inherited, twin.rounds = None, None, ROUNDS
+        twin._track = track
+        twin._begin()
+        twin.latest, twin.rounds = None, ROUNDS
         return twin
 
     def stay(self, frames: int, method: GopMethod) -> None:
@@ -119,11 +128,12 @@ class GopEncoder:
             return
         self.inherited = None
         if method is GopMethod.KEY_FRAME:
-            self._history = FrameHistory(self._track)
+            self._begin()
         history = self._history
         history.expect(frames)
         levels = [np.zeros_like(levels) for levels in history.levels]
         history.commit(levels, [history.base(k) for k in range(len(levels))])
+        self._shown = []
 
     def method_with_basis(self, together: int) -> GopMethod:
         """That of the next GOP, where so many may hang together."""
@@ -182,9 +192,10 @@ class GopEncoder:
     def _next(self, frames: Matrix, step: float, key: bool, progress: Progress) -> GopField:
         self.inherited = None
         if key:
-            self._history = FrameHistory(self._track)
+            self._begin()
         history, width, columns = self._history, self._track.width, self._track.width * len(frames)
-        history.expect(len(frames))
+        back = self._likest(frames)
+        history.expect(len(frames), back)
         basis = held_cosines(width, len(frames))
         wanted = trajectories(frames) @ basis.reshape(-1, columns)
         field = np.zeros_like(wanted)
@@ -199,7 +210,19 @@ class GopEncoder:
         payload = writer.finish()
         history.commit(writer.levels, told)
         self.latest = np.array(list(shown_frames(field, 0, basis)))
-        return GopField(width, step, columns, np.empty(0, np.int32), b"", payload)
+        self._shown = [*self.latest[::-1], *self._shown][: self._track.kept]
+        return GopField(width, step, columns, np.empty(0, np.int32), b"", payload, back)
+
+    def _likest(self, frames: Matrix) -> int:
+        """How far before them the kept frames are that they are so like that it is better to start from these."""
+        count = len(frames)
+        backs = range(count, len(self._shown) + 1)
+        if not backs:
+            return 0
+        off = [sum(_apart(frames[t], self._shown[back - 1 - t]) for t in range(count)) for back in backs]
+        latest = sum(_apart(frame, self._shown[0]) for frame in frames)
+        best = int(np.argmin(off))
+        return backs[best] if off[best] < LIKE * latest else 0
 
     def _transformed(
         self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress
@@ -277,7 +300,7 @@ class GopDecoder:
         told = list(zip(histories, body.fields, strict=True))
         read = []
         for history, field in told:
-            history.expect(body.frames)
+            history.expect(body.frames, field.back)
             levels = self.setting.empty_levels(field.width * body.frames)
             if field.components:
                 decode_levels(history.bank, field.levels, levels, history.levels)
@@ -348,6 +371,11 @@ class GopDecoder:
 def _nothing(field: GopField, body: GopBody) -> Matrix:
     """The basis of a field of which nothing is told."""
     return np.empty((field.width * body.told, 0))
+
+
+def _apart(one: Matrix, other: Matrix) -> float:
+    """Sum of the squares of what two frames differ by."""
+    return float(np.square(one - other).sum())
 
 
 def _energy(field: Matrix, basis: Matrix) -> float:

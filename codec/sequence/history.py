@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from bsm.bitstream.coefficients.matrices import make_level_bank
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
+from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.sequence.row_prediction import Loop, time_cosines
-from bsm.codec.sequence.tracks import Track
+from bsm.codec.sequence.tracks import Track, lags
 
 INHERITED = 24
 """Components of a GOP that those of the next one are predicted from: what moved comes again, mixed in another way."""
@@ -84,11 +87,22 @@ class FrameHistory:
         self.levels: list[Levels] = []
         self._track = track
         self._cosines = np.empty((0, 0))
-        self._latest = track.start
-        self._before = track.start
+        self._back = 0
+        self._kept = [track.start]  # the latest frame first
 
-    def expect(self, frames: int) -> None:
-        """Get ready for so many frames; where those before were not as many, their levels are nothing like these."""
+    def expect(self, frames: int, back: int = 0) -> None:
+        """Get ready for so many frames, which start from those so far back, or with 0 all from the latest.
+
+        Where those before were not as many, their levels are nothing like these.
+
+        Raises
+        ------
+        CorruptError
+            If frames that far back are not kept.
+        """
+        if back > len(self._kept):
+            raise CorruptError(f"a frame refers to one {back} before it, where {len(self._kept)} are kept")
+        self._back = back
         if len(self._cosines) == frames:
             return
         self._cosines = time_cosines(frames)
@@ -101,19 +115,27 @@ class FrameHistory:
         -------
         loop : Loop
             Has learnt how they have changed there.
-        known : float64 array, shape (c_i, 3d)
+        known : float64 array, shape (c_i, k)
         base : float64 array, shape (c_i, dT)
             What the change is added to.
         """
-        first, latest, base, count = self._track.first[block], self._latest[block], self.base(block), len(ends)
-        known = np.hstack((first, latest, latest - self._before[block]))
-        loop = Loop(known.shape[1], ends.shape[1]).begin(known[:count], ends - base[:count], step)
-        return loop, known[count:], base[count:]
+        kept, base, count = [frame[block] for frame in self._kept], self.base(block), len(ends)
+        ages = [min(lag, len(kept) - 1) for lag in (0, *lags(self._track.kept))]
+        known = [self._track.first[block], kept[0], *(kept[late] - kept[early] for late, early in pairwise(ages))]
+        if self._back:
+            known.append(kept[self._back - 1] - kept[0])
+        columns = np.hstack(known)
+        loop = Loop(columns.shape[1], ends.shape[1]).begin(columns[:count], ends - base[:count], step)
+        return loop, columns[count:], base[count:]
 
     def base(self, block: int) -> Matrix:
-        """The latest frame in all frames, around a block and its coefficients, shape (k_i + c_i, dT)."""
-        latest = self._latest[block]
-        base = np.zeros((len(latest), latest.shape[1] * len(self._cosines)))
+        """What frames start from, around a block and its coefficients, shape (k_i + c_i, dT)."""
+        frames = len(self._cosines)
+        if self._back:
+            kept = np.array([self._kept[self._back - 1 - frame][block] for frame in range(frames)])
+            return np.tensordot(kept, self._cosines, (0, 0)).swapaxes(1, 2).reshape(kept.shape[1], -1)
+        latest = self._kept[0][block]
+        base = np.zeros((len(latest), latest.shape[1] * frames))
         base[:, : latest.shape[1]] = self._cosines[:, 0].sum() * latest
         return base
 
@@ -121,16 +143,16 @@ class FrameHistory:
         """An independent copy of the present state."""
         twin = FrameHistory(self._track)
         twin.bank, twin.levels, twin._cosines = copy_bank(self.bank), self.levels, self._cosines
-        twin._latest, twin._before = self._latest, self._before
+        twin._kept = self._kept
         return twin
 
     def commit(self, levels: list[Levels], told: list[Matrix]) -> None:
         """Make frames the latest: their levels, shapes (c_i, dT), and what they are as of `base`."""
         self.levels = levels
         shown = [spread.reshape(len(spread), len(self._cosines), self._track.width) for spread in told]
-        if len(self._cosines) > 1:
-            self._latest = [np.tensordot(spread, self._cosines[-2], (1, 0)) for spread in shown]
-        self._latest, self._before = [np.tensordot(spread, self._cosines[-1], (1, 0)) for spread in shown], self._latest
+        latest = self._cosines[::-1][: self._track.kept]
+        fresh = [[np.tensordot(spread, cosines, (1, 0)) for spread in shown] for cosines in latest]
+        self._kept = [*fresh, *self._kept][: self._track.kept]
 
 
 def held_cosines(width: int, frames: int) -> Matrix:

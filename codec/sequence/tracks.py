@@ -13,8 +13,22 @@ from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.static.rules import Scheme
 from bsm.codec.static.work import Allowance
 
+KEPT, MOST_KEPT, LEAST_KEPT = 1 << 19, 64, 2
+"""Positions that low-delay frames may refer to, about, and frames at most and at least, of attributes always."""
+LAGS = (1, 2, 3, 5, 8, 13, 21, 34)
+"""How far before the latest frame those lie that help to predict the next ones, of those that are kept."""
 TRACK_MEMORY = 40.0
 """Bytes of a number of a vertex in the first frame of an attribute that moves."""
+
+
+def frames_kept(vertices: int) -> int:
+    """How many decoded frames of so many vertices those of low delay may refer to."""
+    return min(MOST_KEPT, max(LEAST_KEPT, KEPT // vertices))
+
+
+def lags(kept: int) -> tuple[int, ...]:
+    """`LAGS`, where so many frames are kept."""
+    return tuple(lag for lag in LAGS if lag < kept)
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +39,8 @@ class Track:
     ----------
     width : int
         Numbers d of a vertex.
+    kept : int
+        Decoded frames that low-delay frames may refer to.
     first : list of float64 arrays, shapes (k_i + c_i, d)
         The decoded first frame: where each part hangs on those before, and its difference from what these let expect.
     known : list of float64 arrays, shapes (c_i, k)
@@ -36,6 +52,7 @@ class Track:
     """
 
     width: int
+    kept: int
     first: list[Matrix]
     known: list[Matrix]
     around: list[Matrix]
@@ -118,7 +135,8 @@ def make_setting(
         known_of, around_of = ([np.ascontiguousarray(one[track]) for one in each] for each in zip(*pairs, strict=True))
         first = [np.vstack((ends, part))[:, :width] for ends, part in zip(around_of, known_of, strict=True)]
         start = [np.zeros_like(part) for part in first] if track else first
-        tracks.append(Track(width, first, known_of, around_of, start))
+        kept = LEAST_KEPT if track else frames_kept(len(first_frame))
+        tracks.append(Track(width, kept, first, known_of, around_of, start))
     return Setting(len(first_frame), given, dictionaries, tuple(tracks))
 
 

@@ -335,6 +335,12 @@ def _key_gops(count: int, levels: bytes) -> list[GopBody]:
     return [GopBody(GopMethod.KEY_FRAME, 1, (GopField(3, 1.0, 3, np.empty(0, np.int32), b"", levels),))] * count
 
 
+def _next_gops(count: int, levels: bytes) -> list[GopBody]:
+    (key,) = _key_gops(1, levels)
+    behind = GopBody(GopMethod.NEXT_FRAME, 1, (replace(key.fields[0], back=1),))
+    return [key, *[behind] * count]
+
+
 def _metadata(entries: int) -> bytes:
     coded = _coded("torus", 12, 12)
     payload = write_map([(f"{number:04}", number) for number in range(entries)])
@@ -687,6 +693,9 @@ BOMBS: dict[str, Bomb] = {
     "gop-300": Bomb(
         "1,024 frames of 300 components",
         lambda: _sequence(50, 50, [_learnt_gop(1024, 300, _still(50, 50, 400, 300))] * 2, width=400),
+    ),
+    "gop-next": Bomb(
+        "frames that refer to many", lambda: _sequence(100, 80, _next_gops(1000, _still(100, 80, 400, 3)), width=400)
     ),
     "gop-keys": Bomb(
         "frames of nothing, one by one", lambda: _sequence(100, 100, _key_gops(1000, _still(100, 100, 10, 3)), width=10)

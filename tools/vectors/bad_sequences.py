@@ -78,6 +78,11 @@ def _stretches(*codes: int) -> Callable[[], bytes]:
     return _gop(lambda data: data[:2] + coded + data[3:])
 
 
+def _back(frames: int) -> Edit:
+    """Next frames that start from those so far before them."""
+    return lambda data: data[:6] + bytes([frames]) + data[7:]
+
+
 def _headers_of(frames: Frames) -> list[int]:
     return [i for i, (kind, _) in enumerate(frames) if kind == FrameType.HEADER]
 
@@ -226,6 +231,12 @@ BAD_SEQUENCES: dict[str, Bad] = {
     ),
     "bad-sequence-learnt-next-after-frame": Bad(
         "components that refer to frames without", "corrupt", _frames(_learnt_behind_frame, base="low-delay")
+    ),
+    "bad-sequence-back-early": Bad(
+        "a frame that starts from one that is not kept", "corrupt", _gop(_back(3), 1, base="low-delay")
+    ),
+    "bad-sequence-back-late": Bad(
+        "frames that start from some of their own", "corrupt", _gop(_back(2), 1, base="together")
     ),
     "bad-sequence-run-number": Bad("a run that is not the next", "corrupt", _run(run=2)),
     "bad-sequence-run-frames": Bad("a run that announces other frames", "corrupt", _run(frames=9)),

@@ -24,6 +24,17 @@ def _sequence(probes: str, frames: int, **options: object) -> Good:
     return Good(probes, make)
 
 
+def _swaying(probes: str, frames: int, period: int, **options: object) -> Good:
+    """A small torus that comes back to where it was, again and again."""
+
+    def make() -> bytes:
+        meshes = [torus(6, 4, phase=0.2 * (t % period)) for t in range(frames)]
+        chosen = SequenceOptions(**{**vars(BASE), "gop": frames, **options})
+        return encode_sequence(np.array([mesh.positions for mesh in meshes]), meshes[0].faces, chosen)
+
+    return Good(probes, make)
+
+
 def _parting(probes: str) -> Good:
     """Triangles with vertices of their own, which are together; from the fourth frame on two of them drift away."""
 
@@ -98,6 +109,9 @@ SEQUENCES: dict[str, Good] = {
     "good-sequence-long": _sequence("more GOPs than refer to those before them", 11, gop=2),
     "good-sequence-low-delay": _sequence("frames as they come, with key frames", 7, low_delay=1, gop=3),
     "good-sequence-together": _sequence("three frames at a time, and two at the end", 11, low_delay=3, gop=6),
+    "good-sequence-low-delay-returning": _swaying("frames that start from earlier ones", 9, 4, low_delay=1),
+    "good-sequence-together-returning": _swaying("the same, two at a time", 12, 4, low_delay=2),
+    "good-sequence-low-delay-long": _swaying("more frames than are kept", 72, 69, low_delay=1, step=1 / 64),
     "good-sequence-runs": _runs("faces that change and return", (8, 3), (6, 2), (8, 4), (5, 1), gop=3),
     "good-sequence-runs-low-delay": _runs("the same, frame by frame", (6, 2), (5, 3), (6, 2), low_delay=1, gop=4),
     "good-sequence-runs-many": _runs("more meshes than are kept", *((kind, 1) for kind in (*range(3, 13), 5, 12))),

@@ -133,6 +133,7 @@ BODIES = [
     GopBody(GopMethod.LEARNT, 4, (GopField(3, 0.5, 0, NONE, b"", b""),)),
     GopBody(GopMethod.KEY_FRAME, 1, (GopField(3, 2.0**-20, 3, NONE, b"", b"x"),)),
     GopBody(GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b""),)),
+    GopBody(GopMethod.NEXT_FRAME, 2, (GopField(3, 1.0, 6, NONE, b"", b"x", 2),)),
     GopBody(GopMethod.KEY_FRAME, 4, (GopField(3, 1.0, 12, NONE, b"", b"x"), GopField(2, 1.0, 8, NONE, b"", b"y"))),
     GopBody(GopMethod.LEARNT, 4, (MOVING, HEAT, still(2))),
     GopBody(GopMethod.LEARNT, 4, (MOVING, still(2)), np.array([0, 1, 0, 0])),
@@ -153,7 +154,7 @@ def test_bodies(body):
     for one, other in zip(parsed.fields, body.fields, strict=True):
         assert (one.width, one.step, one.components) == (other.width, other.step, other.components)
         assert np.array_equal(one.exponents, other.exponents)
-        assert (one.basis, one.levels) == (other.basis, other.levels)
+        assert (one.basis, one.levels, one.back) == (other.basis, other.levels, other.back)
 
 
 def test_known_bytes_of_a_body():
@@ -177,6 +178,8 @@ def test_known_bytes_of_a_body():
         (b"\x00\x01\x00\x00\x00\x80\x3f\x01\xa2\x06\x00", CorruptError),  # exponent 401
         (b"\x00\x01\x00\x00\x00\x80\x3f\x01\x00\x02\x00", CorruptError),  # basis longer than the data
         (b"\x00\x01\x00\x00\x00\x80", CorruptError),
+        (b"\x02\x01\x00\x00\x80\x3f", CorruptError),  # next frames that do not say what they start from
+        (b"\x02\x03\x00\x00\x80\x3f\x02", CorruptError),  # three frames that start from those two before them
     ],
 )
 def test_illegal_bodies(data, error):

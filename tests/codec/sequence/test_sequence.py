@@ -23,12 +23,13 @@ from bsm.bitstream.errors import (
 )
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.metrics import kg_error
-from bsm.codec.sequence import gop_encoding
+from bsm.codec.sequence import gop_encoding, tracks
 from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.dictionaries import Dictionaries
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.gop import GopEncoder
+from bsm.codec.sequence.history import FrameHistory
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.promise import Promise
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
@@ -197,7 +198,7 @@ def test_memory_does_not_grow_with_the_number_of_frames(way):
 
     for work in (encode_all, decode_all):
         work(8)
-        short, long = peak_of(lambda: work(16)), peak_of(lambda: work(160))  # noqa: B023  (called at once)
+        short, long = peak_of(lambda: work(80)), peak_of(lambda: work(230))  # noqa: B023  (called at once)
         assert long < short + 50 * positions[0].nbytes, "a third of what the frames would take"
 
 
@@ -216,6 +217,32 @@ def test_short_sequences(way, frames):
     positions, faces = bending(frames)
     data, original = encoded(positions, faces, **way)
     assert np.abs(decode_sequence(data)[0] - original).max() < 0.02
+
+
+@pytest.mark.parametrize("together", [1, 2])
+def test_frames_that_return_cost_next_to_nothing(together):
+    positions, faces = bending(12)
+    data, original = encoded(np.concatenate([positions, positions]), faces, low_delay=together, gop=24)
+    sizes = np.array([size for _, _, size in gop_spans(data)])
+    half = len(sizes) // 2
+    assert sizes[half + 1 :].sum() < 0.3 * sizes[1:half].sum()
+    assert np.abs(decode_sequence(data)[0] - original).max() < 0.02
+
+
+def test_frames_that_may_be_referred_to_are_bounded(monkeypatch):
+    monkeypatch.setattr(tracks, "KEPT", 9 * 480)
+    positions, faces = bending(40)
+    data, _ = encoded(positions, faces, low_delay=1, gop=40)
+    kept = []
+    commit = FrameHistory.commit
+
+    def watched(history, levels, told):
+        commit(history, levels, told)
+        kept.append(len(history._kept))
+
+    monkeypatch.setattr(FrameHistory, "commit", watched)
+    assert decode_sequence(data)[0].shape == (40, 480, 3)
+    assert max(kept) == 9
 
 
 @pytest.mark.parametrize("way", [{}, *WAYS])
@@ -420,7 +447,7 @@ def memory_of(size):
 
 def least_memory(data):
     """Limits of so little memory that hardly anything is kept, but the stream is decoded."""
-    for size in range(4_000_000, 10_000_000, 50_000):
+    for size in range(4_000_000, 16_000_000, 100_000):
         try:
             decode_sequence(data, memory_of(size))
         except LimitError as error:

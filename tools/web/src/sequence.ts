@@ -11,10 +11,11 @@ import { areFinite } from "./numbers";
 import { Cursor } from "./packets";
 import { columnsOf } from "./reflections";
 import type { Course } from "./runs";
-import { blockCost, partCost, shownCost, UNCODED } from "./work";
+import { blockCost, partCost, referredCost, shownCost, UNCODED } from "./work";
 
 const LEARNT = 0;
 const KEY_FRAMES = 1;
+const NEXT_FRAMES = 2;
 const LEARNT_NEXT = 3;
 /** Added to the method of a GOP that tells of attributes, too (S 10.2). */
 const WITH_ATTRIBUTES = 4;
@@ -40,6 +41,9 @@ const LEADING = 24;
 const INHERITED = 24;
 /** Forgetting, ridge, noise, what is around, dense rows, renewal (S 6). */
 const RULES = [0.985, 0.004, 30, 30, 16n, 8n] as const;
+/** How far before the latest frame those lie that help to predict the next ones; positions that are kept, and frames. */
+const LAGS = [1, 2, 3, 5, 8, 13, 21, 34];
+const [KEPT, MOST_KEPT, LEAST_KEPT] = [2 ** 19, 64, 2];
 const SQUARES = 0.5;
 const CUBES = 0.3;
 const SMALLEST_RADIUS = 2 ** -24;
@@ -56,6 +60,8 @@ interface Field {
     exponents: number[];
     basis: Uint8Array;
     levels: Uint8Array;
+    /** How far before them those are that frames start from; 0: all from the latest. */
+    back: number;
 }
 
 /** The data of a GOP: the fields of positions and of all attributes that move. */
@@ -80,6 +86,8 @@ export type Fields = Float64Array[];
 /** What GOPs build upon: the first frame, and what key frames are added to, around each part and of it (S 7.2, S 10.3). */
 interface Track {
     width: number;
+    /** Frames that low-delay frames may refer to. */
+    kept: number;
     bends: Bends[];
     first: Float64Array[];
     start: Float64Array[];
@@ -112,13 +120,12 @@ interface Bends {
     around: Float64Array;
 }
 
-/** What low-delay frames refer to, around each part and of it, and how many came last (S 7.2). */
+/** What low-delay frames refer to, and how many came last (S 7.2): frames around each part and of it, the latest first. */
 interface History {
     bank: Bank;
     frames: number;
     levels: Levels[];
-    latest: Float64Array[];
-    before: Float64Array[];
+    kept: Float64Array[][];
 }
 
 /** Decodes the GOPs of one sequence; what it keeps lies in memory behind all that the first frame has. */
@@ -191,7 +198,8 @@ export class Sequence {
             this.tracks = fields.map(({ width, start }, k) => {
                 const bends = parts.map((part) => (k === 0 ? this.bendsOf(part) : this.knownOf(part, start, width)));
                 const first = bends.map(({ known, around, count }) => joined(around, known).filter((_, i) => i % count < width));
-                return { width, bends, first, start: k === 0 ? first : first.map(({ length }) => new Float64Array(length)) };
+                const kept = k === 0 ? framesKept(this.header.vertices) : LEAST_KEPT;
+                return { width, kept, bends, first, start: k === 0 ? first : first.map(({ length }) => new Float64Array(length)) };
             });
             this.parts = parts;
             this.behindParts = memory.mark();
@@ -213,7 +221,8 @@ export class Sequence {
             const shown = 8 * width * header.vertices * Math.min(BATCH, gop.frames);
             return components * (16 * header.vertices + 40 * columns + 24 * components) + shown + left;
         });
-        checkLimit(this.limits, "sequenceBytes", total(bytes));
+        const kept = hasBasis(gop.method) ? 0 : 24 * header.vertices * framesKept(header.vertices);
+        checkLimit(this.limits, "sequenceBytes", kept + total(bytes));
         const last = index + gop.frames;
         if (run.frames > 0 && last > run.frames) throw new CorruptError(`frame ${last - 1} of ${run.frames}`);
         const frames = this.paidFor(gop, data.length);
@@ -232,12 +241,20 @@ export class Sequence {
                 (sum, { block, around, basis }) => sum + partCost(block.size, around.length, basis.width, columns, gop.method === LEARNT_NEXT) + solutionCost(block, columns),
                 0,
             );
-            allowance.spend(parts + shownCost(header.vertices, this.given, gop.frames, gop.fields), received);
+            const shown = shownCost(header.vertices, this.given, gop.frames, gop.fields);
+            allowance.spend(parts + this.referred(gop) + shown, received);
             return hasBasis(gop.method) ? this.transformed(gop) : this.following(gop);
         } catch (error) {
             allowance.show(-header.vertices * gop.frames);
             throw error;
         }
+    }
+
+    /** What frames cost besides that refer to others. */
+    private referred({ method, fields }: Gop): number {
+        if (hasBasis(method)) return 0;
+        const rows = total(this.parts.map(({ around, basis }) => around.length + basis.width));
+        return referredCost(rows, fields.map(({ width, back }, k) => width * (2 + lags(this.tracks[k].kept).length + (back > 0 ? 1 : 0))));
     }
 
     /** Weight of each entry of the graph (S 3.1). */
@@ -518,7 +535,7 @@ export class Sequence {
         this.inherited = undefined;
         if (method === KEY_FRAMES) {
             memory.release(this.behindParts);
-            this.histories = tracks.map(({ start }) => ({ bank: makeLevelBank(memory), frames: 0, levels: [], latest: start, before: start }));
+            this.histories = tracks.map(({ start }) => ({ bank: makeLevelBank(memory), frames: 0, levels: [], kept: [start] }));
             this.behindBanks = memory.mark();
         }
         const { histories } = this;
@@ -530,38 +547,39 @@ export class Sequence {
     }
 
     /** The field of frames that come without a basis; they become the latest ones. */
-    private told({ width, step, levels: data }: Field, { first }: Track, history: History, frames: number, cosines: Float64Array): Doubles {
+    private told({ width, step, levels: data, back }: Field, { first, kept: most }: Track, history: History, frames: number, cosines: Float64Array): Doubles {
         const { parts } = this;
         const columns = width * frames;
         const empty = (): Levels[] => parts.map(({ basis: { width: rows } }) => ({ rows, values: new Int32Array(rows * columns) }));
         if (history.frames !== frames) Object.assign(history, { frames, levels: empty() });
-        const { bank, latest, before } = history;
+        const { bank, kept } = history;
+        if (back > kept.length) throw new CorruptError(`a frame refers to one ${back} before it, where ${kept.length} are kept`);
         const levels = step > 0 ? this.readLevels(bank, data, parts.map((part) => part.basis.width), columns, history.levels) : empty();
         const field = this.emptyField(columns);
-        let held = 0;
-        for (let t = 0; t < frames; t++) held += cosines[t * frames];
+        const ages = [0, ...lags(most)].map((age) => Math.min(age, kept.length - 1));
+        const starts = Array.from({ length: frames }, (_, t) => kept[back > 0 ? back - 1 - t : 0]);
         const told = parts.map((part, k) => {
-            const [start, now, earlier] = [first[k], latest[k], before[k]];
-            const known = new Float64Array(3 * now.length);
-            now.forEach((value, i) => {
-                const at = 3 * i - 2 * (i % width);
-                [known[at], known[at + width], known[at + 2 * width]] = [start[i], value, value - earlier[i]];
-            });
+            const own = kept.map((frame) => frame[k]);
+            const changes = ages.slice(1).map((early, i) => apart(own[ages[i]], own[early]));
+            const away = back > 0 ? [apart(own[back - 1], own[0])] : [];
+            const columnsKnown = [first[k], own[0], ...changes, ...away];
+            const [known, count] = [sideBySide(columnsKnown, width), columnsKnown.length];
             const [ends, behind] = [this.endsOf(part, field), part.around.length * width];
-            const base = new Float64Array(frames * now.length);
-            now.forEach((value, i) => (base[columns * Math.floor(i / width) + (i % width)] = held * value));
+            const base = overCosines(starts.map((frame) => frame[k]), width, cosines);
             let differences = base.slice(frames * behind);
             if (step > 0) {
-                const around = { count: 3 * width, around: known.slice(0, 3 * behind) };
+                const around = { count: count * width, around: known.slice(0, count * behind) };
                 const moments = this.learntAround(around, ends.map((value, i) => value - base[i]), columns, step);
-                const change = this.follow(known.slice(3 * behind), 3 * width, levels[k], columns, moments, step);
+                const change = this.follow(known.slice(count * behind), count * width, levels[k], columns, moments, step);
                 differences = differences.map((value, i) => value + change[i]);
             }
             this.place(part, field, ends, differences);
             return joined(ends, differences);
         });
-        const shown = (t: number): Float64Array[] => told.map((differences) => overTime(differences, width, cosines, frames, t));
-        Object.assign(history, { levels, latest: shown(frames - 1), before: frames > 1 ? shown(frames - 2) : latest });
+        const fresh = Array.from({ length: Math.min(frames, most) }, (_, age) =>
+            told.map((differences) => overTime(differences, width, cosines, frames, frames - 1 - age)),
+        );
+        Object.assign(history, { levels, kept: [...fresh, ...kept].slice(0, most) });
         return field;
     }
 }
@@ -609,6 +627,30 @@ function someColumns({ view, width: columns, rows }: Doubles, first: number, wid
     return values;
 }
 
+/** What frames are over time as columns of cosine after cosine: the inverse of `overTime`. */
+function overCosines(shown: Float64Array[], width: number, cosines: Float64Array): Float64Array {
+    const frames = shown.length;
+    const values = new Float64Array(frames * shown[0].length);
+    for (let row = 0, to = 0; row < shown[0].length; row += width) {
+        for (let f = 0; f < frames; f++) {
+            for (let d = 0; d < width; d++, to++) for (let t = 0; t < frames; t++) values[to] += shown[t][row + d] * cosines[t * frames + f];
+        }
+    }
+    return values;
+}
+
+/** What one has more than another. */
+function apart(one: Float64Array, other: Float64Array): Float64Array {
+    return one.map((value, i) => value - other[i]);
+}
+
+/** Matrices of so many columns, beside each other. */
+function sideBySide(matrices: Float64Array[], width: number): Float64Array {
+    const joint = new Float64Array(matrices.length * matrices[0].length);
+    matrices.forEach((matrix, k) => matrix.forEach((value, i) => (joint[matrices.length * (i - (i % width)) + k * width + (i % width)] = value)));
+    return joint;
+}
+
 /** 2^(-e/4): powers with fractions are not the same in all browsers. */
 function fineness(exponent: number): number {
     return QUARTERS[exponent & 3] * 2 ** -(exponent >> 2);
@@ -617,6 +659,16 @@ function fineness(exponent: number): number {
 /** A model of levels that has learnt nothing (S 4.1). */
 export function makeLevelBank(memory: Memory): Bank {
     return makeBank(memory, { slots: SLOTS, selectors: 3 * SPAN, inputs: INPUTS, limit: 400, rate: 10 });
+}
+
+/** How many frames of so many vertices those of low delay may refer to (S 7.3). */
+function framesKept(vertices: number): number {
+    return Math.min(MOST_KEPT, Math.max(LEAST_KEPT, Math.floor(KEPT / vertices)));
+}
+
+/** `LAGS`, where so many frames are kept. */
+function lags(kept: number): number[] {
+    return LAGS.filter((lag) => lag < kept);
 }
 
 function core({ members, starts, cores }: Blocks, index: number): Ints {
@@ -671,7 +723,7 @@ function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header, moving:
         }
     }
     const none = new Uint8Array(0);
-    const others = moving.map(({ number, width }) => told.get(number) ?? { width, step: 0, components: hasBasis(method) ? 0 : width * frames, exponents: [], basis: none, levels: none });
+    const others = moving.map(({ number, width }) => told.get(number) ?? { width, step: 0, components: hasBasis(method) ? 0 : width * frames, exponents: [], basis: none, levels: none, back: 0 });
     return { method, frames, shown, fields: [parseField(cursor.rest(), method, own, 3), ...others] };
 }
 
@@ -714,7 +766,9 @@ function parseField(data: Uint8Array, method: number, frames: number, width: num
         }
         basis = cursor.take(cursor.varint()).slice();
     }
-    return { width, step, components, exponents, basis, levels: cursor.rest() };
+    const back = method === NEXT_FRAMES ? cursor.varint() : 0;
+    if (back > 0 && back < frames) throw new CorruptError(`${frames} frames that start from those ${back} before them`);
+    return { width, step, components, exponents, basis, levels: cursor.rest(), back };
 }
 
 /** Some rows of a field. */

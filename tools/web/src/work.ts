@@ -1,7 +1,7 @@
 /** What all but dictionaries costs, in nanoseconds of a processor core (specification, M 14.3). */
 const BLOCK = 1.45e5;
 const PART = 6e4;
-const [ROW, LOOK, LEVEL, LOOP, AROUND, INHERITED_LOOP, INHERITED_AROUND] = [600, 25, 90, 66, 10, 90, 10];
+const [ROW, LOOK, LEVEL, LOOP, AROUND, INHERITED_LOOP, INHERITED_AROUND, REFERRED] = [600, 25, 90, 66, 10, 90, 10, 1.1];
 /** Of a byte of coded values. */
 const CODED = 800;
 /** By which a part of a sequence is cheaper than a block, before it has its dictionary. */
@@ -94,6 +94,11 @@ export function chunkCost(received: number): number {
 export function partCost(rows: number, around: number, width: number, components: number, inherited: boolean): number {
     const [loop, begun] = inherited ? [LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND] : [LOOP, AROUND];
     return PART + components * (width * (LEVEL + loop) + around * begun) + rows * (width * (1 + 0.1 * components) + 20 * components);
+}
+
+/** Of so many columns that are known of low-delay frames, in so many rows of parts and vertices around them. */
+export function referredCost(rows: number, known: number[]): number {
+    return REFERRED * rows * known.reduce((sum, count) => sum + count * count, 0);
 }
 
 /** Of showing the frames of a GOP, of fields of so many numbers and components, to a user of so many vertices as given. */

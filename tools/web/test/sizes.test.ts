@@ -9,9 +9,9 @@ import { WEB } from "./shared";
 /** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, and for the page itself. */
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [21300, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
-    "static meshes": [59400, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
-    "sequences": [57200, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
-    "everything": [92200, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    "static meshes": [59600, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
+    "sequences": [57800, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
+    "everything": [92800, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8900, ["three.js", "pool.js"]],
 };
 
