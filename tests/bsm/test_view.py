@@ -113,7 +113,7 @@ def test_server_has_the_page_and_its_streams():
 
 
 def test_late_joiners_enter_at_the_newest_group():
-    whole = bsm.encode_sequence(*moving(18), gop=6)
+    whole = bsm.encode_sequence(*moving(18), gop=6, low_delay=6)
     *_, second, third, _ = frame_ends(whole)
     growing = Growing("sway.bsm")
     growing.take(whole[: second + 3])
@@ -179,7 +179,7 @@ def test_following_needs_no_whole(tmp_path, capsys):
 @needs_packages
 @pytest.mark.parametrize("way", ["file", "pipe"])
 def test_what_is_still_being_written_is_watched(way, tmp_path):
-    whole = bsm.encode_sequence(*moving(18), gop=6, frame_rate=30)
+    whole = bsm.encode_sequence(*moving(18), gop=6, low_delay=6, frame_rate=30)
     stream, growing = tmp_path / "whole.bsm", tmp_path / "growing.bsm"
     stream.write_bytes(whole)
     *_, first, _, _, _ = frame_ends(whole)
