@@ -13,9 +13,9 @@ from bsm.codec.sequence.tracks import LEAST_KEPT, frames_kept, lags
 from bsm.codec.static.work import LEVEL
 
 FRAME, SHOWN = 2.5e4, 11.0 / 3.0
-"""Of a frame, and of a number of a vertex in it."""
-PART = 6e4
-"""Of a part in a GOP, whatever its size."""
+"""Of a field of a frame, and of a number of a vertex in it."""
+PART, ANOTHER = 6e4, 2.5e4
+"""Of a part in a GOP, whatever its size, and of another field there."""
 LOOP, AROUND = 66.0, 10.0
 """Of a column in a row of a closed loop, and of a vertex around that it begins with."""
 INHERITED_LOOP, INHERITED_AROUND = 90.0, 10.0
@@ -53,8 +53,9 @@ def gop_cost(sites: tuple[Site, ...], vertices: int, given: int, body: GopBody) 
     frames = body.frames
     more = body.method is GopMethod.LEARNT_NEXT
     loop, around = (LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND) if more else (LOOP, AROUND)
+    others = sum(not body.method.has_basis or field.components > 0 for field in body.fields[1:])
     fields = sum(_part_cost(site, _columns(body), loop, around) for site in sites)
-    work = PART * len(sites) + fields + frames * FRAME
+    work = (PART + ANOTHER * others) * len(sites) + fields + frames * FRAME * len(body.fields)
     if not body.method.has_basis:
         rows = sum(site.width + len(site.around) for site in sites)
         work += REFERRED * rows * sum(count**2 for count in _known(vertices, body))

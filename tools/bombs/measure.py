@@ -12,7 +12,7 @@ import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from bsm.bitstream.container.gop import method_of
+from bsm.bitstream.container.gop import METHODS, parse_gop_body
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.container.wire import Cursor, FrameType
@@ -93,17 +93,19 @@ def browser_bounds(taken: Taken, stream: bytes) -> tuple[float, float]:
 
 
 def sequence_memory(stream: bytes, vertices: int) -> float:
-    """Bytes of all dictionaries of a sequence, for so many vertices, and of its largest GOP."""
+    """Bytes of all dictionaries of a sequence, for so many vertices, and of positions in its largest GOP."""
     columns, gop = 0, 0
     try:
         for kind, payload in frames_of(stream):
             cursor = Cursor(payload)
             if kind == FrameType.HEADER and (entries := header_entries(payload)).get(HEADER_FIELDS["gop_frames"].key):
                 columns = max(columns, entries.get(HEADER_FIELDS["coefficients"].key, 0))
-            elif kind == FrameType.GOP and cursor.varint() >= 0 and method_of(cursor.take(1)[0]).has_basis:
-                frames, _, components = cursor.varint(), cursor.take(4), cursor.varint()
-                gop = max(gop, components * (16 * vertices + 120 * frames + 24 * components))
-    except (BsmError, ValueError, TypeError):
+            elif kind == FrameType.GOP and cursor.varint() >= 0:
+                data = cursor.rest()
+                body = parse_gop_body(data, Limits().gop_frames, data[0] // METHODS, tolerant=True)
+                components = body.fields[0].components if body.method.has_basis else 0
+                gop = max(gop, components * (16 * vertices + 120 * body.frames + 24 * components))
+    except (BsmError, IndexError, ValueError, TypeError):
         pass  # behind that nothing is decoded
     return min(8.0 * vertices * columns, SEQUENCE_BYTES) + min(gop, SEQUENCE_BYTES)
 

@@ -323,16 +323,24 @@ def _still(rows: int, columns: int, width: int, components: int, part: int = 400
     return encode_levels(make_level_bank(), levels, level_references(levels, components))
 
 
-def _learnt_gop(frames: int, components: int, levels: bytes = b"") -> GopBody:
-    """A GOP whose temporal basis is nothing but zeros, which take next to no bytes."""
-    spectrum = [np.zeros((frames, components), np.int32)] * 3
-    basis = encode_levels(make_level_bank(), spectrum, level_references(spectrum, components))
+def _learnt_gop(frames: int, components: int, levels: bytes = b"", attributes: int = 0) -> GopBody:
+    """A GOP whose temporal bases are nothing but zeros, which take next to no bytes; of so many attributes, too."""
     exponents = np.zeros(components, np.int32)
-    return GopBody(GopMethod.LEARNT, frames, (GopField(3, 1.0, components, exponents, basis, levels),))
+    fields = []
+    for width in (3, 4)[: 1 + (attributes > 0)]:
+        spectrum = [np.zeros((frames, components), np.int32)] * width
+        basis = encode_levels(make_level_bank(), spectrum, level_references(spectrum, components))
+        fields.append(GopField(width, 1.0, components, exponents, basis, levels))
+    return GopBody(GopMethod.LEARNT, frames, (fields[0], *fields[1:] * attributes))
 
 
-def _key_gops(count: int, levels: bytes) -> list[GopBody]:
-    return [GopBody(GopMethod.KEY_FRAME, 1, (GopField(3, 1.0, 3, np.empty(0, np.int32), b"", levels),))] * count
+def _key_gops(count: int, levels: bytes, *attributes: bytes) -> list[GopBody]:
+    """Frames one by one; of positions, and of attributes of four numbers."""
+    fields = [
+        GopField(width, 1.0, width, np.empty(0, np.int32), b"", own)
+        for width, own in zip((3, *[4] * len(attributes)), (levels, *attributes))
+    ]
+    return [GopBody(GopMethod.KEY_FRAME, 1, tuple(fields))] * count
 
 
 def _next_gops(count: int, levels: bytes) -> list[GopBody]:
@@ -362,10 +370,17 @@ def _valued(rows: int, columns: int, count: int, chunk: int, *, coded: int | Non
     """A mesh with so many attributes of nothing, all alike."""
     blocks = {"blocks": 1 + rows * columns // 4000, "block_size": min(rows * columns, 8000), "power": 1}
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
-    shape = _coded("torus", rows, columns)
     size = rows * columns if coded is None else coded
-    values = {"rows": size, "largest": (1,) * 4, "kind": 7, "components": 4, "origin": OTHERWISE, **fields}
-    declared, chunks = [], []
+    declared, chunks = _attributes(rows, columns, count, chunk, size, **{"origin": OTHERWISE, **fields})
+    return stream_of([*frames[:2], *declared, *frames[2:], *chunks])
+
+
+def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fields: Any) -> tuple[Frames, Frames]:
+    """Declarations of so many attributes, and values that are all 0."""
+    shape = _coded("torus", rows, columns)
+    values = {"rows": size, "largest": (1,) * 4, "kind": 7, "components": 4, **fields}
+    declared: Frames = []
+    chunks: Frames = []
     for index in range(count):
         declaration = Declaration(name=f"{index}", **values)
         declared.append(_written(packets.Attribute(index, declaration, b"")))
@@ -376,7 +391,20 @@ def _valued(rows: int, columns: int, count: int, chunk: int, *, coded: int | Non
         for first in range(0, size, chunk):
             some = min(chunk, size - first)
             chunks.append(_written(packets.Values(index, first, some, encoder.chunk(some))))
-    return stream_of([*frames[:2], *declared, *frames[2:], *chunks])
+    return declared, chunks
+
+
+def _moving(rows: int, columns: int, count: int, gops: Iterable[GopBody], *, part: int = 400, width: int = 10) -> bytes:
+    """A sequence with so many attributes of four doubles that move; GOPs tell of as many as they have fields."""
+    frames = frames_of(_sequence(rows, columns, (), width=width, part=part, power=1, attributes=count))
+    declared, chunks = _attributes(rows, columns, count, 1 << 15, rows * columns, moves=1)
+    first = 0
+    bodies: Frames = []
+    for gop in gops:
+        data = write_gop_body(gop, numbers=range(len(gop.fields) - 1))
+        bodies.append((FrameType.GOP, write_varint(first) + data))
+        first += gop.frames
+    return stream_of([*frames[:2], *declared, *frames[2:], *chunks, *bodies])
 
 
 def _seamed(rows: int, columns: int, count: int) -> bytes:
@@ -699,6 +727,31 @@ BOMBS: dict[str, Bomb] = {
     ),
     "gop-keys": Bomb(
         "frames of nothing, one by one", lambda: _sequence(100, 100, _key_gops(1000, _still(100, 100, 10, 3)), width=10)
+    ),
+    "moving": Bomb(
+        "60 attributes of four doubles that move",
+        lambda: _moving(60, 60, 60, [_learnt_gop(100, 4, _still(60, 60, 10, 4), 60)]),
+    ),
+    "moving-still": Bomb(
+        "15 of them, in frames of nothing", lambda: _moving(60, 60, 15, [_learnt_gop(100, 0, _still(60, 60, 10, 0))])
+    ),
+    "moving-most": Bomb(
+        "255 attributes in parts of eight vertices, told of again and again",
+        lambda: _moving(20, 20, 255, [_learnt_gop(1, 1, _still(20, 20, 8, 1, 8), 255)] * 20, part=8, width=8),
+    ),
+    "moving-keys": Bomb(
+        "the same, frame by frame",
+        lambda: _moving(
+            20, 20, 255, _key_gops(20, _still(20, 20, 8, 3, 8), *[_still(20, 20, 8, 4, 8)] * 255), part=8, width=8
+        ),
+    ),
+    "moving-frames": Bomb(
+        "255 attributes of nine vertices, in 200 frames of nothing",
+        lambda: _moving(3, 3, 255, [_learnt_gop(200, 0, _still(3, 3, 8, 0))]),
+    ),
+    "moving-components": Bomb(
+        "as many components of attributes as there is room for",
+        lambda: _moving(200, 200, 2, [_learnt_gop(8, 12, _still(200, 200, 20, 12), 2)] * 3, width=20),
     ),
 }
 """What each is called."""

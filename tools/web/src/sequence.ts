@@ -11,7 +11,7 @@ import { areFinite } from "./numbers";
 import { Cursor } from "./packets";
 import { columnsOf } from "./reflections";
 import type { Course } from "./runs";
-import { blockCost, partCost, referredCost, shownCost, UNCODED } from "./work";
+import { blockCost, partCost, referredCost, shownCost, trackMemory, UNCODED } from "./work";
 
 const LEARNT = 0;
 const KEY_FRAMES = 1;
@@ -160,6 +160,7 @@ export class Sequence {
         private readonly tolerant: boolean,
     ) {
         this.run = header;
+        allowance.keep(total(moving.map(({ width }) => trackMemory(header.vertices, blocks.count, width))));
     }
 
     /** Keep only what a later run of this mesh cannot do without. */
@@ -211,18 +212,19 @@ export class Sequence {
 
     /** Frames of the GOP from frame `index` on, each made when it is called; valid until the next GOP. */
     decode(index: number, data: Uint8Array): (() => Fields)[] {
-        const { header, run, course } = this;
+        const { header, run, course, allowance } = this;
         if (index !== course.next) throw new CorruptError(`frame ${index} where frame ${course.next} must follow`);
         const gop = parseGop(data, run, this.moving, this.tolerant);
         const bytes = gop.fields.map(({ width, components }) => {
             const columns = width * gop.frames;
             const kept = Math.min(components, INHERITED) + (gop.method === LEARNT_NEXT ? INHERITED : 0);
             const left = hasBasis(gop.method) ? 8 * header.vertices * kept : 4 * header.vertices * columns;
-            const shown = 8 * width * header.vertices * Math.min(BATCH, gop.frames);
+            const shown = 8 * width * header.vertices * (Math.min(BATCH, gop.frames) + 4);
             return components * (16 * header.vertices + 40 * columns + 24 * components) + shown + left;
         });
         const kept = hasBasis(gop.method) ? 0 : 24 * header.vertices * framesKept(header.vertices);
         checkLimit(this.limits, "sequenceBytes", kept + total(bytes));
+        allowance.hold(total(bytes.slice(1)));
         const last = index + gop.frames;
         if (run.frames > 0 && last > run.frames) throw new CorruptError(`frame ${last - 1} of ${run.frames}`);
         const frames = this.paidFor(gop, data.length);
@@ -234,11 +236,12 @@ export class Sequence {
     private paidFor(gop: Gop, received: number): (() => Fields)[] {
         const { header, allowance } = this;
         const columns = total(gop.fields.map(({ components }) => components));
+        const told = gop.fields.filter(({ components }, k) => k === 0 || components > 0).length;
         allowance.show(header.vertices * gop.frames);
         try {
             this.begin();
             const parts = this.parts.reduce(
-                (sum, { block, around, basis }) => sum + partCost(block.size, around.length, basis.width, columns, gop.method === LEARNT_NEXT) + solutionCost(block, columns),
+                (sum, { block, around, basis }) => sum + partCost(block.size, around.length, basis.width, columns, told, gop.method === LEARNT_NEXT) + solutionCost(block, columns),
                 0,
             );
             const shown = shownCost(header.vertices, this.given, gop.frames, gop.fields);

@@ -1,6 +1,6 @@
 /** What all but dictionaries costs, in nanoseconds of a processor core (specification, M 14.3). */
 const BLOCK = 1.45e5;
-const PART = 6e4;
+const [PART, ANOTHER] = [6e4, 2.5e4];
 const [ROW, LOOK, LEVEL, LOOP, AROUND, INHERITED_LOOP, INHERITED_AROUND, REFERRED] = [600, 25, 90, 66, 10, 90, 10, 1.1];
 /** Of a byte of coded values. */
 const CODED = 800;
@@ -90,10 +90,15 @@ export function chunkCost(received: number): number {
     return 8e4 + CODED * received;
 }
 
-/** Of a part in a GOP of r components, with so many vertices around it, besides the solution of so many columns. */
-export function partCost(rows: number, around: number, width: number, components: number, inherited: boolean): number {
+/** Of a part in a GOP of r components and so many fields, with so many vertices around it, besides the solution of so many columns. */
+export function partCost(rows: number, around: number, width: number, components: number, fields: number, inherited: boolean): number {
     const [loop, begun] = inherited ? [LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND] : [LOOP, AROUND];
-    return PART + components * (width * (LEVEL + loop) + around * begun) + rows * (width * (1 + 0.1 * components) + 20 * components);
+    return PART + ANOTHER * (fields - 1) + components * (width * (LEVEL + loop) + around * begun) + rows * (width * (1 + 0.1 * components) + 20 * components);
+}
+
+/** Bytes that all GOPs know of an attribute that moves. */
+export function trackMemory(vertices: number, parts: number, width: number): number {
+    return 3000 * parts + 40 * width * vertices;
 }
 
 /** Of so many columns that are known of low-delay frames, in so many rows of parts and vertices around them. */
@@ -104,5 +109,5 @@ export function referredCost(rows: number, known: number[]): number {
 /** Of showing the frames of a GOP, of fields of so many numbers and components, to a user of so many vertices as given. */
 export function shownCost(vertices: number, given: number, frames: number, fields: { width: number; components: number }[]): number {
     const each = fields.map(({ width, components }) => width * (components * (10 + 2 * components) + (11 / 3) * given + (vertices * components) / 15));
-    return each.reduce((sum, cost) => sum + frames * cost, frames * 2.5e4);
+    return each.reduce((sum, cost) => sum + frames * (cost + 2.5e4), 0);
 }
