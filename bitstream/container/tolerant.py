@@ -45,11 +45,11 @@ class TolerantReader(Reader):
     """Returns a `Damaged` packet where a `Reader` raises, and goes on with the next frame that is whole.
 
     Damage to the preamble or to the first HEADER is still raised; that HEADER may be of any run of a sequence. Behind
-    other damage, the length in the damaged frame's tag is trusted if a whole frame, or the end of the data, lies there;
-    otherwise the next offset at which a whole and fitting frame begins is searched byte by byte. The checksums computed
-    in such searches cover at most `SCAN_BYTES` plus `SCAN_FACTOR` times the bytes received: a candidate beyond that is
-    passed over. A missing END is reported too, unless reported damage reaches the end of the data. Once something was
-    lost, the count and the checksum in END are not compared any more.
+    other damage, the length in the damaged frame's tag is trusted if a whole frame lies there; otherwise the next
+    offset at which a whole and fitting frame begins, or the end of the data, is searched byte by byte. The checksums
+    computed in such searches cover at most `SCAN_BYTES` plus `SCAN_FACTOR` times the bytes received: a candidate beyond
+    that is passed over. A missing END is reported too, unless reported damage reaches the end of the data. Once
+    something was lost, the count and the checksum in END are not compared any more.
 
     A tag that was damaged so that it claims too much is found out only when that many bytes, or the end of the data,
     have come.
@@ -127,7 +127,7 @@ class TolerantReader(Reader):
         if self._grammar.ended:
             return available
         if damage.tag is not None and damage.tag.end <= available and damage.scanned == 0:
-            if damage.whole or (self._eof and damage.tag.end == available):
+            if damage.whole:
                 return damage.tag.end
             fits = self._fits(damage.tag.end)
             if fits or fits is None:

@@ -66,6 +66,24 @@ def test_a_frame_whose_length_is_wrong_is_lost_alone(number):
     assert isinstance(packets[-1], End)
 
 
+@pytest.mark.parametrize("step", [None, 1])
+def test_a_length_that_is_wrong_and_ends_where_the_data_do_swallows_nothing(step):
+    data = bytearray(write_stream(LONG))
+    ends = frame_ends(bytes(data))
+    for length in range(128, 1024):  # as many bytes of tag
+        data[ends[2] : ends[2] + 2] = wire.write_varint(length << 4 | FrameType.BLOCK)
+        tag = wire.parse_tag(data, ends[2])
+        if tag is not None and tag.end == len(data):
+            break
+    else:
+        raise AssertionError("no length ends there")
+    packets = read(bytes(data), step)
+    assert isinstance(packets[2], Damaged)
+    assert packets[2].length == ends[3] - ends[2]
+    assert packets[3:-1] == LONG[3:]
+    assert isinstance(packets[-1], End)
+
+
 def test_a_malformed_payload_is_lost_alone():
     sound = write_stream(LONG)
     ends = frame_ends(sound)

@@ -92,7 +92,7 @@ export class TolerantReader extends Reader {
         const available = this.end - this.begin;
         if (this.grammar.ended) return available;
         if (damage.size !== undefined && damage.size <= available && damage.scanned === 0) {
-            if (damage.whole || (this.eof && damage.size === available)) return damage.size;
+            if (damage.whole) return damage.size;
             const fits = this.fits(damage.size);
             if (fits !== false) return fits ? damage.size : undefined;
         }
