@@ -996,7 +996,7 @@ class Allowance:
 
 def read_column(decoder, count):
     """F 9.3: whole numbers, as a matrix of one column (S 4)."""
-    return LevelModel().matrix(decoder, count, 1, np.zeros((0, 1), int))[:, 0].tolist()
+    return LevelModel().matrix(decoder, count, 1, np.zeros((0, 1), int), (0, 0))[:, 0].tolist()
 
 
 class Mesh:
@@ -1379,9 +1379,15 @@ class LevelModel:
         def b(j, i):
             return abs(int(reference[j, i])) if 0 <= j < len(reference) else 0
 
-        for j in range(decoder.uniform(rows + 1)):
+        count, turn, few = decoder.uniform(rows + 1), -(-rows // 3), columns
+        if lead is None and count > turn:
+            few = decoder.uniform(columns + 1)
+        for j in range(count):
             mean = 0
-            coded = columns if lead is None else min(columns, lead[1] * j + lead[0] + 1)
+            if lead is None:
+                coded = columns if j < turn else few
+            else:
+                coded = min(columns, lead[1] * j + lead[0] + 1)
             for i in range(coded):
                 above = 2 * a(j - 1, i) + a(j - 2, i) + a(j - 3, i)
                 left = 2 * a(j, i - 1) + a(j, i - 2)

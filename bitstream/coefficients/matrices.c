@@ -80,26 +80,29 @@ INLINE void note_prices(
 }
 
 /* Code the number of rows that are not zero behind, and these rows; `prices` is filled if there are costs. Of the first
- * row `lead` columns are coded, of each next one `stair` more (S 4.2); the others are 0. */
+ * row `lead` columns are coded, of each next one `stair` more; if row `turn` is coded, how many columns, `few`, of it and
+ * those behind it (S 4.2). The others are 0. */
 INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    int64_t stair, Longs slow, const int64_t *costs, int16_t *prices) {
+    int64_t stair, int64_t turn, int64_t few, Longs slow, const int64_t *costs, int16_t *prices) {
     RangeCoder coder;
     Mixer mixer;
     int64_t columns = levels.columns;
     if (!open_coder(&coder, given) || !open_bank(&mixer, bank, MATRIX_SLOTS, WEIGHT_SETS * SPAN, INPUTS)
         || reference.columns != columns || slow.size != columns || rows < 0 || rows > levels.rows
         || levels.rows >= INT32_MAX || lead < 0 || lead > columns || stair < 0
-        || stair > columns)
+        || stair > columns || turn < 0 || few < 0 || few > columns)
         return MISUSED;
     for (int64_t i = 0; i < columns; i++) slow.data[i] = 0;
     rows = code_uniform(&coder, rows, levels.rows + 1);
+    few = rows > turn ? code_uniform(&coder, few, columns + 1) : columns;
     int state = 0;
     for (int64_t j = 0; j < (costs ? levels.rows : rows) && !overran(&coder); j++) {
 #define A(row, column) at(levels.data, levels.rows, columns, row, column)
 #define B(row, column) at(reference.data, reference.rows, columns, row, column)
         int64_t band = octave(j), selector = SPAN * (j == 0 ? 0 : j < 12 ? 1 : 2), mean = 0;
-        int64_t place = j < 20 ? j : least(PLACES - 1, 20 + (j - 20) / 8), end = least(columns, lead + stair * j);
-        for (int64_t i = 0; i < end; i++) {
+        int64_t place = j < 20 ? j : least(PLACES - 1, 20 + (j - 20) / 8), whole = least(columns, lead + stair * j);
+        int64_t end = j < turn ? whole : least(whole, few);
+        for (int64_t i = 0; i < (costs ? whole : end); i++) {
             int64_t above = 2 * A(j - 1, i) + A(j - 2, i) + A(j - 3, i);
             int64_t left = 2 * A(j, i - 1) + A(j, i - 2);
             int64_t around = A(j - 1, i + 1) + A(j - 1, i - 1);
@@ -115,6 +118,7 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
             };
             int32_t *level = levels.data + j * columns + i;
             if (costs) note_prices(&mixer, costs, contexts, selector, prices + 2 * PRICED * (j * columns + i));
+            if (i >= end) continue;
             *level = code_level(&coder, &mixer, contexts, selector, trellis_grid(state), *level);
             state = trellis_following(state, *level);
             int64_t magnitude = least(magnitude_of(*level), 4096);
@@ -135,14 +139,14 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
 /* Code the number of rows that are not zero behind, and these rows; returns that number. `slow` is scratch, an entry a
  * column. */
 int64_t code_matrix(
-    Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, int64_t stair, Longs slow) {
-    return follow_matrix(given, bank, levels, reference, rows, lead, stair, slow, 0, 0);
+    Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, int64_t stair, int64_t turn, int64_t few, Longs slow) {
+    return follow_matrix(given, bank, levels, reference, rows, lead, stair, turn, few, slow, 0, 0);
 }
 
 /* The same, and what the magnitudes 0 .. PRICED - 1 of both grids would have cost at each place, all rows included:
  * `costs` are of probabilities, see COST_SHIFT. */
 int64_t price_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
-    int64_t stair, Longs slow, ConstLongs costs, Shorts prices) {
+    int64_t stair, int64_t turn, int64_t few, Longs slow, ConstLongs costs, Shorts prices) {
     if (costs.size != COSTS || prices.size != 2 * PRICED * levels.rows * levels.columns) return MISUSED;
-    return follow_matrix(given, bank, levels, reference, rows, lead, stair, slow, costs.data, prices.data);
+    return follow_matrix(given, bank, levels, reference, rows, lead, stair, turn, few, slow, costs.data, prices.data);
 }

@@ -35,7 +35,12 @@ from bsm.bitstream.errors import TruncatedError
 Levels = npt.NDArray[np.int32]
 Prices = npt.NDArray[np.int16]
 Lead: TypeAlias = tuple[int, int]
-"""How many columns are coded of the first row of a matrix, and how many more of each next one; the others are 0."""
+"""How many columns are coded of the first row of a matrix, and how many more of each next one; the others are 0. Of a
+matrix without a lead all are coded, but behind its first third, whose rows are low frequencies, only the first ones, up
+to the last that has anything."""
+
+_Extent: TypeAlias = tuple[int, int, int, int]
+"""A lead, the row from which on few columns are coded, and how many."""
 
 _INPUTS = 6
 _UNARY = 14
@@ -55,7 +60,7 @@ def make_level_bank() -> Bank:
 
 
 def encode_levels(
-    bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[Lead] | None = None
+    bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[Lead | None] | None = None
 ) -> bytes:
     """Code matrices one behind the other.
 
@@ -68,11 +73,11 @@ def encode_levels(
     references : sequence of int32 arrays, shapes (any, columns), C-contiguous
         What each matrix is expected to resemble in magnitude; may be an earlier matrix of `matrices`.
     leads : sequence of Lead, optional
-        Of each matrix; None: all of them are coded whole.
+        Of each matrix; None: none has one.
     """
     coder = start_writing(16 * sum(m.size for m in matrices) + 8 * len(matrices) + 64)
-    for matrix, reference, lead in zip(matrices, references, leads or _whole(matrices), strict=True):
-        _code_matrix(coder, bank, matrix, reference, _occupied(matrix), lead)
+    for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
+        _code_matrix(coder, bank, matrix, reference, _occupied(matrix), _extent_of(matrix, lead))
     return finish_writing(coder)
 
 
@@ -106,9 +111,8 @@ def price_levels(bank: Bank, matrix: Levels, reference: Levels, lead: Lead | Non
     rows, columns = matrix.shape
     prices = first_prices(rows, columns, lead)
     coder, slow = start_writing(16 * matrix.size + 64), np.empty(columns, np.int64)
-    first, more = _within(lead or (columns, 0), columns)
-    twin, occupied = copy_bank(bank), _occupied(matrix)
-    _kernels.price_matrix(coder, twin, matrix, reference, occupied, first, more, slow, COSTS, prices.reshape(-1))
+    twin, occupied, extent = copy_bank(bank), _occupied(matrix), _extent_of(matrix, lead)
+    _kernels.price_matrix(coder, twin, matrix, reference, occupied, *extent, slow, COSTS, prices.reshape(-1))
     return prices
 
 
@@ -117,7 +121,7 @@ def decode_levels(
     payload: bytes,
     matrices: Sequence[Levels],
     references: Sequence[Levels],
-    leads: Sequence[Lead] | None = None,
+    leads: Sequence[Lead | None] | None = None,
 ) -> None:
     """Twin of `encode_levels`: fill `matrices`, shapes (rows_k, columns), which hold zeros.
 
@@ -127,8 +131,8 @@ def decode_levels(
         If the payload does not hold exactly these matrices.
     """
     coder = start_reading(payload)
-    for matrix, reference, lead in zip(matrices, references, leads or _whole(matrices), strict=True):
-        _code_matrix(coder, bank, matrix, reference, 0, lead)
+    for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
+        _code_matrix(coder, bank, matrix, reference, 0, _extent_of(matrix, lead))
         if overran(coder):
             break
     finish_reading(coder)
@@ -149,7 +153,7 @@ def code_column(coder: Coder, values: Levels) -> Coder:
         coder = make_room(coder, 16 * len(values) + 8)
     used = np.flatnonzero(values)
     rows = int(used[-1]) + 1 if len(used) else 0
-    _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, (1, 0))
+    _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, _extent_of(column, (1, 0)))
     if overran(coder):
         raise TruncatedError(f"the payload of {len(values)} numbers ends too early")
     return coder
@@ -161,17 +165,17 @@ def _occupied(matrix: Levels) -> int:
     return int(occupied[-1]) + 1 if len(occupied) else 0
 
 
-def _whole(matrices: Sequence[Levels]) -> list[Lead]:
-    """The leads of matrices that are coded whole."""
-    return [(matrix.shape[1], 0) for matrix in matrices]
+def _extent_of(matrix: Levels, lead: Lead | None) -> _Extent:
+    """What is coded of a matrix, shape (rows, columns), whose levels are known, or of zeros to be read."""
+    rows, columns = matrix.shape
+    if lead is not None:
+        first, more = lead
+        return min(first, columns), min(more, columns), rows, columns
+    turn = -(-rows // 3)
+    used = np.flatnonzero(matrix[turn:].any(axis=0))
+    return columns, 0, turn, int(used[-1]) + 1 if len(used) else 0
 
 
-def _within(lead: Lead, columns: int) -> Lead:
-    """A lead that says no more than there is."""
-    return min(lead[0], columns), min(lead[1], columns)
-
-
-def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int, lead: Lead) -> None:
+def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int, extent: _Extent) -> None:
     """Code the number of rows that are not zero behind, and these rows."""
-    columns = levels.shape[1]
-    _kernels.code_matrix(coder, bank, levels, reference, rows, *_within(lead, columns), np.empty(columns, np.int64))
+    _kernels.code_matrix(coder, bank, levels, reference, rows, *extent, np.empty(levels.shape[1], np.int64))

@@ -8,91 +8,89 @@
 
 #include "codec/basis/solver/vectors.h"
 
-/* A^T = L R, of a multiple of ROWS rows, with the identity behind those that there are; and the rows of a panel. */
+/* A^T = L R, of a multiple of ROWS rows, with the identity behind those that there are; the rows of a panel; and as many
+ * rows of U + E as are taken at a time. */
 typedef struct {
-    int64_t size, apart;
-    double *lower, *upper, *panel;
+    int64_t size;
+    double *lower, *upper, *panel, *some;
 } Completion;
 
 INLINE Completion completion_of(int64_t h, double *memory) {
-    int64_t apart = whole_vectors(h);
-    return (Completion){apart, apart, memory, memory + apart * apart, memory + 2 * apart * apart};
+    int64_t size = whole_vectors(h);
+    double *panel = memory + 2 * size * size;
+    return (Completion){size, memory, memory + size * size, panel, panel + size * LANES};
 }
 
 /* Doubles of scratch that completing h columns takes. */
 int64_t LEVEL(completion_space)(int64_t h) {
-    int64_t apart = whole_vectors(h);
-    return 2 * apart * apart + apart * LANES + WIDTH - 1;
+    int64_t size = whole_vectors(h);
+    return 2 * size * size + size * LANES + ROWS * size + WIDTH - 1;
 }
+
+/* Take `share` times a row from another, in `count` columns of whole vectors. */
+SHARED void take_row(double *row, double share, const double *other, int64_t count) {
+    for (int64_t b = 0; b < count; b += WIDTH) store(row + b, add_scaled(load(row + b), -share, load(other + b)));
+}
+
+/* Entry (i, k) of U + E. */
+INLINE double sum_at(ConstDoubles2 first, int64_t i, int64_t k) { return first.data[i * first.columns + k] + (i == k); }
 
 /* Fills `lower` and `upper`; returns the least pivot. */
 static double factorize_sum(ConstDoubles2 first, Completion own) {
-    int64_t h = first.columns, apart = own.apart;
+    int64_t h = first.columns, size = own.size;
     double least_seen = 2.0;
-    for (int64_t i = 0; i < own.size; i++) {
-        for (int64_t k = 0; k < apart; k++) {
-            own.upper[i * apart + k] = (i < h && k < h ? first.data[k * h + i] : 0.0) + (i == k);
-            own.lower[i * apart + k] = 0.0;
-        }
-    }
-    for (int64_t k = 0; k < own.size; k++) {
-        const double *above = own.upper + k * apart;
+    for (int64_t i = 0; i < size; i++)
+        for (int64_t k = 0; k < size; k++) own.upper[i * size + k] = i < h && k < h ? sum_at(first, k, i) : i == k;
+    for (int64_t k = 0; k < size; k++) {
+        const double *above = own.upper + k * size;
         if (!(above[k] >= least_seen)) least_seen = above[k];
         double scale = 1.0 / above[k];
-        for (int64_t i = k + 1; i < own.size; i++) {
-            double *row = own.upper + i * apart, share = row[k] * scale;
-            own.lower[i * apart + k] = share;
-            for (int64_t b = k / WIDTH * WIDTH; b < apart; b += WIDTH)
-                store(row + b, add_scaled(load(row + b), -share, load(above + b)));
+        for (int64_t i = k + 1; i < size; i++) {
+            double *row = own.upper + i * size, share = row[k] * scale;
+            int64_t from = k / WIDTH * WIDTH;
+            take_row(row + from, share, above + from, size - from);
+            own.lower[i * size + k] = share;
             row[k] = 0.0;
         }
     }
     return least_seen;
 }
 
-/* Some rows of the panel, from row i on, less what a triangle takes of rows `from` to `to`. */
-INLINE void take_panel(const int vectors, int64_t column, const double *triangle, int64_t apart, double *panel, int64_t i,
-                       int64_t from, int64_t to) {
+INLINE void take_tile(const int vectors, int64_t column, const double *left, int64_t apart, const double *panel,
+                      int64_t count, double *rows) {
     Vector sums[ROWS][VECTORS];
-    EACH(r, ROWS) EACH(v, vectors) sums[r][v] = load(panel + (i + r) * LANES + column + v * WIDTH);
-    for (int64_t k = from; k < to; k++)
+    EACH(r, ROWS) EACH(v, vectors) sums[r][v] = load(rows + r * LANES + column + v * WIDTH);
+    for (int64_t k = 0; k < count; k++)
         EACH(r, ROWS) EACH(v, vectors)
-            sums[r][v] = add_scaled(sums[r][v], -triangle[(i + r) * apart + k], load(panel + k * LANES + column + v * WIDTH));
-    EACH(r, ROWS) EACH(v, vectors) store(panel + (i + r) * LANES + column + v * WIDTH, sums[r][v]);
+            sums[r][v] = add_scaled(sums[r][v], -left[r * apart + k], load(panel + k * LANES + column + v * WIDTH));
+    EACH(r, ROWS) EACH(v, vectors) store(rows + r * LANES + column + v * WIDTH, sums[r][v]);
+}
+
+/* Take from ROWS rows of a panel what as many rows at `left` make of `count` others. */
+SHARED void take_rows(const double *left, int64_t apart, const double *panel, int64_t count, double *rows) {
+    WITH_VECTORS(VECTORS, 0, take_tile, left, apart, panel, count, rows);
 }
 
 /* Overwrite the panel by A^-T times it. */
 static void solve_panel(Completion own) {
-    int64_t apart = own.apart;
-    double *panel = own.panel;
-    for (int64_t i = 0; i < own.size; i += ROWS) {
-        WITH_VECTORS(VECTORS, 0, take_panel, own.lower, apart, panel, i, 0, i);
-        for (int64_t r = i + 1; r < i + ROWS; r++)
-            for (int64_t k = i; k < r; k++)
-                for (int64_t b = 0; b < LANES; b++)
-                    panel[r * LANES + b] = FUSED(-own.lower[r * apart + k], panel[k * LANES + b], panel[r * LANES + b]);
+    int64_t size = own.size;
+    for (int64_t i = 0; i < size; i += ROWS) {
+        double *rows = own.panel + i * LANES;
+        take_rows(own.lower + i * size, size, own.panel, i, rows);
+        for (int64_t r = 1; r < ROWS; r++)
+            for (int64_t k = 0; k < r; k++)
+                take_row(rows + r * LANES, own.lower[(i + r) * size + i + k], rows + k * LANES, LANES);
     }
-    for (int64_t i = own.size - ROWS; i >= 0; i -= ROWS) {
-        WITH_VECTORS(VECTORS, 0, take_panel, own.upper, apart, panel, i, i + ROWS, own.size);
-        for (int64_t r = i + ROWS - 1; r >= i; r--) {
-            double scale = 1.0 / own.upper[r * apart + r];
-            for (int64_t k = r + 1; k < i + ROWS; k++)
-                for (int64_t b = 0; b < LANES; b++)
-                    panel[r * LANES + b] = FUSED(-own.upper[r * apart + k], panel[k * LANES + b], panel[r * LANES + b]);
-            for (int64_t b = 0; b < LANES; b++) panel[r * LANES + b] *= scale;
+    for (int64_t i = size - ROWS; i >= 0; i -= ROWS) {
+        double *rows = own.panel + i * LANES;
+        const double *left = own.upper + i * size + i;
+        take_rows(left + ROWS, size, rows + ROWS * LANES, size - ROWS - i, rows);
+        for (int64_t r = ROWS - 1; r >= 0; r--) {
+            for (int64_t k = r + 1; k < ROWS; k++) take_row(rows + r * LANES, left[r * size + k], rows + k * LANES, LANES);
+            double scale = 1.0 / left[r * size + r];
+            for (int64_t b = 0; b < LANES; b += WIDTH) store(rows + r * LANES + b, scaled(load(rows + r * LANES + b), scale));
         }
     }
-}
-
-/* Minus some rows of U, at `left`, times the panel: `some`. */
-INLINE void take_product(const int vectors, int64_t column, const int rows, const double *left, int64_t h,
-                         const double *panel, double *some) {
-    Vector sums[ROWS][VECTORS];
-    EACH(r, rows) EACH(v, vectors) sums[r][v] = zeros();
-    for (int64_t k = 0; k < h; k++)
-        EACH(r, rows) EACH(v, vectors)
-            sums[r][v] = add_scaled(sums[r][v], -left[r * h + k], load(panel + k * LANES + column + v * WIDTH));
-    EACH(r, rows) EACH(v, vectors) store(some + r * LANES + column + v * WIDTH, sums[r][v]);
 }
 
 /* Fill `whole`, first of all by the columns that are there, `first`. Returns whether A has no pivot below `least_pivot`. */
@@ -110,21 +108,15 @@ int64_t LEVEL(complete_columns)(ConstDoubles2 first, double least_pivot, Doubles
                 own.panel[k * LANES + b] = k < h && b < count ? first.data[(begin + b) * h + k] : 0.0;
         solve_panel(own);
         for (int64_t r = 0; r < n; r += ROWS) {
-            double some[ROWS * LANES];
-            int64_t rows = least(ROWS, n - r);
-            if (rows == ROWS) {
-                WITH_VECTORS(VECTORS, 0, take_product, ROWS, first.data + r * h, h, own.panel, some);
-            } else {
-                for (int64_t i = 0; i < rows; i++)
-                    WITH_VECTORS(VECTORS, 0, take_product, 1, first.data + (r + i) * h, h, own.panel, some + i * LANES);
+            double rows[ROWS * LANES];
+            int64_t taken = least(ROWS, n - r);
+            for (int64_t i = 0; i < ROWS; i++) {
+                for (int64_t b = 0; b < LANES; b++) rows[i * LANES + b] = r + i == begin + b;
+                for (int64_t k = 0; k < h; k++) own.some[i * own.size + k] = i < taken ? sum_at(first, r + i, k) : 0.0;
             }
-            for (int64_t i = 0; i < rows; i++) {
-                double *to = whole.data + (r + i) * c + begin;
-                for (int64_t b = 0; b < count; b++) {
-                    double taken = r + i < h ? own.panel[(r + i) * LANES + b] : 0.0;
-                    to[b] = some[i * LANES + b] - taken + (r + i == begin + b);
-                }
-            }
+            take_rows(own.some, own.size, own.panel, h, rows);
+            for (int64_t i = 0; i < taken; i++)
+                for (int64_t b = 0; b < count; b++) whole.data[(r + i) * c + begin + b] = rows[i * LANES + b];
         }
     }
     return true;

@@ -35,7 +35,7 @@ class LevelWriter:
     def __init__(self, bank: Bank, columns: int, rounds: int = ROUNDS) -> None:
         self.levels: list[Levels] = []
         self._references: list[Levels] = []
-        self._leads: list[Lead] = []
+        self._leads: list[Lead | None] = []
         self._columns = columns
         self._bank = bank
         self._rounds = rounds
@@ -60,7 +60,7 @@ class LevelWriter:
         reference : int32 array, shape (any, columns), optional
             What the levels may resemble in magnitude; None: the matrix before.
         lead : Lead, optional
-            None: it is coded whole; targets that are not coded must be 0.
+            None: it has none; targets that are not coded must be 0.
 
         Returns
         -------
@@ -74,7 +74,7 @@ class LevelWriter:
             levels, _ = loop.copy().search(known, targets, step, prices, WEIGHT)
             prices = price_levels(self._ahead, levels, reference, lead)
         levels, decoded = loop.search(known, targets, step, prices, WEIGHT)
-        self._leads.append(lead or (self._columns, 0))
+        self._leads.append(lead)
         encode_levels(self._ahead, [levels], [reference], self._leads[-1:])
         self.levels.append(levels)
         self._references.append(reference)

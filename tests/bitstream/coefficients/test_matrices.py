@@ -207,3 +207,19 @@ def test_places_that_are_not_coded_cost_nothing():
     prices = price_levels(make_level_bank(), matrix, empty(columns), (2, 3))
     assert not prices[~stairs, :, 0].any()
     assert (prices[~stairs, :, 1:] > prices[stairs].max()).all()
+
+
+def test_columns_behind_the_first_third_are_told_as_far_as_they_are_used():
+    generator = np.random.default_rng(5)
+    matrix = generator.integers(-2, 3, (60, 20), dtype=np.int32)
+    matrix[20:, 3:] = 0
+    payload = encode_levels(make_level_bank(), [matrix], [empty(20)])
+    decoded = np.zeros_like(matrix)
+    decode_levels(make_level_bank(), payload, [decoded], [empty(20)])
+    assert np.array_equal(decoded, matrix)
+    assert len(payload) < len(encode_levels(make_level_bank(), [matrix], [empty(20)], [(20, 0)]))
+    prices = price_levels(make_level_bank(), matrix, empty(20))
+    assert (prices[20:, 3:, :, 1] > 0).all()
+    matrix[59, 19] = 1
+    decode_levels(make_level_bank(), encode_levels(make_level_bank(), [matrix], [empty(20)]), [decoded], [empty(20)])
+    assert decoded[59, 19] == 1

@@ -389,12 +389,13 @@ export class Sequence {
             const read: Levels[] = [];
             for (const count of rows) {
                 const reference = references ? references[read.length] : (read.at(-1) ?? { rows: 0, values: new Int32Array(0) });
+                const turn = BigInt(width ? count : Math.ceil(count / 3));
                 const [lead, stair] = width ? [Math.min(read.length + 1, columns), Math.min(width, columns)].map(BigInt) : [BigInt(columns), 0n];
                 const values = memory.scratch(() => {
                     const [levels, known] = [memory.ints(count * columns, columns), memory.ints(reference.values.length, columns)];
                     levels.view.fill(0);
                     known.view.set(reference.values);
-                    memory.call("code_matrix", coder.parts, bank, shaped(memory, levels, count), shaped(memory, known, reference.rows), 0n, lead, stair, slow);
+                    memory.call("code_matrix", coder.parts, bank, shaped(memory, levels, count), shaped(memory, known, reference.rows), 0n, lead, stair, turn, 0n, slow);
                     return levels.view.slice();
                 });
                 if (coder.overran) break;

@@ -57,7 +57,7 @@ function readColumn(memory: Memory, coder: Coder, count: number): Int32Array {
     return memory.scratch(() => {
         const values = memory.ints(count, 1);
         values.view.fill(0);
-        memory.call("code_matrix", coder.parts, makeLevelBank(memory), values, memory.ints(0, 1), 0n, 1n, 0n, memory.longs(1));
+        memory.call("code_matrix", coder.parts, makeLevelBank(memory), values, memory.ints(0, 1), 0n, 1n, 0n, BigInt(count), 0n, memory.longs(1));
         if (coder.overran) coder.finish();
         return values.view.slice();
     });
