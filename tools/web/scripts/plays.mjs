@@ -34,7 +34,7 @@ const longest = () => {
 const picture = () => new Promise(requestAnimationFrame);
 /** Load a stream, and play it from its first frame on, so many frames a second. */
 window.play = async (url, rate) => {
-    for (let k = 0; k < 30; k++) await picture();
+    for (let k = 0; k < 120; k++) await picture(); // while the browser starts
     longest();
     const loader = new BSMLoader();
     const begin = performance.now();

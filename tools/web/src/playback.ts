@@ -3,12 +3,14 @@
 const UNKNOWN_RATE = 30;
 /** Seconds of frames that must be there before playing goes on behind a wait. */
 const RESERVE = 0.5;
+/** By how much of its time each frame is shown early: where a screen's pictures come as frames do, or several to each, clocks that tremble skip none. */
+const EARLY = 0.1;
 
 /** Goes through the frames that are there; where they end too early, it waits for half a second of them. */
 export class Playback {
     playing: boolean;
     loop = true;
-    private at = 0;
+    private at = EARLY;
     private before = 0;
     /** Whether it waits for frames. */
     waiting = true;
@@ -31,7 +33,7 @@ export class Playback {
     }
 
     seek(frame: number): void {
-        this.at = frame;
+        this.at = frame + EARLY;
     }
 
     /** Go on to the time `now`, in milliseconds; `there` frames have come, and if `all`, no more will. */
@@ -43,7 +45,7 @@ export class Playback {
         else if (this.playing) this.at += passed;
         if (this.at < there) return;
         if (all && this.playing && this.loop) {
-            this.at = 0;
+            this.at = EARLY;
         } else {
             this.at = there - 1;
             this.playing &&= !all;
