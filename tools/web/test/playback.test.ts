@@ -1,0 +1,19 @@
+/** Which frame of a sequence is shown when. */
+import assert from "node:assert/strict";
+import test from "node:test";
+import { Playback } from "../src/playback";
+
+/** Frames that are shown in 120 pictures of a screen of 60 Hz, whose clock is a tenth of a millisecond off. */
+function shown(rate: number): number[] {
+    const playback = new Playback(rate, true);
+    return Array.from({ length: 120 }, (_, k) => {
+        playback.step((1000 * k) / 60 + 0.1 * ((k % 3) - 1), 1000, true);
+        return playback.frame;
+    });
+}
+
+for (const rate of [60, 30, 20, 120]) {
+    test(`a clock that trembles skips none of ${rate} frames a second`, () => {
+        assert.deepEqual(shown(rate), Array.from({ length: 120 }, (_, k) => Math.floor((rate * k) / 60 + 0.01)));
+    });
+}
