@@ -1379,13 +1379,15 @@ class LevelModel:
         def b(j, i):
             return abs(int(reference[j, i])) if 0 <= j < len(reference) else 0
 
-        count, turn, few = decoder.uniform(rows + 1), -(-rows // 3), columns
-        if lead is None and count > turn:
-            few = decoder.uniform(columns + 1)
-        for j in range(count):
+        turn, few = -(-rows // 3), columns
+        for j in range(rows):
+            if j % 8 == 0 and not self.more(decoder, levels, reference, j):
+                break
+            if lead is None and j == turn:
+                few = decoder.uniform(columns + 1)
             mean = 0
             if lead is None:
-                coded = columns if j < turn else few
+                coded = few
             else:
                 coded = min(columns, lead[1] * j + lead[0] + 1)
             for i in range(coded):
@@ -1413,6 +1415,20 @@ class LevelModel:
             if decoder.overran():
                 decoder.fail("levels are missing")
         return levels
+
+    def more(self, decoder, levels, reference, j):
+        """S 4.2: whether there are levels from row j on."""
+        lately = size_class(int(np.abs(levels[max(0, j - 8) : j]).sum()))
+        left, soon = (size_class(int(np.abs(rows).sum())) for rows in (reference[j:], reference[j : j + 8]))
+        contexts = [
+            12 * octave(j) + lately,
+            12 * octave(j) + left,
+            12 * left + lately,
+            12 * left + soon,
+            12 * soon + lately,
+            40 * left + (j if j < 20 else min(39, 20 + (j - 20) // 8)),
+        ]
+        return self.sets[0 if j == 0 else 1 if j < 12 else 2].bit(decoder, contexts, 43)
 
     def level(self, decoder, model, contexts, grid):
         """S 4.2: one level."""

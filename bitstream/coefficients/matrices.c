@@ -8,7 +8,9 @@ enum {
     UNARY = 14,
     OTHER_ZERO = SIGNED_SPAN(UNARY), /* nodes of the grid without even points: whether a level is zero, whether one */
     OTHER_ONE,
+    MORE, /* whether a row of those that follow has levels */
     SPAN,
+    TOGETHER = 8, /* rows that are told of together */
     INPUTS = 6,
     CLASSES = 12,
     PLACES = 40,
@@ -40,8 +42,32 @@ INLINE int64_t at(const int32_t *data, int64_t rows, int64_t columns, int64_t ro
     return magnitude_of(data[row * columns + column]);
 }
 
+/* Sum of the magnitudes in some rows, of those that there are. */
+INLINE int64_t sum_of(const int32_t *data, int64_t rows, int64_t columns, int64_t first, int64_t end) {
+    int64_t sum = 0;
+    for (int64_t k = columns * (first < 0 ? 0 : first); k < columns * least(end, rows); k++) sum += magnitude_of(data[k]);
+    return sum;
+}
+
 INLINE int zero_node(int grid) { return grid ? OTHER_ZERO : 0; }
 INLINE int one_node(int grid) { return grid ? OTHER_ONE : 2; }
+
+/* Code whether row j or one behind it has levels (S 4.2); `behind` is the sum of the reference from row j on. */
+INLINE int code_more(RangeCoder *coder, const Mixer *mixer, Ints2 levels, ConstInts2 reference, int64_t j, int64_t behind,
+    int64_t place, int64_t selector, int more) {
+    int64_t lately = class_of(sum_of(levels.data, levels.rows, levels.columns, j - TOGETHER, j));
+    int64_t next = class_of(sum_of(reference.data, reference.rows, reference.columns, j, j + TOGETHER));
+    int64_t left = class_of(behind);
+    const int64_t contexts[INPUTS] = {
+        SPAN * (CLASSES * octave(j) + lately),
+        TABLE + SPAN * (CLASSES * octave(j) + left),
+        2 * TABLE + SPAN * (CLASSES * left + lately),
+        3 * TABLE + SPAN * (CLASSES * left + next),
+        4 * TABLE + SPAN * (CLASSES * next + lately),
+        5 * TABLE + SPAN * (PLACES * left + place),
+    };
+    return code_mixed_bit(coder, mixer, INPUTS, contexts, MORE, selector, more);
+}
 
 /* Code one level of a grid (S 4.2). */
 INLINE int32_t code_level(
@@ -79,9 +105,9 @@ INLINE void note_prices(
     }
 }
 
-/* Code the number of rows that are not zero behind, and these rows; `prices` is filled if there are costs. Of the first
- * row `lead` columns are coded, of each next one `stair` more; if row `turn` is coded, how many columns, `few`, of it and
- * those behind it (S 4.2). The others are 0. */
+/* Code rows, as many together as it takes to reach the last of `rows`; `prices` is filled if there are costs, of all. Of
+ * the first row `lead` columns are coded, of each next one `stair` more; if row `turn` is coded, how many columns, `few`,
+ * of it and those behind it (S 4.2). The others are 0. */
 INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
     int64_t stair, int64_t turn, int64_t few, Longs slow, const int64_t *costs, int16_t *prices) {
     RangeCoder coder;
@@ -89,19 +115,23 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
     int64_t columns = levels.columns;
     if (!open_coder(&coder, given) || !open_bank(&mixer, bank, MATRIX_SLOTS, WEIGHT_SETS * SPAN, INPUTS)
         || reference.columns != columns || slow.size != columns || rows < 0 || rows > levels.rows
-        || levels.rows >= INT32_MAX || lead < 0 || lead > columns || stair < 0
-        || stair > columns || turn < 0 || few < 0 || few > columns)
+        || lead < 0 || lead > columns || stair < 0 || stair > columns || turn < 0 || few < 0 || few > columns)
         return MISUSED;
     for (int64_t i = 0; i < columns; i++) slow.data[i] = 0;
-    rows = code_uniform(&coder, rows, levels.rows + 1);
-    few = rows > turn ? code_uniform(&coder, few, columns + 1) : columns;
-    int state = 0;
-    for (int64_t j = 0; j < (costs ? levels.rows : rows) && !overran(&coder); j++) {
+    int64_t behind = sum_of(reference.data, reference.rows, columns, 0, reference.rows), most = columns, j = 0;
+    int state = 0, more = 1;
+    for (; j < levels.rows && !overran(&coder); j++) {
 #define A(row, column) at(levels.data, levels.rows, columns, row, column)
 #define B(row, column) at(reference.data, reference.rows, columns, row, column)
         int64_t band = octave(j), selector = SPAN * (j == 0 ? 0 : j < 12 ? 1 : 2), mean = 0;
         int64_t place = j < 20 ? j : least(PLACES - 1, 20 + (j - 20) / 8), whole = least(columns, lead + stair * j);
-        int64_t end = j < turn ? whole : least(whole, few);
+        if (j % TOGETHER == 0 && more) {
+            more = code_more(&coder, &mixer, levels, reference, j, behind, place, selector, j < rows);
+            behind -= sum_of(reference.data, reference.rows, columns, j, j + TOGETHER);
+        }
+        if (!more && !costs) break;
+        if (j == turn && more) most = code_uniform(&coder, few, columns + 1);
+        int64_t end = least(whole, most);
         for (int64_t i = 0; i < (costs ? whole : end); i++) {
             int64_t above = 2 * A(j - 1, i) + A(j - 2, i) + A(j - 3, i);
             int64_t left = 2 * A(j, i - 1) + A(j, i - 2);
@@ -133,10 +163,10 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
 #undef B
     }
     close_coder(&coder, given);
-    return rows;
+    return j;
 }
 
-/* Code the number of rows that are not zero behind, and these rows; returns that number. `slow` is scratch, an entry a
+/* Code the first of some rows, those that have levels among them; returns how many were coded. `slow` is scratch, an entry a
  * column. */
 int64_t code_matrix(
     Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, int64_t stair, int64_t turn, int64_t few, Longs slow) {

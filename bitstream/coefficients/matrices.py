@@ -44,7 +44,7 @@ _Extent: TypeAlias = tuple[int, int, int, int]
 
 _INPUTS = 6
 _UNARY = 14
-_SPAN = signed_span(_UNARY) + 2  # of the second grid, whether a level is zero, and whether one
+_SPAN = signed_span(_UNARY) + 3  # of the second grid, whether a level is zero, and whether one; more
 _CLASSES = 12
 _ROWS = 40
 _SLOTS = ((_INPUTS - 1) * _CLASSES * _CLASSES + _CLASSES * _ROWS) * _SPAN
@@ -177,5 +177,5 @@ def _extent_of(matrix: Levels, lead: Lead | None) -> _Extent:
 
 
 def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int, extent: _Extent) -> None:
-    """Code the number of rows that are not zero behind, and these rows."""
+    """Code the first rows, those that have levels among them."""
     _kernels.code_matrix(coder, bank, levels, reference, rows, *extent, np.empty(levels.shape[1], np.int64))

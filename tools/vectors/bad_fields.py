@@ -141,7 +141,7 @@ BAD_FIELDS: dict[str, Bad] = {
     "bad-splits-many-loose": _order(
         "more given vertices than may be numbered", lambda p: p[:2] + write_varint((1 << 24) - 180)
     ),
-    "bad-splits-short": _order("kinds of given vertices that are cut", lambda p: p[:-1], "truncated"),
+    "bad-splits-short": _order("kinds of given vertices that are cut", lambda p: p[:-2], "truncated"),
     "bad-splits-long": _order("bytes behind the last corner", lambda p: p + bytes(9)),
     "bad-splits-none": _order("copies that are not announced", lambda p: bytes(2) + p[3:]),
     "bad-splits-cut": _order("positions of loose vertices that are not there", lambda p: p[:20], make=_loose),

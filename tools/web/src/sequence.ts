@@ -32,7 +32,7 @@ const LARGEST_WEIGHT = 8;
 const BEND = 2 ** -6;
 
 const INPUTS = 6;
-const SPAN = unsignedSpan(14) + 4;
+const SPAN = unsignedSpan(14) + 5;
 /** 2^(-q/4). */
 const QUARTERS = [1, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605];
 const SLOTS = (5 * 12 * 12 + 12 * 40) * SPAN;

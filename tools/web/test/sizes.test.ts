@@ -10,8 +10,8 @@ import { WEB } from "./shared";
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [21300, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "static meshes": [59600, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
-    "sequences": [57900, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
-    "everything": [92900, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    "sequences": [58000, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
+    "everything": [93000, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8900, ["three.js", "pool.js"]],
 };
 
