@@ -12,7 +12,7 @@ import numpy as np
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute, Domain
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions
@@ -30,6 +30,8 @@ ATTRIBUTES = 0.25
 """Share of meshes that have one, and of those that have another."""
 SEQUENCES = 0.25
 """Share of sequences among random streams."""
+MOVING = 0.3
+"""Share of sequences with an attribute that changes."""
 SECTIONS = 0.25
 """Share of meshes that are to come in sections."""
 GRIDS = 0.5
@@ -217,4 +219,12 @@ def _sequence(random: Random) -> bytes:
     }
     options = {"step": 2.0 ** -random.randrange(4, 14), "block_size": random.choice((12, 36, 100)), "threads": 1}
     chosen = SequenceOptions(**{**options, **_some(random, choices, 0.4)})
+    if random.random() < MOVING:
+        kind, width = random.choice(("uint8", "int16", "float32", "float64")), random.randrange(1, 5)
+        places = np.resize(still / (np.abs(still).max() or 1.0), (len(still), width))
+        meshes = []
+        for t, frame in enumerate(positions):
+            own = Attribute("moving", (60.0 + 50.0 * np.sin(3.0 * places + 0.7 * t)).astype(kind))
+            meshes.append(replace(mesh, positions=frame, attributes=(*mesh.attributes, own)))
+        return b"".join(SequenceEncoder(mesh.faces, chosen, frames).chunks(meshes))
     return encode_sequence(positions, mesh.faces, chosen, attributes=mesh.attributes)
