@@ -1344,9 +1344,10 @@ class Field:
             length, at = payload_varint(data, at)
             require(at + length <= len(data), "a GOP ends inside its basis")
             self.basis, at = data[at : at + length], at + length
-        self.back = 0
+        self.back = self.brief = 0
         if method == 2:
-            self.back, at = payload_varint(data, at)
+            refers, at = payload_varint(data, at)
+            self.back, self.brief = divmod(refers, 2)
             require(self.back == 0 or self.back >= frames, "frames that start from themselves")  # S 2.6
         self.levels = data[at:]
 
@@ -1658,7 +1659,8 @@ class Track:
         if field is not None:
             matrices = model.decode(field.levels, shapes, references)
         cosines, placed = cosines_over_time(gop.frames), np.zeros((self.shape[0], columns))
-        ages = [min(age, len(kept) - 1) for age in (0, 1, 2, 3, 5, 8, 13, 21, 34) if age < self.kept]
+        reach = (0, 1) if field and field.brief else (0, 1, 2, 3, 5, 8, 13, 21, 34)
+        ages = [min(age, len(kept) - 1) for age in reach if age < self.kept]
         starts = [kept[back - 1 - t if back else 0] for t in range(gop.frames)]
         told = []
         for k, part in enumerate(parts):

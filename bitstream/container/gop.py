@@ -67,6 +67,8 @@ class GopField:
         Coded levels of all blocks.
     back : int
         Next frames start from those so many frames before each, at least as many as they are; 0: all from the latest.
+    brief : bool
+        Whether of what came before next frames refer to no change but the latest.
     """
 
     width: int
@@ -76,6 +78,7 @@ class GopField:
     basis: bytes
     levels: bytes
     back: int = 0
+    brief: bool = False
 
     @property
     def size(self) -> int:
@@ -154,7 +157,7 @@ def _write_field(field: GopField, method: GopMethod) -> bytes:
         parts += [write_varint(2 * d if d >= 0 else -2 * d - 1) for d in differences]
         parts += [write_varint(len(field.basis)), field.basis]
     elif method is GopMethod.NEXT_FRAME:
-        parts.append(write_varint(field.back))
+        parts.append(write_varint(2 * field.back + field.brief))
     return b"".join([*parts, field.levels])
 
 
@@ -224,10 +227,10 @@ def _parse_field(data: bytes, body: GopBody, width: int) -> GopField:
     if not 0.0 < step < math.inf:
         raise CorruptError(f"a GOP with the step {step}")
     if not body.method.has_basis:
-        back = cursor.varint() if body.method is GopMethod.NEXT_FRAME else 0
+        back, brief = divmod(cursor.varint() if body.method is GopMethod.NEXT_FRAME else 0, 2)
         if 0 < back < body.frames:
             raise CorruptError(f"{body.frames} frames that start from those {back} before them")
-        return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest(), back)
+        return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest(), back, bool(brief))
     components = cursor.varint()
     if components > width * body.told:
         raise CorruptError(f"{components} components for {body.told} frames")

@@ -70,7 +70,7 @@ def _known(vertices: int, body: GopBody) -> Iterator[int]:
     """Columns that are known of each field of low-delay frames."""
     for number, field in enumerate(body.fields):
         kept = LEAST_KEPT if number else frames_kept(vertices)
-        yield field.width * (2 + len(lags(kept)) + (field.back > 0))
+        yield field.width * (2 + (1 if field.brief else len(lags(kept))) + (field.back > 0))
 
 
 def _columns(body: GopBody) -> int:

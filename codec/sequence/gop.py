@@ -156,7 +156,7 @@ class GopEncoder:
 
     def encode_next(self, frames: Matrix, progress: Progress, *, key: bool) -> GopField:
         """Encode frames, shape (T, n, d), without a basis of their own."""
-        return self._next(frames, self._step, key, progress)
+        return self._next(frames, self._step, progress, key=key, brief=False)
 
     def encode_learnt(
         self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress
@@ -175,13 +175,16 @@ class GopEncoder:
     def encode_singles(self, frames: Matrix, weights: Matrix, most: float = math.inf) -> tuple[GopField, ...]:
         """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), one by one.
 
+        They are brief: where that pays, frames have news, and older changes tell little of it.
         Steps are finer for what weighs more, as they are with a basis. Gives up, mostly soon, with
         nothing, if the cost is not likely to stay below `most`.
         """
         fields: list[GopField] = []
         cost = 0.0
         for frame, weight in zip(frames, weights, strict=True):
-            fields.append(self._next(frame[None], float(np.float32(self._step / weight)), not fields, silent))
+            fields.append(
+                self._next(frame[None], float(np.float32(self._step / weight)), silent, key=not fields, brief=True)
+            )
             assert self.latest is not None
             error = float(np.square(weight * (self.latest[0] - frame)).sum()) / self._step**2
             cost += error + WEIGHT * 8.0 * (fields[-1].size + SINGLE)
@@ -189,13 +192,13 @@ class GopEncoder:
                 return ()
         return tuple(fields)
 
-    def _next(self, frames: Matrix, step: float, key: bool, progress: Progress) -> GopField:
+    def _next(self, frames: Matrix, step: float, progress: Progress, *, key: bool, brief: bool) -> GopField:
         self.inherited = None
         if key:
             self._begin()
         history, width, columns = self._history, self._track.width, self._track.width * len(frames)
         back = self._likest(frames)
-        history.expect(len(frames), back)
+        history.expect(len(frames), back, brief=brief)
         basis = held_cosines(width, len(frames))
         wanted = trajectories(frames) @ basis.reshape(-1, columns)
         field = np.zeros_like(wanted)
@@ -211,7 +214,7 @@ class GopEncoder:
         history.commit(writer.levels, told)
         self.latest = np.array(list(shown_frames(field, 0, basis)))
         self._shown = [*self.latest[::-1], *self._shown][: self._track.kept]
-        return GopField(width, step, columns, np.empty(0, np.int32), b"", payload, back)
+        return GopField(width, step, columns, np.empty(0, np.int32), b"", payload, back, brief)
 
     def _likest(self, frames: Matrix) -> int:
         """How far before them the kept frames are that they are so like that it is better to start from these."""
@@ -300,7 +303,7 @@ class GopDecoder:
         told = list(zip(histories, body.fields, strict=True))
         read = []
         for history, field in told:
-            history.expect(body.frames, field.back)
+            history.expect(body.frames, field.back, brief=field.brief)
             levels = self.setting.empty_levels(field.width * body.frames)
             if field.components:
                 decode_levels(history.bank, field.levels, levels, history.levels)

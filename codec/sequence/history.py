@@ -88,12 +88,14 @@ class FrameHistory:
         self._track = track
         self._cosines = np.empty((0, 0))
         self._back = 0
+        self._lags = lags(track.kept)
         self._kept = [track.start]  # the latest frame first
 
-    def expect(self, frames: int, back: int = 0) -> None:
+    def expect(self, frames: int, back: int = 0, *, brief: bool = False) -> None:
         """Get ready for so many frames, which start from those so far back, or with 0 all from the latest.
 
-        Where those before were not as many, their levels are nothing like these.
+        If `brief`, no change is known but the latest. Where those before were not as many, their levels are nothing
+        like these.
 
         Raises
         ------
@@ -103,6 +105,7 @@ class FrameHistory:
         if back > len(self._kept):
             raise CorruptError(f"a frame refers to one {back} before it, where {len(self._kept)} are kept")
         self._back = back
+        self._lags = lags(self._track.kept)[: 1 if brief else None]
         if len(self._cosines) == frames:
             return
         self._cosines = time_cosines(frames)
@@ -120,7 +123,7 @@ class FrameHistory:
             What the change is added to.
         """
         kept, base, count = [frame[block] for frame in self._kept], self.base(block), len(ends)
-        ages = [min(lag, len(kept) - 1) for lag in (0, *lags(self._track.kept))]
+        ages = [min(lag, len(kept) - 1) for lag in (0, *self._lags)]
         known = [self._track.first[block], kept[0], *(kept[late] - kept[early] for late, early in pairwise(ages))]
         if self._back:
             known.append(kept[self._back - 1] - kept[0])

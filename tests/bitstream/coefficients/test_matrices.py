@@ -133,7 +133,7 @@ BODIES = [
     GopBody(GopMethod.LEARNT, 4, (GopField(3, 0.5, 0, NONE, b"", b""),)),
     GopBody(GopMethod.KEY_FRAME, 1, (GopField(3, 2.0**-20, 3, NONE, b"", b"x"),)),
     GopBody(GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b""),)),
-    GopBody(GopMethod.NEXT_FRAME, 2, (GopField(3, 1.0, 6, NONE, b"", b"x", 2),)),
+    GopBody(GopMethod.NEXT_FRAME, 2, (GopField(3, 1.0, 6, NONE, b"", b"x", 2, brief=True),)),
     GopBody(GopMethod.KEY_FRAME, 4, (GopField(3, 1.0, 12, NONE, b"", b"x"), GopField(2, 1.0, 8, NONE, b"", b"y"))),
     GopBody(GopMethod.LEARNT, 4, (MOVING, HEAT, still(2))),
     GopBody(GopMethod.LEARNT, 4, (MOVING, still(2)), np.array([0, 1, 0, 0])),
@@ -154,7 +154,7 @@ def test_bodies(body):
     for one, other in zip(parsed.fields, body.fields, strict=True):
         assert (one.width, one.step, one.components) == (other.width, other.step, other.components)
         assert np.array_equal(one.exponents, other.exponents)
-        assert (one.basis, one.levels, one.back) == (other.basis, other.levels, other.back)
+        assert (one.basis, one.levels, one.back, one.brief) == (other.basis, other.levels, other.back, other.brief)
 
 
 def test_known_bytes_of_a_body():

@@ -62,6 +62,7 @@ interface Field {
     levels: Uint8Array;
     /** How far before them those are that frames start from; 0: all from the latest. */
     back: number;
+    brief: boolean;
 }
 
 /** The data of a GOP: the fields of positions and of all attributes that move. */
@@ -257,7 +258,7 @@ export class Sequence {
     private referred({ method, fields }: Gop): number {
         if (hasBasis(method)) return 0;
         const rows = total(this.parts.map(({ around, basis }) => around.length + basis.width));
-        return referredCost(rows, fields.map(({ width, back }, k) => width * (2 + lags(this.tracks[k].kept).length + (back > 0 ? 1 : 0))));
+        return referredCost(rows, fields.map(({ width, back, brief }, k) => width * (2 + (brief ? 1 : lags(this.tracks[k].kept).length) + (back > 0 ? 1 : 0))));
     }
 
     /** Weight of each entry of the graph (S 3.1). */
@@ -551,7 +552,7 @@ export class Sequence {
     }
 
     /** The field of frames that come without a basis; they become the latest ones. */
-    private told({ width, step, levels: data, back }: Field, { first, kept: most }: Track, history: History, frames: number, cosines: Float64Array): Doubles {
+    private told({ width, step, levels: data, back, brief }: Field, { first, kept: most }: Track, history: History, frames: number, cosines: Float64Array): Doubles {
         const { parts } = this;
         const columns = width * frames;
         const empty = (): Levels[] => parts.map(({ basis: { width: rows } }) => ({ rows, values: new Int32Array(rows * columns) }));
@@ -560,7 +561,7 @@ export class Sequence {
         if (back > kept.length) throw new CorruptError(`a frame refers to one ${back} before it, where ${kept.length} are kept`);
         const levels = step > 0 ? this.readLevels(bank, data, parts.map((part) => part.basis.width), columns, history.levels) : empty();
         const field = this.emptyField(columns);
-        const ages = [0, ...lags(most)].map((age) => Math.min(age, kept.length - 1));
+        const ages = [0, ...lags(most).slice(0, brief ? 1 : undefined)].map((age) => Math.min(age, kept.length - 1));
         const starts = Array.from({ length: frames }, (_, t) => kept[back > 0 ? back - 1 - t : 0]);
         const told = parts.map((part, k) => {
             const own = kept.map((frame) => frame[k]);
@@ -727,7 +728,7 @@ function parseGop(data: Uint8Array, { gopFrames: longest, run }: Header, moving:
         }
     }
     const none = new Uint8Array(0);
-    const others = moving.map(({ number, width }) => told.get(number) ?? { width, step: 0, components: hasBasis(method) ? 0 : width * frames, exponents: [], basis: none, levels: none, back: 0 });
+    const others = moving.map(({ number, width }) => told.get(number) ?? { width, step: 0, components: hasBasis(method) ? 0 : width * frames, exponents: [], basis: none, levels: none, back: 0, brief: false });
     return { method, frames, shown, fields: [parseField(cursor.rest(), method, own, 3), ...others] };
 }
 
@@ -770,9 +771,10 @@ function parseField(data: Uint8Array, method: number, frames: number, width: num
         }
         basis = cursor.take(cursor.varint()).slice();
     }
-    const back = method === NEXT_FRAMES ? cursor.varint() : 0;
+    const refers = method === NEXT_FRAMES ? cursor.varint() : 0;
+    const back = Math.floor(refers / 2);
     if (back > 0 && back < frames) throw new CorruptError(`${frames} frames that start from those ${back} before them`);
-    return { width, step, components, exponents, basis, levels: cursor.rest(), back };
+    return { width, step, components, exponents, basis, levels: cursor.rest(), back, brief: refers % 2 > 0 };
 }
 
 /** Some rows of a field. */
