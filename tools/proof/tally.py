@@ -98,7 +98,8 @@ class Tally:
             return f"positions are off by {peak:.1e}, and should be the same to the last bit"
         if rms <= FULL and is_full(stream):
             return None
-        return None if rms <= BOTH * RMS and peak <= BOTH * PEAK else f"positions are off by {rms:.1e} (rms) and {peak:.1e}"
+        near = rms <= BOTH * RMS and peak <= BOTH * PEAK
+        return None if near else f"positions are off by {rms:.1e} (rms) and {peak:.1e}"
 
 
 def _other_attributes(found: Arrays, expected: Arrays, exact: bool) -> str | None:
