@@ -113,7 +113,7 @@ class GopBody:
 
     @property
     def places(self) -> npt.NDArray[np.int64]:
-        """As `shown`, always there."""
+        """Which of those told of each frame is, shape (T,): `shown`, or all in their order."""
         return np.arange(self.frames) if self.shown is None else self.shown
 
 

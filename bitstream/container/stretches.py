@@ -35,7 +35,7 @@ def write_stretches(shown: npt.NDArray[np.int64] | None) -> bytes:
 
 
 def parse_stretches(cursor: Cursor, frames: int) -> npt.NDArray[np.int64] | None:
-    """Inverse of `write_stretches` for so many frames.
+    """Inverse of `write_stretches` for so many frames: an array of shape (T,), or None.
 
     Raises
     ------

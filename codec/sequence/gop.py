@@ -136,7 +136,7 @@ class GopEncoder:
         self._shown = []
 
     def method_with_basis(self, together: int) -> GopMethod:
-        """That of the next GOP, where so many may hang together."""
+        """The method of the next GOP with a basis, where so many may hang together."""
         following = self.inherited is not None and self.inherited.depth < together - 1
         return GopMethod.LEARNT_NEXT if following else GopMethod.LEARNT
 

@@ -121,7 +121,7 @@ class Gops:
         self._count, self._tell = count, tell
 
     def first(self, group: Group, before: Allowance, moving: Sequence[Matrix]) -> Coded:
-        """The first frame, with `moving` as of `make_setting`, and the first GOP.
+        """The first frame, with values that move, shapes (n, d), as of `make_setting`, and the first GOP.
 
         What decoders may still do follows from `before`, of the runs so far.
         """
@@ -177,7 +177,7 @@ class Gops:
 
 
 def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) -> float:
-    """The finest step to try, whose levels can be coded however the motion falls into one component."""
+    """The finest step to try for frames, each of shape (n, 3): levels can be coded if all motion is one component."""
     scale = float(np.linalg.norm(np.ptp(frames[0], axis=0))) or 1.0
     middle, longest = frames[0].mean(axis=0), options.longest(len(frames[0]))
     most = 0.0

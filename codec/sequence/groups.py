@@ -40,12 +40,12 @@ class Group:
         return bool((values != values[:1]).any())
 
     def same(self, step: float) -> Order:
-        """As `same_frames` of them."""
+        """Which frame each is the same as, shape (T,); see `same_frames`."""
         return same_frames(self.positions, list(self.moving.values()), step)
 
 
 def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:
-    """The next frames, as many as a GOP may have; none behind the last."""
+    """The next frames, shapes (n, 3 + ...), as many as a GOP may have; none behind the last."""
     widths = [one.components for one in moving]
     ends = np.cumsum([3, *widths])[:-1]
     found: list[list[Values]] = [[] for _ in moving]
@@ -64,7 +64,7 @@ def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, movin
 
 
 def require_same(still: Mapping[str, Values], group: Group) -> None:
-    """Raise `OptionError` if an attribute that was sent as one that does not move moves now."""
+    """Raise `OptionError` if an attribute, shape (n, d), that was sent as one that does not move moves now."""
     for name, values in still.items():
         if (group.moving[name] != values).any():
             raise OptionError(f"{name!r} moves, and floats that do cannot be exact; ask for a bound")

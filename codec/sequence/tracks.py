@@ -141,5 +141,5 @@ def make_setting(
 
 
 def split_columns(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
-    """A matrix of all fields' columns as those of each."""
+    """A matrix of all fields' columns, shape (m, sum of widths), as those of each."""
     return np.split(matrix, np.cumsum(widths)[:-1], axis=1)
