@@ -9,18 +9,7 @@ DISTRIBUTION = "bsm-codec"
 
 
 def how_to_install(extra: str) -> str:
-    """The command that installs an extra of this package from where the package itself came.
-
-    Parameters
-    ----------
-    extra : str
-        One of those in pyproject.toml, ``eval`` for instance.
-
-    Returns
-    -------
-    str
-        ``pip install ...``: from the index where it came from one, else from the checkout or the file.
-    """
+    """The command that installs an extra of this package from where the package itself came."""
     from importlib import metadata
 
     try:

@@ -91,7 +91,6 @@ class Limits:
     attribute_values: int = 1 << 28
 
     def __repr__(self) -> str:
-        """Name what differs from the defaults, so that signatures fit a line."""
         own = [(one.name, getattr(self, one.name)) for one in fields(self) if getattr(self, one.name) != one.default]
         return f"Limits({', '.join(f'{name}={value!r}' for name, value in own)})"
 

@@ -14,13 +14,7 @@ Choice = TypeVar("Choice")
 
 
 def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
-    """The choice called `name`.
-
-    Raises
-    ------
-    OptionError
-        If there is none of that name; the message lists those there are.
-    """
+    """The choice called `name`."""
     try:
         return choices[name]
     except KeyError:
@@ -30,13 +24,7 @@ def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
 def check_options(
     options: Any, choices: Mapping[str, tuple[str, ...]], ranges: Mapping[str, tuple[float, float]]
 ) -> None:
-    """Check the fields of a dataclass that have a list of choices or a closed range by name; None is always legal.
-
-    Raises
-    ------
-    OptionError, ArgumentError
-        If a value is none of them, or no number.
-    """
+    """Check the fields of a dataclass that have a list of choices or a closed range by name; None is always legal."""
     for item in fields(options):
         name, value = item.name, getattr(options, item.name)
         if isinstance(item.default, bool) and not isinstance(value, (bool, np.bool_)):

@@ -24,13 +24,7 @@ def available_threads() -> int:
 
 
 def threads_of(wanted: int | None) -> int:
-    """How many threads are asked for; None: one per core.
-
-    Raises
-    ------
-    ArgumentError, OptionError
-        If it is no whole number, or not above 0.
-    """
+    """How many threads are asked for; None: one per core."""
     if wanted is None:
         return available_threads()
     if isinstance(wanted, bool) or not isinstance(wanted, Integral):
@@ -41,10 +35,7 @@ def threads_of(wanted: int | None) -> int:
 
 
 def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> Iterator[Result]:
-    """`map(work, items)` on `threads` threads (None: one per core).
-
-    Works a few items ahead of the consumer, so that results do not pile up.
-    """
+    """`map(work, items)` on `threads` threads (None: one per core)."""
     count = threads_of(threads)
 
     if count == 1:

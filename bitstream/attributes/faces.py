@@ -54,24 +54,7 @@ def _field_of(faces: npt.ArrayLike, largest: npt.ArrayLike) -> Field:
 
 
 class FaceValueEncoder(FieldEncoder):
-    """Codes values of faces, in the order of the faces: materials, groups, colours.
-
-    Parameters
-    ----------
-    faces : integers, shape (m, 3)
-        Any triangles.
-    values : integers, shape (m, c), 1 <= c <= 4
-        From 0 to `largest`.
-    largest : integers, shape (c,)
-        At most `MOST_LARGEST`.
-
-    Raises
-    ------
-    MeshError
-        If faces or values are out of range or of another shape.
-    OptionError
-        If `largest` is.
-    """
+    """Codes values of faces, in the order of the faces: materials, groups, colours."""
 
     def __init__(self, faces: npt.ArrayLike, values: npt.ArrayLike, largest: npt.ArrayLike) -> None:
         given = checked_values(values, checked_largest(largest))
@@ -83,22 +66,7 @@ class FaceValueEncoder(FieldEncoder):
 
 
 class FaceValueDecoder(FieldDecoder):
-    """Twin of `FaceValueEncoder`.
-
-    Parameters
-    ----------
-    faces, largest
-        As for `FaceValueEncoder`.
-    limits : Limits
-        `field_bytes` bounds `face_values_charge`.
-
-    Raises
-    ------
-    MeshError, OptionError
-        As `FaceValueEncoder`.
-    LimitError
-        Before anything is allocated.
-    """
+    """Twin of `FaceValueEncoder`."""
 
     def __init__(self, faces: npt.ArrayLike, largest: npt.ArrayLike, limits: Limits = DEFAULT_LIMITS) -> None:
         limits.check("field_bytes", face_values_charge(len(np.asarray(faces)), len(checked_largest(largest))))

@@ -17,28 +17,6 @@ LARGEST_SIZE = (1 << 19) - 1
 def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
     """Directions as pairs of integers: points on an octahedron, its lower half folded outwards.
 
-    Parameters
-    ----------
-    normals : array_like, shape (n, 3)
-        Of any length but 0.
-    size : int
-        From the middle of the octahedron to its tips, K; levels are 0 to 2 K. N bits are K = 2^(N - 1) - 1.
-
-    Returns
-    -------
-    int32 array, shape (n, 2)
-        Of points whose absolute coordinates add up to K, shifted by K; each direction has one pair only. Within
-        1 / K or so of the direction.
-
-    Raises
-    ------
-    MeshError
-        If a normal has no direction.
-    OptionError
-        If `size` is out of range.
-
-    References
-    ----------
     Q. Meyer et al., "On floating-point normal vectors", EGSR 2010.
     """
     if not 1 <= size <= LARGEST_SIZE:
@@ -71,10 +49,7 @@ def octahedral_normals(levels: npt.ArrayLike, size: int) -> npt.NDArray[np.float
 
 
 def canonical_levels(levels: npt.ArrayLike, size: int) -> Ints:
-    """The pairs, shape (n, 2), that a decoder gives for the directions of `levels`, shape (n, 2).
-
-    A point on a folded edge has several.
-    """
+    """The pairs, shape (n, 2), that a decoder gives for the directions of `levels`, shape (n, 2)."""
     return _folded(_unfolded(np.asarray(levels, np.int64), size), size)
 
 

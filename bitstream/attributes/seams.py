@@ -33,14 +33,7 @@ _SLOTS = 32 * 32 + 9 * 16 + 256 + 9
 
 @dataclass(frozen=True, eq=False)
 class Joins:
-    """Which corners share a value.
-
-    Parameters
-    ----------
-    corners : Corners
-    seams : uint8 array, shape (3 m,)
-        NO_SEAM, SEAM or OPEN for the edge that each corner faces.
-    """
+    """Which corners share a value."""
 
     corners: Corners
     seams: Flags
@@ -91,28 +84,14 @@ def find_seams(corners: Corners, values: npt.ArrayLike) -> Flags:
 
 
 def encode_seams(corners: Corners, seams: Flags, earlier: tuple[Flags, ...] = ()) -> bytes:
-    """Code seams.
-
-    Parameters
-    ----------
-    corners : Corners
-    seams : uint8 array, shape (3 m,)
-    earlier : tuple of uint8 arrays
-        Seams of attributes that both sides know; the last two help.
-    """
+    """Code seams."""
     coder = start_writing(len(seams) + 64)
     _code(coder, corners, seams.copy(), earlier)
     return finish_writing(coder)
 
 
 def decode_seams(payload: bytes, corners: Corners, earlier: tuple[Flags, ...] = ()) -> Flags:
-    """Twin of `encode_seams`: returns the seams, shape (3 m,).
-
-    Raises
-    ------
-    CorruptError, TruncatedError
-        If `payload` is not of the seams of these corners.
-    """
+    """Twin of `encode_seams`: returns the seams, shape (3 m,)."""
     coder = start_reading(payload)
     seams = np.zeros(len(corners.opposite), np.uint8)
     _code(coder, corners, seams, earlier)

@@ -88,31 +88,7 @@ def _field_of(
 
 
 class ValueEncoder(FieldEncoder):
-    """Codes values of vertices.
-
-    Parameters
-    ----------
-    faces : integers, shape (m, 3)
-        Any triangles; where values differ between corners of a vertex, of the mesh cut open there.
-    values : integers, shape (n, c), 1 <= c <= 4
-        From 0 to `largest`; for normals, levels as `octahedral_levels` makes them.
-    largest : integers, shape (c,)
-        At most `MOST_LARGEST`. For normals, both twice the size of the octahedron.
-    kind : {"plain", "texcoord", "normal", "color"}
-        How they are predicted. Texture coordinates and normals have c = 2; colours are coded as plain numbers are.
-    geometry : integers of 32 bits, shape (n, 3), optional
-        Where the vertices are, as the decoder knows it: in steps well below the mean edge, for normals the finer the
-        better.
-    places : integers, shape (n,), optional
-        Equal numbers for vertices at the same place, which the cuts have parted.
-
-    Raises
-    ------
-    MeshError
-        If faces, values, geometry or places are out of range or of another shape.
-    OptionError
-        If `largest` or `kind` is.
-    """
+    """Codes values of vertices."""
 
     def __init__(
         self,
@@ -133,25 +109,7 @@ class ValueEncoder(FieldEncoder):
 
 
 class ValueDecoder(FieldDecoder):
-    """Twin of `ValueEncoder`.
-
-    Parameters
-    ----------
-    faces : integers, shape (m, 3)
-    vertices : int
-        Their number n.
-    largest, kind, geometry, places
-        As for `ValueEncoder`.
-    limits : Limits
-        `field_bytes` bounds `values_charge`.
-
-    Raises
-    ------
-    MeshError, OptionError
-        As `ValueEncoder`.
-    LimitError
-        Before anything is allocated.
-    """
+    """Twin of `ValueEncoder`."""
 
     def __init__(
         self,
@@ -169,10 +127,7 @@ class ValueDecoder(FieldDecoder):
 
 
 def ring_of_twins(places: npt.ArrayLike | None, vertices: int) -> Ints:
-    """For each vertex the next one with the same number, in a ring; itself where there is no other.
-
-    `places` are the numbers, shape (n,), with n = `vertices`, or None: all different. Returns shape (n,).
-    """
+    """For each vertex the next one with the same number, in a ring; itself where there is no other."""
     if places is None:
         return np.arange(vertices, dtype=np.int32)
     given = np.asarray(places)

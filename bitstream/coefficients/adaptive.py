@@ -44,28 +44,7 @@ _BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as the
 
 @dataclass
 class CoefficientModel:
-    """What a chain of blocks has taught the coder; encoder and decoder each keep one per chain.
-
-    Parameters
-    ----------
-    width : int
-        Rows of the largest block.
-    experience : Experience
-        What is known beforehand; encoder and decoder must start from the same.
-
-    Attributes
-    ----------
-    bank : Bank
-        Adaptive probabilities and weights.
-    rows : Bank
-        The same for numbers of rows.
-    past : Past
-        Magnitudes of earlier blocks.
-    missing : int64 array, shape (1,)
-        Rows that the block before had less than `width`.
-    expectations : int32 array, shape (EXPECTATIONS * SITUATIONS, NEIGHBOURS)
-        Weights of the expectations.
-    """
+    """What a chain of blocks has taught the coder; encoder and decoder each keep one per chain."""
 
     width: int
     experience: Experience = field(default_factory=coordinate_experience)
@@ -99,13 +78,7 @@ class CoefficientModel:
 
 
 def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
-    """Code one block's quantized coefficients, shape (c_i, 3), each coordinate a column; updates `model`.
-
-    Raises
-    ------
-    OptionError
-        If there are more rows than the model is made for, or a magnitude is over MAX_LEVEL.
-    """
+    """Code one block's quantized coefficients, shape (c_i, 3), each coordinate a column; updates `model`."""
     _check_levels(model, levels)
     coder = start_writing(_BYTES_PER_LEVEL * levels.size)
     _code_block(coder, model, np.array(levels, np.int32, order="C"))
@@ -113,13 +86,7 @@ def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
 
 
 def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> Levels:
-    """Twin of `encode_coefficients`: read `count` rows, shape (count, 3).
-
-    Raises
-    ------
-    TruncatedError, CorruptError
-        If the payload is not exactly one block long, or the block has more rows than the model is made for.
-    """
+    """Twin of `encode_coefficients`: read `count` rows, shape (count, 3)."""
     if count > model.width:
         raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
     levels = np.zeros((count, 3), np.int32)
@@ -130,15 +97,7 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
 
 
 def encode_blocks(model: CoefficientModel, blocks: Sequence[Levels]) -> bytes:
-    """Code consecutive blocks, each of shape (c_i, 3), into one payload, with the number of rows of each.
-
-    Updates `model`.
-
-    Raises
-    ------
-    OptionError
-        As `encode_coefficients`, or if a block has no rows.
-    """
+    """Code consecutive blocks, each of shape (c_i, 3), into one payload, with the number of rows of each."""
     coder = start_writing(sum(_BYTES_PER_LEVEL * (levels.size + 1) for levels in blocks))
     for levels in blocks:
         _check_levels(model, levels)
@@ -148,13 +107,7 @@ def encode_blocks(model: CoefficientModel, blocks: Sequence[Levels]) -> bytes:
 
 
 def decode_blocks(model: CoefficientModel, payload: bytes, count: int) -> list[Levels]:
-    """Twin of `encode_blocks`: read `count` blocks, each of shape (c_i, 3).
-
-    Raises
-    ------
-    TruncatedError, CorruptError
-        If the payload is not exactly so many blocks long, or a block has no rows or too many.
-    """
+    """Twin of `encode_blocks`: read `count` blocks, each of shape (c_i, 3)."""
     coder = start_reading(payload)
     blocks: list[Levels] = []
     for _ in range(count):
@@ -167,15 +120,7 @@ def decode_blocks(model: CoefficientModel, payload: bytes, count: int) -> list[L
 
 
 def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientModel, above: Levels) -> bytes:
-    """Code the levels of a block, shape (c, 3), and those of a layer above them, shape (r, 3), into one payload.
-
-    Updates both models. The reader must know the number of rows of `levels`; that of `above`, which may be 0, is coded.
-
-    Raises
-    ------
-    OptionError
-        As `encode_coefficients`.
-    """
+    """Code the levels of a block, shape (c, 3), and those of a layer above them, shape (r, 3), into one payload."""
     _check_levels(model, levels)
     _check_levels(over, above)
     coder = start_writing(_BYTES_PER_LEVEL * (levels.size + above.size + 1))
@@ -185,13 +130,7 @@ def encode_layers(model: CoefficientModel, levels: Levels, over: CoefficientMode
 
 
 def decode_layers(model: CoefficientModel, over: CoefficientModel, payload: bytes, count: int) -> tuple[Levels, Levels]:
-    """Twin of `encode_layers`: read `count` rows, shape (count, 3), and the layer above them, shape (r, 3).
-
-    Raises
-    ------
-    TruncatedError, CorruptError
-        If the payload is not exactly one block long, or a layer has more rows than its model is made for.
-    """
+    """Twin of `encode_layers`: read `count` rows, shape (count, 3), and the layer above them, shape (r, 3)."""
     if count > model.width:
         raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
     coder = start_reading(payload)

@@ -32,17 +32,7 @@ _BEYOND = 3  # and behind the last
 
 
 class Past(NamedTuple):
-    """Magnitudes of a chain's coefficients so far; row _ABOVE is the lowest frequency, each column a coordinate.
-
-    Attributes
-    ----------
-    current, before : int32 arrays, shape (_ABOVE + width + _BEYOND, 3)
-        In the block being coded and in the block before it, zero where there is none.
-    usual : int32 array, same shape
-        Running mean over the blocks, in 1 / UNIT.
-    blocks : int64 array, shape (1,)
-        Number of blocks before the current one.
-    """
+    """Magnitudes of a chain's coefficients so far; row _ABOVE is the lowest frequency, each column a coordinate."""
 
     current: Magnitudes
     before: Magnitudes
@@ -62,22 +52,12 @@ def copy_past(past: Past) -> Past:
 
 
 def look_at_block(past: Past, levels: Magnitudes) -> Magnitudes:
-    """The inputs of the expectations of all coefficients of a block, shape (c, 3); the block becomes a part of `past`.
-
-    Returns
-    -------
-    int32 array, shape (3 c, NEIGHBOURS)
-        A row per coefficient, in the order in which they are coded: of each are known all rows above it, and the
-        coordinates before its own in its row.
-    """
+    """The inputs of the expectations of a block's coefficients, shape (c, 3); the block becomes a part of `past`."""
     inputs = np.empty((levels.size, NEIGHBOURS), np.int32)
     _kernels.look_at_block(past, levels, inputs)
     return inputs
 
 
 def expectation_bin(weights: Magnitudes, inputs: Magnitudes) -> int:
-    """Logarithm of an expectation, in thirds of an octave (each of them linear inside), 0 .. BINS - 1.
-
-    `weights` and `inputs`, both of shape (NEIGHBOURS,), make the expectation.
-    """
+    """Logarithm of an expectation, in thirds of an octave (each of them linear inside), 0 .. BINS - 1."""
     return _kernels.bin_of_expectation(weights, inputs)

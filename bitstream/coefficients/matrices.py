@@ -62,19 +62,7 @@ def make_level_bank() -> Bank:
 def encode_levels(
     bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[Lead | None] | None = None
 ) -> bytes:
-    """Code matrices one behind the other.
-
-    Parameters
-    ----------
-    bank : Bank
-        Is updated.
-    matrices : sequence of int32 arrays, shapes (rows_k, columns), C-contiguous
-        All with the same number of columns.
-    references : sequence of int32 arrays, shapes (any, columns), C-contiguous
-        What each matrix is expected to resemble in magnitude; may be an earlier matrix of `matrices`.
-    leads : sequence of Lead, optional
-        Of each matrix; None: none has one.
-    """
+    """Code matrices one behind the other."""
     coder = start_writing(16 * sum(m.size for m in matrices) + 8 * len(matrices) + 64)
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
         _code_matrix(coder, bank, matrix, reference, _occupied(matrix), _extent_of(matrix, lead))
@@ -82,10 +70,7 @@ def encode_levels(
 
 
 def first_prices(rows: int, columns: int, lead: Lead | None = None) -> Prices:
-    """Prices before any are known, as of `price_levels`, of a matrix of shape (rows, columns).
-
-    Nothing costs anything but what cannot be coded.
-    """
+    """Prices before any are known, as of `price_levels`, of a matrix of shape (rows, columns)."""
     prices = np.zeros((rows, columns, 2, PRICED), np.int16)
     if lead is not None:
         first, more = lead
@@ -94,20 +79,7 @@ def first_prices(rows: int, columns: int, lead: Lead | None = None) -> Prices:
 
 
 def price_levels(bank: Bank, matrix: Levels, reference: Levels, lead: Lead | None = None) -> Prices:
-    """What each place of a matrix would cost if it were coded next, and its neighbours as they are.
-
-    Parameters
-    ----------
-    bank : Bank
-        Stays as it is.
-    matrix, reference : int32 arrays
-    lead : Lead, optional
-
-    Returns
-    -------
-    int16 array, shape (rows, columns, 2, PRICED)
-        Of magnitudes on both grids (see `bitstream.coefficients.trellis`), in 1 / 256 bit.
-    """
+    """What each place of a matrix would cost if it were coded next, and its neighbours as they are."""
     rows, columns = matrix.shape
     prices = first_prices(rows, columns, lead)
     coder, slow = start_writing(16 * matrix.size + 64), np.empty(columns, np.int64)
@@ -123,13 +95,7 @@ def decode_levels(
     references: Sequence[Levels],
     leads: Sequence[Lead | None] | None = None,
 ) -> None:
-    """Twin of `encode_levels`: fill `matrices`, shapes (rows_k, columns), which hold zeros.
-
-    Raises
-    ------
-    TruncatedError, CorruptError
-        If the payload does not hold exactly these matrices.
-    """
+    """Twin of `encode_levels`: fill `matrices`, shapes (rows_k, columns), which hold zeros."""
     coder = start_reading(payload)
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
         _code_matrix(coder, bank, matrix, reference, 0, _extent_of(matrix, lead))
@@ -139,15 +105,7 @@ def decode_levels(
 
 
 def code_column(coder: Coder, values: Levels) -> Coder:
-    """Write whole numbers, shape (n,), or read them into `values`, by a model of their own.
-
-    Returns the coder to go on with.
-
-    Raises
-    ------
-    TruncatedError
-        If the payload that is read ends before them.
-    """
+    """Write whole numbers, shape (n,), or read them into `values`, by a model of their own."""
     column = values.reshape(-1, 1)
     if not is_reading(coder):
         coder = make_room(coder, 16 * len(values) + 8)
@@ -160,7 +118,6 @@ def code_column(coder: Coder, values: Levels) -> Coder:
 
 
 def _occupied(matrix: Levels) -> int:
-    """Rows but those that are zero behind."""
     occupied = np.flatnonzero(matrix.any(axis=1))
     return int(occupied[-1]) + 1 if len(occupied) else 0
 
@@ -177,5 +134,4 @@ def _extent_of(matrix: Levels, lead: Lead | None) -> _Extent:
 
 
 def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int, extent: _Extent) -> None:
-    """Code the first rows, those that have levels among them."""
     _kernels.code_matrix(coder, bank, levels, reference, rows, *extent, np.empty(levels.shape[1], np.int64))

@@ -14,20 +14,7 @@ MAX_BITS = 32
 
 
 def pack_coefficients(values: npt.NDArray[Any], bits: int) -> bytes:
-    """Bytes of unsigned integers below ``2**bits``, most significant bit first, and compressed.
-
-    Parameters
-    ----------
-    values : ndarray of integers
-        Any shape; taken in C order.
-    bits : int
-        1 to 32.
-
-    Raises
-    ------
-    OptionError
-        If `bits` is out of range or a value does not fit.
-    """
+    """Bytes of unsigned integers below ``2**bits``, most significant bit first, and compressed."""
     flat = np.asarray(values).ravel()
     _check_bits(bits)
     if flat.dtype.kind not in "iu":
@@ -39,17 +26,7 @@ def pack_coefficients(values: npt.NDArray[Any], bits: int) -> bytes:
 
 
 def unpack_coefficients(data: bytes, count: int, bits: int) -> npt.NDArray[np.uint32]:
-    """Inverse of `pack_coefficients`.
-
-    Returns
-    -------
-    ndarray of uint32, shape (count,)
-
-    Raises
-    ------
-    CorruptError
-        If `data` holds more or less than `count` values, or the bits that fill its last byte are not 0.
-    """
+    """Inverse of `pack_coefficients`."""
     _check_bits(bits)
     packed = np.frombuffer(decompress(data, (count * bits + 7) // 8), dtype=np.uint8)
     digits = np.unpackbits(packed)

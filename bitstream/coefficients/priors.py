@@ -33,17 +33,7 @@ _SHAPES = {
 
 @dataclass(frozen=True, eq=False)
 class Experience:
-    """Learnt numbers; in a file, the three arrays one behind the other, little-endian, 16 bits a number.
-
-    Attributes
-    ----------
-    expectations : uint16 array, shape (EXPECTATIONS, SITUATIONS, NEIGHBOURS)
-        Weights of the expectations, 1.0 = 1024.
-    mixing : int16 array, shape (SELECTORS * NODES, EXPECTATIONS)
-        First mixing weights, 1.0 = 4096.
-    slots : uint16 array, shape (EXPECTATIONS * BINS * NODES,)
-        First probability of a one in 1 / 4096 (upper 12 bits) and a quarter of how often it is deemed seen (lower 4).
-    """
+    """Learnt numbers; in a file, the three arrays one behind the other, little-endian, 16 bits a number."""
 
     expectations: npt.NDArray[np.uint16]
     mixing: npt.NDArray[np.int16]
@@ -69,10 +59,7 @@ class Experience:
 
     @cached_property
     def first_slots(self) -> npt.NDArray[np.uint32]:
-        """Slots of a fresh bank, shape (EXPECTATIONS * BINS * NODES,).
-
-        They are as `bitstream.entropy.range_coder.Bank` holds them.
-        """
+        """Slots of a fresh bank, shape (EXPECTATIONS * BINS * NODES,)."""
         stored = self.slots.astype(np.int64)
         return (((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2)).astype(np.uint32)
 

@@ -30,37 +30,14 @@ COSTS = np.rint(_BIT * -np.log2(np.minimum(_PROBABILITIES, 1.0))).astype(np.int6
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """Levels for one block.
-
-    Attributes
-    ----------
-    levels : int32 array, shape (c, 3)
-        For all rows.
-    width : int
-        Rows that are worth their bits, at least 1: with the rows behind left out, error and bits together are least.
-    """
+    """Levels for one block."""
 
     levels: Levels
     width: int
 
 
 def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weight: float) -> Choice:
-    """Choose the levels that `encode_coefficients` should code next; `model` stays as it is.
-
-    Parameters
-    ----------
-    model : CoefficientModel
-        As it is before the block.
-    targets : int64 array, shape (c, 3)
-        Coefficients in units of 1 / TARGET_UNIT of the quantization step.
-    weight : float
-        Squared steps that a bit is worth.
-
-    Raises
-    ------
-    OptionError
-        If there are more rows than the model is made for, or a target is beyond MAX_LEVEL steps.
-    """
+    """Choose the levels that `encode_coefficients` should code next; `model` stays as it is."""
     if len(targets) > model.width or np.abs(targets).max(initial=0) > MAX_LEVEL * TARGET_UNIT:
         raise OptionError(f"targets must be at most {model.width} rows of levels up to {MAX_LEVEL}")
     price = weight * TARGET_UNIT**2 / _BIT

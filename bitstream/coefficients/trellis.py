@@ -1,14 +1,5 @@
 """Dependent quantization: two grids, and a rule by which the levels so far say which of them the next one is on.
 
-Coefficients are measured in half steps: those are the *points*. A level k stands for the point 2 k on the even grid,
-and for 2 k - sgn(k) on the odd one, so zero is on both and either grid has one point to a step. The first level of a
-block is on the even grid; after that the number of the grid (0 or 1) is the parity of the last level plus the numbers
-of the last three grids.
-
-An encoder picks one of the many ways through the grids, which packs the points of a block as densely as a lattice of
-many dimensions, while each level costs what it would on a single grid: the mean squared error is up to 1.09 dB lower at
-the same rate.
-
 References
 ----------
 M. W. Marcellin and T. R. Fischer, "Trellis coded quantization of memoryless and Gauss-Markov sources", 1990; H. Schwarz

@@ -1,15 +1,4 @@
-"""The conquest: triangle by triangle over a closed surface, the same walk for encoder and decoder.
-
-After the first triangle of a component the front is that triangle's border. A node without free edges is closed by the
-triangle to its neighbours, which costs nothing; else the triangle beyond the gate of the first node is added, and its
-third vertex is told: a new vertex (with its valence, by which the decoder knows when to close it), the dummy vertex of
-a boundary loop not met before, or a node already on the front (which splits one polygon of it or joins two).
-
-References
-----------
-C. Touma, C. Gotsman, "Triangle mesh compression", Graphics Interface 1998; P. Alliez, M. Desbrun, "Valence-driven
-connectivity encoding for 3D meshes", Eurographics 2001.
-"""
+"""The conquest: triangle by triangle over a closed surface, the same walk for encoder and decoder."""
 
 from __future__ import annotations
 
@@ -36,23 +25,7 @@ TURN_BYTES = 1024
 
 
 class Guide(NamedTuple):
-    """What only the encoder knows; a decoder has empty arrays.
-
-    Attributes
-    ----------
-    surface : Surface
-        The surface to conquer.
-    conquered : uint8 array
-        Which of its faces are behind the front.
-    node : int32 array
-        Node whose gate a half-edge is.
-    number : int32 array
-        Number of each fan and dummy in the order of conquest, or -1.
-    fans : int32 array
-        Fan of each real vertex in the order of conquest.
-    faces : int32 array
-        Face of the surface of each emitted face.
-    """
+    """What only the encoder knows; a decoder has empty arrays."""
 
     surface: Surface
     conquered: npt.NDArray[np.uint8]
@@ -63,20 +36,7 @@ class Guide(NamedTuple):
 
 
 class Conquest(NamedTuple):
-    """What both sides know.
-
-    Attributes
-    ----------
-    front : Front
-        Border of the conquered part.
-    vertices : int64 array, shape (fans + dummies, 2)
-        What contexts see of a vertex (`Vertex` in `valence_model.h`).
-    faces : int32 array, shape (m, 3)
-        Emitted faces.
-    tallies : int64 array
-        Vertices, real vertices and faces so far; dummies, triangles and steps along the front still allowed; first
-        face that the encoder may have left; label of the latest real vertex; faces behind which to pause, 0: none.
-    """
+    """What both sides know."""
 
     front: Front
     vertices: npt.NDArray[np.int64]
@@ -129,8 +89,5 @@ def fans_of(conquest: Conquest) -> int:
 
 
 def conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest) -> int:
-    """Code the surface, from where the last call ran out of room or paused.
-
-    The encoder's guide tells each third vertex; without one, the coder's payload does.
-    """
+    """Code the surface, from where the last call ran out of room or paused."""
     return _kernels.conquer(coder, models, guide, conquest)

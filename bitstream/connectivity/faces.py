@@ -58,15 +58,7 @@ _BYTES_PER_FAN = 32  # more than the vertex of a fan, or a corner of a degenerat
 
 @dataclass(frozen=True)
 class Cut:
-    """Where a payload can be cut.
-
-    Parameters
-    ----------
-    faces, vertices : int
-        That are known when all before the cut has come.
-    size : int
-        Bytes before the cut.
-    """
+    """Where a payload can be cut."""
 
     faces: int
     vertices: int
@@ -75,21 +67,7 @@ class Cut:
 
 @dataclass(frozen=True, eq=False)
 class EncodedConnectivity:
-    """What `encode_connectivity` returns.
-
-    Attributes
-    ----------
-    payload : bytes
-        For `decode_connectivity`.
-    vertex_order : int32 array, shape (n,)
-        ``vertex_order[j]`` is the given vertex that the decoder calls j.
-    face_order : int32 array, shape (m,)
-        ``face_order[i]`` is the given face that the decoder emits as face i.
-    faces : int32 array, shape (m, 3)
-        What the decoder returns: the given faces renumbered and reordered; corners may be rotated.
-    cuts : tuple of Cut
-        Where the payload can be cut, of the places that were asked for.
-    """
+    """What `encode_connectivity` returns."""
 
     payload: bytes
     vertex_order: Ints
@@ -106,23 +84,7 @@ class EncodedConnectivity:
 
 
 def encode_connectivity(faces: npt.ArrayLike, vertex_count: int, cut_behind: Sequence[int] = ()) -> EncodedConnectivity:
-    """Encode triangles.
-
-    Parameters
-    ----------
-    faces : array_like of int, shape (m, 3)
-        Any triangles: non-manifold, repeated, degenerate and inconsistently oriented ones too.
-    vertex_count : int
-        Number of vertices; each must be a corner of some face.
-    cut_behind : sequence of int
-        Numbers of faces, ascending, behind which the payload may be cut. It can be cut nowhere if vertices are sewn
-        together at its end, nor behind the last face before those that repeat a corner.
-
-    Raises
-    ------
-    MeshError
-        If there is no face, an index is out of range, or a vertex is in no face.
-    """
+    """Encode triangles."""
     given = _check_faces(faces, vertex_count)
     degenerate = (given[:, 0] == given[:, 1]) | (given[:, 1] == given[:, 2]) | (given[:, 2] == given[:, 0])
     proper, improper = np.flatnonzero(~degenerate), np.flatnonzero(degenerate)
@@ -163,32 +125,14 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int, cut_behind: Seq
 
 @dataclass(frozen=True, eq=False)
 class Known:
-    """What is known of a mesh when some pieces of its connectivity have come.
-
-    Parameters
-    ----------
-    faces : int32 array, shape (m, 3)
-        All faces so far.
-    vertices : int
-        How many vertices there are so far.
-    """
+    """What is known of a mesh when some pieces of its connectivity have come."""
 
     faces: Ints
     vertices: int
 
 
 class ConnectivityDecoder:
-    """Decodes what `encode_connectivity` made, piece by piece.
-
-    Parameters
-    ----------
-    vertex_count, face_count : int
-        Of the whole mesh.
-    limits : Limits
-    cuts : sequence of int
-        Faces that are known with each piece but the last, those of earlier pieces among them; ascending, and fewer
-        than `face_count`.
-    """
+    """Decodes what `encode_connectivity` made, piece by piece."""
 
     def __init__(
         self, vertex_count: int, face_count: int, limits: Limits = DEFAULT_LIMITS, cuts: Sequence[int] = ()
@@ -198,17 +142,7 @@ class ConnectivityDecoder:
         self._piece = b""
 
     def take(self, piece: bytes) -> Known:
-        """Take the next piece, and say what is known then; the last one must make the mesh whole.
-
-        Raises
-        ------
-        LimitError
-            If a count is over the limit.
-        TruncatedError
-            If the payload ends too early.
-        CorruptError
-            If it contradicts itself, the counts or the cuts.
-        """
+        """Take the next piece, and say what is known then; the last one must make the mesh whole."""
         self._piece = piece
         return next(self._pieces)
 
@@ -251,31 +185,16 @@ class ConnectivityDecoder:
 
 
 def decode_connectivity(payload: bytes, vertex_count: int, face_count: int, limits: Limits = DEFAULT_LIMITS) -> Ints:
-    """Decode what `encode_connectivity` made of `face_count` triangles of `vertex_count` vertices.
-
-    Returns
-    -------
-    int32 array, shape (face_count, 3)
-        Faces; vertex j is the given vertex ``vertex_order[j]``.
-
-    Raises
-    ------
-    LimitError, TruncatedError, CorruptError
-        See `ConnectivityDecoder.take`.
-    """
+    """Decode what `encode_connectivity` made of `face_count` triangles of `vertex_count` vertices."""
     return ConnectivityDecoder(vertex_count, face_count, limits).take(payload).faces
 
 
 def _memory(faces: int, vertices: int, sewn: int) -> int:
-    """Bytes for so many faces, vertices, and fans and dummies besides."""
     return _FACE_MEMORY * faces + _VERTEX_MEMORY * vertices + _FAN_MEMORY * sewn
 
 
 def _conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest, stop: int = 0) -> tuple[Coder, Conquest]:
-    """Run the conquest, with more memory each time it asks; so memory follows the progress, not a claim.
-
-    It goes on to its end, or until `stop` faces are emitted.
-    """
+    """Run the conquest, with more memory each time it asks; so memory follows the progress, not a claim."""
     pause_behind(conquest, stop)
     while (end := conquer(coder, models, guide, conquest)) == NO_ROOM:
         coder, conquest = make_room(coder, TURN_BYTES + len(coder.data)), enlarge_conquest(conquest)
@@ -300,7 +219,6 @@ def _check_faces(faces: npt.ArrayLike, vertex_count: int) -> Ints:
 
 
 def _number_by_appearance(sequence: Ints, size: int) -> tuple[Ints, Ints]:
-    """The distinct values, below `size`, in the order of their first appearance, and the number of each value there."""
     order, number = np.empty(size, np.int32), np.empty(size, np.int32)
     count = _kernels.number_by_appearance(sequence, order, number)
     return order[:count].copy(), number

@@ -21,16 +21,7 @@ _MADE, _ALIVE, _TAILS = _BUCKETS, _BUCKETS + 1, _BUCKETS + 2
 
 
 class Front(NamedTuple):
-    """Polygons that bound the conquered faces.
-
-    Attributes
-    ----------
-    nodes : int32 array, shape (capacity, 8)
-        One row per node (`Node` in `front.h`): vertex, free degree, neighbours in the polygon, half-edge on the far
-        side of the gate (encoder only), vertex behind the gate, and links within the bucket.
-    heads : int32 array, shape (18,)
-        First node of each of eight buckets or -1; number of nodes made; of those not closed; last node of each bucket.
-    """
+    """Polygons that bound the conquered faces."""
 
     nodes: Ints
     heads: Ints

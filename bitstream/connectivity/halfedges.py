@@ -18,19 +18,7 @@ Ints = npt.NDArray[np.int32]
 
 
 class Surface(NamedTuple):
-    """A closed surface.
-
-    Attributes
-    ----------
-    twin : int32 array, shape (3 * (m + d),)
-        The half-edge on the other side; the d dummy faces follow the m real ones.
-    corner : int32 array, shape (3 * (m + d),)
-        Fan where the half-edge starts; the dummy vertices follow the fans.
-    valence : int32 array
-        Number of edges of each fan and dummy vertex.
-    vertex : int32 array
-        Vertex of the mesh that each fan belongs to.
-    """
+    """A closed surface."""
 
     twin: Ints
     corner: Ints
@@ -47,10 +35,7 @@ def close_surface(faces: Ints, vertex_count: int) -> Surface:
 
 
 def match_halfedges(origin: Ints, vertex_count: int) -> Ints:
-    """Twin of each half-edge, -1 unless its edge has exactly one half-edge in each direction; in linear time.
-
-    `origin`, shape (3 m,), is the vertex where each half-edge starts; the twins have its shape.
-    """
+    """Twin of each half-edge, -1 unless its edge has exactly one half-edge in each direction; in linear time."""
     starts = np.empty(vertex_count + 1, np.int64)
     by_high, order, twin = (np.empty(origin.size, np.int32) for _ in range(3))
     _kernels.match_halfedges(origin, starts, by_high, order, twin)
@@ -58,7 +43,6 @@ def match_halfedges(origin: Ints, vertex_count: int) -> Ints:
 
 
 def _find_fans(origin: Ints, twin: Ints) -> tuple[Ints, Ints]:
-    """Number the fans by first corner; return the fan of each corner and the vertex of each fan."""
     corner, vertex = np.empty_like(origin), np.empty_like(origin)
     count = _kernels.find_fans(origin, twin, corner, vertex)
     return corner, vertex[:count].copy()

@@ -21,19 +21,7 @@ Ints = npt.NDArray[np.int32]
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """What `read_arrangement` returns.
-
-    Attributes
-    ----------
-    vertex_order : int32 array, shape (n,)
-        Original number of each decoded vertex.
-    face_order : int32 array, shape (m,)
-        Original number of each decoded face.
-    faces : int32 array, shape (m, 3)
-        The original faces: order, numbering and first corners.
-    turns : int32 array, shape (m,)
-        Which corner of its decoded face is the first of each original face.
-    """
+    """What `read_arrangement` returns."""
 
     vertex_order: Ints
     face_order: Ints
@@ -55,13 +43,7 @@ def write_arrangement(faces: npt.ArrayLike, encoded: EncodedConnectivity) -> Cod
 
 
 def read_arrangement(coder: Coder, faces: Ints, vertex_count: int) -> Arrangement:
-    """Read the original order of decoded `faces`, shape (m, 3), of `vertex_count` vertices, where a payload begins.
-
-    Raises
-    ------
-    CorruptError, TruncatedError
-        If the payload is not an order of these.
-    """
+    """Read the original order of decoded `faces`, shape (m, 3), of `vertex_count` vertices, where a payload begins."""
     if faces.size == 0 or faces.max() >= vertex_count:
         raise CorruptError(f"the arrangement is of {vertex_count} vertices, which the faces are not")
     vertex_order, suggested_order = np.zeros(vertex_count, np.int32), np.zeros(len(faces), np.int32)
@@ -81,12 +63,10 @@ def read_arrangement(coder: Coder, faces: Ints, vertex_count: int) -> Arrangemen
 
 
 def _suggest(faces: Ints) -> tuple[npt.NDArray[np.intp], Ints]:
-    """The likely order of faces, and these in it, smallest corner first."""
     suggested = np.lexsort(np.sort(faces, axis=1).T)
     ordered = faces[suggested]
     return suggested, _turn(ordered, np.argmin(ordered, axis=1))
 
 
 def _turn(faces: Ints, rotations: npt.NDArray[np.integer]) -> Ints:
-    """Faces that start with corner number `rotations`."""
     return np.take_along_axis(faces, (rotations[:, None] + np.arange(3)) % 3, axis=1)

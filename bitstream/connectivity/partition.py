@@ -21,10 +21,7 @@ _CONTEXTS = 16 * (_CANDIDATES + 1)
 
 
 def encode_labels(offsets: Indices, neighbours: Indices, labels: Indices, parts: int) -> bytes:
-    """Code `labels`, shape (n,), numbered by first appearance, over the graph that the decoder will have.
-
-    The graph is CSR: `offsets`, shape (n + 1,), and `neighbours`, shape (e,).
-    """
+    """Code `labels`, shape (n,), numbered by first appearance, over the graph that the decoder will have."""
     coder = start_writing(8 * len(labels) + 64)
     bank = make_bank(_INPUTS * _CONTEXTS, _CANDIDATES + 1, _INPUTS)
     _kernels.code_labels(coder, bank, offsets, neighbours, np.array(labels, np.int32, order="C"), parts)
@@ -32,13 +29,7 @@ def encode_labels(offsets: Indices, neighbours: Indices, labels: Indices, parts:
 
 
 def decode_labels(data: bytes, offsets: Indices, neighbours: Indices, parts: int) -> Indices:
-    """Twin of `encode_labels`: returns the labels, shape (n,).
-
-    Raises
-    ------
-    CorruptError, TruncatedError
-        If `data` is not a partition of the graph into exactly `parts` parts.
-    """
+    """Twin of `encode_labels`: returns the labels, shape (n,)."""
     labels = np.zeros(len(offsets) - 1, np.int32)
     coder = start_reading(data)
     bank = make_bank(_INPUTS * _CONTEXTS, _CANDIDATES + 1, _INPUTS)

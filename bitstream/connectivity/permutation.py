@@ -35,26 +35,14 @@ _STEP_BYTES = 128  # more than one entry can take
 
 
 def encode_permutation(order: npt.ArrayLike) -> bytes:
-    """Encode a permutation of 0 .. n - 1, shape (n,), n below 2**24.
-
-    Raises
-    ------
-    OptionError
-        If it is none.
-    """
+    """Encode a permutation of 0 .. n - 1, shape (n,), n below 2**24."""
     values = np.array(order, np.int32)
     coder = start_writing(0)
     return finish_writing(code_permutation(coder, values))
 
 
 def decode_permutation(payload: bytes, size: int) -> Ints:
-    """Decode a permutation of `size` entries, shape (size,).
-
-    Raises
-    ------
-    CorruptError, TruncatedError
-        If the payload is not one.
-    """
+    """Decode a permutation of `size` entries, shape (size,)."""
     values = np.zeros(size, np.int32)
     finish_reading(code_permutation(start_reading(payload), values))
     return values
@@ -74,15 +62,7 @@ def decode_rotations(payload: bytes, size: int) -> Ints:
 
 
 def code_permutation(coder: Coder, values: Ints) -> Coder:
-    """Write the permutation `values`, shape (n,), or read it into `values`; return the coder to go on with.
-
-    Raises
-    ------
-    OptionError
-        If what is to be written is not a permutation of fewer than 2**24 entries.
-    CorruptError, TruncatedError
-        If what is read is none.
-    """
+    """Write the permutation `values`, shape (n,), or read it into `values`; return the coder to go on with."""
     size = len(values)
     if not is_reading(coder):
         if values.ndim != 1 or size >> 24 or not _is_permutation(values):

@@ -22,19 +22,7 @@ _SLOTS = 32
 
 
 class Seams(NamedTuple):
-    """Working memory for the vertices of fans.
-
-    Attributes
-    ----------
-    vertex : int32 array
-        Vertex of each fan, -1 as long as it is not known.
-    after, before : int32 array
-        Neighbour along the boundary, -1 for a fan inside the surface.
-    sibling : int32 array
-        The fan of the same vertex that was met before, -1 if none.
-    latest : int32 array
-        The latest fan of each vertex.
-    """
+    """Working memory for the vertices of fans."""
 
     vertex: Ints
     after: Ints
@@ -44,11 +32,7 @@ class Seams(NamedTuple):
 
 
 def code_seams(coder: Coder, faces: Ints, vertices: Ints) -> tuple[int, Ints]:
-    """Code the vertex of every fan; return the number of vertices, or -1 for nonsense, and the vertices, shape (f,).
-
-    `faces`, shape (m, 3), are of fans. The writer gives the vertices in `vertices`, shape (f,), numbered by
-    first appearance; a reader gives as many -1.
-    """
+    """Code the vertex of every fan; return the number of vertices, or -1 for nonsense, and the vertices, shape (f,)."""
     seams = _make_seams(_find_borders(faces, len(vertices)))
     bank = make_bank(_SLOTS, 1, 1)
     return _kernels.code_fans(coder, bank, vertices, seams), seams.vertex
@@ -73,8 +57,5 @@ def _make_seams(after: Ints) -> Seams:
 
 
 def code_degenerate(coder: Coder, corners: Ints, count: int) -> int:
-    """Code the corners of degenerate faces, shape (3 * k,), each a vertex below `count` or the next new one.
-
-    Fills `corners` when reading. Returns the number of vertices afterwards, or -1 for nonsense.
-    """
+    """Code the corners of degenerate faces, shape (3 * k,), each a vertex below `count` or the next new one."""
     return _kernels.code_degenerate(coder, corners, count)

@@ -25,15 +25,7 @@ RARE_HEADER = 5 * _RARE_SPAN
 
 
 class Models(NamedTuple):
-    """Adaptive state of one payload.
-
-    Attributes
-    ----------
-    valence, event, rare : Bank
-        For valences, for the decision whether a gate leads to a new vertex, and for everything else.
-    bits : int
-        Binary logarithm of the number of contexts in each hashed table of valences.
-    """
+    """Adaptive state of one payload."""
 
     valence: Bank
     event: Bank

@@ -32,13 +32,7 @@ _LARGEST_SINGLE = float.fromhex("0x1.fffffep+127")
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
-    """An attribute, but for its values; one with illegal or contradictory fields cannot be made.
-
-    Raises
-    ------
-    OptionError
-        If a field has the wrong type, is outside its legal range, or contradicts another.
-    """
+    """An attribute, but for its values; one with illegal or contradictory fields cannot be made."""
 
     name: str = text(1, 1, MOST_NAME)
     domain: int = method(2, known=3)

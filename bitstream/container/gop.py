@@ -48,28 +48,7 @@ class GopMethod(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class GopField:
-    """What a GOP tells of one field: of positions, or of an attribute that moves.
-
-    Parameters
-    ----------
-    width : int
-        Numbers d of each vertex: 3 of positions.
-    step : float
-        Quantization step, in BSM units or those of the attribute; a single-precision number above 0. 0: nothing is
-        told, the attribute is as in the first frame, or with low delay as in the frame before.
-    components : int
-        Columns r of the temporal basis (d T of cosines, 0 where nothing is told).
-    exponents : int32 array, shape (r,)
-        Steps of a learnt basis, from 0 to `MAX_EXPONENT`; empty otherwise.
-    basis : bytes
-        Coded levels of a learnt basis; empty otherwise.
-    levels : bytes
-        Coded levels of all blocks.
-    back : int
-        Next frames start from those so many frames before each, at least as many as they are; 0: all from the latest.
-    brief : bool
-        Whether of what came before next frames refer to no change but the latest.
-    """
+    """What a GOP tells of one field: of positions, or of an attribute that moves."""
 
     width: int
     step: float
@@ -88,18 +67,7 @@ class GopField:
 
 @dataclass(frozen=True, eq=False)
 class GopBody:
-    """The data of a GOP.
-
-    Parameters
-    ----------
-    method : GopMethod
-    frames : int
-        Number of frames T, at least 1.
-    fields : tuple of GopField
-        Of positions, and of each attribute that moves.
-    shown : int64 array, shape (T,), optional
-        Which of the frames that fields tell of each one is; None: they are these, in order.
-    """
+    """The data of a GOP."""
 
     method: GopMethod
     frames: int
@@ -123,13 +91,7 @@ def still(width: int) -> GopField:
 
 
 def write_gop_body(body: GopBody, run: int = 0, numbers: Sequence[int] = ()) -> bytes:
-    """Method and run (a byte), T, with a learnt basis the stretches, attributes, positions.
-
-    Of attributes there are their count, and each one's number, length and field; `numbers`, ascending, are those of
-    the attributes that move. A field is its step (float 32), of a learnt basis r, the exponents and its coded length,
-    of next frames what they start from; all levels. Counts are varints; an exponent is the zigzag of its difference
-    to the one before.
-    """
+    """Method and run (a byte), T, with a learnt basis the stretches, attributes, positions."""
     positions, *attributes = (_write_field(field, body.method) for field in body.fields)
     if not positions:
         raise OptionError("a GOP needs positions")
@@ -164,23 +126,7 @@ def _write_field(field: GopField, method: GopMethod) -> bytes:
 def parse_gop_body(
     data: bytes, longest: int, run: int = 0, widths: Mapping[int, int] = MappingProxyType({}), *, tolerant: bool = False
 ) -> GopBody:
-    """Inverse of `write_gop_body`.
-
-    Parameters
-    ----------
-    longest : int
-        What the header says about the frames of a GOP.
-    run : int
-    widths : mapping of int to int
-        How many numbers each attribute has that moves.
-    tolerant : bool
-        Pass over attributes that are not among them, whose declaration may be lost.
-
-    Raises
-    ------
-    CorruptError
-        For everything that no encoder writes.
-    """
+    """Inverse of `write_gop_body`."""
     cursor = Cursor(data)
     method, frames, with_attributes = _parse_beginning(cursor, longest, run)
     shown = parse_stretches(cursor, frames) if method.has_basis else None

@@ -82,13 +82,7 @@ ANNOUNCED: dict[int, str] = {
 
 
 class Grammar:
-    """Follows a stream packet by packet; the writer and the reader both ask it.
-
-    Parameters
-    ----------
-    joining : bool
-        Whether the first run that comes may be any.
-    """
+    """Follows a stream packet by packet; the writer and the reader both ask it."""
 
     def __init__(self, *, joining: bool = False) -> None:
         self.header: Header | None = None
@@ -234,7 +228,6 @@ class Grammar:
         return None
 
     def _is_misplaced(self, index: int, blocks: range) -> bool:
-        """Whether a block is none of its section; behind damage, it may be one of a section that is missing."""
         return index < blocks.start if self._lossy else index not in blocks
 
     def _lacks_attributes(self, header: Header) -> bool:

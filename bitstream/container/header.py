@@ -23,12 +23,7 @@ MOST_SECTIONS = 8
 
 @dataclass(frozen=True)
 class Field:
-    """How one header field is stored: its msgpack key, its type and the closed range of its legal values.
-
-    `reserved` is the largest value that a later version may give a meaning to: above `high`, and up to there, a
-    value is unsupported and not corrupt. Of a list, `item` is the type and `lengths` bounds the number of its entries;
-    of text, the range is that of its length in bytes.
-    """
+    """How one header field is stored: its msgpack key, its type and the closed range of its legal values."""
 
     key: int
     type: type
@@ -103,10 +98,7 @@ def text(key: int, low: int, high: int) -> Any:
 
 @dataclass(frozen=True)
 class Layer:
-    """A layer of refinement: lengths in BSM units of a level along the normal, and times `ratio` along two tangents.
-
-    `ratio` 0: there are no levels along the tangents.
-    """
+    """A layer of refinement: lengths in BSM units of a level along the normal, and times `ratio` along two tangents."""
 
     step: float
     ratio: float
@@ -127,16 +119,7 @@ class Span:
 
 @dataclass(frozen=True, kw_only=True)
 class Header:
-    """What a decoder must know before anything else; a header with illegal or contradictory values cannot be made.
-
-    Lengths are in BSM units: the mesh moved by `-center` and divided by `scale`. On a grid, its cells have that length,
-    and fields that belong to blocks have their defaults.
-
-    Raises
-    ------
-    OptionError
-        If a field has the wrong type, is outside its legal range, or contradicts another.
-    """
+    """What a decoder must know before anything else; a header with illegal or contradictory values cannot be made."""
 
     vertices: int = integer(1, 1, COUNT)
     faces: int = integer(2, 1, COUNT)
@@ -344,15 +327,7 @@ def entries_of(record: Any) -> list[tuple[int, Any]]:
 
 
 def record_of(kind: type[Record], what: str, entries: list[tuple[Any, Any]]) -> Record:
-    """The record that `entries_of` came from; keys from 64 on are ignored.
-
-    Raises
-    ------
-    UnsupportedError
-        For an unknown key below 64 and for an unknown method.
-    CorruptError
-        For everything else that no encoder writes.
-    """
+    """The record that `entries_of` came from; keys from 64 on are ignored."""
     declarations, defaults = fields_of(kind), defaults_of(kind)
     names = {declared.key: name for name, declared in declarations.items()}
     _refuse_unknown(entries, names, declarations, what)

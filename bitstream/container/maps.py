@@ -23,23 +23,14 @@ _FLOAT32_MAX = struct.unpack(">f", b"\x7f\x7f\xff\xff")[0]
 
 
 def write_map(entries: Iterable[tuple[Any, Any]]) -> bytes:
-    """A msgpack map of (key, value) pairs in the order given; every value in its shortest exact form.
-
-    Values are integers, finite floats, strings, bytes, or lists of these.
-    """
+    """A msgpack map of (key, value) pairs in the order given; every value in its shortest exact form."""
     pairs = list(entries)
     packed = b"".join(_pack(key) + _pack(value) for key, value in pairs)
     return bytes(msgpack.Packer().pack_map_header(len(pairs))) + packed
 
 
 def parse_map(payload: bytes) -> list[tuple[Any, Any]]:
-    """The pairs of a canonical msgpack map, keys strictly ascending (strings by their UTF-8 bytes).
-
-    Raises
-    ------
-    CorruptError
-        If `payload` is anything but what `write_map` makes of ascending keys of one type.
-    """
+    """The pairs of a canonical msgpack map, keys strictly ascending (strings by their UTF-8 bytes)."""
     _scan(payload)
     try:
         pairs = msgpack.unpackb(
@@ -70,10 +61,7 @@ def parse_map(payload: bytes) -> list[tuple[Any, Any]]:
 
 
 def _scan(payload: bytes) -> None:
-    """Refuse, before anything is made of it, what has too many entries, or is nested deeper than a list in a map.
-
-    Whatever is nested makes many times its bytes of objects, and of those there would be as many as bytes.
-    """
+    """Refuse, before anything is made of it, what has too many entries, or is nested deeper than a list in a map."""
     entries, start = _many(payload, 0, *_MAP)
     left = MAX_ENTRIES
     for place in range(2 * entries):

@@ -113,11 +113,7 @@ class End:
 
 @dataclass(frozen=True)
 class Damaged:
-    """Bytes that a tolerant reader could not read and skipped.
-
-    `type` is what the frame seems to have been, None if nothing can be said; `offset` and `length` are in bytes of the
-    stream.
-    """
+    """Bytes that a tolerant reader could not read and skipped."""
 
     type: FrameType | None
     offset: int

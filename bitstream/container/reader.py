@@ -76,23 +76,7 @@ class FrameSpan:
 
 
 class Reader:
-    """Strict: the first thing wrong is raised, and raised again by every later call.
-
-    Time and copies are linear in the bytes received, however they are cut up. A frame is kept until it is complete;
-    one that claims more than `limits.frame_bytes` is refused as soon as its tag is there.
-
-    Parameters
-    ----------
-    limits : Limits
-        What this reader may be asked to hold.
-    spend : callable
-        Is told of the work of every frame, before it is looked into.
-
-    Attributes
-    ----------
-    last_frame : FrameSpan or None
-        The frame of the packet returned last.
-    """
+    """Strict: the first thing wrong is raised, and raised again by every later call."""
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS, spend: Spend = unpaid) -> None:
         self.last_frame: FrameSpan | None = None
@@ -112,20 +96,7 @@ class Reader:
         return Grammar()
 
     def receive_data(self, data: Buffer) -> None:
-        """Take more bytes of the stream, any number of them.
-
-        Parameters
-        ----------
-        data : bytes, or any other buffer
-            Of an array its bytes, row after row.
-
-        Raises
-        ------
-        ArgumentError
-            If it is none.
-        OptionError
-            After `receive_eof`.
-        """
+        """Take more bytes of the stream, any number of them."""
         given: Any = data
         try:
             view = memoryview(given)
@@ -142,13 +113,7 @@ class Reader:
         self._eof = True
 
     def next_packet(self) -> Event:
-        """The next packet, `NEED_DATA` if it is not complete, or `END_OF_STREAM` after END and `receive_eof`.
-
-        Raises
-        ------
-        FormatError, UnsupportedError, CorruptError, TruncatedError, LimitError
-            If there is none; with the byte offset and the number of the frame.
-        """
+        """The next packet, `NEED_DATA` if it is not complete, or `END_OF_STREAM` after END and `receive_eof`."""
         if self._error is not None:
             raise self._error
         try:

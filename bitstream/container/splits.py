@@ -30,17 +30,7 @@ MOST_GIVEN = 1 << 24
 
 @dataclass(frozen=True, eq=False)
 class Splits:
-    """The given vertices.
-
-    Parameters
-    ----------
-    source : int32 array, shape (n,)
-        The vertex that each given one is, numbered as the first of each is met; -1 where no face uses it.
-    faces : int32 array, shape (m, 3)
-        Of given vertices.
-    loose : float64 array, shape (k, 3)
-        Positions of those that no face uses, in their order.
-    """
+    """The given vertices."""
 
     source: Ints
     faces: Ints
@@ -48,17 +38,7 @@ class Splits:
 
 
 def encode_order(faces: npt.ArrayLike, encoded: EncodedConnectivity, splits: Splits | None = None) -> bytes:
-    """Encode the order of `faces`, shape (m, 3), whose connectivity was encoded as `encoded`, and given vertices.
-
-    Varints of the copies and of loose vertices; positions of these, as doubles, least byte first; then one payload: the
-    order, and if there are copies or loose vertices, kinds of vertices, what copies are copies of, and, if there are
-    any, which of the vertices at its place each corner names.
-
-    Raises
-    ------
-    OptionError
-        If there are too many vertices.
-    """
+    """Encode the order of `faces`, shape (m, 3), whose connectivity was encoded as `encoded`, and given vertices."""
     coder = write_arrangement(faces, encoded)
     copied, loose = 0, np.zeros((0, 3))
     if splits is not None:
@@ -83,12 +63,7 @@ def encode_order(faces: npt.ArrayLike, encoded: EncodedConnectivity, splits: Spl
 
 
 def decode_order(data: bytes, faces: Ints, vertices: int, limits: Limits) -> tuple[Arrangement, Splits | None]:
-    """Twin of `encode_order`, for decoded `faces`, shape (m, 3), of `vertices` vertices; no splits if there are none.
-
-    Raises
-    ------
-    CorruptError, LimitError, TruncatedError
-    """
+    """Twin of `encode_order`, for decoded `faces`, shape (m, 3), of `vertices` vertices; no splits if there are none"""
     cursor = Cursor(data)
     copies, count = cursor.varint(), cursor.varint()
     limits.check("vertices", vertices + copies + count)

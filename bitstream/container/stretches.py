@@ -13,11 +13,7 @@ WAYS = (1, 0, -1)
 
 
 def write_stretches(shown: npt.NDArray[np.int64] | None) -> bytes:
-    """The frame that is shown at each time, shape (T,); None: each once, in order.
-
-    A stretch is its beginning, as the zigzag of what it is beyond the frame behind the last one, three times, and its
-    way; and its length.
-    """
+    """The frame that is shown at each time, shape (T,); None: each once, in order."""
     if shown is None:
         return write_varint(0)
     parts = []
@@ -35,13 +31,7 @@ def write_stretches(shown: npt.NDArray[np.int64] | None) -> bytes:
 
 
 def parse_stretches(cursor: Cursor, frames: int) -> npt.NDArray[np.int64] | None:
-    """Inverse of `write_stretches` for so many frames: an array of shape (T,), or None.
-
-    Raises
-    ------
-    CorruptError
-        If the stretches are not as long as the frames are many, or have a frame that cannot have been sent.
-    """
+    """Inverse of `write_stretches` for so many frames: an array of shape (T,), or None."""
     count = cursor.varint()
     if not count:
         return None

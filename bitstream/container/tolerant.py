@@ -42,18 +42,7 @@ class _Damage:
 
 
 class TolerantReader(Reader):
-    """Returns a `Damaged` packet where a `Reader` raises, and goes on with the next frame that is whole.
-
-    Damage to the preamble or to the first HEADER is still raised; that HEADER may be of any run of a sequence. Behind
-    other damage, the length in the damaged frame's tag is trusted if a whole frame lies there; otherwise the next
-    offset at which a whole and fitting frame begins, or the end of the data, is searched byte by byte. The checksums
-    computed in such searches cover at most `SCAN_BYTES` plus `SCAN_FACTOR` times the bytes received: a candidate beyond
-    that is passed over. A missing END is reported too, unless reported damage reaches the end of the data. Once
-    something was lost, the count and the checksum in END are not compared any more.
-
-    A tag that was damaged so that it claims too much is found out only when that many bytes, or the end of the data,
-    have come.
-    """
+    """Returns a `Damaged` packet where a `Reader` raises, and goes on with the next frame that is whole."""
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS, spend: Spend = unpaid) -> None:
         super().__init__(limits, self._pay)

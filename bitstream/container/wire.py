@@ -52,20 +52,7 @@ def write_preamble() -> bytes:
 
 
 def parse_preamble(data: bytes) -> bool:
-    """Check the beginning of a stream, as far as it has arrived.
-
-    Returns
-    -------
-    bool
-        True once magic and version are complete and right, False while bytes are missing.
-
-    Raises
-    ------
-    FormatError
-        As soon as a byte of the magic is wrong.
-    UnsupportedError
-        If the version is another one.
-    """
+    """Check the beginning of a stream, as far as it has arrived."""
     if not MAGIC.startswith(data[: len(MAGIC)]):
         raise FormatError("not a BSM stream: it does not begin with 89 42 53 4D", offset=0)
     if len(data) <= len(MAGIC):
@@ -90,13 +77,7 @@ def write_varint(value: int) -> bytes:
 
 
 def parse_varint(data: bytes | bytearray, start: int) -> tuple[int, int] | None:
-    """The varint at `start` and the offset behind it; None if `data` ends inside.
-
-    Raises
-    ------
-    CorruptError
-        If it is longer than five bytes or than it need be.
-    """
+    """The varint at `start` and the offset behind it; None if `data` ends inside."""
     value = 0
     for position, byte in enumerate(data[start : start + MAX_VARINT_BYTES]):
         value |= (byte & 0x7F) << 7 * position
@@ -152,15 +133,7 @@ def parse_tag(data: bytes | bytearray, start: int) -> Tag | None:
 
 
 def parse_frame(data: bytes | bytearray, start: int, limits: Limits) -> Frame | None:
-    """The frame at `start` of `data`; None if `data` ends inside it.
-
-    Raises
-    ------
-    LimitError
-        If it claims to be longer than `limits.frame_bytes`; raised before the payload is there.
-    CorruptError
-        If its tag is malformed or its checksum is wrong.
-    """
+    """The frame at `start` of `data`; None if `data` ends inside it."""
     tag = parse_tag(data, start)
     if tag is None:
         return None

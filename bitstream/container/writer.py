@@ -13,15 +13,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 
 class Writer:
-    """Turns packets into the bytes of a stream, and refuses to write one that no reader would accept.
-
-    Every method returns the bytes to send or store next; nothing is kept back.
-
-    Parameters
-    ----------
-    limits : Limits
-        Those of the readers that the stream is meant for; a frame over them is refused.
-    """
+    """Turns packets into the bytes of a stream, and refuses to write one that no reader would accept."""
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self._limits = limits
@@ -38,15 +30,7 @@ class Writer:
         return preamble
 
     def write(self, packet: Packet) -> bytes:
-        """The frame of one packet (not END, which `end` makes).
-
-        Raises
-        ------
-        OptionError
-            If the packet may not come here, or has a value that the format cannot hold.
-        LimitError
-            If it is over the limits.
-        """
+        """The frame of one packet (not END, which `end` makes)."""
         if isinstance(packet, End):
             raise OptionError("END is made by Writer.end()")
         return self._frame(packet)

@@ -1,37 +1,4 @@
-"""An adaptive binary arithmetic coder with logistic mixing of several context models, in integers only.
-
-One function serves both directions. A `Coder` either writes or reads, and that is data inside it: what models symbols
-calls ``bit = code_mixed_bit(coder, bank, contexts, node, selector, bit)`` and takes the returned bit; when the coder
-reads, the argument ``bit`` is ignored. So encoder and decoder cannot drift apart.
-
-How to use it::
-
-    bank = make_bank(slots=..., selectors=..., inputs=3)       # all adaptive state, starts neutral
-    coder = start_writing(capacity) / start_reading(payload)
-    contexts = np.array([base0 + span * first_context, base1 + span * second_context, base2])
-    value = code_unsigned(coder, bank, contexts, selector, unary, value)
-    payload = finish_writing(coder) / finish_reading(coder)
-
-- A *slot* is one adaptive probability. A *context* is the index of the first of a span of slots; the decision number
-  `node` of a binarised symbol uses slot ``context + node`` of every context. `code_unsigned` uses
-  ``unsigned_span(unary)`` nodes, `code_signed` two more, `code_mixed_bit` the one node it is given.
-- A *selector* chooses the set of mixing weights; decision `node` uses set ``selector + node``, so a symbol needs as
-  many sets as nodes. Selectors should be few: each set has to learn.
-- Bank and coder are separate: several payloads, each with its own coder, may go on learning in one bank;
-  `reset_bank` forgets, `copy_bank` takes a snapshot.
-- Reading past the end yields zeros; `finish_reading` and `overran` tell.
-
-Where symbols are many, a kernel in C codes them in one go, with the same functions: `range_coder.h` (bits and uniform
-numbers), `mixing.h` (mixed bits) and `integers.h`. It derives contexts from clamped values, so that every index stays
-inside the bank whatever a payload says, and stops soon after it overran.
-
-Everything is integer arithmetic with defined rounding (shifts round down), so all machines agree to the bit.
-
-References
-----------
-M. Mahoney, "Adaptive weighing of context models for lossless data compression", Florida Tech CS-2005-16 (logistic
-mixing); the byte-wise range coder follows G. N. N. Martin, "Range encoding", 1979, with carries resolved in the buffer.
-"""
+"""An adaptive binary arithmetic coder with logistic mixing of several context models, in integers only."""
 
 from __future__ import annotations
 
@@ -58,32 +25,14 @@ _AHEAD = 4
 
 
 class Coder(NamedTuple):
-    """A range coder over a buffer; made by `start_writing` or `start_reading`.
-
-    Attributes
-    ----------
-    state : int64 array
-        Low end (writing) or code minus low end (reading), range, position, direction, overflow.
-    data : uint8 array
-        What is written or read.
-    """
+    """A range coder over a buffer; made by `start_writing` or `start_reading`."""
 
     state: npt.NDArray[np.int64]
     data: npt.NDArray[np.uint8]
 
 
 class Bank(NamedTuple):
-    """The adaptive state of a model; made by `make_bank`.
-
-    Attributes
-    ----------
-    slots : uint32 array
-        Probability of a one (upper 22 bits) and how often the slot was used (lower 10 bits, saturating).
-    weights : int32 array, shape (selectors, inputs)
-        Mixing weights, 1.0 = 65536.
-    settings : int64 array
-        Largest count, learning rate of the mixer, initial weight, initial slot.
-    """
+    """The adaptive state of a model; made by `make_bank`."""
 
     slots: npt.NDArray[np.uint32]
     weights: npt.NDArray[np.int32]
@@ -99,23 +48,7 @@ def make_bank(
     probability: int = ONE // 2,
     trust: int = 0,
 ) -> Bank:
-    """Make a neutral bank.
-
-    Parameters
-    ----------
-    slots : int
-        Number of adaptive probabilities.
-    selectors : int
-        Number of weight sets.
-    inputs : int
-        Number of contexts mixed in each decision.
-    limit : int
-        A slot adapts with rate 1/(n + 1.5) until it was used `limit` times (at most 1023), then with a constant rate.
-    rate : int
-        Learning rate of the mixing weights, 2 (slow) to 20 (fast).
-    probability, trust : int
-        What a slot predicts before it was used, out of `ONE`, and after how many uses it would have learnt that.
-    """
+    """Make a neutral bank."""
     if not (slots > 0 and selectors > 0 and 0 < inputs <= MOST_INPUTS):
         raise OptionError(f"a bank needs slots, selectors, and 1 to {MOST_INPUTS} inputs")
     if not (0 < limit <= _MAX_COUNT and 0 < rate <= _MAX_RATE):
@@ -169,13 +102,7 @@ def has_room(coder: Coder, capacity: int) -> bool:
 
 
 def start_reading(payload: bytes) -> Coder:
-    """Make a coder that reads `payload`.
-
-    Raises
-    ------
-    CorruptError
-        If it begins with four bytes of 255, where the low end and the range cannot be.
-    """
+    """Make a coder that reads `payload`."""
     data = np.frombuffer(payload, np.uint8).copy()
     code, width = int.from_bytes(payload[:4].ljust(4, b"\0"), "big"), (1 << 32) - 1
     if code >= width:
@@ -194,13 +121,7 @@ def bytes_taken(coder: Coder) -> int:
 
 
 def finish_writing(coder: Coder) -> bytes:
-    """Return the payload: everything written, and the fewest bytes that still tell the last decision.
-
-    Raises
-    ------
-    OptionError
-        If the capacity given to `start_writing` was too small.
-    """
+    """Return the payload: everything written, and the fewest bytes that still tell the last decision."""
     low, width, position = (int(x) for x in coder.state[:3])
     if coder.state[_FULL]:
         raise OptionError(f"the payload needs more than the {len(coder.data) - 8} bytes of capacity given")
@@ -215,30 +136,14 @@ def finish_writing(coder: Coder) -> bytes:
 
 
 def finish_reading(coder: Coder) -> None:
-    """Check that a payload was read exactly to its end.
-
-    Raises
-    ------
-    TruncatedError
-        If more was read than there is.
-    CorruptError
-        If bytes are left over.
-    """
+    """Check that a payload was read exactly to its end."""
     taken, size = _taken_at_end(coder)
     if taken < size:
         raise CorruptError(f"{size - taken} bytes are left over after the last symbol of a payload")
 
 
 def finish_piece(coder: Coder) -> None:
-    """Check that what was read of a payload, of which more will come, is all that has come.
-
-    Raises
-    ------
-    TruncatedError
-        If more was read than can have come.
-    CorruptError
-        If it is not.
-    """
+    """Check that what was read of a payload, of which more will come, is all that has come."""
     taken, size = _taken_at_end(coder)
     if taken != size:
         raise CorruptError(f"the pieces of a payload so far have {size} bytes where {taken} belong")
@@ -258,54 +163,19 @@ def overran(coder: Coder) -> bool:
 
 
 def code_bit(coder: Coder, probability: int, bit: int) -> int:
-    """Code one decision.
-
-    Parameters
-    ----------
-    coder : Coder
-        Writes `bit`, or reads and ignores it.
-    probability : int
-        Of a one, in 1 .. ONE - 1; the reader must know the same.
-    bit : int
-        0 or 1.
-
-    Returns
-    -------
-    int
-        The decision, 0 or 1.
-
-    Raises
-    ------
-    ValueError
-        This and the functions below: if an argument is out of its range.
-    """
+    """Code one decision."""
     return _kernels.code_bit(coder, probability, bit)
 
 
 def code_uniform(coder: Coder, value: int, count: int) -> int:
-    """Code an integer in 0 .. count - 1, all equally likely; `count` in 1 .. 2**32.
-
-    What hostile data has beyond is read as count - 1.
-    """
+    """Code an integer in 0 .. count - 1, all equally likely; `count` in 1 .. 2**32."""
     return _kernels.code_uniform(coder, value, count)
 
 
 def code_mixed_bit(
     coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], node: int, selector: int, bit: int
 ) -> int:
-    """Predict a decision from all contexts, code it, and learn from it.
-
-    Parameters
-    ----------
-    coder, bank : Coder, Bank
-        Where to, and by which model.
-    contexts : int64 array, shape (inputs,)
-        First slot of each context; the decision uses the slots ``contexts + node``.
-    node, selector : int
-        Number of the decision within its symbol; first of the symbol's weight sets.
-    bit : int
-        0 or 1, ignored when reading.
-    """
+    """Predict a decision from all contexts, code it, and learn from it."""
     return _kernels.code_mixed_bit(coder, bank, contexts, node, selector, bit)
 
 
@@ -322,28 +192,12 @@ def signed_span(unary: int) -> int:
 def code_unsigned(
     coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], selector: int, unary: int, value: int, node: int = 0
 ) -> int:
-    """Code an integer in 0 .. 2**24 - 2 + unary: a unary prefix, then an Exp-Golomb escape.
-
-    Parameters
-    ----------
-    coder, bank, contexts, selector
-        As for `code_mixed_bit`, `contexts` of shape (inputs,); each context, and the selector, owns
-        `unsigned_span(unary)` slots from `node` on.
-    unary : int
-        Values below are coded by value + 1 mixed decisions.
-    value : int
-        Ignored when reading.
-    node : int
-        Number of the first decision.
-    """
+    """Code an integer in 0 .. 2**24 - 2 + unary: a unary prefix, then an Exp-Golomb escape."""
     return _kernels.code_unsigned(coder, bank, contexts, selector, unary, value, node)
 
 
 def code_signed(
     coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], selector: int, unary: int, value: int
 ) -> int:
-    """Code a signed integer of magnitude below 2**24: zero, sign, then the rest.
-
-    Takes `signed_span(unary)` nodes; `contexts`, shape (inputs,), and all else as for `code_unsigned`.
-    """
+    """Code a signed integer of magnitude below 2**24: zero, sign, then the rest."""
     return _kernels.code_signed(coder, bank, contexts, selector, unary, value)

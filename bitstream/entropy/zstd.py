@@ -24,13 +24,7 @@ def compress(data: bytes) -> bytes:
 
 
 def decompress(data: bytes, exact_size: int) -> bytes:
-    """Inverse of `compress`; never allocates for more than `exact_size` bytes.
-
-    Raises
-    ------
-    CorruptError
-        If `data` does not hold exactly `exact_size` bytes.
-    """
+    """Inverse of `compress`; never allocates for more than `exact_size` bytes."""
     if len(data) == exact_size:
         return data
     if len(data) > exact_size:

@@ -29,16 +29,7 @@ _BYTES_PER_ROW = 4
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """Integers of vertices or faces, with what codes them.
-
-    Parameters
-    ----------
-    code : callable
-        Codes rows of `values`, or fills them.
-    order : int32 array, shape (n,)
-        The rows as they are coded.
-    values : int32 array, shape (n, c)
-    """
+    """Integers of vertices or faces, with what codes them."""
 
     code: Kernel
     order: Ints
@@ -63,7 +54,6 @@ class _FieldCoder:
         return self._next
 
     def _take(self, count: int) -> range:
-        """Places in the order of the next `count`."""
         if not 0 < count <= len(self.order) - self._next:
             raise OptionError(f"a chunk of {count} where {len(self.order) - self._next} are left")
         return range(self._next, self._next + count)
@@ -86,22 +76,7 @@ class FieldDecoder(_FieldCoder):
     """Twin of `FieldEncoder`."""
 
     def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
-        """Decode the next `count` of `order`.
-
-        Returns
-        -------
-        rows : int32 array, shape (count,)
-            Numbers of the vertices or faces.
-        values : int32 array, shape (count, c)
-            Of these.
-
-        Raises
-        ------
-        OptionError
-            If there are fewer; after an error below there is none.
-        CorruptError, TruncatedError
-            If `payload` is not of so many.
-        """
+        """Decode the next `count` of `order`."""
         places = self._take(count)
         self._next = len(self.order)
         coder = start_reading(payload)

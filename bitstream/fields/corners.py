@@ -20,20 +20,7 @@ BYTES_PER_FACE = 48
 
 
 class Corners(NamedTuple):
-    """The corners of a mesh; corner k is corner k % 3 of face k // 3.
-
-    Attributes
-    ----------
-    faces : int32 array, shape (m, 3)
-    starts : int32 array, shape (n + 1,)
-        Where the corners of each vertex begin in `corners`.
-    corners : int32 array, shape (3 m,)
-        Ascending at each vertex.
-    opposite : int32 array, shape (3 m,)
-        The corner that faces the same edge from the other side, or -1.
-    rank : int32 array, shape (n,)
-        When each vertex is coded; `PASSED_OVER`: not at all.
-    """
+    """The corners of a mesh; corner k is corner k % 3 of face k // 3."""
 
     faces: Ints
     starts: Ints
@@ -43,20 +30,7 @@ class Corners(NamedTuple):
 
 
 def corners_of(faces: npt.ArrayLike, vertices: int) -> Corners:
-    """The corners of a mesh whose vertices are coded as they are numbered.
-
-    Parameters
-    ----------
-    faces : integers, shape (m, 3)
-        Any triangles: repeated corners and edges of many faces do no harm. Copied.
-    vertices : int
-        Their number; some may be in no face.
-
-    Raises
-    ------
-    MeshError
-        If `faces` is no array of that shape, or has an index out of range.
-    """
+    """The corners of a mesh whose vertices are coded as they are numbered."""
     given = np.asarray(faces)
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu" or len(given) > MOST_FACES:
         raise MeshError(f"faces must be integers of shape (m, 3), not {given.dtype} of {given.shape}")
@@ -76,19 +50,13 @@ def corners_of(faces: npt.ArrayLike, vertices: int) -> Corners:
 
 
 def keep_borders(corners: Corners) -> npt.NDArray[np.bool_]:
-    """Let vertices of borders alone be coded: sets `corners.rank`, and returns which these are, shape (n,).
-
-    A border is an edge that a corner without a partner faces: one of one face, or of three, or of five, ...
-    """
+    """Let vertices of borders alone be coded: sets `corners.rank`, and returns which these are, shape (n,)."""
     _kernels.keep_borders(corners)
     return np.asarray(corners.rank != PASSED_OVER)
 
 
 def traverse(corners: Corners) -> Ints:
-    """Make each vertex come when as much as possible is known around it.
-
-    Returns the order, shape (n,), and sets `corners.rank`.
-    """
+    """Make each vertex come when as much as possible is known around it."""
     vertices = len(corners.rank)
     order = np.empty(vertices, np.int32)
     _kernels.order_vertices(corners, order, np.full((3, vertices), -1, np.int32))

@@ -48,15 +48,7 @@ def floats_of(numbers: Numbers) -> npt.NDArray[np.float32]:
 
 
 class Cells(NamedTuple):
-    """Numbers of floats in the cells of values (V 16.2), all of shape (k, 3).
-
-    Parameters
-    ----------
-    low, high : integers
-        Of the first in each, and of the first behind it.
-    nearest : integers
-        Of that which is nearest to the place of the value.
-    """
+    """Numbers of floats in the cells of values (V 16.2), all of shape (k, 3)."""
 
     low: Numbers
     nearest: Numbers
@@ -70,13 +62,7 @@ def cells_of(values: Ints, origin: npt.NDArray[np.float64], step: float) -> Cell
 
 
 class Floats:
-    """What is learnt of floats, from frame to frame; the struct `Floats` of `floats.h`.
-
-    Parameters
-    ----------
-    largest : sequence of int
-        Largest value of each axis of the grid.
-    """
+    """What is learnt of floats, from frame to frame; the struct `Floats` of `floats.h`."""
 
     def __init__(self, largest: tuple[int, ...]) -> None:
         self._state = (
@@ -91,13 +77,7 @@ class Floats:
         return 24 * (max(largest) + 1)
 
     def encode(self, values: Ints, cells: Cells, floats: Numbers) -> bytes:
-        """Code the numbers of floats, shape (k, 3), each in its cell, of values of a grid, shape (k, 3).
-
-        Raises
-        ------
-        OptionError
-            If a float is not in the cell of its value.
-        """
+        """Code the numbers of floats, shape (k, 3), each in its cell, of values of a grid, shape (k, 3)."""
         if ((floats < cells.low) | (floats >= cells.high)).any():
             raise OptionError("a float is not in the cell of its value")
         coder, done = start_writing(_ROOM), 0
@@ -107,13 +87,7 @@ class Floats:
         return finish_writing(coder)
 
     def decode(self, payload: bytes, values: Ints, cells: Cells) -> Numbers:
-        """Twin of `encode`: returns the numbers of the floats, shape (k, 3).
-
-        Raises
-        ------
-        CorruptError, TruncatedError
-            If `payload` is not of these values.
-        """
+        """Twin of `encode`: returns the numbers of the floats, shape (k, 3)."""
         floats = np.zeros(values.shape, np.int64)
         coder = start_reading(payload)
         done = self._code(coder, values, cells, floats)

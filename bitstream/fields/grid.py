@@ -69,24 +69,7 @@ def _grid_of(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Fie
 
 
 class GridEncoder(FieldEncoder):
-    """Codes positions on a grid, in as few bytes as can be.
-
-    Parameters
-    ----------
-    faces : integers, shape (m, 3)
-        Any triangles.
-    positions : integers, shape (n, 3)
-        From 0 to `largest`.
-    largest : integers, shape (3,)
-        At most `MOST_LARGEST`.
-
-    Raises
-    ------
-    MeshError
-        If faces or positions are out of range.
-    OptionError
-        If `largest` is.
-    """
+    """Codes positions on a grid, in as few bytes as can be."""
 
     _field_of = staticmethod(_grid_of)
 
@@ -102,24 +85,7 @@ class GridEncoder(FieldEncoder):
 
 
 class GridDecoder(FieldDecoder):
-    """Twin of `GridEncoder`.
-
-    Parameters
-    ----------
-    faces : integers, shape (m, 3)
-    vertices : int
-        Their number n.
-    largest : integers, shape (3,)
-    limits : Limits
-        `field_bytes` bounds `grid_charge`.
-
-    Raises
-    ------
-    MeshError, OptionError
-        As `GridEncoder`.
-    LimitError
-        Before anything is allocated.
-    """
+    """Twin of `GridEncoder`."""
 
     _field_of = staticmethod(_grid_of)
 

@@ -10,15 +10,7 @@ _AT_ONCE = 1 << 20
 
 
 def spread(points: npt.NDArray[np.int32], lattice: tuple[int, ...]) -> npt.NDArray[np.int64]:
-    """Values on the grid of points of a lattice (V 12): exact integers, any shape.
-
-    Parameters
-    ----------
-    points : int32 array
-        Coded values.
-    lattice : tuple of int
-        (cells, points) of the header, or empty.
-    """
+    """Values on the grid of points of a lattice (V 12): exact integers, any shape."""
     values = points.astype(np.int64)
     if not lattice:
         return values
@@ -27,22 +19,7 @@ def spread(points: npt.NDArray[np.int32], lattice: tuple[int, ...]) -> npt.NDArr
 
 
 def find_lattice(values: npt.ArrayLike, cells: int) -> tuple[npt.NDArray[np.int32], tuple[int, ...]]:
-    """The coarsest lattice that holds all values of a grid, if it saves a bit or more of each.
-
-    Parameters
-    ----------
-    values : integers, any shape
-        From 0 to `cells`.
-    cells : int
-        Below 2**20; the search takes memory and time in proportion, milliseconds for 2**14.
-
-    Returns
-    -------
-    points : int32 array
-        What `spread` turns into `values`.
-    lattice : tuple of int
-        (cells, points), or empty: then `points` are the values.
-    """
+    """The coarsest lattice that holds all values of a grid, if it saves a bit or more of each."""
     given = np.asarray(values, np.int64)
     different = np.unique(given)
     counts = np.arange(1, cells // 2 + 1)

@@ -62,24 +62,7 @@ def _levels_of(faces: npt.ArrayLike, vertices: int, axes: int, borders: bool) ->
 
 
 class LevelsEncoder(FieldEncoder):
-    """Codes levels, vertices in the order of their numbers.
-
-    Parameters
-    ----------
-    faces : integers, shape (m, 3)
-        Any triangles.
-    levels : integers, shape (n, 1) or (n, 3)
-        At most `MOST_LEVEL` in magnitude: along the normal, and along two tangents.
-    borders : bool
-        Only vertices of borders have levels; those of others are 0, and cost nothing.
-
-    Raises
-    ------
-    MeshError
-        If faces or levels are out of range.
-    OptionError
-        If there are two levels per vertex, or more than three.
-    """
+    """Codes levels, vertices in the order of their numbers."""
 
     def __init__(self, faces: npt.ArrayLike, levels: npt.ArrayLike, *, borders: bool = False) -> None:
         given = np.asarray(levels)
@@ -95,27 +78,7 @@ class LevelsEncoder(FieldEncoder):
 
 
 class LevelsDecoder(FieldDecoder):
-    """Twin of `LevelsEncoder`.
-
-    Parameters
-    ----------
-    faces : integers, shape (m, 3)
-    vertices : int
-        Their number n.
-    axes : int
-        Levels per vertex, 1 or 3.
-    borders : bool
-        Only vertices of borders have levels.
-    limits : Limits
-        `field_bytes` bounds `levels_charge`.
-
-    Raises
-    ------
-    MeshError, OptionError
-        As `LevelsEncoder`.
-    LimitError
-        Before anything is allocated.
-    """
+    """Twin of `LevelsEncoder`."""
 
     def __init__(
         self,

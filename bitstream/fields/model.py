@@ -45,13 +45,7 @@ def make_model() -> ValueModel:
 
 
 def make_learners(start: npt.ArrayLike) -> npt.NDArray[np.int64]:
-    """Learners that have learnt nothing.
-
-    Parameters
-    ----------
-    start : array_like, shape (count, TERMS)
-        The weights they start from and are drawn to, 1.0 = 65536.
-    """
+    """Learners that have learnt nothing."""
     weights = np.asarray(start, np.int64)
     empty = np.zeros((len(weights), TERMS * (TERMS + 1)), np.int64)
     return np.ascontiguousarray(np.hstack([empty, weights, weights]))

@@ -14,44 +14,14 @@ from bsm.codec.arrays import Matrix
 
 
 def residual_norms(positions: Matrix, coefficients: Matrix) -> Matrix:
-    """The error that a subspace of every size leaves.
-
-    Equation 6 adds the residuals of x, y and z before it takes the norm, so that errors of opposite sign cancel; this
-    is the norm over all three.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-    coefficients : float64 array, shape (c, 3)
-        U^T v for c orthonormal columns U.
-
-    Returns
-    -------
-    float64 array, shape (c + 1,)
-        Entry j is the norm of v - U_j U_j^T v over x, y and z, with U_j the first j columns.
-    """
+    """The error that a subspace of every size leaves."""
     total = float(np.square(positions).sum())
     captured = np.concatenate([[0.0], np.cumsum(np.square(coefficients).sum(axis=1))])
     return np.sqrt(np.maximum(total - captured, 0.0))
 
 
 def dynamic_size(positions: Matrix, coefficients: Matrix, previous: int, lowest: float, highest: float) -> int:
-    """c_i: from the predecessor's size, one column more while the error is over eps_h, one less while under eps_l.
-
-    Parameters
-    ----------
-    positions, coefficients
-        As for `residual_norms`, shapes (n, 3) and (c, 3).
-    previous : int
-        c_{i-1}.
-    lowest, highest : float
-        eps_l and eps_h.
-
-    Returns
-    -------
-    int
-        From 1 to c.
-    """
+    """c_i: from the predecessor's size, one column more while the error is over eps_h, one less while under eps_l."""
     norms = residual_norms(positions, coefficients)
     size = min(max(previous, 1), len(coefficients))
     if norms[size] > highest:
@@ -64,15 +34,7 @@ def dynamic_size(positions: Matrix, coefficients: Matrix, previous: int, lowest:
 
 
 class DynamicSize:
-    """c_i of one block of a chain after the other.
-
-    Parameters
-    ----------
-    lowest, highest : float
-        eps_l and eps_h.
-    first : int
-        What the first block starts from.
-    """
+    """c_i of one block of a chain after the other."""
 
     def __init__(self, lowest: float, highest: float, first: int) -> None:
         self._thresholds = lowest, highest

@@ -24,18 +24,7 @@ PADDING = 7
 
 @dataclass(frozen=True, eq=False)
 class Laplacian:
-    """L of a block, and how it is factorised whatever is added to its diagonal.
-
-    Parameters
-    ----------
-    block : Block
-    fronts : Fronts
-        Found once for all factorisations.
-    weights : float64 array
-        Of the entries of `block.neighbours`; above zero, and the same in both directions of an edge. Empty: all one.
-    diagonal : float64 array, shape (n,)
-        Sum of the weights of each row.
-    """
+    """L of a block, and how it is factorised whatever is added to its diagonal."""
 
     block: Block
     fronts: Fronts
@@ -44,13 +33,7 @@ class Laplacian:
 
 
 def laplacian_of(block: Block) -> Laplacian:
-    """L of a block whose rows are in the order of a recursive bisection, with all weights one.
-
-    Raises
-    ------
-    LimitError
-        If factorising it would take too long, see `codec.basis.solver.fronts.find_fronts`.
-    """
+    """L of a block whose rows are in the order of a recursive bisection, with all weights one."""
     fronts = find_fronts(block.offsets, block.neighbours)
     return Laplacian(block, fronts, np.empty(0), block.degrees.astype(np.float64))
 
@@ -64,17 +47,7 @@ def weighted_laplacian(block: Block, weights: Matrix) -> Laplacian:
 
 @dataclass(frozen=True, eq=False)
 class Factor:
-    """L + delta I = P^T C D C^T P with C unit lower triangular.
-
-    Parameters
-    ----------
-    fronts : Fronts
-        The order of elimination P, and the pattern of C.
-    values : float64 array
-        The columns of C, as rows of the fronts' matrices, from the first cache line in it on.
-    inverse : float64 array, shape (n,)
-        Diagonal of D^-1.
-    """
+    """L + delta I = P^T C D C^T P with C unit lower triangular."""
 
     fronts: Fronts
     values: Matrix

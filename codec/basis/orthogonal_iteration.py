@@ -43,35 +43,19 @@ components (M 8.3); half or twice of it changes bytes by nothing, and by 0.3 % a
 
 
 def cosine_columns(rows: int, first: int, last: int) -> Matrix:
-    """Cosines along the rows, frequencies `first` to `last - 1`: the start that needs no predecessor.
-
-    Returns shape (rows, last - first). Column j is cos(pi j (2 r + 1) / (2 n)), the eigenvectors of a path of n
-    vertices, orthogonal to each other.
-    """
+    """Cosines along the rows, frequencies `first` to `last - 1`: the start that needs no predecessor."""
     columns, table = np.empty((rows, last - first)), np.empty(rows + 8)
     _kernels.cosines(first, table, columns)
     return columns
 
 
 def onorm(columns: Matrix) -> Matrix:
-    """Q of the QR factorisation with positive diagonal of `columns`, shape (n, c), n >= c.
-
-    Cholesky QR panel by panel, and Householder reflections where the columns are too close to dependent for that. Both
-    compute the same Q.
-
-    Raises
-    ------
-    NumericError
-        If a value is not finite.
-    """
+    """Q of the QR factorisation with positive diagonal of `columns`, shape (n, c), n >= c."""
     return unpaid(onorm_steps(columns))
 
 
 def onorm_steps(columns: Matrix) -> Steps:
-    """`onorm` of `columns`, shape (n, c), with the price of reflections.
-
-    The first pass is part of the price of what calls it.
-    """
+    """`onorm` of `columns`, shape (n, c), with the price of reflections."""
     q, scratch = np.empty(columns.shape), np.empty(_kernels.iteration_space(*columns.shape))
     independence = _kernels.cholesky_onorm(np.ascontiguousarray(columns), ONCE, scratch, q)
     if independence >= TWICE:
@@ -92,23 +76,7 @@ def householder_orthonormalize(columns: Matrix) -> Matrix:
 def orthogonal_iteration(
     factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None
 ) -> Matrix:
-    """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1).
-
-    Parameters
-    ----------
-    factor : Factor
-        Of R^-1, a matrix of n rows.
-    start : float64 array, shape (n, c) or wider
-        U(0); need not be orthonormal.
-    power, iterations : int
-        z and t_max.
-    width : int, optional
-        c, where `start` has more columns than are taken.
-
-    Returns
-    -------
-    float64 array, shape (n, c), C-contiguous
-    """
+    """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1)."""
     return unpaid(iteration_steps(factor, start, power=power, iterations=iterations, width=width))
 
 
@@ -133,10 +101,7 @@ def iteration_steps(factor: Factor, start: Matrix, *, power: int, iterations: in
 
 
 def completed_steps(first: Steps, rows: int, most: int, width: int) -> Steps:
-    """The columns that `first` leads to, `most` of them at most, completed to `width`, with the price of each step.
-
-    See `completed`.
-    """
+    """The columns that `first` leads to, `most` of them at most, completed to `width`, with the price of each step."""
     columns = yield from up_to(most, first)
     if columns.shape[1] == width:
         return columns
@@ -147,17 +112,6 @@ def completed_steps(first: Steps, rows: int, most: int, width: int) -> Steps:
 def completed(first: Matrix, width: int) -> Matrix:
     """Orthonormal columns, shape (n, width): those of `first`, shape (n, h), and any that are at right angles to them.
 
-    They are a smooth function of `first`, each close to one of the rows behind the first h, and take a fraction of the
-    work of orthogonal iterations. What is coded of high frequencies is as even as noise, so that any such columns are
-    worth as much.
-
-    Raises
-    ------
-    NumericError
-        If the columns are, within their first rows, as good as the negative of some rows of the identity.
-
-    References
-    ----------
     R. Schreiber, B. Parlett, "Block reflectors: theory and computation", 1988; this is one that is not symmetric.
     """
     whole, scratch = np.empty((len(first), width)), np.empty(_kernels.completion_space(first.shape[1]))
@@ -167,21 +121,14 @@ def completed(first: Matrix, width: int) -> Matrix:
 
 
 def follow_columns(previous: Matrix, width: int, noisy: bool) -> Matrix:
-    """The start of a block that follows: the predecessor's columns, shape (n, c), and noise where it is `noisy`.
-
-    Noise is for what `resized` might lack. Returns shape (n, width), or wider where the predecessor is.
-    """
+    """The start of a block that follows: the predecessor's columns, shape (n, c), and noise where it is `noisy`."""
     if noisy:
         return resized(previous, width) + FOLLOWING_NOISE * hash_columns(len(previous), width)
     return previous if previous.shape[1] >= width else resized(previous, width)
 
 
 def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
-    """The start of a block that follows none, shape (rows, width): cosines, and noise where they might lack something.
-
-    What a start does not hold would grow from rounding errors: where a block has several components, each of which is
-    a lowest frequency of its own, or where there are many iterations and the block is as symmetric as cosines are.
-    """
+    """The start of a block that follows none, shape (rows, width): cosines, and noise where they might lack some."""
     start = cosine_columns(rows, 0, width)
     return start + START_NOISE * hash_columns(rows, width) if noisy else start
 
@@ -195,12 +142,7 @@ def resized(previous: Matrix, width: int) -> Matrix:
 
 
 def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0) -> Matrix:
-    """The lowest eigenvectors of L + diag(springs): many orthogonal iterations from `start`, see `first_columns`.
-
-    `start` has shape (n, c), as the result has; `springs` is one number, or has shape (n,). No eigensolver:
-    within a space of equal eigenvalues that may return any rotation. This is a smooth function of the matrix, the same
-    for all who compute it. The noise in the start is for blocks as symmetric as cosines are.
-    """
+    """The lowest eigenvectors of L + diag(springs): many orthogonal iterations from `start`, see `first_columns`."""
     return unpaid(exact_steps(laplacian, start, springs))
 
 

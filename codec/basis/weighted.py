@@ -35,20 +35,7 @@ BEND = 2.0**-6
 
 
 def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matrix:
-    """Weight of every entry of `graph.neighbours`: half the sum of the cotangents opposite to the edge, softly bounded.
-
-    Parameters
-    ----------
-    graph : Graph
-    faces : int32 array, shape (m, 3)
-    positions : float64 array, shape (n, 3)
-        In BSM units.
-
-    Raises
-    ------
-    NumericError
-        If positions are so large that a weight is not finite.
-    """
+    """Weight of every entry of `graph.neighbours`: half the cotangents opposite to the edge, softly bounded."""
     if positions.shape != (graph.size, 3):
         raise ValueError(f"positions of shape {positions.shape} for {graph.size} vertices")
     sums = np.zeros(len(graph.neighbours))
@@ -62,22 +49,7 @@ def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matri
 
 @dataclass(frozen=True, eq=False)
 class Held:
-    """A part that hangs, by springs, on what is known before it: its edges to those parts.
-
-    Parameters
-    ----------
-    laplacian : Laplacian
-        Of the part's own edges.
-    springs : float64 array, shape (n_i,)
-        Sum of the stiffnesses at each row.
-    starts : int32 array, shape (n_i + 1,)
-    around : int32 array, shape (k,)
-        Vertices of the mesh that it hangs on, ascending.
-    outer : int32 array
-        Which of them row r hangs on: `around[outer[starts[r]:starts[r + 1]]]`.
-    stiffness : float64 array
-        Of each spring.
-    """
+    """A part that hangs, by springs, on what is known before it: its edges to those parts."""
 
     laplacian: Laplacian
     springs: Matrix
@@ -87,29 +59,14 @@ class Held:
     stiffness: Matrix
 
     def pulls(self, ends: Matrix) -> Matrix:
-        """Sum of stiffness times what a field is at the other end, for each row: shape (n_i, m).
-
-        `ends`, shape (k, m), is the field `around`.
-        """
+        """Sum of stiffness times what a field is at the other end, for each row: shape (n_i, m)."""
         pulls = np.empty((len(self.springs), ends.shape[1]))
         _kernels.pull(self.starts, self.outer, self.stiffness, np.ascontiguousarray(ends), pulls)
         return pulls
 
 
 def hold(graph: Graph, weights: Matrix, rank: Indices, block: Block) -> Held:
-    """Hang a part on the parts before it.
-
-    Parameters
-    ----------
-    graph : Graph
-        Of the mesh.
-    weights : float64 array
-        Of the entries of `graph.neighbours`.
-    rank : int32 array, shape (n,)
-        When the part of each vertex becomes known.
-    block : Block
-        The part: its vertices, all of the same rank, and the edges between them.
-    """
+    """Hang a part on the parts before it."""
     if len(weights) != len(graph.neighbours) or len(rank) != graph.size:
         raise ValueError(f"{len(weights)} weights and {len(rank)} ranks for a graph of {graph.size} vertices")
     vertices = block.vertices

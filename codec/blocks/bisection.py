@@ -22,24 +22,7 @@ WORTH_A_THREAD = 8192
 
 
 def bisect(graph: Graph, parts: int, threads: int | None = 1) -> tuple[Indices, Indices]:
-    """Cut a graph into parts whose sizes differ by as little as proportional halving allows.
-
-    Parameters
-    ----------
-    graph : Graph
-        On n vertices.
-    parts : int
-        From 1 to n.
-    threads : int, optional
-        With more than one, both halves are cut at once; None: one per core.
-
-    Returns
-    -------
-    order : int32 array, shape (n,)
-        The vertices, part after part.
-    bounds : int32 array, shape (parts + 1,)
-        Part p is `order[bounds[p]:bounds[p + 1]]`.
-    """
+    """Cut a graph into parts whose sizes differ by as little as proportional halving allows."""
     order, bounds = np.empty(graph.size, np.int32), np.empty(parts + 1, np.int32)
     scratch = np.empty(_kernels.bisection_scratch(graph.size), np.uint32)
     arrays = graph.offsets, graph.neighbours, order, bounds

@@ -9,13 +9,7 @@ from bsm.codec.arrays import Indices, Mask, Matrix
 
 
 class Blend:
-    """Weighted sums over the copies of each of n vertices.
-
-    Attributes
-    ----------
-    sums : float64 array, shape (n, 3)
-    weights : float64 array, shape (n,)
-    """
+    """Weighted sums over the copies of each of n vertices."""
 
     def __init__(self, vertices: int) -> None:
         # Zeros cost memory only where they are touched.

@@ -20,15 +20,7 @@ from bsm.codec.geometry.graph import Graph
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """One overlapping block: its vertices in row order, and the graph among them in row numbers.
-
-    Parameters
-    ----------
-    vertices : int32 array, shape (n_i,)
-        Vertex of the mesh behind each row.
-    offsets, neighbours : int32 arrays
-        The block's own graph, CSR, in row numbers.
-    """
+    """One overlapping block: its vertices in row order, and the graph among them in row numbers."""
 
     vertices: Indices
     offsets: Indices
@@ -47,22 +39,7 @@ class Block:
 
 @dataclass(frozen=True, eq=False)
 class Blocks:
-    """All blocks of a mesh, or of a section of one, in the order of the chain.
-
-    Parameters
-    ----------
-    graph : Graph
-        Of the whole mesh, as far as it is known.
-    chain : int32 array, shape (k,)
-        Part of the partition that each block grew from.
-    cores : int32 array, shape (k,)
-        Size of that part; the first `cores[i]` entries of a block's `members` are the part itself.
-    starts : int64 array, shape (k + 1,)
-    edges : int64 array, shape (k,)
-        See `edges_of`.
-    members : int32 array
-        Vertices of block i, as they were found: `members[starts[i]:starts[i + 1]]`.
-    """
+    """All blocks of a mesh, or of a section of one, in the order of the chain."""
 
     graph: Graph
     chain: Indices
@@ -108,18 +85,7 @@ def block_size(partition: Partition, overlap: float) -> int:
 
 
 def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
-    """Put the parts into a chain and grow each by breadth-first rings to `size` vertices (n_d).
-
-    From part 0 on, the next part is the unvisited neighbour of the current one that shares most edges with all parts
-    visited so far (ties: the lowest number). Where there is none, it is the lowest unvisited neighbour of the latest
-    part that has one, and where no part has, the lowest unvisited part.
-
-    A block does not grow over vertices with more than `size` neighbours, so that no mesh makes it look at many edges.
-    A part whose surroundings hold fewer than `size` vertices that it may grow over stays smaller.
-
-    Parts of the last vertices alone, those of a section, are put into a chain as if there were no others, but grow over
-    all of the graph.
-    """
+    """Put the parts into a chain and grow each by breadth-first rings to `size` vertices (n_d)."""
     parts, ends = partition.parts, len(graph.neighbours)
     chain, starts, edges = np.empty(parts, np.int32), np.empty(parts + 1, np.int64), np.empty(parts, np.int64)
     members, seen = np.empty(parts * min(size, graph.size), np.int32), np.empty(graph.size, np.int32)

@@ -19,17 +19,7 @@ REFINEMENT_PASSES = 2
 
 @dataclass(frozen=True, eq=False)
 class Partition:
-    """Disjoint, non-empty parts that cover a graph, or the last vertices of one: those of a section.
-
-    Parameters
-    ----------
-    order : int32 array, shape (n,)
-        The vertices, part after part, ascending within each.
-    bounds : int32 array, shape (k + 1,)
-        Part p is `order[bounds[p]:bounds[p + 1]]`.
-    labels : int32 array, shape (n,)
-        Part of each vertex, or of each of the last ones.
-    """
+    """Disjoint, non-empty parts that cover a graph, or the last vertices of one: those of a section."""
 
     order: Indices
     bounds: Indices
@@ -50,11 +40,7 @@ def partition_of_labels(labels: Indices) -> Partition:
 
 
 def derive_partition(graph: Graph, parts: int, threads: int | None = 1) -> Partition:
-    """Recursive bisection, then two passes that move boundary vertices to where most of their neighbours are.
-
-    Integers only, so that a decoder arrives at the same parts from the decoded faces, and no label is sent. On so many
-    `threads` (None: one per core).
-    """
+    """Recursive bisection, then two passes that move boundary vertices to where most of their neighbours are."""
     order, bounds = bisect(graph, parts, threads)
     labels = np.empty(graph.size, np.int32)
     _kernels.label_parts(order, bounds, labels)

@@ -58,31 +58,7 @@ meshes that were taken for noisy 1.1 and 2.1."""
 
 @dataclass(frozen=True)
 class AutomaticChoice:
-    """What was chosen, and why.
-
-    Attributes
-    ----------
-    steps : tuple of Step
-        The result is their mean; none: the mesh is best left alone.
-    kind : str
-        Of the noise, see `codec.denoise.noise.finding.Finding`; "outliers" or "ripples" where that was all there
-        was, and "unsteady" where noise was removed in time alone.
-    reason : str
-        A sentence on what was found.
-    noise : NoiseLevel
-        Estimated on the input, in mean edge lengths.
-    untreated, expected : float
-        Error of the noisy mesh and of the result in the last rehearsal: degrees between face normals, or mean edges
-        between vertices. Real meshes have detail that the rehearsal lacks: take it as a lower bound.
-    rehearsals : int
-        How many there were.
-    learnt : float
-        Share of the learnt normals (`codec.denoise.learnt`) in the result.
-    outliers : int
-        Vertices that stood out by themselves and were put back before all else.
-    ripples : tuple of float
-        Lengths, in mean edges, of waves that crossed the mesh and were taken away before all else.
-    """
+    """What was chosen, and why."""
 
     steps: tuple[Step, ...]
     kind: str
@@ -108,21 +84,7 @@ class AutomaticChoice:
 def denoise_automatically(
     positions: Positions, faces: Faces, goal: str = "shading"
 ) -> tuple[Positions, AutomaticChoice]:
-    """Denoise with settings that the noisy mesh itself suggests.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    goal : str
-        "shading": normals near the clean ones; "shape": vertices.
-
-    Returns
-    -------
-    ndarray of float64, shape (n, 3)
-        Where nothing is to be gained, the positions bit for bit.
-    AutomaticChoice
-    """
+    """Denoise with settings that the noisy mesh itself suggests."""
     given = np.array(positions, dtype=np.float64)
     welded, faces, index = weld(given, faces)
     patient = Patient(faces, len(welded))
@@ -175,8 +137,7 @@ def choose(
 
 def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tuple[Recipe, ...]:
     """The recipes to try: those that let vertices slide along the surface only where noise has moved them there, or
-    drowns the surface.
-    """
+    drowns the surface."""
     sliding = tuple(replace(one, hand_over="positions") for one in recipes if one.hand_over == "heights")
     if level.tangential > SLIDING * level.normal:
         return (*(one for one in recipes if one.hand_over != "heights"), *sliding)

@@ -38,31 +38,7 @@ RULES = ChainRules(
 
 
 class CoarseFilter:
-    """A low-pass filter of everything that lives on the vertices of one connectivity.
-
-    Q of a QR factorisation is nested, so one dictionary serves every fraction up to the largest.
-
-    Parameters
-    ----------
-    faces : ndarray of int32, shape (m, 3)
-    n : int
-        Number of vertices.
-    keep : float
-        Largest fraction of a block's frequencies that will be asked for, c over n_d.
-    block : int
-        Vertices of a part before overlap, about.
-    rules : ChainRules
-        How the dictionaries are found.
-    overlap : float
-        n_d as a multiple of the largest part.
-    weights : callable
-        From the degrees of a block's vertices inside it, shape (n_d,), to the weights of their copies, all positive.
-
-    Raises
-    ------
-    OptionError
-        If `keep` is not between 0 and 1, `block` not positive, or `overlap` below 1.
-    """
+    """A low-pass filter of everything that lives on the vertices of one connectivity."""
 
     def __init__(
         self,
@@ -93,20 +69,7 @@ class CoarseFilter:
             self._weights[vertices] += copies
 
     def __call__(self, values: Floats, keep: float = KEEP) -> Floats:
-        """Filter every column of `values`.
-
-        Parameters
-        ----------
-        values : ndarray of float64, shape (n, d)
-            Positions, or the positions of many frames side by side: all of them meet one dictionary.
-        keep : float
-            Fraction of the frequencies kept; a block keeps one at least.
-
-        Raises
-        ------
-        OptionError
-            If `keep` is not positive or exceeds that of the constructor.
-        """
+        """Filter every column of `values`."""
         if not 0.0 < keep <= self._keep:
             raise OptionError(f"keep must be above 0 and at most {self._keep}, not {keep}")
         width = self._width(keep)

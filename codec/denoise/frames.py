@@ -42,36 +42,7 @@ UNSTEADY = 0.03
 
 
 class FrameDenoiser:
-    """Denoises frames that share their faces; what depends on the faces alone is computed once.
-
-    Parameters
-    ----------
-    first : ndarray of float64, shape (n, 3)
-        The frame whose coinciding vertices are taken for one vertex.
-    faces : ndarray of int32, shape (m, 3)
-    options : DenoiseOptions, optional
-        None: chosen from the noise of the first frames, see `codec.denoise.automatic`.
-    goal : str
-        What the automatic mode strives for: "shading" (normals) or "shape" (vertices).
-    strength : float
-        How much of every movement is made, from 0 to 1.
-    force : bool
-        Let the options have their way even where they do harm.
-    told : callable, optional
-        Is told what goes on: "finding noise", "rehearsing 3 of 18", "filtering".
-
-    Attributes
-    ----------
-    choice : AutomaticChoice, optional
-        What was chosen, from the first result on; None where options were given.
-
-    Raises
-    ------
-    OptionError
-        If the strength is not from 0 to 1.
-    MeshError
-        If `first` is not of shape (n, 3), or has a coordinate that is not finite.
-    """
+    """Denoises frames that share their faces; what depends on the faces alone is computed once."""
 
     def __init__(
         self,
@@ -99,15 +70,7 @@ class FrameDenoiser:
         self.choice: AutomaticChoice | None = None
 
     def __call__(self, frames: Iterable[Positions]) -> Iterator[Positions]:
-        """Denoise frame after frame, holding only so many of them at any time.
-
-        Raises
-        ------
-        MeshError
-            If a frame has another shape than the first one, or a coordinate that is not finite.
-        HarmError
-            If the options would make a frame worse.
-        """
+        """Denoise frame after frame, holding only so many of them at any time."""
         checked = map(self._checked, frames)
         results = self._automatic(checked) if self._options is None else self._as_told(checked, self._options)
         for given, result in results:
@@ -154,10 +117,7 @@ class FrameDenoiser:
             yield from ordered_map(finish, group, None)
 
     def _steadied(self, frames: Iterator[Positions]) -> Iterator[tuple[list[Pair], float | None]]:
-        """Pairs of given frames and welded ones after the temporal filter, and the level of noise that is left.
-
-        Windows overlap, and the last one is filled up with frames that have been before.
-        """
+        """Pairs of given frames and welded ones after the temporal filter, and the level of noise that is left."""
         n = len(self._members)
         size = int(np.clip(WINDOW_BYTES // (24 * max(1, n)), 2 * OVERLAP, WINDOW))
         filter_: TemporalFilter | None = None
@@ -233,7 +193,6 @@ class FrameDenoiser:
 
 
 def _what_is_left(found: Finding, level: float, n: int) -> Finding:
-    """After the temporal filter noise is known from the frames, however much it looks like detail."""
     if level < UNSTEADY * found.edge:
         return found
     return Finding("unsteady", level, np.full(n, level), found.edge, "noise that changes with the frames")

@@ -23,20 +23,12 @@ class HandOver(Protocol):
 
 
 def coarse_positions(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
-    """The paper's: the fine step sees the coarse mesh alone, shape (n, 3).
-
-    Good under heavy noise; elsewhere detail is lost.
-    """
+    """The paper's: the fine step sees the coarse mesh alone, shape (n, 3)."""
     return np.array(coarse)
 
 
 def coarse_heights(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
-    """Move the noisy vertices, shape (n, 3), along the normals of the coarse mesh, shape (n, 3), as far as that is.
-
-    None slides on it.
-
-    None slides on the surface.
-    """
+    """Move the noisy vertices, shape (n, 3), along the normals of the coarse mesh, shape (n, 3), as far as that is."""
     normals = vertex_normals(face_geometry(np.ascontiguousarray(coarse), topology.faces).normals, topology.around)
     return np.asarray(noisy + np.einsum("ij,ij->i", coarse - noisy, normals)[:, None] * normals)
 

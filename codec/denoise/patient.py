@@ -15,14 +15,7 @@ BLOCK_SIZE = 500
 
 
 class Patient:
-    """A mesh that is welded, or a part of one.
-
-    Parameters
-    ----------
-    faces : ndarray of int32, shape (m, 3)
-    n : int
-        Number of vertices.
-    """
+    """A mesh that is welded, or a part of one."""
 
     def __init__(self, faces: Faces, n: int) -> None:
         self.topology = Topology(faces, n)

@@ -22,20 +22,7 @@ LOCAL = "local"
 
 @dataclass(frozen=True)
 class Recipe:
-    """What is done to the noisy mesh; how often the filter is repeated is not part of it.
-
-    Attributes
-    ----------
-    hand_over : str
-        Name of a hand-over, see `codec.denoise.handover`.
-    keep : float
-        Fraction of the frequencies that the coarse mesh keeps, c over n_d; of no account without a hand-over.
-    guide : str
-        "patches": guided normal filtering; "own": bilateral filtering, the vertices following at once; "local":
-        bilateral filtering of the normals over faces that touch, the vertices following at the end.
-    sigma_r : float
-        Width of the filter's range kernel.
-    """
+    """What is done to the noisy mesh; how often the filter is repeated is not part of it."""
 
     hand_over: str
     keep: float
@@ -57,16 +44,7 @@ class Step:
 
 
 class Treatments:
-    """What recipes make of one mesh: where they start is found once for all that start there, and so are results.
-
-    Parameters
-    ----------
-    noisy : ndarray of float64, shape (n, 3)
-        Nobody may change it in place.
-    smooth : callable
-        From a fraction of the frequencies to the coarse mesh, shape (n, 3).
-    topology : Topology
-    """
+    """What recipes make of one mesh: where they start is found once for all that start there, and so are results."""
 
     def __init__(self, noisy: Positions, smooth: Callable[[float], Positions], topology: Topology) -> None:
         self.noisy, self._smooth, self._topology = noisy, smooth, topology

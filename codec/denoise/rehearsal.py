@@ -87,22 +87,7 @@ class Winner:
 
 
 class Rehearsal:
-    """A mesh, a guess at it without noise, and the guess with noise again.
-
-    Parameters
-    ----------
-    noisy : ndarray of float64, shape (n, 3)
-    finding : Finding
-        Its levels are those of this mesh.
-    patient : Patient
-        Of this connectivity.
-    base : Recipe
-        Makes the guess.
-    goal : callable
-        What is to be small: from the reference and positions to a number.
-    told : callable, optional
-        Is told what goes on.
-    """
+    """A mesh, a guess at it without noise, and the guess with noise again."""
 
     def __init__(
         self,
@@ -150,11 +135,7 @@ class Rehearsal:
         return self._goal(Reference(self._given, self._topology.faces), self.perform(steps, share))
 
     def weigh(self, winner: Winner) -> tuple[float, float]:
-        """The share of the learnt normals in the mean with the winner's, and the error of that over the winner's.
-
-        The largest of those that are good: to be asked before the learnt normals have a part in a guess, which would
-        speak for more of them.
-        """
+        """The share of the learnt normals in the mean with the winner's, and the error of that over the winner's."""
         other = learnt(self.noisy, self._topology)
         means = (joined(winner.result, other, share, self._topology) for share in LEARNT_SHARES)
         errors = np.array([self._goal(self.truth, self._within(mean, self.noisy)) for mean in means])
@@ -204,7 +185,6 @@ class Rehearsal:
         return Winner(steps[:1] if len(set(steps)) == 1 else steps, error, result)
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
-        """Positions where the mesh is to be touched, as far as it may be."""
         if self._finding.grid is not None:
             positions = self._finding.grid.within_cells(otherwise, positions)
         return positions if self._touched.all() else np.where(self._touched[:, None], positions, otherwise)

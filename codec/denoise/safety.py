@@ -33,21 +33,7 @@ FAILED_SHARE = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """What the comparison says.
-
-    Attributes
-    ----------
-    good : ndarray of bool, shape (n,)
-        Vertices whose movement may stand.
-    movement : float
-        Median over the windows of movement over noise; infinite where there was none to remove.
-    failed : float
-        Share of the windows in which the movement is too large.
-    reason : str
-        A sentence for the user; empty if the result may stand, here and there put back perhaps.
-    learnt : float
-        Share of the learnt normals in what was judged.
-    """
+    """What the comparison says."""
 
     good: Mask
     movement: float
@@ -62,15 +48,7 @@ class Verdict:
 
 
 def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -> Verdict:
-    """Compare what was removed with what there was to remove.
-
-    Parameters
-    ----------
-    noisy, result : ndarray of float64, shape (n, 3)
-    finding : Finding
-        Of the noisy mesh.
-    probe : Probe
-    """
+    """Compare what was removed with what there was to remove."""
     everywhere = np.ones(len(noisy), dtype=np.bool_)
     windows = probe.windows
     unsure = finding.kind == "unknown" and bool(windows.valid.any())
@@ -101,11 +79,7 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
 
 
 def restraint(movement: float, finding: Finding) -> float:
-    """How much of a movement to make: less than all where faint noise seems to be mixed with detail.
-
-    Filters take away nine tenths of faint white noise where there is nothing else, as the movement tells. Where they
-    take more, the rest is detail, and between the result and the noisy mesh there is a better one than both.
-    """
+    """How much of a movement to make: less than all where faint noise seems to be mixed with detail."""
     level = finding.level / finding.edge
     if finding.kind != "white":
         return 1.0

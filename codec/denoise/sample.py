@@ -16,14 +16,7 @@ PIECES = 3
 
 
 def sample(faces: Faces, levels: Floats) -> tuple[npt.NDArray[np.int64], Faces]:
-    """Vertices of the sample, ascending, and its faces in their numbers; all of a mesh that is not large.
-
-    Parameters
-    ----------
-    faces : ndarray of int32, shape (m, 3)
-    levels : ndarray of float64, shape (n,)
-        Of noise: the pieces are spread over the range of their mean levels, those without noise left out.
-    """
+    """Vertices of the sample, ascending, and its faces in their numbers; all of a mesh that is not large."""
     n = len(levels)
     if n <= LARGEST:
         return np.arange(n), faces

@@ -1,13 +1,4 @@
-"""Noise that changes from frame to frame taken out of a sequence, before any frame is looked at by itself.
-
-In a piece of surface the trajectories of all vertices are mixtures of a few, as in the codec's own temporal basis (the
-piece moves as a whole, turns, bends a little), and noise is mixed of all there are. So the principal components of the
-trajectories are shrunk by what noise of the measured strength has added to them, and those that are noise vanish.
-
-References
-----------
-M. Gavish, D. L. Donoho, "Optimal shrinkage of singular values", IEEE Transactions on Information Theory 63, 2017.
-"""
+"""Noise that changes from frame to frame taken out of a sequence, before any frame is looked at by itself."""
 
 from __future__ import annotations
 
@@ -33,16 +24,7 @@ FEWEST_FRAMES = 8
 
 @dataclass(frozen=True, eq=False)
 class Steadied:
-    """Frames after the filter, and what it has to say about the noise.
-
-    Attributes
-    ----------
-    frames : ndarray of float64, shape (T, n, 3)
-    deviation : float
-        Standard deviation of the noise before, in each coordinate: the median over the blocks.
-    remaining : float
-        Share of it that is expected to be left.
-    """
+    """Frames after the filter, and what it has to say about the noise."""
 
     frames: Frames
     deviation: float
@@ -50,13 +32,7 @@ class Steadied:
 
 
 class TemporalFilter:
-    """The filter with its blocks, which are found once.
-
-    Parameters
-    ----------
-    faces : ndarray of int32, shape (m, 3)
-    n : int
-    """
+    """The filter with its blocks, which are found once."""
 
     def __init__(self, faces: Faces, n: int) -> None:
         graph = graph_of_faces(faces, n)
@@ -119,7 +95,6 @@ def shrunk(values: Floats, deviation: float) -> tuple[Floats, int]:
 
 
 def _components(values: Floats) -> tuple[Floats, Floats]:
-    """Squares of the singular values and the singular vectors of the shorter side."""
     energies, vectors = np.linalg.eigh(values.T @ values if values.shape[1] <= values.shape[0] else values @ values.T)
     return energies, vectors
 

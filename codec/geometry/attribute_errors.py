@@ -14,17 +14,7 @@ from bsm.codec.geometry.attributes import Attribute
 
 @dataclass(frozen=True)
 class AttributeComparison:
-    """An attribute, before and after.
-
-    Parameters
-    ----------
-    max_error, mean_error : float
-        Largest and mean difference of a number.
-    range : float
-        Largest minus smallest number of the original: what errors may be put in relation to.
-    max_angle_deg, mean_angle_deg : float, optional
-        Of normals: between their directions, degrees; those of length zero are left aside.
-    """
+    """An attribute, before and after."""
 
     max_error: float
     mean_error: float

@@ -68,7 +68,6 @@ class Attribute:
         return f"Attribute({self.name!r}, {kind} per {self.domain}, {self.semantic})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """For pickles and deep copies: made again, and so checked again."""
         return type(self), (self.name, self.values, self.domain, self.semantic, self.indices)
 
     def __post_init__(self) -> None:

@@ -17,37 +17,14 @@ LOST = math.pi
 
 @dataclass(frozen=True)
 class Closeness:
-    """How close a decoded mesh is to the original.
-
-    Attributes
-    ----------
-    farthest : float
-        Largest distance of a vertex from its place, in the unit of the positions.
-    angle : float
-        Mean angle between corresponding normals, degrees.
-    """
+    """How close a decoded mesh is to the original."""
 
     farthest: float
     angle: float
 
 
 class Original:
-    """An original, prepared so that one decoded version after another is measured in one pass over the faces.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-    faces : int32 array, shape (m, 3)
-    by_area : bool
-        Faces count by their area, and not alike.
-
-    Attributes
-    ----------
-    normals : float64 array, shape (m, 3)
-        Unit normals; zero where a face has no area.
-    weights : float64 array, shape (m,)
-        How much each face counts, 1 in all; one without area does not.
-    """
+    """An original, prepared so that one decoded version after another is measured in one pass over the faces."""
 
     def __init__(self, positions: Positions, faces: Faces, *, by_area: bool = True) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, np.float64)
@@ -59,10 +36,7 @@ class Original:
         self.weights: Floats = counts / total if total > 0.0 else np.zeros(len(areas))
 
     def angle(self, decoded: Positions) -> float:
-        """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3).
-
-        A face that lost its area counts as 180.
-        """
+        """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
         decoded = np.ascontiguousarray(decoded, np.float64)
         return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, LOST))
 

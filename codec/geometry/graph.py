@@ -16,15 +16,7 @@ from bsm.codec.arrays import Indices
 
 @dataclass(frozen=True, eq=False)
 class Graph:
-    """An undirected graph without loops or repeated edges.
-
-    Parameters
-    ----------
-    offsets : int32 array, shape (n + 1,)
-        Neighbours of vertex v are `neighbours[offsets[v]:offsets[v + 1]]`.
-    neighbours : int32 array
-        In ascending order for each vertex.
-    """
+    """An undirected graph without loops or repeated edges."""
 
     offsets: Indices
     neighbours: Indices

@@ -15,41 +15,21 @@ from bsm.codec.geometry.graph import graph_of_faces
 
 
 class Rows(NamedTuple):
-    """Compressed rows of integers.
-
-    Parameters
-    ----------
-    starts : ndarray of int64, shape (rows + 1,)
-    members : ndarray of int32, shape (starts[-1],)
-    """
+    """Compressed rows of integers."""
 
     starts: Order
     members: Indices
 
 
 def vertex_faces(faces: Faces, n: int) -> Rows:
-    """Faces around each vertex; a face that names a vertex twice is listed once.
-
-    Parameters
-    ----------
-    faces : ndarray of int32, shape (m, 3)
-    n : int
-        Number of vertices.
-    """
+    """Faces around each vertex; a face that names a vertex twice is listed once."""
     starts, members = np.empty(n + 1, np.int64), np.empty(faces.size, np.int32)
     _kernels.vertex_faces(np.ascontiguousarray(faces, np.int32), starts, members)
     return Rows(starts, members[: starts[n]])
 
 
 def vertex_neighbours(faces: Faces, n: int) -> Rows:
-    """Vertices that share an edge with each vertex, itself excluded.
-
-    Parameters
-    ----------
-    faces : ndarray of int32, shape (m, 3)
-    n : int
-        Number of vertices.
-    """
+    """Vertices that share an edge with each vertex, itself excluded."""
     graph = graph_of_faces(faces, n)
     return Rows(graph.offsets.astype(np.int64), graph.neighbours)
 

@@ -98,7 +98,6 @@ class TriangleMesh:
         return f"TriangleMesh({len(self.positions)} vertices, {len(self.faces)} faces{names})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """For pickles and deep copies: made again, and so checked again."""
         return type(self), (self.positions, self.faces, self.attributes, dict(self.metadata))
 
     @property

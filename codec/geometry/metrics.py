@@ -64,13 +64,7 @@ _LOST = math.pi / 2
 
 
 class Reference:
-    """An original mesh, prepared so that comparing one decoded version after another is cheap.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    """
+    """An original mesh, prepared so that comparing one decoded version after another is cheap."""
 
     def __init__(self, positions: Positions, faces: Faces) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, dtype=np.float64)
@@ -96,10 +90,7 @@ class Reference:
         return self._mean_angle(self._shares, decoded)
 
     def angle(self, decoded: Positions) -> float:
-        """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3).
-
-        Faces are counted by their area.
-        """
+        """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
         return self._mean_angle(self._areas, decoded)
 
     def _mean_angle(self, weights: Floats, decoded: Positions) -> float:
@@ -134,66 +125,32 @@ class Reference:
 
 
 def compare(original: Positions, decoded: Positions, faces: Faces) -> Comparison:
-    """Compare two meshes of the same faces; `Reference` does it faster for many decoded versions of one original.
-
-    Parameters
-    ----------
-    original, decoded : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-
-    Raises
-    ------
-    MeshError
-        If the shapes of the positions differ.
-    """
+    """Compare two meshes of the same faces; `Reference` does it faster for many decoded versions of one original."""
     return Reference(original, faces).compare(decoded)
 
 
 def nmsve(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """Normalised mean square visual error, with un-squared norms as in section 8 of Arvanitis, Lalos and Moustakas.
-
-    `original` and `decoded` have shape (n, 3), `faces` has shape (m, 3).
-
-    ``(||v - v~|| + ||GL(v) - GL(v~)||) / (2 n)`` over the 3n coordinates of both meshes divided by the original's
-    diagonal; GL is `geometric_laplacian` with the distances of the mesh it is applied to.
-    """
+    """Normalised mean square visual error, with un-squared norms as in section 8 of Arvanitis, Lalos and Moustakas."""
     return Reference(original, faces).nmsve(decoded)
 
 
 def theta(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """Mean angle between corresponding face normals, in degrees, every face counted alike.
-
-    `original` and `decoded` have shape (n, 3), `faces` has shape (m, 3).
-
-    Faces without area in the original have no direction to lose and are skipped (0 if that is all of them); a face
-    that lost its area only in the decoded mesh counts as 90 degrees.
-    """
+    """Mean angle between corresponding face normals, in degrees, every face counted alike."""
     return Reference(original, faces).theta(decoded)
 
 
 def mnd(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """Mean normal difference: the mean over faces of ``||n - n~||``, between 0 and 2.
-
-    `original` and `decoded` have shape (n, 3), `faces` has shape (m, 3).
-
-    Faces without area are treated as in `theta`: skipped if degenerate in the original, ``sqrt(2)`` if only decoded so.
-    """
+    """Mean normal difference: the mean over faces of ``||n - n~||``, between 0 and 2."""
     return Reference(original, faces).mnd(decoded)
 
 
 def rms_over_edge(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """Root mean square distance of corresponding vertices over the original's mean edge length.
-
-    `original` and `decoded` have shape (n, 3), `faces` has shape (m, 3).
-    """
+    """Root mean square distance of corresponding vertices over the original's mean edge length."""
     return float(np.linalg.norm(original - decoded) / math.sqrt(len(original)) / mean_edge_length(original, faces))
 
 
 def mean_edge_length(positions: Positions, faces: Faces) -> float:
-    """Mean length of the edges of `faces`, shape (m, 3), each counted once; 1 where that is zero.
-
-    `positions` have shape (n, 3).
-    """
+    """Mean length of the edges of `faces`, shape (m, 3), each counted once; 1 where that is zero."""
     a, b = mesh_edges(faces, len(positions)).T
     length = float(np.linalg.norm(positions[a] - positions[b], axis=1).mean()) if len(a) else 0.0
     return length or 1.0
@@ -202,25 +159,6 @@ def mean_edge_length(positions: Positions, faces: Faces) -> float:
 def kg_error(original: Floats, decoded: Floats) -> float:
     """Error of a sequence after Karni and Gotsman, in percent: ``100 * ||P - P~|| / ||P - E(P)||``.
 
-    Frobenius norms over the coordinates of all frames; E(P) puts every vertex of a frame at the mean of that frame's
-    vertices, which is how researchers in the field read the paper, so the denominator is the extent of the shapes.
-
-    Parameters
-    ----------
-    original, decoded : ndarray of float64, shape (T, n, 3)
-
-    Returns
-    -------
-    float
-        Infinity where each frame is a point but the two differ; 0 where they are equal.
-
-    Raises
-    ------
-    MeshError
-        If the shapes differ.
-
-    References
-    ----------
     Z. Karni, C. Gotsman, "Compression of soft-body animation sequences", Computers & Graphics 28, 2004.
     """
     if original.shape != decoded.shape:
@@ -245,17 +183,7 @@ def face_normals(positions: Positions, faces: Faces) -> Floats:
 
 
 def geometric_laplacian(positions: Positions, neighbours: Rows) -> Floats:
-    """Each vertex minus the mean of its neighbours, weighted by inverse distance; shape (n, 3).
-
-    A vertex with a neighbour at distance zero has the limit of that formula, 0, and so has a vertex without
-    neighbours.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    neighbours : Rows
-        From `codec.geometry.incidence.vertex_neighbours`.
-    """
+    """Each vertex minus the mean of its neighbours, weighted by inverse distance; shape (n, 3)."""
     laplacian = np.empty((len(positions), 3))
     _kernels.geometric_laplacian(
         np.ascontiguousarray(positions, np.float64), neighbours.starts, neighbours.members, laplacian
@@ -264,7 +192,6 @@ def geometric_laplacian(positions: Positions, neighbours: Rows) -> Floats:
 
 
 def _length(values: Floats) -> float:
-    """Euclidean norm of all entries, without BLAS: its threads would go on spinning beside the encoder's."""
     return math.sqrt(np.square(values).sum())
 
 

@@ -26,11 +26,7 @@ def row_numbers(rows: npt.NDArray[Any]) -> Indices:
 
 
 def split_by_attributes(mesh: TriangleMesh) -> TriangleMesh:
-    """Split vertices where their corners differ in an attribute, so that every attribute is of vertices or of faces.
-
-    Faces keep their order and their corners; the copies of a vertex follow each other, in the order of vertices. A mesh
-    without attributes of corners is returned as it is.
-    """
+    """Split vertices where their corners differ in an attribute, so that every attribute is of vertices or of faces."""
     of_corners = [attribute for attribute in mesh.attributes if attribute.indices is not None]
     if not of_corners:
         return mesh

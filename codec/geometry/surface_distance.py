@@ -20,17 +20,7 @@ SAMPLES = 100_000
 
 @dataclass(frozen=True)
 class SurfaceDistance:
-    """Distances between two surfaces, in their unit.
-
-    Attributes
-    ----------
-    hausdorff : float
-        The larger of the two largest distances.
-    forward, backward : float
-        Largest distance from the first surface to the second, and back.
-    mean : float
-        The larger of the two mean distances, over samples spread evenly by area.
-    """
+    """Distances between two surfaces, in their unit."""
 
     hausdorff: float
     forward: float
@@ -41,17 +31,7 @@ class SurfaceDistance:
 def surface_distance(
     first: Positions, first_faces: Faces, second: Positions, second_faces: Faces, samples: int = SAMPLES, seed: int = 0
 ) -> SurfaceDistance:
-    """Distances between two surfaces, which need not share connectivity.
-
-    Parameters
-    ----------
-    first, second : ndarray of float64, shape (n, 3) and (n', 3)
-    first_faces, second_faces : ndarray of int32, shape (m, 3) and (m', 3)
-    samples : int
-        Points on each surface besides its vertices.
-    seed : int
-        Of the points' places.
-    """
+    """Distances between two surfaces, which need not share connectivity."""
     forward, forward_mean = _one_sided(first, first_faces, second, second_faces, samples, seed)
     backward, backward_mean = _one_sided(second, second_faces, first, first_faces, samples, seed)
     return SurfaceDistance(max(forward, backward), forward, backward, max(forward_mean, backward_mean))

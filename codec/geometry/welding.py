@@ -11,25 +11,7 @@ from bsm.codec.arrays import Faces, Indices, Order, Positions
 
 
 def weld(positions: Positions, faces: Faces, *, bits: bool = False) -> tuple[Positions, Faces, Indices]:
-    """Give the vertices of exactly equal positions one number.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-        Finite.
-    faces : ndarray of int32, shape (m, 3)
-    bits : bool
-        Positions are equal where their bits are; otherwise -0.0 equals 0.0.
-
-    Returns
-    -------
-    positions : ndarray of float64, shape (k, 3)
-        Of the welded vertices, in the order of their first appearance among the given ones.
-    faces : ndarray of int32, shape (m, 3)
-        In the given order; none is dropped, a face may have become degenerate.
-    index : ndarray of int32, shape (n,)
-        Welded vertex of each given one: ``welded[index]`` puts values on the welded vertices back on the given ones.
-    """
+    """Give the vertices of exactly equal positions one number."""
     values = np.ascontiguousarray(positions, dtype=np.float64)
     index = group_rows(values.view(np.int64) if bits else values)
     first = first_of(index)

@@ -78,19 +78,7 @@ class Look:
 
 
 class Looker:
-    """Pictures of an original, to compare one decoded version after another with.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-    threads : int, optional
-        None: one per core. The result does not depend on it.
-
-    Raises
-    ------
-    MeshError
-        If the mesh has no area, so that nothing of it is seen, or its coordinates are too large to compute with.
-    """
+    """Pictures of an original, to compare one decoded version after another with."""
 
     def __init__(self, mesh: TriangleMesh, *, threads: int | None = None) -> None:
         self._mesh, self._threads = mesh, threads
@@ -114,30 +102,13 @@ class Looker:
         self._own = None if own is None else (self._drawn(positions, self._shape.faces, own), own)
 
     def look(self, positions: Positions) -> Look:
-        """How these positions look on the faces of the original, with normals that follow from them.
-
-        Where the original has normals of its own, also with these; what differs more counts.
-
-        Parameters
-        ----------
-        positions : ndarray of float64, shape (n, 3)
-            As many as the original has, in its order.
-
-        Raises
-        ------
-        MeshError
-            If there are more or fewer, or one is not finite.
-        """
+        """How these positions look on the faces of the original, with normals that follow from them."""
         _, whole = self.glance(positions, 0.0, math.inf)
         assert whole is not None
         return whole
 
     def glance(self, positions: Positions, least: float, most: float) -> tuple[Look, Look | None]:
-        """How `positions`, shape (n, 3), look from a few sides; and from all, unless a few say enough.
-
-        They do, and the second is None, where their distance is outside `least` to `most`. Normals, and what is raised,
-        are those of `look`.
-        """
+        """How `positions`, shape (n, 3), look from a few sides; and from all, unless a few say enough."""
         positions = np.ascontiguousarray(positions, np.float64)
         if positions.shape != self._mesh.positions.shape:
             raise MeshError(f"positions must have shape {self._mesh.positions.shape}, not {positions.shape}")
@@ -166,11 +137,7 @@ class Looker:
         return self.look(positions).distance
 
     def compare(self, other: TriangleMesh) -> Look:
-        """How another mesh looks, of whatever vertices and faces, in the frames that the original fills.
-
-        Where the original has normals of its own, both are also compared as shaded with normals of their own; what
-        differs more counts.
-        """
+        """How another mesh looks, of whatever vertices and faces, in the frames that the original fills."""
         placed = self._placed(other.positions)
         shape = Shape.of(placed, other.faces)
         smooth = shape.normals(placed)
@@ -182,11 +149,7 @@ class Looker:
         return max(seen, shaded, key=lambda look: look.distance)
 
     def blame(self, positions: Positions) -> tuple[Matrix, Look]:
-        """Where a version looks different: how unlike the pixels are that show each of its faces, added.
-
-        That is their 1 - SSIM, and up to 1 more where they differ visibly; over all pixels that show a face; and how
-        the version looks. `positions` have shape (n, 3), the faces' numbers (m,).
-        """
+        """Where a version looks different: how unlike the pixels are that show each of its faces, added."""
         placed, faces = self._placed(positions), self._shape.faces
         normals = self._shape.normals(placed)
 
@@ -207,7 +170,6 @@ class Looker:
         return max(zip(self._pictures, drawn, strict=True), key=lambda pair: difference(*pair)[0])
 
     def _placed(self, positions: Positions) -> Positions:
-        """In units of the diagonal, from the middle of the original."""
         return np.ascontiguousarray((positions - self._middle) / self._diagonal)
 
     def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:
@@ -238,13 +200,7 @@ class Looker:
 
 
 def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = None) -> Look:
-    """How much alike two meshes look, of whatever vertices and faces.
-
-    Raises
-    ------
-    MeshError
-        If the original has no area, so that nothing of it is seen, or its coordinates are too large to compute with.
-    """
+    """How much alike two meshes look, of whatever vertices and faces."""
     return Looker(original, threads=threads).compare(other)
 
 
@@ -262,7 +218,6 @@ def judged(dissimilarity: float, visible: float, gone: float) -> Look:
 
 
 def _used(faces: Faces, count: int) -> Mask:
-    """Vertices that are in faces."""
     used = np.zeros(count, np.bool_)
     used[faces] = True
     return used

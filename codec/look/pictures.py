@@ -46,19 +46,13 @@ class Shape:
 
     @classmethod
     def of(cls, positions: Positions, faces: Faces) -> Shape:
-        """The shape of positions, shape (n, 3), within a box of diagonal 1.
-
-        Those that are equal at 24 bits of it are one.
-        """
+        """The shape of positions, shape (n, 3), within a box of diagonal 1."""
         _, joined, index = weld(np.rint(positions * _GRID), faces)
         joined = np.ascontiguousarray(joined, np.int32)
         return cls(np.ascontiguousarray(faces, np.int32), joined, vertex_faces(joined, int(index.max()) + 1))
 
     def normals(self, positions: Positions) -> Normals:
-        """Normals of corners as viewers make them, shape (m, 9), for `positions`, shape (n, 3).
-
-        They are the sum over the faces around a vertex, by area, but not across creases.
-        """
+        """Normals of corners as viewers make them, shape (m, 9), for `positions`, shape (n, 3)."""
         count = len(self.faces)
         normals = np.empty((count, 9), np.float32)
         _kernels.shown_normals(
@@ -84,10 +78,7 @@ def draw(positions: Positions, faces: Faces, normals: Normals, camera: Matrix, p
 def draw_owned(
     positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int
 ) -> tuple[Picture, Indices]:
-    """A picture, and which face each pixel shows, -1: none; both of shape (pixels, pixels).
-
-    `positions` have shape (n, 3), `faces` (m, 3), `normals`, of corners, (m, 9); a camera is one of `codec.look.sides`.
-    """
+    """A picture, and which face each pixel shows, -1: none; both of shape (pixels, pixels)."""
     picture, depth, lengths = (np.empty((pixels, pixels), np.float32) for _ in range(3))
     tiles, owner = np.empty((-(-pixels // _TILE),) * 2, np.float32), np.empty((pixels, pixels), np.int32)
     _kernels.draw_shaded(
@@ -97,19 +88,12 @@ def draw_owned(
 
 
 def difference(first: Picture, second: Picture) -> Matrix:
-    """Sums over pixels that either picture, shape (h, w), covers; shape (4,).
-
-    They are 1 - SSIM; how many differ visibly; how many there are; and how many differ plainly in the square of 8 by 8
-    that has most of these.
-    """
+    """Sums over pixels that either picture, shape (h, w), covers; shape (4,)."""
     return _compared(first, second, _NOWHERE)
 
 
 def difference_map(first: Picture, second: Picture) -> tuple[Matrix, Picture]:
-    """Sums as of `difference`, shape (4,), and how unlike each pixel is, shape (h, w).
-
-    That is 1 - SSIM, and up to 1 more where it differs visibly.
-    """
+    """Sums as of `difference`, shape (4,), and how unlike each pixel is, shape (h, w)."""
     found = np.zeros(first.shape, np.float32)
     return _compared(first, second, found), found
 
@@ -122,7 +106,6 @@ def _compared(first: Picture, second: Picture, found: Picture) -> Matrix:
 
 
 def _half(name: str) -> Picture:
-    """A Gaussian blur from its middle outwards; all of it sums to 1."""
     spread, reach = _SPREADS[name]
     weights = [math.exp(-0.5 * (k / spread) ** 2) for k in range(reach + 1)]
     return np.array([weight / (2 * sum(weights) - weights[0]) for weight in weights], np.float32)

@@ -53,10 +53,7 @@ def cameras(positions: Positions, pixels: int) -> list[Matrix]:
 
 
 def pixels_for(positions: Positions, faces: Faces) -> int:
-    """Pixels of a side of the pictures: enough that the mean edge has `EDGE_PIXELS`.
-
-    `positions` have shape (n, 3), `faces` has shape (m, 3).
-    """
+    """Pixels of a side of the pictures: enough that the mean edge has `EDGE_PIXELS`."""
     first, second, third = (positions[corner] for corner in np.ascontiguousarray(faces.T))
     sides = [first - second, second - third, third - first]
     edge = float(sum(np.sqrt(np.einsum("fd,fd->f", side, side)).sum() for side in sides)) / (3 * len(faces))

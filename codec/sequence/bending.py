@@ -27,15 +27,7 @@ BENDING_COLUMNS = 3 + len(PRODUCTS)
 
 @dataclass(frozen=True, eq=False)
 class Bending:
-    """The powers that belong to a part.
-
-    Parameters
-    ----------
-    centre : float64 array, shape (3,)
-        Mean of its vertices.
-    radius : float
-        Their root mean square distance from it.
-    """
+    """The powers that belong to a part."""
 
     centre: Matrix
     radius: float

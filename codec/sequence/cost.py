@@ -25,10 +25,7 @@ REFERRED = 1.1
 
 
 def gop_memory(vertices: int, body: GopBody, sites: tuple[Site, ...] = ()) -> float:
-    """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames.
-
-    And what GOPs leave to the next ones: components, or levels, and what is around parts, once these are known.
-    """
+    """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames."""
     width = sum(field.width for field in body.fields)
     shown = (16.0 * min(body.frames, BATCH) + 32.0) * width
     bases = (field.components * (40.0 * field.width * body.frames + 24.0 * field.components) for field in body.fields)
@@ -67,14 +64,12 @@ def gop_cost(sites: tuple[Site, ...], vertices: int, given: int, body: GopBody) 
 
 
 def _known(vertices: int, body: GopBody) -> Iterator[int]:
-    """Columns that are known of each field of low-delay frames."""
     for number, field in enumerate(body.fields):
         kept = LEAST_KEPT if number else frames_kept(vertices)
         yield field.width * (2 + (1 if field.brief else len(lags(kept))) + (field.back > 0))
 
 
 def _columns(body: GopBody) -> int:
-    """Components of all fields; of low-delay frames those of which nothing is told take their room as well."""
     if body.method.has_basis:
         return sum(field.components for field in body.fields)
     return sum(field.width * body.frames for field in body.fields)

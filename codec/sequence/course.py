@@ -23,19 +23,7 @@ class DecoderRequest:
 
 
 class Course:
-    """How far a sequence has come, over all of its runs.
-
-    Attributes
-    ----------
-    next : int
-        The frame that comes next in the stream.
-    announced : int
-        How many there are in all; 0: the stream does not say.
-    given : bool
-        Whether any frame has come.
-    lossy : bool
-        Whether a loss was reported, so that an END that counts more frames is no news.
-    """
+    """How far a sequence has come, over all of its runs."""
 
     def __init__(self, *, tolerant: bool) -> None:
         self.next = 0

@@ -130,19 +130,7 @@ def check_header(header: Header, limits: Limits) -> None:
 def decode_sequence(
     data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
 ) -> tuple[Positions, Faces]:
-    """Decode a complete sequence.
-
-    Returns
-    -------
-    positions : float64 array, shape (T, n, 3)
-    faces : int32 array, shape (m, 3)
-
-    Raises
-    ------
-    BsmError
-        `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`; `MeshError`
-        if the faces change.
-    """
+    """Decode a complete sequence."""
     frames: list[Positions] = []
     faces = np.zeros((0, 3), np.int32)
     vertices = 0

@@ -1,14 +1,4 @@
-"""The dictionaries of a sequence, and the way between vertices and coefficients.
-
-The parts of the mesh are taken in the order of the chain, without overlap. Each hangs with springs on the parts before
-it, where they have a common edge: the harmonic extension of what is known there is its prediction, orthogonal
-iterations with its held Laplacian L + S give its dictionary, and what is coded is the difference from the extension
-(see `codec.signal.predict`; here edges have weights). All of this is linear, so that it may be applied to positions, to
-differences of frames and to components of trajectories alike.
-
-A dictionary of as many columns as rows is several times larger than all else that is known of its part. So a decoder
-keeps those for which there is room, and makes the others again whenever it needs them.
-"""
+"""The dictionaries of a sequence, and the way between vertices and coefficients."""
 
 from __future__ import annotations
 
@@ -46,17 +36,7 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True, eq=False)
 class Site:
-    """A part of the mesh before it has its dictionary.
-
-    Parameters
-    ----------
-    held : Held
-        What it hangs on.
-    factor : Factor
-        Of its Laplacian, its springs and `TETHER`.
-    width : int
-        Columns c_i of its dictionary.
-    """
+    """A part of the mesh before it has its dictionary."""
 
     held: Held
     factor: Factor
@@ -98,14 +78,7 @@ class Site:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A part of the mesh and its dictionary.
-
-    Parameters
-    ----------
-    site : Site
-    basis : float64 array, shape (n_i, c_i)
-        U, orthonormal columns.
-    """
+    """A part of the mesh and its dictionary."""
 
     site: Site
     basis: Matrix
@@ -129,19 +102,7 @@ class Part:
 
 
 class Dictionaries:
-    """Dictionaries of all parts: kept of the first ones, as many as there is room for, and made again of the others.
-
-    Parameters
-    ----------
-    sites : tuple of Site
-        In the order of the chain.
-    rules : ChainRules
-        Those of a key block are made.
-    allowance : Allowance
-        What a decoder may still do.
-    threads : int, optional
-        For making dictionaries.
-    """
+    """Dictionaries of all parts: kept of the first ones, as many as there is room for, and made again of the others."""
 
     def __init__(
         self, sites: tuple[Site, ...], rules: ChainRules, allowance: Allowance, threads: int | None = None
@@ -162,12 +123,10 @@ class Dictionaries:
 
     @cached_property
     def _sizes(self) -> Matrix:
-        """Bytes of the dictionaries of so many first parts, shape (k + 1,)."""
         return np.cumsum([0.0, *(site.memory for site in self.sites)])
 
     @cached_property
     def _making(self) -> float:
-        """Bytes for making any of them."""
         return max(site.making for site in self.sites)
 
     def release(self) -> None:
@@ -183,25 +142,7 @@ class Dictionaries:
         return self._making_beside(room) <= room
 
     def reserve(self, memory: float = 0.0, use: float = 0.0) -> float:
-        """Have room for what comes next, and keep as many dictionaries as there is room for besides.
-
-        Parameters
-        ----------
-        memory : float
-            Bytes that it takes, instead of what was reserved before.
-        use : float
-            Bytes that using one dictionary takes.
-
-        Returns
-        -------
-        float
-            Work for making again, once, those that there will not be.
-
-        Raises
-        ------
-        LimitError
-            If there is not even room without any dictionary kept.
-        """
+        """Have room for what comes next, and keep as many dictionaries as there is room for besides."""
         room = self._room(memory, use)
         making = self._making_beside(room)
         self._allowance.afford(self._allowance.room() - room + making)
@@ -215,18 +156,13 @@ class Dictionaries:
         return float(np.nansum(again))
 
     def _room(self, memory: float, use: float, received: int = 0) -> float:
-        """Bytes for dictionaries besides what `reserve` is told."""
         return self._allowance.room(received) + self._reserved - memory - use - SPARE
 
     def _making_beside(self, room: float) -> float:
-        """Bytes for making dictionaries, unless all are there and have room."""
         return 0.0 if all(self._parts) and self._sizes[-1] <= room else self._making
 
     def each(self, use: Callable[[int, Part], Result]) -> Iterator[Result]:
-        """What `use` gives for the number of each part and the part, in their order.
-
-        Where parts have to be furnished first, on several threads.
-        """
+        """What `use` gives for the number of each part and the part, in their order."""
         threads = 1 if all(self._parts) else self._threads
         return ordered_map(lambda index: self._used(index, use), range(len(self.sites)), threads)
 
@@ -279,25 +215,7 @@ def find_sites(
     threads: int | None,
     allowance: Allowance,
 ) -> tuple[Site, ...]:
-    """What the dictionary of every part follows from, with weights from the decoded first frame.
-
-    Parameters
-    ----------
-    blocks, faces
-        Of the mesh; only the blocks' cores are used.
-    first_frame : float64 array, shape (n, 3)
-        As the decoder has it.
-    width : int
-        Columns of each dictionary, at most; a part has no more of them than vertices.
-    threads : int, optional
-    allowance : Allowance
-        What a decoder may still do.
-
-    Raises
-    ------
-    LimitError
-        If this is more than that.
-    """
+    """What the dictionary of every part follows from, with weights from the decoded first frame."""
     graph = blocks.graph
     weights = cotangent_weights(graph, faces, first_frame)
     rank = np.empty(graph.size, np.int32)

@@ -44,17 +44,7 @@ from bsm.codec.static.ways.block_coder import Progress
 
 @dataclass(frozen=True, eq=False)
 class SequenceAttempt:
-    """A whole stream, and what its decoder will make of it.
-
-    Parameters
-    ----------
-    chunks : tuple of bytes
-        The stream.
-    samples : int
-        Vertices times frames.
-    comparison : SequenceComparison
-        The decoded frames against the original ones.
-    """
+    """A whole stream, and what its decoder will make of it."""
 
     chunks: tuple[bytes, ...]
     samples: int

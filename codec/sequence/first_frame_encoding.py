@@ -41,19 +41,7 @@ FIRST_FRAME = ChainRules(
 
 @dataclass(frozen=True, eq=False)
 class Opening:
-    """Everything before the GOPs but the connectivity: the first frame, coded as a static mesh is.
-
-    Parameters
-    ----------
-    header : Header
-    blocks : list of CodedBlock
-    setting : Setting
-        What the decoder will have when the first frame is complete.
-    allowance : Allowance
-        What it may still do then.
-    limits : str
-        Whose allowance that is.
-    """
+    """Everything before the GOPs but the connectivity: the first frame, coded as a static mesh is."""
 
     header: Header
     blocks: list[CodedBlock]
@@ -88,7 +76,6 @@ class Opening:
 
 
 def _received(body: GopBody) -> int:
-    """Bytes of a GOP, about."""
     return sum(field.size for field in body.fields)
 
 
@@ -100,16 +87,7 @@ def open_sequence(
     before: Allowance,
     moving: Sequence[Matrix] = (),
 ) -> Opening:
-    """Code the first frame, which all others of a run build upon; `frames` as for `SequenceEncoder`.
-
-    What decoders may still do follows from `before`; `moving` is what GOPs build upon of attributes that move,
-    shapes (n, d), in the order of coding.
-
-    Raises
-    ------
-    OptionError
-        If the options' first step is too fine.
-    """
+    """Code the first frame, which all others of a run build upon; `frames` as for `SequenceEncoder`."""
     finest = smallest_step(prepared.size)
     step = options.first_step or max(FIRST_STEP * options.step, finest)
     if step < finest:

@@ -49,10 +49,7 @@ TRIED = 8
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
-    """What the levels of each block, shape (c_i, columns), are expected to resemble within a GOP.
-
-    That is those of the block before.
-    """
+    """What the levels of each block, shape (c_i, columns), are expected to resemble within a GOP."""
     return [np.zeros((0, columns), np.int32), *matrices[:-1]]
 
 
@@ -69,17 +66,7 @@ def silent(done: int, blocks: int) -> None:
 
 
 class GopEncoder:
-    """Encodes a track of one GOP after the other, at first that of positions; the twin of `GopDecoder`.
-
-    Attributes
-    ----------
-    rounds : int
-        As of `LevelWriter`.
-    latest : float64 array, shape (T, n, d), optional
-        What decoders make of the latest frames that were sent without a basis.
-    inherited : Inherited, optional
-        Of the latest GOP, if it has a basis.
-    """
+    """Encodes a track of one GOP after the other, at first that of positions; the twin of `GopDecoder`."""
 
     def __init__(self, setting: Setting, options: SequenceOptions) -> None:
         self._track = setting.tracks[0]
@@ -91,7 +78,6 @@ class GopEncoder:
         self._begin()
 
     def _begin(self) -> None:
-        """Refer to no GOP that has come."""
         self.inherited: Inherited | None = None
         self._history = FrameHistory(self._track)
         self._shown: list[Matrix] = []
@@ -141,7 +127,6 @@ class GopEncoder:
         return GopMethod.LEARNT_NEXT if following else GopMethod.LEARNT
 
     def _before(self, method: GopMethod) -> Inherited | None:
-        """What a GOP with a basis is predicted from."""
         return self.inherited if method is GopMethod.LEARNT_NEXT else None
 
     @property
@@ -161,24 +146,12 @@ class GopEncoder:
     def encode_learnt(
         self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress
     ) -> tuple[GopField, float]:
-        """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them.
-
-        Returns
-        -------
-        field : GopField
-        cost : float
-            Squared steps of all weighed errors, and what the bits are worth.
-        """
+        """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them."""
         field, error = self._transformed(frames, np.tile(weights, self._track.width), method, progress)
         return field, error + WEIGHT * 8.0 * (field.size + SINGLE)
 
     def encode_singles(self, frames: Matrix, weights: Matrix, most: float = math.inf) -> tuple[GopField, ...]:
-        """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), one by one.
-
-        They are brief: where that pays, frames have news, and older changes tell little of it.
-        Steps are finer for what weighs more, as they are with a basis. Gives up, mostly soon, with
-        nothing, if the cost is not likely to stay below `most`.
-        """
+        """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), one by one."""
         fields: list[GopField] = []
         cost = 0.0
         for frame, weight in zip(frames, weights, strict=True):
@@ -266,16 +239,7 @@ class GopEncoder:
 
 
 class GopDecoder:
-    """Decodes one GOP after the other.
-
-    Parameters
-    ----------
-    setting : Setting
-    tracks : sequence of Track, optional
-        Those of the fields of its GOPs; None: all.
-    inherited : sequence of Inherited, optional
-        Of these fields in the GOP before the first.
-    """
+    """Decodes one GOP after the other."""
 
     def __init__(
         self, setting: Setting, tracks: Sequence[Track] | None = None, inherited: Sequence[Inherited] | None = None
@@ -372,15 +336,12 @@ class GopDecoder:
 
 
 def _nothing(field: GopField, body: GopBody) -> Matrix:
-    """The basis of a field of which nothing is told."""
     return np.empty((field.width * body.told, 0))
 
 
 def _apart(one: Matrix, other: Matrix) -> float:
-    """Sum of the squares of what two frames differ by."""
     return float(np.square(one - other).sum())
 
 
 def _energy(field: Matrix, basis: Matrix) -> float:
-    """Sum of the squares of `field @ basis.T`, of shapes (n, r) and (dT, r)."""
     return float(np.vdot(field, field @ (basis.T @ basis)))

@@ -55,13 +55,7 @@ class Gops:
             self._decoder.setting.dictionaries.release()
 
     def resume(self, header: Header, queue: deque[Item]) -> None:
-        """Begin another run of this mesh.
-
-        Raises
-        ------
-        CorruptError
-            If its header speaks of another mesh.
-        """
+        """Begin another run of this mesh."""
         own = self._structure.header
         if (header.vertices, header.faces) != (own.vertices, own.faces):
             raise CorruptError(f"run {header.run} has another mesh than the run that it names")
@@ -183,12 +177,10 @@ class Gops:
         )
 
     def _lose(self, error: BsmError) -> None:
-        """Take note that frames are lost; how many is known when the next ones come."""
         self._course.lose(error)
         self._forget()
 
     def _forget(self) -> None:
-        """No frame refers to one that has come."""
         self._skipped.clear()
         if self._decoder is not None:
             self._decoder.forget()

@@ -38,20 +38,7 @@ NEAR = 0.8, 1.15
 
 @dataclass(frozen=True, eq=False)
 class Wish:
-    """How frames are to be encoded.
-
-    Parameters
-    ----------
-    step : float
-    weights : float64 array, shape (T,), optional
-        What errors of each frame count, beside each other; None: all the same.
-    singly : bool, optional
-        Whether frames are sent one by one; None: if that costs less.
-    cut : bool, optional
-        Whether those that are not are two GOPs and not one; None: if that costs less.
-    rounds : int
-        As of `LevelWriter`.
-    """
+    """How frames are to be encoded."""
 
     step: float
     weights: Matrix | None = None
@@ -62,18 +49,7 @@ class Wish:
 
 @dataclass(frozen=True, eq=False)
 class Coded:
-    """GOPs that were encoded with some step.
-
-    Parameters
-    ----------
-    opening : Opening
-        The first frame of the run.
-    encoder : GopEncoder
-        As it is behind them.
-    bodies : tuple of GopBody
-    before : Inherited, optional
-        What was there to refer to.
-    """
+    """GOPs that were encoded with some step."""
 
     opening: Opening
     encoder: GopEncoder
@@ -104,27 +80,14 @@ class Coded:
 
 
 class Gops:
-    """GOPs of a run, each with the step that keeps the options' promise in it, if there is one.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    options : SequenceOptions
-    count : int
-        Frames of the sequence, 0 if that is not known.
-    tell : callable
-        Is told of blocks.
-    """
+    """GOPs of a run, each with the step that keeps the options' promise in it, if there is one."""
 
     def __init__(self, prepared: Prepared, options: SequenceOptions, count: int, tell: Progress) -> None:
         self._prepared, self._options = prepared, options
         self._count, self._tell = count, tell
 
     def first(self, group: Group, before: Allowance, moving: Sequence[Matrix]) -> Coded:
-        """The first frame, with values that move, shapes (n, d), as of `make_setting`, and the first GOP.
-
-        What decoders may still do follows from `before`, of the runs so far.
-        """
+        """The first frame, with values that move, shapes (n, d), as of `make_setting`, and the first GOP."""
         opened: Opening | None = None
         opened_for = 0.0
         options = self._options
@@ -210,7 +173,6 @@ def attempted(opening: Opening, encoder: GopEncoder, wish: Wish, group: Group, n
 
 
 def _singles(fields: tuple[GopField, ...]) -> tuple[GopBody, ...]:
-    """Frames that were encoded one by one, the first of them as a key frame."""
     methods = (GopMethod.NEXT_FRAME if number else GopMethod.KEY_FRAME for number in range(len(fields)))
     return tuple(GopBody(method, 1, (field,)) for method, field in zip(methods, fields, strict=True))
 

@@ -18,15 +18,7 @@ from bsm.codec.static.preamble_encoding import Prepared
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """The frames of a GOP, in the order of coding.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (T, n, 3)
-        In BSM units.
-    moving : dict of str to array, shape (T, n, d)
-        Values of the attributes that can move.
-    """
+    """The frames of a GOP, in the order of coding."""
 
     positions: Positions
     moving: dict[str, Values]

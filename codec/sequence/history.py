@@ -18,22 +18,7 @@ INHERITED = 24
 
 
 class Inherited:
-    """The first components of a GOP, which those of the next one are predicted from; filled block after block.
-
-    Parameters
-    ----------
-    before : Inherited, optional
-        Of the GOP that it refers to.
-
-    Attributes
-    ----------
-    known : list of float64 arrays, shapes (c_i, q), q <= 24
-        Differences of the parts.
-    around : list of float64 arrays, shapes (k_i, q)
-        Values around them.
-    depth : int
-        How many GOPs before are needed for it.
-    """
+    """The first components of a GOP, which those of the next one are predicted from; filled block after block."""
 
     def __init__(self, before: Inherited | None = None) -> None:
         self.depth: int = before.depth + 1 if before else 0
@@ -47,23 +32,7 @@ class Inherited:
 
 
 def begin_part(track: Track, before: Inherited | None, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix]:
-    """What the components of a part follow from, which are `ends`, shape (k_i, r), around it.
-
-    Parameters
-    ----------
-    track : Track
-    before : Inherited, optional
-        Of the GOP before.
-    block : int
-    ends : float64 array, shape (k_i, r)
-    step : float
-
-    Returns
-    -------
-    loop : Loop
-        Has learnt how they follow from what is known there.
-    known : float64 array, shape (c_i, k)
-    """
+    """What the components of a part follow from, which are `ends`, shape (k_i, r), around it."""
     known, around = track.known[block], track.around[block]
     if before is not None:
         known = np.hstack((known, before.known[block]))
@@ -72,15 +41,7 @@ def begin_part(track: Track, before: Inherited | None, block: int, ends: Matrix,
 
 
 class FrameHistory:
-    """What low-delay frames refer to, block after block; starts anew with every key frame.
-
-    Attributes
-    ----------
-    bank : Bank
-        Adaptive state of the entropy coder.
-    levels : list of int32 arrays, shapes (c_i, dT)
-        Of the latest T frames, which came together.
-    """
+    """What low-delay frames refer to, block after block; starts anew with every key frame."""
 
     def __init__(self, track: Track) -> None:
         self.bank: Bank = make_level_bank()
@@ -92,16 +53,7 @@ class FrameHistory:
         self._kept = [track.start]  # the latest frame first
 
     def expect(self, frames: int, back: int = 0, *, brief: bool = False) -> None:
-        """Get ready for so many frames, which start from those so far back, or with 0 all from the latest.
-
-        If `brief`, no change is known but the latest. Where those before were not as many, their levels are nothing
-        like these.
-
-        Raises
-        ------
-        CorruptError
-            If frames that far back are not kept.
-        """
+        """Get ready for so many frames, which start from those so far back, or with 0 all from the latest."""
         if back > len(self._kept):
             raise CorruptError(f"a frame refers to one {back} before it, where {len(self._kept)} are kept")
         self._back = back
@@ -112,16 +64,7 @@ class FrameHistory:
         self.levels = [np.zeros((len(matrix), self._track.width * frames), np.int32) for matrix in self._track.known]
 
     def begin(self, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix, Matrix]:
-        """What a block's change follows from, where the frames are `ends`, shape (k_i, dT), around it.
-
-        Returns
-        -------
-        loop : Loop
-            Has learnt how they have changed there.
-        known : float64 array, shape (c_i, k)
-        base : float64 array, shape (c_i, dT)
-            What the change is added to.
-        """
+        """What a block's change follows from, where the frames are `ends`, shape (k_i, dT), around it."""
         kept, base, count = [frame[block] for frame in self._kept], self.base(block), len(ends)
         ages = [min(lag, len(kept) - 1) for lag in (0, *self._lags)]
         known = [self._track.first[block], kept[0], *(kept[late] - kept[early] for late, early in pairwise(ages))]

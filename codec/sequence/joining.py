@@ -21,20 +21,7 @@ from bsm.codec.static.joining import JoinedMesh, joined
 
 @dataclass(frozen=True, eq=False)
 class JoinedRun:
-    """Frames that share their faces, and in which the same vertices are one.
-
-    Parameters
-    ----------
-    given : TriangleMesh
-        The first frame.
-    joined : JoinedMesh
-    frames : iterator of float64 arrays, shape (k, 3 + d)
-        The vertices of `joined.mesh` in all of them, as those of `Run`; to be used up before the next run is asked for.
-    first : int
-        The number of the first frame.
-    moving : tuple of Attribute
-        As of `Run`; vertices that differ in one are not the same.
-    """
+    """Frames that share their faces, and in which the same vertices are one."""
 
     given: TriangleMesh
     joined: JoinedMesh
@@ -46,26 +33,7 @@ class JoinedRun:
 def joined_runs(
     runs: Iterable[Run], together: Callable[[int], int], *, keep_order: bool, allowed: bool
 ) -> Iterator[JoinedRun]:
-    """Runs whose vertices are joined.
-
-    Which are is told by as many frames as are coded together, `together(vertices)`. Where vertices part behind these,
-    another run begins.
-
-    Parameters
-    ----------
-    runs : iterable of Run
-    together : callable
-    keep_order : bool
-        The stream shall give every vertex of a face back.
-    allowed : bool
-        Whether faces may change even if it does not.
-
-    Raises
-    ------
-    MeshError
-        If a frame is not finite or has another shape than the first one of its run, or if vertices part where faces may
-        not change; also while the frames of a run are used.
-    """
+    """Runs whose vertices are joined."""
     for run in runs:
         frames = _Frames(run)
         while (frame := next(frames, None)) is not None:
@@ -129,13 +97,7 @@ class _Frames:
 
 
 class _Beginning:
-    """The first frames of a run, and what each vertex is if those at one position in all of them are one.
-
-    Attributes
-    ----------
-    index : int32 array, shape (n,)
-        Numbered in order of first appearance.
-    """
+    """The first frames of a run, and what each vertex is if those at one position in all of them are one."""
 
     def __init__(self, frame: Matrix) -> None:
         self.index = group_rows(frame)

@@ -16,21 +16,7 @@ ROUNDS = 3
 
 
 class LevelWriter:
-    """Writes one matrix of levels after the other; the twin of `decode_levels`.
-
-    Parameters
-    ----------
-    bank : Bank
-        Adaptive state of the entropy coder; is updated at the end.
-    columns : int
-    rounds : int
-        How often levels are chosen before those that stay.
-
-    Attributes
-    ----------
-    levels : list of int32 arrays, shapes (rows, columns)
-        What was written so far.
-    """
+    """Writes one matrix of levels after the other; the twin of `decode_levels`."""
 
     def __init__(self, bank: Bank, columns: int, rounds: int = ROUNDS) -> None:
         self.levels: list[Levels] = []
@@ -51,22 +37,7 @@ class LevelWriter:
         reference: Levels | None = None,
         lead: Lead | None = None,
     ) -> Matrix:
-        """Choose and note the levels of a matrix.
-
-        Parameters
-        ----------
-        loop, known, targets, step
-            As of `Loop.search`; the loop is updated.
-        reference : int32 array, shape (any, columns), optional
-            What the levels may resemble in magnitude; None: the matrix before.
-        lead : Lead, optional
-            None: it has none; targets that are not coded must be 0.
-
-        Returns
-        -------
-        float64 array
-            What the decoder makes of the levels.
-        """
+        """Choose and note the levels of a matrix."""
         if reference is None:
             reference = self.levels[-1] if self.levels else self._none
         prices = first_prices(len(targets), self._columns, lead)

@@ -15,18 +15,7 @@ from bsm.codec.static.attributes.levels import Values
 
 @dataclass(frozen=True, eq=False)
 class MovingAttribute:
-    """An attribute that moves, as a decoder knows it before the first GOP.
-
-    Parameters
-    ----------
-    number : int
-        Of the attribute in its stream.
-    declaration : Declaration
-    first : array, shape (n, d), optional
-        Its values in the first frame, in the order of coding; None: some are lost, and so are all others.
-    rows : int64 array, shape (n,)
-        The coded vertex that each of the user's is.
-    """
+    """An attribute that moves, as a decoder knows it before the first GOP."""
 
     number: int
     declaration: Declaration
@@ -56,13 +45,7 @@ def beyond_one(first: Values) -> Matrix:
 
 
 def changed(first: Values, change: Matrix) -> Values:
-    """Values, shape (n, d), that differ from the first frame's by so much; integers are the nearest of their kind.
-
-    Raises
-    ------
-    NumericError
-        If one is beyond the range of floats.
-    """
+    """Values, shape (n, d), that differ from the first frame's by so much; integers are the nearest of their kind."""
     with np.errstate(over="ignore", invalid="ignore"):
         values = first.astype(np.float64) + change
         if not np.isfinite(values).all():

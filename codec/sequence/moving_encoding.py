@@ -39,29 +39,14 @@ LARGEST = 1e100
 
 @dataclass(frozen=True, eq=False)
 class Bound:
-    """How far values may be off.
-
-    Parameters
-    ----------
-    quality : Quality
-        What is asked.
-    attribute : Attribute
-    amount : float, optional
-        In the attribute's own unit; None: not known before frames differ, since it depends on their range.
-    """
+    """How far values may be off."""
 
     quality: Quality
     attribute: Attribute
     amount: float | None = None
 
     def over(self, values: Values) -> Bound:
-        """The bound of values, shape (..., d), that are all that is known where frames differ first.
-
-        Raises
-        ------
-        OptionError
-            If what is asked makes no sense for values that move.
-        """
+        """The bound of values, shape (..., d), that are all that is known where frames differ first."""
         name = self.attribute.name
         rows = values.reshape(-1, values.shape[-1])
         low, high = rows.min(axis=0).astype(np.float64), rows.max(axis=0).astype(np.float64)
@@ -131,18 +116,7 @@ def moved(one: PreparedAttribute) -> PreparedAttribute:
 
 
 class Mover:
-    """Encodes what GOPs of a run tell of one attribute.
-
-    Parameters
-    ----------
-    number : int
-        Of the attribute in its stream.
-    carried : PreparedAttribute
-        Of the first frame.
-    given : array, shape (n, d)
-        Its values there as they are given.
-    bound : Bound
-    """
+    """Encodes what GOPs of a run tell of one attribute."""
 
     def __init__(self, number: int, carried: PreparedAttribute, given: Values, bound: Bound) -> None:
         self.number = number
@@ -172,13 +146,7 @@ class Mover:
         self._encoder = positions.beside(self._track)
 
     def told(self, bodies: Sequence[GopBody], values: Values) -> list[GopField]:
-        """What each GOP tells, of all their values, shape (T, n, d).
-
-        Raises
-        ------
-        TargetError
-            If no step keeps the bound.
-        """
+        """What each GOP tells, of all their values, shape (T, n, d)."""
         if self.bound.amount is None and (values != self._given).any():
             known = np.concatenate([self._given[None], values])
             self.bound = self.bound.over(known)

@@ -10,25 +10,7 @@ from bsm.bitstream.errors import OptionError
 
 @dataclass(frozen=True)
 class Promise:
-    """What holds in every frame, checked on what is decoded.
-
-    Parameters
-    ----------
-    farthest : float
-        How far a vertex may be off, in diagonals of the first frame; checked in every vertex of every frame.
-    look : float
-        Distance in moving pictures (`Look.moving`): 1 looks the same; infinite: any. Pictures are drawn of frames all
-        over the sequence and of all that may be beyond the bound; in every other frame the error of normals is
-        measured, and stands for the look as it does in the nearest frames that were drawn, and for as much more as that
-        changes from one of these to the next (`watch.Sight`).
-    absolute : bool
-        `farthest` is in the mesh's unit.
-
-    Raises
-    ------
-    OptionError
-        If a bound is not above 0.
-    """
+    """What holds in every frame, checked on what is decoded."""
 
     farthest: float
     look: float = math.inf

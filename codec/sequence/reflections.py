@@ -1,9 +1,5 @@
 """Columns at right angles to each other, told by what is free in them.
 
-Column k of a matrix is at right angles to the columns before it: k of its numbers say nothing new. Let reflections turn
-each of these columns into the direction of the coordinate of its number, one after the other; then column k has k zeros
-in front, and what is behind them is free.
-
 References
 ----------
 A. S. Householder, "Unitary triangularization of a nonsymmetric matrix", 1958; T. Joffrain et al., "Accumulating
@@ -23,10 +19,7 @@ LEAST = 1e-9
 
 
 def free_of(columns: Matrix) -> Matrix:
-    """What is free in columns, shape (n, r) with r <= n: zeros above the diagonal, and nothing negative on it.
-
-    What a column has in the directions of those before is left out; its sign may change.
-    """
+    """What is free in columns, shape (n, r) with r <= n: zeros above the diagonal, and nothing negative on it."""
     if not columns.size:
         return columns.copy()
     packed, factors = np.linalg.qr(columns, mode="raw")  # vectors are 1 on the diagonal, where lengths stand instead

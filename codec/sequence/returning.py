@@ -16,16 +16,7 @@ LOOKED_AT = 32
 
 
 def same_frames(frames: Positions, moving: Sequence[Values], step: float) -> Order:
-    """The first frame that each one is the same as, far below what `step` leaves, shape (T,).
-
-    Parameters
-    ----------
-    frames : float64 array, shape (T, n, 3)
-    moving : sequence of arrays, shapes (T, n, d)
-        What must be equal, too.
-    step : float
-        In the unit of the frames.
-    """
+    """The first frame that each one is the same as, far below what `step` leaves, shape (T,)."""
     rows = frames.reshape(len(frames), -1)
     glimpses = np.ascontiguousarray(rows[:, :: max(1, rows.shape[1] // LOOKED_AT)])
     same = np.arange(len(frames))

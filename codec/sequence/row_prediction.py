@@ -1,15 +1,4 @@
-"""The mathematics of sequences: the temporal transform, and the closed loop that predicts and quantizes rows.
-
-A sequence of T frames of n vertices is a matrix of n rows and 3T columns, the x of all frames, then y, then z; that of
-an attribute of d numbers has dT. In space it is transformed by the dictionaries of the blocks, which makes its rows
-frequencies; in time by a temporal basis B of r columns (components), learnt from the frames and sent. What is left is a
-small matrix per block, one row per spatial frequency, one column per component.
-
-The columns of such a row are predicted from what the decoder knows: the same row of the first frame, whose shape
-moves with every rigid motion of the block, and of what bends it (see `codec.sequence.bending`), and the columns before.
-The weights of this prediction are those that would have predicted best the rows before, and what is around the block,
-so that none are sent.
-"""
+"""The mathematics of sequences: the temporal transform, and the closed loop that predicts and quantizes rows."""
 
 from __future__ import annotations
 
@@ -70,10 +59,7 @@ def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
 
 
 def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32], width: int) -> Matrix:
-    """What is free in a basis, shape (dT, r), d being `width`, as cosines over time in steps: shape (d, T, r).
-
-    Its columns come out at right angles, with another sign where that is better.
-    """
+    """What is free in a basis, shape (dT, r), d being `width`, as cosines over time in steps: shape (d, T, r)."""
     rows, components = basis.shape
     cosines = time_cosines(rows // width).T @ basis.reshape(width, rows // width, components)
     free = free_of(cosines.transpose(1, 0, 2).reshape(rows, components)) / basis_steps(exponents)
@@ -90,19 +76,7 @@ def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
 
 
 class Loop:
-    """Predicts the rows of a block in closed loop.
-
-    Levels are on two grids in turn (see `bitstream.coefficients.trellis`), row after row.
-
-    Parameters
-    ----------
-    known : int
-        Columns k that the decoder knows of every row.
-    targets : int
-        Columns r to be coded.
-    leading : int
-        How many of them help to predict those behind.
-    """
+    """Predicts the rows of a block in closed loop."""
 
     def __init__(self, known: int, targets: int, leading: int = LEADING) -> None:
         self._known = known
@@ -127,26 +101,7 @@ class Loop:
     def search(
         self, known: Matrix, targets: Matrix, step: float, prices: Prices, weight: float
     ) -> tuple[Levels, Matrix]:
-        """Choose levels for `targets`, shape (c, r), given `known`, shape (c, k).
-
-        Parameters
-        ----------
-        prices : int16 array, shape (c, r, 2, PRICED)
-            Of `bitstream.coefficients.matrices.price_levels`.
-        weight : float
-            Squared steps that a bit is worth.
-
-        Returns
-        -------
-        levels : int32 array, shape (c, r)
-        decoded : float64 array, shape (c, r)
-            What `decode` makes of the levels.
-
-        Raises
-        ------
-        OptionError
-            If a level is larger than can be coded.
-        """
+        """Choose levels for `targets`, shape (c, r), given `known`, shape (c, k)."""
         levels, decoded = np.zeros(targets.shape, np.int32), np.empty(targets.shape)
         coded, width = targets.shape[1], self._moments.shape[1]
         self._check(known, levels)
@@ -172,13 +127,7 @@ class Loop:
         return levels, decoded
 
     def decode(self, known: Matrix, levels: Levels, step: float) -> Matrix:
-        """What the levels, shape (c, r), stand for.
-
-        Raises
-        ------
-        NumericError
-            If that is not finite.
-        """
+        """What the levels, shape (c, r), stand for."""
         self._check(known, levels)
         decoded, width = np.empty(levels.shape), self._moments.shape[1]
         _kernels.follow_rows(

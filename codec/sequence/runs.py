@@ -24,20 +24,7 @@ Frame: TypeAlias = npt.ArrayLike | TriangleMesh
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """Frames that share their faces.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        The first frame.
-    frames : iterator of array_like, shape (n, 3 + d)
-        All of them, the first one too; to be used up before the next run is asked for. Behind positions the numbers of
-        each attribute that can move.
-    first : int
-        The number of the first frame.
-    moving : tuple of Attribute
-        Those that can move, as the first frame has them.
-    """
+    """Frames that share their faces."""
 
     mesh: TriangleMesh
     frames: Iterator[npt.ArrayLike]
@@ -46,24 +33,7 @@ class Run:
 
 
 class Cutter:
-    """Cuts frames into runs.
-
-    Parameters
-    ----------
-    frames : iterable of array_like, shape (n, 3), or TriangleMesh
-    faces : array_like of int, shape (m, 3)
-        Of frames that are arrays.
-    allowed : bool
-        Whether faces may change.
-    attributes : sequence of Attribute
-        Only those of these names can move; none: all of them.
-
-    Attributes
-    ----------
-    changed : dict of str to int
-        Attributes but normals that cannot move, and are not in all frames what they are in the first one of their run,
-        by name, with the first such frame.
-    """
+    """Cuts frames into runs."""
 
     def __init__(
         self,
@@ -82,13 +52,7 @@ class Cutter:
         self.changed: dict[str, int] = {}
 
     def runs(self) -> Iterator[Run]:
-        """One run after the other.
-
-        Raises
-        ------
-        MeshError
-            If the faces change where they may not; also while the frames of a run are used.
-        """
+        """One run after the other."""
         while (ahead := self._ahead) is not None:
             mesh = (
                 ahead if isinstance(ahead, TriangleMesh) else TriangleMesh(np.asarray(ahead), np.asarray(self._faces))
@@ -159,13 +123,7 @@ class _Place(Generic[Mesh]):
 
 
 class Shelf(Generic[Mesh]):
-    """Meshes that runs have had, the last ones; encoder and decoder each have one, and count alike.
-
-    Parameters
-    ----------
-    allowance : Allowance
-        Counts what they take.
-    """
+    """Meshes that runs have had, the last ones; encoder and decoder each have one, and count alike."""
 
     def __init__(self, allowance: Allowance) -> None:
         self._allowance = allowance
@@ -207,5 +165,4 @@ class Shelf(Generic[Mesh]):
         self._before = self._counted()
 
     def _counted(self) -> tuple[float, int]:
-        """Bytes that are kept, and vertices that have come."""
         return self._allowance.kept, self._allowance.vertices

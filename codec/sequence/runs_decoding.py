@@ -33,15 +33,7 @@ class LostRun:
 
 
 class Runs:
-    """Runs come, one behind the other; each has a mesh of its own or one that an earlier run has had.
-
-    Parameters
-    ----------
-    setup : DecoderSetup
-        How the mesh of a run is read.
-    request : DecoderRequest
-    course : Course
-    """
+    """Runs come, one behind the other; each has a mesh of its own or one that an earlier run has had."""
 
     def __init__(self, setup: DecoderSetup, request: DecoderRequest, course: Course) -> None:
         self._setup = setup
@@ -85,7 +77,6 @@ class Runs:
         return gops
 
     def _leave(self) -> None:
-        """Keep of the present run what later ones may need, and give back all else."""
         if isinstance(self._stage, Gops):
             self._stage.suspend()
         self._shelf.leave(self._mesh)

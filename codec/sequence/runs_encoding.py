@@ -28,13 +28,7 @@ class OpenedMesh:
 
 
 class Meshes:
-    """The meshes that runs have had, as far as decoders keep them, see `Shelf`, and what decoders may still do.
-
-    Attributes
-    ----------
-    allowance : Allowance
-        When the present run begins.
-    """
+    """The meshes that runs have had, as far as decoders keep them, see `Shelf`, and what decoders may still do."""
 
     def __init__(self, options: SequenceOptions) -> None:
         self.allowance = Allowance(NAMED_LIMITS[options.limits]())

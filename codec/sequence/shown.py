@@ -14,15 +14,7 @@ BATCH = 8
 
 
 def shown_frames(field: Matrix, first: int, basis: Matrix) -> Iterator[Matrix]:
-    """The frames, each of shape (n, d), of some columns of a field over a temporal basis.
-
-    Parameters
-    ----------
-    field : float64 array, shape (n, c)
-        Components, r of them from column `first` on.
-    first : int
-    basis : float64 array, shape (d, T, r)
-    """
+    """The frames, each of shape (n, d), of some columns of a field over a temporal basis."""
     width, frames, components = basis.shape
     for start in range(0, frames, BATCH):
         part = basis[:, start : start + BATCH]

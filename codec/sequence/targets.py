@@ -17,20 +17,7 @@ from bsm.codec.static.targets import Target
 
 @dataclass(frozen=True)
 class SequenceComparison:
-    """A decoded sequence against its original.
-
-    Attributes
-    ----------
-    kg : float
-        Karni and Gotsman's error, percent.
-    theta_deg, nmsve_db : float
-        Means over the frames (of NMSVE itself, not of its decibels).
-    rms_relative, max_error_relative : float
-        Over all frames, in diagonals of the first frame (of its run, where faces change).
-    flicker : float
-        How much the error changes from frame to frame, its second difference in time, in percent of the motion's own;
-        0 for fewer than three frames, infinity where nothing moves but the error.
-    """
+    """A decoded sequence against its original."""
 
     kg: float
     theta_deg: float
@@ -72,7 +59,6 @@ def compare_runs(runs: Runs) -> SequenceComparison:
 
 
 def _percent(part: float, whole: float) -> float:
-    """The root of a share of squares, in percent; infinity of nothing."""
     if part == 0.0:
         return 0.0
     return 100.0 * math.sqrt(part / whole) if whole else math.inf
@@ -84,7 +70,6 @@ def flicker_of(original: Positions, decoded: Positions) -> float:
 
 
 def _changes(original: Positions, decoded: Positions) -> tuple[float, float]:
-    """Sums of squares of the second differences in time, of the error and of the motion."""
     error, motion = (float(np.square(np.diff(part, 2, axis=0)).sum()) for part in (decoded - original, original))
     return error, motion
 

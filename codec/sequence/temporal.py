@@ -22,31 +22,14 @@ FINEST_EXPONENT = OCTAVE * 23 - 1
 
 @dataclass(frozen=True, eq=False)
 class LearntBasis:
-    """Principal components of trajectories.
-
-    Parameters
-    ----------
-    columns : float64 array, shape (dT, r)
-        Orthonormal, by descending energy.
-    exponents : int32 array, shape (r,)
-        Steps to quantize them with, see `codec.sequence.row_prediction.basis_steps`.
-    """
+    """Principal components of trajectories."""
 
     columns: Matrix
     exponents: npt.NDArray[np.int32]
 
 
 def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
-    """Eigenvectors of the covariance of trajectories, all coordinates coupled.
-
-    Parameters
-    ----------
-    motion : float64 array, shape (n, dT)
-    step : float
-        With which the components will be quantized.
-    limit : int
-        Largest exponent that can be sent.
-    """
+    """Eigenvectors of the covariance of trajectories, all coordinates coupled."""
     energies, vectors = np.linalg.eigh(motion.T @ motion)
     width = len(energies)
     count = int(np.count_nonzero(energies > WORTH * width * step**2))
@@ -57,8 +40,5 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
 
 
 def projection(basis: Matrix) -> Matrix:
-    """Pseudo-inverse of a decoded basis, transposed, shape (dT, r), as the basis has it.
-
-    Coefficients times this are the components that fit best.
-    """
+    """Pseudo-inverse of a decoded basis, transposed, shape (dT, r), as the basis has it."""
     return np.ascontiguousarray(np.linalg.pinv(basis).T)

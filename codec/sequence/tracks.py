@@ -33,23 +33,7 @@ def lags(kept: int) -> tuple[int, ...]:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """What every GOP knows of one field before its first frame.
-
-    Parameters
-    ----------
-    width : int
-        Numbers d of a vertex.
-    kept : int
-        Decoded frames that low-delay frames may refer to.
-    first : list of float64 arrays, shapes (k_i + c_i, d)
-        The decoded first frame: where each part hangs on those before, and its difference from what these let expect.
-    known : list of float64 arrays, shapes (c_i, k)
-        What predicts components of the field: differences of the first frame, and of what bends positions.
-    around : list of float64 arrays, shapes (k_i, k)
-        The same columns where a part hangs on those before.
-    start : list of float64 arrays, shapes (k_i + c_i, d)
-        What a key frame is added to: of positions the first frame, of attributes nothing.
-    """
+    """What every GOP knows of one field before its first frame."""
 
     width: int
     kept: int
@@ -61,17 +45,7 @@ class Track:
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """What every GOP of a sequence is coded with.
-
-    Parameters
-    ----------
-    vertices : int
-    given : int
-        How many the decoder's user knows: copies of them, too.
-    dictionaries : Dictionaries
-    tracks : tuple of Track
-        Of positions, and of each attribute that moves.
-    """
+    """What every GOP of a sequence is coded with."""
 
     vertices: int
     given: int
@@ -88,10 +62,7 @@ class Setting:
         return [np.zeros((site.width, columns), np.int32) for site in self.sites]
 
     def field(self, columns: int, decoded: Callable[[int, Matrix], Matrix]) -> Matrix:
-        """The field, shape (n, m), of differences of each part, shape (c_i, m).
-
-        `decoded` gives them for the number of a part and what the field is around it, shape (k_i, m).
-        """
+        """The field, shape (n, m), of differences of each part, shape (c_i, m)."""
         field = np.zeros((self.vertices, columns))
         for index, part in enumerate(self.dictionaries.in_order()):
             part.place(field, decoded(index, field[part.site.around]))
@@ -109,10 +80,7 @@ def make_setting(
     allowance: Allowance,
     moving: Sequence[Matrix] = (),
 ) -> Setting:
-    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites` and `Setting`.
-
-    `moving` are values of attributes, shapes (n, d), in it, less those of vertex 0.
-    """
+    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites` and `Setting`."""
     sites = find_sites(scheme.blocks, faces, first_frame, width=width, threads=threads, allowance=allowance)
     dictionaries = Dictionaries(sites, scheme.rules, allowance, threads)
     dictionaries.reserve()

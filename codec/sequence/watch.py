@@ -54,18 +54,7 @@ Found = TypeVar("Found", bound=Attempt)
 
 
 class Watch:
-    """Looks at the frames of a GOP.
-
-    Parameters
-    ----------
-    frames : float64 array, shape (T, n, 3)
-        In BSM units.
-    faces : int32 array, shape (m, 3)
-    promise : Promise
-    scale : float
-        Of a BSM unit, in the mesh's own.
-    threads : int, optional
-    """
+    """Looks at the frames of a GOP."""
 
     def __init__(self, frames: Positions, faces: Faces, promise: Promise, scale: float, threads: int | None) -> None:
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
@@ -78,21 +67,7 @@ class Watch:
             self._knots = np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist()
 
     def settle(self, attempt: Callable[[float, Matrix | None, int], Found], first: float, finest: float) -> Found:
-        """What keeps the promise in every frame with little to spare.
-
-        Parameters
-        ----------
-        attempt : callable
-            Encodes with a step, with weights of frames, shape (T,), if there are any: what a frame's errors count, and
-            with so many rounds over levels, see `level_writer.ROUNDS`.
-        first, finest : float
-            The step to try first, and the last one.
-
-        Raises
-        ------
-        TargetError
-            If no step down to `finest` keeps it.
-        """
+        """What keeps the promise in every frame with little to spare."""
         low, high = math.log(finest), math.log(COARSEST_STEP)
         at = min(max(math.log(first), low), high)
         weights = None
@@ -160,7 +135,6 @@ class Watch:
         return sight
 
     def _look_at_doubtful(self, sight: Sight, decoded: Positions) -> None:
-        """Draw all frames that may be beyond the bound, up to the first one that is."""
         while sight.excess <= 0.0 and (index := sight.doubtful) is not None and sight.most[index] > 1.0:
             sight.drawn[index] = self._look(index, decoded)
 
@@ -186,17 +160,7 @@ class Watch:
 
 @dataclass(eq=False)
 class Sight:
-    """What is known of the frames of one attempt, in shares of their bounds.
-
-    Parameters
-    ----------
-    farthest : float
-        Of the vertex that is farthest off.
-    errors : float64 array, shape (T,)
-        Of normals; empty if looks do not matter.
-    drawn : dict of int to float
-        Looks of frames by their numbers.
-    """
+    """What is known of the frames of one attempt, in shares of their bounds."""
 
     farthest: float
     errors: Matrix
@@ -225,11 +189,7 @@ class Sight:
         return int(most.argmax()) if most.any() else None
 
     def _judged(self, deviations: float) -> Matrix:
-        """Looks, so many standard deviations above what is expected.
-
-        The logarithm of looks over errors of normals is known in drawn frames, and between them it is taken for a
-        Brownian bridge, which wanders as much as it does from one drawn frame to the next.
-        """
+        """Looks, so many standard deviations above what is expected."""
         shares = self.errors.copy()
         seen = np.array(sorted(index for index, share in self.drawn.items() if share > 0.0), np.int64)
         if len(seen):
@@ -274,10 +234,7 @@ class Shading:
         return np.divide(sums, lengths, out=sums, where=lengths > 0.0), areas
 
     def error(self, original: tuple[Matrix, Matrix], decoded: Positions) -> float:
-        """How far normals of vertices of `decoded`, shape (n, 3), are off those that `normals` gives of the original.
-
-        That is the root of 1 - cosine, mean by area.
-        """
+        """How far normals of vertices of `decoded`, shape (n, 3), are off those that `normals` gives of the original"""
         (own, areas), (other, _) = original, self.normals(decoded)
         cosines = np.minimum(np.einsum("ij,ij->i", own, other), 1.0)
         total = float(areas.sum())

@@ -21,17 +21,7 @@ FIRST_LOOK = 160
 
 
 class MeasuredSpectrum:
-    """Root mean square coefficient at each frequency, measured from the low ones on as far as somebody asks.
-
-    Parameters
-    ----------
-    sections : sequence of Blocks
-        All blocks, section by section.
-    positions : float64 array, shape (n, 3)
-        In the unit of the quantization step.
-    shift : float
-        delta of the dictionaries.
-    """
+    """Root mean square coefficient at each frequency, measured from the low ones on as far as somebody asks."""
 
     def __init__(self, sections: Sequence[Blocks], positions: Matrix, *, shift: float) -> None:
         places = [(blocks, index) for blocks in sections for index in range(blocks.count)]

@@ -39,18 +39,7 @@ def unchanged(values: Matrix) -> Matrix:
 
 @dataclass(frozen=True)
 class Trial:
-    """What is tried in place of what the specification says; nothing, unless somebody asks for it.
-
-    Parameters
-    ----------
-    rounding : callable
-        What becomes of the numbers that dictionaries and predictions start from, see `codec.steadiness`.
-    dictionary : callable, optional
-        Takes what holds a block, the number c of columns, and a function that gives ours with so many; gives U, shape
-        (n_i, c). See `research`.
-    predictor : callable, optional
-        Takes what holds a block; gives positions, shape (n_i, 3), of which only the differences are coded.
-    """
+    """What is tried in place of what the specification says; nothing, unless somebody asks for it."""
 
     rounding: Rounding = unchanged
     dictionary: Dictionary | None = None
@@ -62,24 +51,7 @@ AS_SPECIFIED = Trial()
 
 @dataclass(frozen=True)
 class ChainRules:
-    """What the stream's header says about dictionaries and chains.
-
-    Parameters
-    ----------
-    exact : bool
-        Exact eigenbasis of blocks without predecessor, as the paper seeds its first block; see
-        `codec.basis.orthogonal_iteration.exact_basis`.
-    key_interval : int
-        Blocks per chain; 0: one chain. 1: every block is on its own.
-    power, iterations, key_iterations, shift
-        z, t_max, t_max of a block without predecessor, and delta.
-    stiffness : float
-        Of the springs in the prediction, see `codec.signal.predict`; 0: no prediction.
-    whole : int
-        Rows up to which a dictionary of all columns is iterated for a third of them, and completed; see `iterated`.
-    trial : Trial
-        What is tried in place of what the specification says.
-    """
+    """What the stream's header says about dictionaries and chains."""
 
     exact: bool
     key_interval: int
@@ -137,14 +109,7 @@ def in_pieces(block: Block) -> bool:
 
 
 class Chain:
-    """State of one chain: the latest subspace, and the positions known so far.
-
-    Parameters
-    ----------
-    rules : ChainRules
-    graph : Graph
-        Of the whole mesh.
-    """
+    """State of one chain: the latest subspace, and the positions known so far."""
 
     def __init__(self, rules: ChainRules, graph: Graph) -> None:
         self._rules = rules
@@ -158,10 +123,7 @@ class Chain:
         return unheld(laplacian, shift) if self._known is None else self._known.around(laplacian, shift)
 
     def dictionary(self, around: Surroundings, width: int) -> Matrix:
-        """U of a block of n_i rows, shape (n_i, width), a function of connectivity and earlier widths only.
-
-        `width` is cut to the block's rows.
-        """
+        """U of a block of n_i rows, shape (n_i, width), a function of connectivity and earlier widths only."""
         return unpaid(self.steps(around, width))
 
     def steps(self, around: Surroundings, width: int) -> Steps:

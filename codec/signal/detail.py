@@ -51,11 +51,7 @@ class Normals:
         self._place = np.zeros(len(surface.starts) - 1, np.int32)
 
     def of(self, block: Block, positions: Matrix) -> Matrix:
-        """Normals at a block's rows, shape (n_i, 3), from its own positions and the faces that lie inside it.
-
-        The sum s of the faces' normals, each as long as twice its area, over sqrt(s . s + e^2 + f^2); e is
-        `SOFTNESS` times the root mean square of |s| over the block, f is `LEAST`. Zero where nothing has an area.
-        """
+        """Normals at a block's rows, shape (n_i, 3), from its own positions and the faces that lie inside it."""
         surface = self._surface
         if positions.shape != (block.size, 3):
             raise ValueError(f"positions of shape {positions.shape} for a block of {block.size} vertices")
@@ -76,11 +72,7 @@ class Normals:
     def raise_block(
         self, block: Block, subspace: Matrix, levels: Levels, count: int, step: float, positions: Matrix
     ) -> None:
-        """Make positions b, shape (n_i, 3), C-contiguous, b + m (U e).
-
-        `levels`, folded (see `fold_details`), are those of e, of which the first `count` are taken; U, shape (n_i, c),
-        has at least as many columns.
-        """
+        """Make positions b, shape (n_i, 3), C-contiguous, b + m (U e)."""
         surface, size = self._surface, block.size
         _kernels.raise_block(
             surface.faces,

@@ -13,32 +13,14 @@ from bsm.codec.arrays import Faces, Levels, Matrix, Positions
 
 
 def local_frames(positions: Positions, faces: Faces) -> Matrix:
-    """Normal and two tangents of each vertex, orthonormal, shape (n, 9).
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-        In BSM units.
-    faces : int32 array, shape (m, 3)
-    """
+    """Normal and two tangents of each vertex, orthonormal, shape (n, 9)."""
     frames = np.empty((len(positions), 9))
     _kernels.local_frames(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), frames)
     return frames
 
 
 def raised(positions: Positions, frames: Matrix, levels: Levels, step: float) -> Positions:
-    """Positions moved along the normals of frames, shape (n, 3).
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-    frames : float64 array, shape (n, 9)
-        Those of the base, whatever was added to it since.
-    levels : int32 array, shape (n, 1) or (n, 3)
-        Of which the first count.
-    step : float
-        What a level moves.
-    """
+    """Positions moved along the normals of frames, shape (n, 3)."""
     moved = np.array(positions, np.float64, order="C")
     lift(moved, frames, levels, step)
     return moved
@@ -50,35 +32,13 @@ def lift(positions: Positions, frames: Matrix, levels: Levels, step: float) -> N
 
 
 def slide(positions: Positions, frames: Matrix, levels: Levels, steps: Matrix) -> None:
-    """Move positions along the tangents of frames, in place.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-    frames : float64 array, shape (n, 9)
-    levels : int32 array, shape (n, 3)
-        Of which the second and the third count.
-    steps : float64 array, shape (n,)
-        What a level of each vertex moves.
-    """
+    """Move positions along the tangents of frames, in place."""
     given = np.ascontiguousarray(levels, np.int32), np.ascontiguousarray(steps, np.float64)
     _kernels.add_slides(positions, frames, *given)
 
 
 def tangent_steps(positions: Positions, faces: Faces, step: float, ratio: float) -> Matrix:
-    """What a level along a tangent moves each vertex, shape (n,); the same for encoder and decoder.
-
-    An error along the surface hardly shows where it is flat, and shows at creases like one across.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-        Of the base, raised by the levels along its normals.
-    faces : int32 array, shape (m, 3)
-    step, ratio : float
-        A level along a normal; and how many times that one along a tangent is where the surface is flat. It is less
-        where that is bent and at its borders, but not below 1.
-    """
+    """What a level along a tangent moves each vertex, shape (n,); the same for encoder and decoder."""
     steps = np.empty(len(positions))
     given = np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32)
     _kernels.tangent_steps(*given, step, ratio, np.empty((len(positions), 8)), steps)

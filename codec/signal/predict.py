@@ -25,17 +25,7 @@ from bsm.codec.geometry.graph import Graph
 
 @dataclass(frozen=True, eq=False)
 class Suspended:
-    """A block on springs.
-
-    Parameters
-    ----------
-    laplacian : Laplacian
-        Of the block, which the springs are added to.
-    springs : float64 array, shape (n,)
-        Sum of the stiffnesses at each row.
-    shift : float
-        delta, the stiffness of one more spring at each row.
-    """
+    """A block on springs."""
 
     laplacian: Laplacian
     springs: Matrix
@@ -49,13 +39,7 @@ class Suspended:
 
 @dataclass(frozen=True, eq=False)
 class Surroundings(Suspended):
-    """What holds a block.
-
-    Parameters
-    ----------
-    pulls : float64 array, shape (n, 3)
-        Sum of stiffness times known position at each row.
-    """
+    """What holds a block."""
 
     pulls: Matrix
 
@@ -90,15 +74,7 @@ class Surroundings(Suspended):
 
 
 class Known:
-    """What a chain has decoded so far.
-
-    Parameters
-    ----------
-    graph : Graph
-        Of the whole mesh.
-    stiffness : float
-        Of the spring between a known vertex inside a block and its own place.
-    """
+    """What a chain has decoded so far."""
 
     def __init__(self, graph: Graph, stiffness: float) -> None:
         self._graph = graph
@@ -135,22 +111,7 @@ def unheld(laplacian: Laplacian, shift: float) -> Surroundings:
 
 
 def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
-    """Values that continue what is known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean).
-
-    Parameters
-    ----------
-    factor : Factor
-        Of L + S + delta I.
-    springs : float64 array, shape (n,)
-        Sum of the stiffnesses at each row.
-    pulls : float64 array, shape (n, m)
-        y, sums of stiffness times known value.
-
-    Returns
-    -------
-    float64 array, shape (n, m)
-        Zero without springs.
-    """
+    """Values that continue what is known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean)."""
     rows, columns = pulls.shape
     check_rows(factor, rows)
     values, scratch = np.empty((rows, columns)), np.empty(columns + solving_space(rows, columns))

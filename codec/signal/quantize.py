@@ -28,14 +28,7 @@ def smallest_step(block_size: int) -> float:
 
 
 def packed_range(first: float, others: float, bits: int) -> tuple[float, int]:
-    """Step with which `bits` bits hold every coefficient, and how many bits coarser the first row is for that.
-
-    Parameters
-    ----------
-    first, others : float
-        Largest magnitudes in the first row of any block, the block's place in space, and in all other rows.
-    bits : int
-    """
+    """Step with which `bits` bits hold every coefficient, and how many bits coarser the first row is for that."""
     half = (1 << (bits - 1)) - 1
     step = float(np.nextafter(np.float32(max(others, first * 2.0**-20, 2.0**-20) / half), np.float32(np.inf)))
     coarser = 0
@@ -45,10 +38,7 @@ def packed_range(first: float, others: float, bits: int) -> tuple[float, int]:
 
 
 def quantize_packed(coefficients: Matrix, step: float, coarser: int) -> npt.NDArray[np.int64]:
-    """Levels nearest to `coefficients`, shape (c, 3); those of the first row are multiples of 2^`coarser`.
-
-    That row may be 2^20 times as large as all others (see `packed_range`): too large for 32 bits.
-    """
+    """Levels nearest to `coefficients`, shape (c, 3); those of the first row are multiples of 2^`coarser`."""
     levels = np.rint(coefficients / step).astype(np.int64)
     levels[0] = np.rint(coefficients[0] / (step * 2**coarser)).astype(np.int64) << coarser
     return levels

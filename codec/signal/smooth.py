@@ -21,11 +21,7 @@ NODES = (0.4, 0.9, 1.4, 1.8)
 
 
 def filter_polynomial(amount: float) -> Matrix:
-    """Coefficients p_2 .. p_5 of p(x) = 1 + p_2 x^2 + ... + p_5 x^5, shape (DEGREE - 1,).
-
-    p(0) = 1 and p'(0) = 0; at four nodes in the spectrum of K, p equals 1 / (1 + alpha x^2), with alpha = `amount`.
-    Newton's divided differences of (p(x) - 1) / x^2 = -alpha / (1 + alpha x^2), expanded.
-    """
+    """Coefficients p_2 .. p_5 of p(x) = 1 + p_2 x^2 + ... + p_5 x^5, shape (DEGREE - 1,)."""
     table = [-amount / (1.0 + amount * x * x) for x in NODES]
     for level in range(1, len(NODES)):
         for i in range(len(NODES) - 1, level - 1, -1):
@@ -49,15 +45,7 @@ def smooth(graph: Graph, positions: Matrix, amount: float) -> Matrix:
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """What positions V filtered by any amount are a sum of.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-        V.
-    terms : float64 array, shape (DEGREE - 1, n, 3)
-        K^2 V to K^DEGREE V.
-    """
+    """What positions V filtered by any amount are a sum of."""
 
     positions: Matrix
     terms: Matrix
@@ -93,19 +81,7 @@ LOOK, CALL = 18.0, 2e4
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Vertices and the rings around them.
-
-    Parameters
-    ----------
-    inner : int
-        Number of the vertices in the middle, which come first.
-    rows : int32 array
-        All vertices, ring after ring.
-    starts : int64 array
-        Ring k ends before entry k.
-    work : float
-        What finding them cost, and what filtering costs at most, nanoseconds.
-    """
+    """Vertices and the rings around them."""
 
     inner: int
     rows: Indices
@@ -114,13 +90,7 @@ class Rings:
 
 
 class LocalFilter:
-    """`smooth` for some vertices at a time, from positions that need to be known only `DEGREE` rings around them.
-
-    Parameters
-    ----------
-    graph : Graph
-    amount : float
-    """
+    """`smooth` for some vertices at a time, from positions that need to be known only `DEGREE` rings around them."""
 
     def __init__(self, graph: Graph, amount: float) -> None:
         self._graph = graph

@@ -15,10 +15,7 @@ from bsm.codec.arrays import Levels, Matrix
 
 
 def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:
-    """E = U^T V, shape (count, d) or (count,), for the first `count` columns U of `subspace`, shape (n, c).
-
-    V has shape (n, d) or (n,).
-    """
+    """E = U^T V, shape (count, d) or (count,), for the first `count` columns U of `subspace`, shape (n, c)."""
     if len(values) != len(subspace) or count > subspace.shape[1]:
         raise ValueError(f"{count} of {subspace.shape} coefficients of {len(values)} values")
     flat = np.ascontiguousarray(values.reshape(len(values), math.prod(values.shape[1:])))
@@ -28,10 +25,7 @@ def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:
 
 
 def placed(prediction: Matrix, subspace: Matrix, levels: Levels, step: float) -> Matrix:
-    """Prediction, shape (n, 3), plus U times the coefficients of levels, shape (c, 3), on the two grids of the trellis.
-
-    U is the first c columns of `subspace`, C-contiguous.
-    """
+    """Prediction, shape (n, 3), plus U times the coefficients of levels, shape (c, 3), on the trellis's two grids."""
     positions = np.empty(prediction.shape)
     _kernels.place_block(prediction, subspace, levels, step / 2, np.empty(levels.size), positions)
     return positions

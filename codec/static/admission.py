@@ -34,13 +34,7 @@ def patience(limits: str, vertices: int) -> Spend:
 
 
 def admit(allowance: Allowance, prepared: Prepared, blocks: Sequence[CodedBlock]) -> None:
-    """Spend what a decoder of these blocks will, but for what their bytes grant.
-
-    Raises
-    ------
-    LimitError
-        If that is too much.
-    """
+    """Spend what a decoder of these blocks will, but for what their bytes grant."""
     memory, done, before = MeshMemory(allowance), 0, (0, 0)
     allowance.spend(AROUND * reading_cost(AROUND_BYTES))
     for area, piece, grown in zip(prepared.areas, prepared.pieces, prepared.blocks, strict=True):

@@ -51,21 +51,7 @@ class Place:
 
 
 class Assembly:
-    """Blends the blocks of one mesh, or of one section with all that came before it.
-
-    Parameters
-    ----------
-    blocks : Blocks
-        Of the section.
-    smoothing : float
-        Amount of the decoder's filter.
-    units : Units
-    numbering : Numbering
-    spend : callable, optional
-        Is told of the work of saying what has changed, which depends on how near everything is to everything.
-    place : Place
-        Which section it is. The assembly of the one before is not to be used any more once this one is.
-    """
+    """Blends the blocks of one mesh, or of one section with all that came before it."""
 
     def __init__(
         self,
@@ -128,11 +114,9 @@ class Assembly:
         return found
 
     def _around(self, vertices: Indices, rings: int) -> Indices:
-        """`vertices` and all others at most `rings` edges away, ring after ring."""
         return self._rings(vertices, rings).rows
 
     def _smoothed(self, vertices: Indices) -> Matrix:
-        """What the filter makes of blended positions, of some vertices."""
         if self._smoothing == 0.0:
             return self._blended[vertices]
         return self._filter.smoothed(self._blended, self._rings(vertices, DEGREE))
@@ -164,8 +148,7 @@ class Assembly:
 
     def base(self) -> tuple[Matrix, Mask]:
         """What refinement adds to: all positions in BSM units, shape (n, 3), and which of them, and of the vertices
-        beside them, are as the encoder had them. Unknown ones are 0.
-        """
+        beside them, are as the encoder had them. Unknown ones are 0."""
         everything = np.arange(self._graph.size, dtype=np.int32)
         if self.whole:
             whole = np.ones(len(everything), np.bool_)
@@ -219,7 +202,6 @@ class Assembly:
         return Losses(self._numbering.of(touched[~known]), self._numbering.of(np.sort(degraded)))
 
     def _touched(self) -> Indices:
-        """Vertices of blocks that were lost."""
         own = [self._blocks.members_of(index) for index in self._lost]
         before = [] if self._place.before is None else [self._place.before._touched()]
         return np.unique(np.concatenate([np.empty(0, np.int32), *own, *before]))

@@ -62,17 +62,7 @@ class Ground:
 
 @dataclass(frozen=True, eq=False)
 class BlockLevels:
-    """The levels of one block.
-
-    Parameters
-    ----------
-    coordinates : integer array, shape (c_i, 3)
-        Of x, y and z.
-    details : int32 array, shape (r, 3)
-        Of the detail layer, see `codec.signal.detail.fold_details`.
-    width : int
-        Columns of the dictionary that they need.
-    """
+    """The levels of one block."""
 
     coordinates: Integers
     details: Levels
@@ -98,10 +88,7 @@ class Coding(Protocol):
         """This way of coding, in the state that a chain starts from."""
 
     def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> BlockLevels:
-        """Levels that bring a block near to `wanted`, shape (n, 3), or as near as pays.
-
-        Their number is what pays; with `sizes` it follows the error.
-        """
+        """Levels that bring a block near to `wanted`, shape (n, 3), or as near as pays."""
 
     def write(self, levels: BlockLevels) -> bytes:
         """The payload of the chain's next block."""
@@ -115,17 +102,7 @@ class Coding(Protocol):
 
 @dataclass(frozen=True)
 class Packed:
-    """Every coefficient in so many bits, zstd behind: the paper's.
-
-    Parameters
-    ----------
-    width : int
-    bits : int
-        q_c.
-    step : float
-    coarser : int
-        The first row's step is 2^coarser as large.
-    """
+    """Every coefficient in so many bits, zstd behind: the paper's."""
 
     width: int
     bits: int
@@ -158,14 +135,7 @@ class Packed:
 
 @dataclass(eq=False)
 class Adaptive:
-    """Levels on two grids, chosen by rate and distortion and coded by what the chain has taught.
-
-    Parameters
-    ----------
-    width : int
-        No level costs more or less with another one, so that the encoder may begin with more than it will need.
-    step : float
-    """
+    """Levels on two grids, chosen by rate and distortion and coded by what the chain has taught."""
 
     width: int
     step: float
@@ -203,17 +173,7 @@ class Adaptive:
 
 @dataclass(eq=False)
 class Layered:
-    """`Adaptive` for x, y and z, and a detail layer along the normals above it.
-
-    Parameters
-    ----------
-    base : Adaptive
-    details : int
-        Coefficients of the largest detail layer of a block.
-    step : float
-        Of the detail layer.
-    surface : Surface
-    """
+    """`Adaptive` for x, y and z, and a detail layer along the normals above it."""
 
     base: Adaptive
     details: int
@@ -270,7 +230,6 @@ class Layered:
         return BlockLevels(coordinates, details, max(len(coordinates), self._heights(details, size)))
 
     def _heights(self, details: Levels, size: int) -> int:
-        """How many of the levels are heights; what fills up their last row is not."""
         return min(details.size, self.details, size)
 
 
@@ -294,7 +253,6 @@ def _plain(levels: Integers) -> BlockLevels:
 
 
 def _offered(ground: Ground, wanted: Matrix, width: int, sizes: DynamicSize | None) -> Matrix:
-    """The coefficients of what the prediction leaves: all of them, or as many as `sizes` says."""
     residual = wanted - ground.prediction
     coefficients = ground.coefficients(residual, width)
     return coefficients if sizes is None else coefficients[: sizes.follow(residual, coefficients)]

@@ -123,21 +123,7 @@ class Contract:
 
 @dataclass(frozen=True)
 class Fit:
-    """How well parts of a mesh fit that were encoded apart: where they were one, they gape by at most so much.
-
-    Every vertex of a border keeps within half of it of its place.
-
-    Parameters
-    ----------
-    gap : float
-    absolute : bool
-        `gap` is in the mesh's unit, and not relative to the diagonal of the bounding box (of the larger part).
-
-    Raises
-    ------
-    OptionError
-        If the gap is not positive.
-    """
+    """How well parts of a mesh fit that were encoded apart: where they were one, they gape by at most so much."""
 
     gap: float = 1e-4
     absolute: bool = False

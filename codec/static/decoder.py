@@ -318,7 +318,6 @@ class Decoder(StreamDecoder[Item]):
             raise
 
     def _next_item(self) -> Item:
-        """Read ahead what bytes are there for, so that chains can be decoded side by side, and give the first item."""
         while len(self._queue) < self._most_ahead and self._read():
             pass
         return self._queue.popleft() if self._queue else self._signal()
@@ -339,13 +338,7 @@ def check_header(header: Header, limits: Limits) -> None:
 
 
 def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
-    """Decode a complete stream.
-
-    Raises
-    ------
-    BsmError
-        `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`.
-    """
+    """Decode a complete stream."""
     with Decoder(limits, threads) as decoder:
         decoder.receive_data(data)
         return decoder.finish()

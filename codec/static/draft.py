@@ -15,18 +15,7 @@ from bsm.codec.arrays import Levels, Positions
 
 @dataclass(frozen=True, eq=False)
 class Draft:
-    """A stream that might be written.
-
-    Parameters
-    ----------
-    header : Header
-    body : tuple of packets
-        All behind the header.
-    decoded : float64 array, shape (n, 3)
-        What the decoder makes of it, in the mesh's unit.
-    places : int32 array, shape (n, 3), optional
-        On a grid: what is coded.
-    """
+    """A stream that might be written."""
 
     header: Header
     body: tuple[Packet, ...]

@@ -50,15 +50,7 @@ FEW, SMALL_SHARE, FREE = 4000, 0.1, 0.02
 
 @dataclass(frozen=True, eq=False)
 class Attempt:
-    """A whole stream, and what its decoder will make of it.
-
-    Parameters
-    ----------
-    draft : Draft
-        The stream.
-    comparison : Comparison
-        The decoded mesh against the original.
-    """
+    """A whole stream, and what its decoder will make of it."""
 
     draft: Draft
     comparison: Comparison
@@ -193,11 +185,7 @@ class Encoder:
         )
 
     def _promised(self, promise: Contract, progress: Progress | None) -> Draft:
-        """The smallest draft that keeps a promise; or a better one where that is as good as free.
-
-        Of a mesh that is most of all images and attributes, positions of the next finer presets may take no more: these
-        are tried as long as that is so. Of a small one, and of one whose vertices are on some grid, the finest may.
-        """
+        """The smallest draft that keeps a promise; or a better one where that is as good as free."""
         ways = Fulfilment(self._prepared, self.options, promise, self._sight, progress)
         bare = ways.draft(self._size)
         best = self._dressed(bare)
@@ -323,17 +311,14 @@ class Encoder:
         return Attempt(draft, self._reference.compare(decoded))
 
     def _take_attributes(self) -> None:
-        """Say what cannot be kept of attributes before any work is put into positions."""
         _ = self._carried
 
     def _dressed(self, draft: Draft) -> Draft:
-        """A draft with all that the mesh carries."""
         if not self._carried and not self._given.metadata:
             return draft
         return with_attributes(draft, self._carried, self._given.metadata)
 
     def _size(self, draft: Draft) -> int:
-        """Bytes of a draft with all that the mesh carries."""
         return self._dressed(draft).size
 
     def _admitted(self, draft: Draft) -> Draft:
@@ -345,7 +330,6 @@ class Encoder:
 
     @cached_property
     def _wanted(self) -> list[tuple[Attribute, Quality]]:
-        """The attributes that are sent, and what is asked of each."""
         options = self.options
         return qualities(self._given.attributes, dict(options.attributes), options.grade, options.normals)
 
@@ -394,7 +378,6 @@ class Encoder:
 
     @cached_property
     def _reference(self) -> Reference:
-        """The original, in BSM units, prepared for comparing."""
         return Reference(self._prepared.positions, self.mesh.faces)
 
 

@@ -15,23 +15,7 @@ from bsm.codec.geometry.welding import weld
 
 @dataclass(frozen=True, eq=False)
 class JoinedMesh:
-    """What becomes of a given mesh.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        Vertices as the first at each position is met.
-    index : int32 array, shape (n,)
-        The vertex that each given one has become; -1: no face uses it.
-    first : int64 array
-        The given vertex that is the first at the place of each vertex.
-    kept : int64 array
-        The given faces that are left.
-    splits : Splits, optional
-        What `mesh` needs to become the given one again; None: nothing.
-    notes : tuple of str
-        What was changed.
-    """
+    """What becomes of a given mesh."""
 
     mesh: TriangleMesh
     index: Indices
@@ -42,15 +26,7 @@ class JoinedMesh:
 
 
 def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
-    """Make vertices at one position one, and see what `joined` says.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-    keep : bool
-    exact : bool
-        Positions are kept as single precision has them, to the bit: they are rounded to it, and -0.0 is not 0.0.
-    """
+    """Make vertices at one position one, and see what `joined` says."""
     changed = 0
     if exact:
         mesh, changed = _single(mesh)
@@ -60,20 +36,7 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
 
 
 def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
-    """Make vertices one.
-
-    Faces that this robs of their area are left out, unless that would leave none, or the given mesh is to be kept.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-    index : int32 array, shape (n,)
-        What each vertex becomes, numbered in order of first appearance.
-    keep : bool
-        The stream shall give every vertex and face back.
-    keep_loose : bool
-        Vertices that no face uses, too.
-    """
+    """Make vertices one."""
     notes = []
     faces = index[mesh.faces]
     collapsed = _degenerate(faces) & ~_degenerate(mesh.faces)
@@ -123,6 +86,5 @@ def _single(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:
 
 
 def _degenerate(faces: Indices) -> Mask:
-    """Which faces name a vertex twice."""
     a, b, c = faces.T
     return np.asarray((a == b) | (b == c) | (a == c))

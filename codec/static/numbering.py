@@ -14,21 +14,7 @@ from bsm.codec.static.events import Changes, ConnectivityEvent
 
 @dataclass(frozen=True, eq=False)
 class Numbering:
-    """How the user of a mesh numbers what was coded.
-
-    Parameters
-    ----------
-    faces : int32 array, shape (m, 3)
-        As the user knows them.
-    source : int32 array, shape (k,), optional
-        What each of the user's vertices was coded as, -1: not at all; None: as what has its number.
-    loose : float64 array, shape (l, 3)
-        Positions of the user's vertices that were not coded.
-    arrangement : Arrangement, optional
-        Which face and which first corner was coded as which; None: they are as they were coded.
-    splits : bool
-        Whether vertices that were coded as one are several of the user's.
-    """
+    """How the user of a mesh numbers what was coded."""
 
     faces: Faces
     source: Indices | None = None
@@ -54,10 +40,7 @@ class Numbering:
         return self.spread(vertices)[0]
 
     def spread(self, vertices: Indices) -> tuple[Indices, Order | slice]:
-        """The user's numbers of coded vertices, shape (k,), and for each the row of `vertices` that it is a copy of.
-
-        Both have shape (c,), all copies of each vertex; the rows may be a slice, where every vertex is its own.
-        """
+        """The user's numbers of coded vertices, shape (k,), and for each the row of `vertices` that it is a copy of."""
         if self._rows is None:
             return vertices, slice(None)
         starts, members = self._rows

@@ -48,21 +48,7 @@ from bsm.codec.static.work import (
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """What has come of the mesh with one more section; most have but one.
-
-    Parameters
-    ----------
-    number, count : int
-        From 0, and how many there are in all.
-    span : Span
-        Its own faces and blocks.
-    first : int
-        Vertices of the sections before it.
-    faces : int32 array, shape (m, 3)
-        Of this section and all before, as they were coded.
-    graph : Graph
-        Of these faces, on the vertices so far.
-    """
+    """What has come of the mesh with one more section; most have but one."""
 
     number: int
     count: int
@@ -78,14 +64,7 @@ class Section:
 
 
 class SectionReader:
-    """The mesh, section by section, as CONNECTIVITYs come.
-
-    Parameters
-    ----------
-    header : Header
-    allowance : Allowance
-        Pays for faces and graphs.
-    """
+    """The mesh, section by section, as CONNECTIVITYs come."""
 
     def __init__(self, header: Header, allowance: Allowance) -> None:
         self._header = header
@@ -98,13 +77,7 @@ class SectionReader:
         self._vertices = 0
 
     def take(self, packet: packets.Connectivity) -> Section:
-        """The next section.
-
-        Raises
-        ------
-        BsmError
-            See `ConnectivityDecoder.take`; `CorruptError` also where there are too few vertices for blocks.
-        """
+        """The next section."""
         allowance, received = self._allowance, len(packet.data)
         known = self._decoder.take(packet.data)
         number, span = self._spans.popleft()
@@ -127,19 +100,7 @@ class SectionReader:
 
 @dataclass(frozen=True, eq=False)
 class Structure:
-    """What a decoder knows before the first block, of the mesh or of one more section.
-
-    Parameters
-    ----------
-    connectivity : ConnectivityStage
-        Where the decoder stood before; takes the next section.
-    section : Section
-    numbering : Numbering
-    partition : Partition, optional
-        That was sent; None: it is derived.
-    declarations : Declarations
-        Attributes.
-    """
+    """What a decoder knows before the first block, of the mesh or of one more section."""
 
     connectivity: ConnectivityStage
     section: Section
@@ -174,13 +135,7 @@ class Structure:
 
     @cached_property
     def scheme(self) -> Scheme:
-        """How blocks are coded.
-
-        Raises
-        ------
-        CorruptError
-            If a part is larger than the header allows for a block.
-        """
+        """How blocks are coded."""
         header, section, setup = self.header, self.section, self.connectivity.setup
         blocks = len(section.span.blocks)
         copies = blocks * min(header.block_size, self.graph.size)
@@ -201,8 +156,7 @@ class Structure:
 @dataclass(frozen=True)
 class DecoderSetup:
     """How a decoder reads the preamble: which headers it takes, what it may spend, which stage comes behind, and what
-    is tried.
-    """
+    is tried."""
 
     allowance: Allowance
     check: Callable[[Header], None]

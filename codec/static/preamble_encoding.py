@@ -36,19 +36,7 @@ SMALL_COMPONENT = 150
 
 @dataclass(frozen=True, eq=False)
 class Area:
-    """What the blocks of a section are made on.
-
-    Parameters
-    ----------
-    faces : int32 array, shape (m, 3)
-        Of the section and all before it.
-    graph : Graph
-        Of these.
-    first : int
-        Its first vertex; it has all others.
-    partition : Partition
-        Of its own vertices.
-    """
+    """What the blocks of a section are made on."""
 
     faces: Faces
     graph: Graph
@@ -58,40 +46,7 @@ class Area:
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """A mesh before its positions are coded.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        In the order of coding, without the vertices that no face uses.
-    graph : Graph
-        Of `mesh`.
-    parts : Parts
-        How it is cut, should it be.
-    units : Units
-    connectivity : packets.Connectivity
-        In one piece.
-    cuts : tuple of Cut
-        Between the sections that it comes in where it comes in blocks.
-    pieces : tuple of packets.Connectivity
-        Those of the sections.
-    order : tuple of packets.Order
-        One, or none.
-    coding_order : int64 array, shape (n,)
-        The given vertex that is coded as each vertex.
-    vertex_order, face_order : int64 arrays, shapes (n,) and (m,)
-        The given vertex and face that the decoder's user will know by each number.
-    coding_faces : int64 array, shape (m,)
-        The given face that is coded as each face.
-    given : int
-        How many vertices the decoder's user will know.
-    notes : tuple of str
-        What was changed.
-    joined_faces : int32 array, shape (m, 3)
-        The given faces.
-    light : bool
-        Whether positions, if they come on a grid, are to be quick to decode.
-    """
+    """A mesh before its positions are coded."""
 
     mesh: TriangleMesh
     graph: Graph
@@ -161,18 +116,11 @@ class Prepared:
 
     @property
     def _own(self) -> list[range]:
-        """The vertices of each section."""
         return [range(*ends) for ends in pairwise((0, *(cut.vertices for cut in self.cuts), self.graph.size))]
 
     @property
     def size(self) -> int:
-        """Vertices of the largest block, n_d.
-
-        Raises
-        ------
-        OptionError
-            If blocks of this size would hold more copies of each vertex than a stream may.
-        """
+        """Vertices of the largest block, n_d."""
         size, parts = max(block_size(area.partition, self.parts.overlap) for area in self.areas), 0
         for area in self.areas:
             parts, vertices = parts + area.partition.parts, area.graph.size
@@ -250,25 +198,7 @@ def prepare(
     sections: int | None = 1,
     light: bool = False,
 ) -> Prepared:
-    """Code the connectivity of a mesh.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-    parts : Parts
-    keep_order : bool
-    splits : Splits, optional
-        What a mesh whose order is kept needs to become the given one.
-    sections : int, optional
-        In how many blocks come; None: as many as are worth it.
-    light : bool
-        Whether positions, if they come on a grid, are to be quick to decode.
-
-    Raises
-    ------
-    OptionError
-        If the mesh cannot come in so many sections.
-    """
+    """Code the connectivity of a mesh."""
     used, kept = mesh.without_isolated_vertices()
     dropped = len(mesh.positions) - len(kept)
     vertices = len(kept)

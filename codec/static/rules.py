@@ -21,17 +21,7 @@ STIFFNESS = 8.0
 
 @dataclass(frozen=True, eq=False)
 class Scheme:
-    """All that both sides know before the first block of a mesh, or of a section of one.
-
-    Parameters
-    ----------
-    blocks : Blocks
-    rules : ChainRules
-    coding : Coding
-        As it is where a chain begins.
-    first : int
-        Number of the first block in the stream; here, blocks are counted from there.
-    """
+    """All that both sides know before the first block of a mesh, or of a section of one."""
 
     blocks: Blocks
     rules: ChainRules

@@ -31,22 +31,7 @@ def possible_cuts(faces: int, vertices: int, sections: int | None) -> tuple[int,
 
 
 def choose_cuts(places: Sequence[Cut], vertices: int, blocks: int, size: int, sections: int | None) -> tuple[Cut, ...]:
-    """Where to cut a mesh: so that sections have as many blocks each.
-
-    Parameters
-    ----------
-    places : sequence of Cut
-        Where it can be.
-    vertices, blocks, size : int
-        Of the whole mesh; bytes of its faces.
-    sections : int, optional
-        How many there shall be; None: as many as are worth it.
-
-    Raises
-    ------
-    OptionError
-        If the mesh cannot come in so many.
-    """
+    """Where to cut a mesh: so that sections have as many blocks each."""
     if sections is None:
         sections = SECTIONS if places and blocks >= SECTIONS and vertices >= MANY_VERTICES and size >= MUCH else 1
     if sections == 1:

@@ -29,13 +29,7 @@ class Stage(Protocol[Item]):
     """Where a decoder stands."""
 
     def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
-        """Take in what comes next, queue what follows from it, and say where the decoder stands then.
-
-        Raises
-        ------
-        BsmError
-            If it may not come here, or is wrong.
-        """
+        """Take in what comes next, queue what follows from it, and say where the decoder stands then."""
 
 
 class Ended:
@@ -63,10 +57,7 @@ def misplaced(arrival: Arrival) -> CorruptError:
 
 
 class StreamDecoder(ABC, Generic[Item]):
-    """Takes the bytes of a stream as they come, and queues what follows from them.
-
-    A context manager: leaving it stops its threads.
-    """
+    """Takes the bytes of a stream as they come, and queues what follows from them."""
 
     def __init__(self, first: Stage[Item], allowance: Allowance, *, tolerant: bool = False) -> None:
         self._allowance = allowance
@@ -135,7 +126,6 @@ class StreamDecoder(ABC, Generic[Item]):
                 return NEED_DATA
 
     def _fail(self, error: BsmError) -> BsmError:
-        """Give up; returns the error, to be raised."""
         self._queue.clear()
         self._stage = Failed(error)
         return error

@@ -95,28 +95,7 @@ Found = TypeVar("Found", bound=Outcome)
 
 
 def search_step(attempt: Callable[[float], Found], target: Target, first: float, finest: float) -> Found:
-    """Find a step whose outcome meets the target.
-
-    Parameters
-    ----------
-    attempt : callable
-        Encodes with a given step.
-    target : Target
-    first : float
-        Step to try first.
-    finest : float
-        Smallest step that can be tried; the largest is `COARSEST_STEP`.
-
-    Returns
-    -------
-    outcome
-        The one on the right side of the target and closest to it, within the tolerance if there is any.
-
-    Raises
-    ------
-    TargetError
-        If no step that was tried meets the target.
-    """
+    """Find a step whose outcome meets the target."""
     low, high = math.log(finest), math.log(COARSEST_STEP)
     sign = -1.0 if target.shrinks_with_step else 1.0
     under: tuple[float, float] | None = None  # step and signed excess on the fine side

@@ -15,15 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 
 @dataclass(frozen=True)
 class Units:
-    """Where BSM units lie in the mesh's.
-
-    Parameters
-    ----------
-    center : tuple of float
-        Their origin, in the mesh's unit.
-    scale : float
-        One of them in the mesh's unit.
-    """
+    """Where BSM units lie in the mesh's."""
 
     center: tuple[float, ...]
     scale: float
@@ -33,13 +25,7 @@ class Units:
         return np.asarray((positions - np.array(self.center)) / self.scale)
 
     def back(self, positions: Matrix, out: Matrix | None = None) -> Positions:
-        """Positions in BSM units, shape (n, 3), as the mesh has them; in `out`, which may be those given.
-
-        Raises
-        ------
-        NumericError
-            If one is beyond the range of numbers.
-        """
+        """Positions in BSM units, shape (n, 3), as the mesh has them; in `out`, which may be those given."""
         moved = np.empty(positions.shape) if out is None else out
         if not _kernels.back_into_unit(np.ascontiguousarray(positions), self.scale, np.array(self.center), moved):
             raise NumericError("positions are not finite in the unit of the mesh")

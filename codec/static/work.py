@@ -35,10 +35,7 @@ FRESH, MOST_FRESH = 2.0, 4e6
 
 
 def mesh_cost(vertices: int, faces: int, received: int, before: tuple[int, int] = (0, 0)) -> float:
-    """Work of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn again.
-
-    Of the vertices and faces that there were `before`, in earlier sections, there is the graph again.
-    """
+    """Work of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn again."""
     sewn = max(0.0, faces / 2.0 - vertices)
     known, connected = before
     decoded = 100.0 * known + 55.0 * connected
@@ -177,12 +174,7 @@ def coding_memory(values: int, faces: int, components: int) -> float:
 
 
 class Allowance:
-    """How much a decoder may still do; blocks of several chains draw on it at the same time.
-
-    Parameters
-    ----------
-    limits : Limits
-    """
+    """How much a decoder may still do; blocks of several chains draw on it at the same time."""
 
     def __init__(self, limits: Limits) -> None:
         self._limits = as_limits(limits)
@@ -242,13 +234,7 @@ class Allowance:
             self._shown += vertices
 
     def spend(self, work: float, received: int = 0) -> None:
-        """Take note of work to come, and of the bytes that ask for it.
-
-        Raises
-        ------
-        LimitError
-            If all of it together is over the limit.
-        """
+        """Take note of work to come, and of the bytes that ask for it."""
         limits = self._limits
         with self._lock:
             self._spent += work
@@ -257,13 +243,7 @@ class Allowance:
             limits.check_work(self._owed, self._vertices + self._shown)
 
     def keep(self, memory: float, received: int = 0) -> None:
-        """Take note of memory that is kept to the end, and of bytes that stand for it.
-
-        Raises
-        ------
-        LimitError
-            If all of it together is over the limit.
-        """
+        """Take note of memory that is kept to the end, and of bytes that stand for it."""
         with self._lock:
             self._kept += memory
             self._received += received
@@ -271,13 +251,7 @@ class Allowance:
 
     @contextmanager
     def hold(self, memory: float) -> Iterator[None]:
-        """Wait until others have given back what leaves room for some memory, and have it meanwhile.
-
-        Raises
-        ------
-        LimitError
-            If there will never be room.
-        """
+        """Wait until others have given back what leaves room for some memory, and have it meanwhile."""
         with self._lock:
             self._limits.check_memory(self._kept + memory, self._present, self._received)
             if self._held > 0.0:
@@ -297,7 +271,6 @@ class Allowance:
 
     @property
     def _present(self) -> int:
-        """Vertices that stand for memory."""
         return self._vertices - self._gone
 
     def _has_room(self, memory: float) -> bool:

@@ -618,14 +618,12 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
 
 
 def _name(path: str | os.PathLike[str]) -> str:
-    """A path as a text; `ArgumentError` if it is none."""
     if not isinstance(path, (str, os.PathLike)):
         raise ArgumentError(f"the path of a file is expected, not {type(path).__name__}")
     return named(path)
 
 
 def _opened(mesh: Any) -> Any:
-    """Streams and files as `Input`; anything else as it is."""
     return Input(mesh) if isinstance(mesh, (bytes, bytearray, memoryview)) or hasattr(mesh, "read") else mesh
 
 

@@ -30,23 +30,7 @@ _STANDARD = {"/dev/stdin": "-", "/dev/fd/0": "-", "/dev/stdout": "-", "/dev/fd/1
 def plan(
     inputs: Sequence[str], output: str | None, suffix: Callable[[str], str], *, sole_folder: bool = False
 ) -> list[Job]:
-    """What is written where.
-
-    Parameters
-    ----------
-    inputs : sequence of str
-    output : str or None
-        A file for one input, a folder for any number; None: beside each input.
-    suffix : callable
-        Tells from an input the suffix of its output, where it has no name of its own.
-    sole_folder : bool
-        Leave the folder for a sole input as it is: the input may need all of it.
-
-    Raises
-    ------
-    OptionError
-        If outputs would replace one another or an input, or have no name.
-    """
+    """What is written where."""
     names = input_names(inputs)
     output = without_scheme_of_files(_STANDARD.get(output, output)) if output else None
     folder = output is not None and (output.endswith("/") or (not is_url(output) and Path(output).is_dir()))
@@ -68,21 +52,7 @@ def plan(
 
 
 def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[Job]:
-    """What is written where, for all mesh files in folders and below: the same folders again in `output`.
-
-    Parameters
-    ----------
-    folders : sequence of str
-    output : str or None
-        The folder that gets them; None: each output lies beside its input.
-    suffix : str
-        Of the outputs.
-
-    Raises
-    ------
-    OptionError
-        If an input is no folder, there is no mesh file, or two outputs would have one name.
-    """
+    """What is written where, for all mesh files in folders and below: the same folders again in `output`."""
     jobs = []
     for folder in folders:
         if is_url(folder) or not Path(folder).is_dir():
@@ -137,22 +107,7 @@ def run_jobs(
     jobs: Sequence[Job],
     show: Callable[[Facts], str] | None = None,
 ) -> int:
-    """Do all jobs and say what came of them.
-
-    One job fails as its work does. Of many, each failure is told and the others go on.
-
-    Parameters
-    ----------
-    run, asked, work, jobs
-        See `bsm.farm.run.run_many`.
-    show : callable, optional
-        Words the facts of one input for standard output, where they are the result.
-
-    Returns
-    -------
-    int
-        The exit code: that of the first failure.
-    """
+    """Do all jobs and say what came of them."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
         with about(jobs[0].input):
             facts = work(task_of(asked, jobs[0]), console)

@@ -40,20 +40,7 @@ class MeshComparison(Comparison):
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two meshes whose vertices correspond.
-
-    Parameters
-    ----------
-    original : TriangleMesh
-        As its vertices are compared; without attributes where some of them were joined.
-    positions : float64 array, shape (n, 3)
-        Of the other, numbered as those of `original`.
-    corners, others : int64 arrays, shape (k,)
-        Corners of the two given meshes that are the same, as numbers 3 f + i of corner i of face f; none where the
-        original has no attributes.
-    joined : bool
-        Vertices at one position are compared as one.
-    """
+    """Two meshes whose vertices correspond."""
 
     original: TriangleMesh
     positions: Positions
@@ -63,19 +50,7 @@ class Pair:
 
 
 def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = None) -> Pair:
-    """Find which vertices of meshes, all of whose vertices are in faces, are the same.
-
-    Parameters
-    ----------
-    original, decoded : TriangleMesh
-    order : int64 array, optional
-        Vertex j of `decoded` is vertex order[j] of `original`.
-
-    Raises
-    ------
-    MeshError
-        If they have different faces.
-    """
+    """Find which vertices of meshes, all of whose vertices are in faces, are the same."""
     attributed = bool(original.attributes)
     kept = [np.arange(len(mesh.faces)) for mesh in (original, decoded)]
     joined = order is None and not _comparable(original, decoded)

@@ -20,15 +20,7 @@ _TYPICAL_ROUNDS = 6
 
 @dataclass(frozen=True)
 class Console:
-    """Speaks to the user.
-
-    Parameters
-    ----------
-    quiet : bool
-        Say nothing but results and errors.
-    kept : list of str, optional
-        Takes what is said, instead of the terminal: somebody else will say it.
-    """
+    """Speaks to the user."""
 
     quiet: bool = False
     kept: list[str] | None = None
@@ -48,12 +40,7 @@ class Console:
 
 class Progress:
     """A line on the terminal, from half a second on: what goes on and for how long, and where that is known how much is
-    done, with the time left.
-
-    Call it with how much is done of how much, and name each stage with `stage`. Work that begins anew, as a search does
-    with each step that it tries, goes on in the same bar, which then shows how far a search of usual length would be.
-    The line is erased at the end of the `with` block.
-    """
+    done, with the time left."""
 
     def __init__(self, what: str, unit: str, *, shown: bool) -> None:
         self._what = what
@@ -122,10 +109,7 @@ class Progress:
 
 
 def printable(text: str) -> str:
-    """With escapes in place of what would make a terminal do something, or begin a line of its own.
-
-    Names and texts in files are those of strangers.
-    """
+    """With escapes in place of what would make a terminal do something, or begin a line of its own."""
     return "".join(char if char.isprintable() else char.encode("unicode_escape").decode() for char in text)
 
 

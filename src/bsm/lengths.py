@@ -37,13 +37,7 @@ BYTES = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(?:([kMG])(i?))?B?")
 
 
 def parse_bytes(name: str, value: Any) -> float:
-    """A number of bytes, such as 20000, ``20kB`` or ``1.5MiB``.
-
-    Raises
-    ------
-    ArgumentError
-        If it is none.
-    """
+    """A number of bytes, such as 20000, ``20kB`` or ``1.5MiB``."""
     if isinstance(value, Real) and not isinstance(value, bool):
         return float(value)
     found = BYTES.fullmatch(value.strip().replace("K", "k")) if isinstance(value, str) else None
@@ -56,10 +50,7 @@ def parse_bytes(name: str, value: Any) -> float:
 
 
 def refuse_other_units(lengths: Mapping[str, Any], metadata: Mapping[str, Any]) -> None:
-    """Raise `OptionError` where an option's length is in a unit, and the mesh has no unit or another one.
-
-    A unit that is not known counts as the mesh's own if the mesh says that it has one.
-    """
+    """Raise `OptionError` where an option's length is in a unit, and the mesh has no unit or another one."""
     own = metadata.get("unit")
     own = own if isinstance(own, str) else ""
     size = metres(own)

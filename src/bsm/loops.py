@@ -28,19 +28,7 @@ class Loops:
             self._kept.append(frame[rows].reshape(-1))
 
     def found(self, tolerance: float = 1e-4) -> tuple[range, int] | None:
-        """The frames that repeat, and how many frames before them those are that they repeat.
-
-        Parameters
-        ----------
-        tolerance : float
-            How far a vertex may be from where it was, in diagonals of the first frame.
-
-        Returns
-        -------
-        (range, int) or None
-            The longest run of frames each of which is like the one so many frames before, for the shortest period of
-            which a whole one comes again; None: there is none, or nothing moves.
-        """
+        """The frames that repeat, and how many frames before them those are that they repeat."""
         count = len(self._kept)
         if not 4 <= count <= MOST_FRAMES:
             return None

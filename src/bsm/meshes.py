@@ -34,24 +34,7 @@ _NO_SURFACES = ("vertex", "line")
 
 
 def as_mesh(mesh: Any) -> TriangleMesh:
-    """A mesh of any kind as one of triangles.
-
-    Parameters
-    ----------
-    mesh : mesh, pair of arrays, or path
-        A `TriangleMesh`; an object with vertices or points, and faces (trimesh, pyvista, Open3D) or cells (meshio); a
-        scene of trimesh, whose parts are joined; a pair (positions, faces); or the path of a mesh file or stream. Faces
-        are an integer array of shape (m, 3), a larger number of columns or lists of different lengths for polygons,
-        which are cut into triangles, or flat as VTK has them: a count, so many indices, a count, ... What the objects
-        have beside that (visuals, point data and cell data, normals and colours) become attributes.
-
-    Raises
-    ------
-    ArgumentError
-        If it is nothing of all this.
-    MeshError
-        If it is no mesh of triangles or polygons.
-    """
+    """A mesh of any kind as one of triangles."""
     if isinstance(mesh, TriangleMesh):
         return mesh
     if isinstance(mesh, MeshFile):
@@ -91,7 +74,6 @@ def read_any(source: Input, **reading: Any) -> TriangleMesh:
 
 
 def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:
-    """The first of the attributes that there is, methods left aside."""
     values = (getattr(mesh, name, None) for name in names)
     return next((value for value in values if value is not None and not callable(value)), None)
 

@@ -38,23 +38,7 @@ SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007, "near-lossl
 
 
 def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptions:
-    """The options for a mesh that keywords ask for.
-
-    Parameters
-    ----------
-    preset : str, optional
-        "small", "balanced", "fine", "near-lossless", "grid14" or "lossless". Its promise holds beside all bounds and
-        targets that are given; None: that of "balanced", unless there are others.
-    **keywords
-        Fields of `EncodeOptions`, the bounds `look` and `max_error`, and at most one of `TARGETS`.
-
-    Raises
-    ------
-    ArgumentError
-        If there is no such keyword, or its value is of the wrong type.
-    OptionError
-        If a value is outside its range, or options exclude each other.
-    """
+    """The options for a mesh that keywords ask for."""
     from bsm.codec.static.options import CODING, PRESETS, EncodeOptions
     from bsm.codec.static.targets import Target
 
@@ -68,8 +52,7 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
 
 def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Keywords, `max_error` and `look` among them as the contract that they are beside that of a preset, and
-    `lock_borders` as what it asks.
-    """
+    `lock_borders` as what it asks."""
     from bsm.codec.static.contract import WIDEST, Contract, Fit
     from bsm.codec.static.options import BALANCED
 
@@ -100,20 +83,7 @@ def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, 
 
 
 def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
-    """The options for a sequence that keywords ask for.
-
-    Parameters
-    ----------
-    preset : str, optional
-        "small", "balanced", "fine" or "near-lossless": what is promised for every frame where neither a step nor a
-        target is given; with `low_delay`, a step. None: "balanced".
-    low_delay : int
-        As of `SequenceOptions`.
-    **keywords
-        Fields of `SequenceOptions`; the bounds `look` and `max_error`, or at most one of `SEQUENCE_TARGETS`.
-
-    Raises as `encode_options`.
-    """
+    """The options for a sequence that keywords ask for."""
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.sequence.promise import PROMISES, Promise
     from bsm.codec.sequence.targets import SequenceTarget
@@ -135,10 +105,7 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
 
 
 def denoise_options(**keywords: Any) -> DenoiseOptions | None:
-    """The options for denoising that keywords ask for; None without any: everything is chosen by the data.
-
-    Raises as `encode_options`.
-    """
+    """The options for denoising that keywords ask for; None without any: everything is chosen by the data."""
     from bsm.codec.denoise import DenoiseOptions
 
     return DenoiseOptions(**_fields("denoising", DenoiseOptions, keywords)) if keywords else None
@@ -201,7 +168,6 @@ def _checked(name: str, value: Any, hint: Any) -> Any:
 
 
 def _said(kinds: Iterable[Any]) -> str:
-    """Types in words."""
     words = {float: "a number", int: "a whole number", str: "a string", bool: "True or False", types.NoneType: "None"}
     return " or ".join(words.get(kind, getattr(kind, "__name__", str(kind))) for kind in kinds)
 

@@ -110,12 +110,10 @@ def from_trimesh(mesh: Any) -> TriangleMesh:
 
 
 def _load(file_obj: IO[bytes], file_type: str | None = None, **keywords: Any) -> dict[str, Any]:
-    """What trimesh calls to load a stream; `process` is false unless it is asked for."""
     return arguments_of(decode(file_obj.read())) | {name: keywords[name] for name in ("process",) if name in keywords}
 
 
 def _export(mesh: Any, **keywords: Any) -> bytes:
-    """What trimesh calls to export a mesh; keywords are those of `bsm.encode`."""
     return encode(from_trimesh(mesh), **keywords)
 
 

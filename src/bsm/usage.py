@@ -54,13 +54,7 @@ class Parser(argparse.ArgumentParser):
         return f"{names} [options]" if inputs else " COMMAND ..."
 
     def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
-        """Parse the words behind a command.
-
-        Raises
-        ------
-        SystemExit
-            With code 2, after a line on what is wrong, where they are wrong; with code 0 after help.
-        """
+        """Parse the words behind a command."""
         # argparse forgets a "--" between the two passes that mixed words take it.
         parse = self.parse_known_args if "--" in words else self.parse_known_intermixed_args
         args, unknown = parse(words)

@@ -28,28 +28,7 @@ _FULL, _TOO_MUCH = -1, -2
 
 
 class Fronts(NamedTuple):
-    """The fronts of a block of n rows, in the order of elimination.
-
-    Attributes
-    ----------
-    rows : uint32 array, shape (n,)
-        Row that is eliminated at each step.
-    steps : uint32 array, shape (n,)
-        Its inverse: step at which each row is eliminated.
-    owners : uint32 array, shape (n,)
-        Front of each step.
-    firsts : uint32 array, shape (t + 1,)
-        First own step of each front.
-    starts, borders : uint32 arrays
-        Border of front f, ascending: `borders[starts[f]:starts[f + 1]]`, filled up to an even number of steps by a
-        step that does not exist, n.
-    places : uint32 array, shape (t + 1,)
-        Where each front's matrix begins in an array of all of them; its rows are as far apart as they are
-        long, in whole cache lines.
-    sums : float64 array, shape (2,)
-        Of all fronts, own steps times width of the matrix, and times width again: what a solution and what a
-        factorisation take.
-    """
+    """The fronts of a block of n rows, in the order of elimination."""
 
     rows: npt.NDArray[np.uint32]
     steps: npt.NDArray[np.uint32]
@@ -62,15 +41,7 @@ class Fronts(NamedTuple):
 
 
 def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32]) -> Fronts:
-    """Fronts of a graph whose rows are in the order of a recursive bisection; any order will do.
-
-    The graph is CSR: `offsets`, shape (n + 1,), and `neighbours`, shape (e,).
-
-    Raises
-    ------
-    LimitError
-        If the graph has no small separators, as that of a surface has, and factorising it would take too long.
-    """
+    """Fronts of a graph whose rows are in the order of a recursive bisection; any order will do."""
     n = len(offsets) - 1
     rows, steps, owners = np.empty((3, n), np.uint32)
     firsts, starts, places = np.empty((3, n + 1), np.uint32)

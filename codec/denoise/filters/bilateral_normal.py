@@ -20,15 +20,7 @@ AT_ONCE = 2
 
 
 def bilateral_normal_filtering(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
-    """Denoise by bilateral filtering of the normals over faces that share a vertex; the boundary stays.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    iterations : int
-        Of the normal filter, whose centroids and areas stay those of the input; ten vertex updates follow.
-    """
+    """Denoise by bilateral filtering of the normals over faces that share a vertex; the boundary stays."""
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     topology = Topology(faces, len(positions))
     geometry = face_geometry(positions, topology.faces)

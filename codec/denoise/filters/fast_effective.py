@@ -15,17 +15,7 @@ VERTEX_ITERATIONS = 50
 
 
 def fast_effective_denoising(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
-    """Denoise by thresholded averages of normals, then let the vertices follow; the boundary stays.
-
-    Faces that share a vertex, the face itself included, weigh ``max(n . n' - 0.5, 0) ** 2``.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    iterations : int
-        Of the normal filter; fifty vertex updates follow.
-    """
+    """Denoise by thresholded averages of normals, then let the vertices follow; the boundary stays."""
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     topology = Topology(faces, len(positions))
     normals = face_geometry(positions, topology.faces).normals

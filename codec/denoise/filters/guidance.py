@@ -15,18 +15,7 @@ from bsm.codec.denoise.filters.vertex_update import FaceGeometry, Floats, pair_d
 
 
 def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
-    """Guidance normal of each face: the mean normal of the most consistent patch that holds the face.
-
-    Parameters
-    ----------
-    geometry : FaceGeometry
-    topology : Topology
-
-    Returns
-    -------
-    ndarray of float64, shape (m, 3)
-        Unit normals, zero only where a patch's normals cancel.
-    """
+    """Guidance normal of each face: the mean normal of the most consistent patch that holds the face."""
     patches, inner = topology.patches, topology.inner
     normals = geometry.normals
     steps = pair_distances(normals, topology.pairs)

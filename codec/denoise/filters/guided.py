@@ -35,14 +35,7 @@ def own_normals(geometry: FaceGeometry, topology: Topology) -> Floats:
 
 
 class GuidedFilter:
-    """The filter with its neighbourhoods, which are found once, on the mesh that it starts from.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-        Where the filter starts: the neighbourhood of a face reaches twice the mean distance of adjacent centroids.
-    topology : Topology
-    """
+    """The filter with its neighbourhoods, which are found once, on the mesh that it starts from."""
 
     def __init__(self, positions: Positions, topology: Topology) -> None:
         self.positions, self.topology = positions, topology
@@ -51,16 +44,7 @@ class GuidedFilter:
         self._near = reach(centroids, themselves(len(centroids)), centroids, topology.patches, radius)
 
     def step(self, positions: Positions, guide: Guide = patch_guidance, sigma_r: float = SIGMA_R) -> Positions:
-        """Positions after one iteration: filter the normals once, then let the vertices follow.
-
-        Parameters
-        ----------
-        positions : ndarray of float64, shape (n, 3)
-        guide : callable
-            `patch_guidance` for guided normal filtering, `own_normals` for bilateral filtering.
-        sigma_r : float
-            Width of the range kernel.
-        """
+        """Positions after one iteration: filter the normals once, then let the vertices follow."""
         geometry = face_geometry(positions, self.topology.faces)
         sigma_s = mean_centroid_distance(geometry.centroids, self.topology.pairs)
         normals = filter_normals(geometry, guide(geometry, self.topology), self._near, sigma_s, sigma_r)
@@ -77,14 +61,6 @@ def guided_results(positions: Positions, topology: Topology, iterations: int) ->
 
 
 def guided_normal_filtering(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
-    """Denoise by guided normal filtering.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    iterations : int
-        Outer iterations, of one normal filter and ten vertex updates each.
-    """
+    """Denoise by guided normal filtering."""
     *_, filtered = guided_results(np.array(positions, np.float64), Topology(faces, len(positions)), iterations)
     return filtered

@@ -18,21 +18,7 @@ SPARSITY = 0.2
 
 
 def l0_minimisation(positions: Positions, faces: Faces, iterations: int = 40) -> Positions:
-    """Denoise by pressing most creases to exactly flat, few of them left.
-
-    Alternates two minimisations of ``|p - p*|^2 + alpha |R p|^2 + beta |D p - d|^2 + lambda |d|_0``: d keeps the
-    edges whose operator exceeds ``sqrt(lambda / beta)``, p solves a sparse linear system. beta rises from 1e-3 to 1e3
-    while alpha is halved every time; with the mean dihedral angle g (radians) and the mean edge l of the input, alpha
-    starts at ``0.1 g`` and lambda is ``0.2 l^2 g``. A tenth of that, as printed by the authors, keeps noise of a third
-    of an edge as creases.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    iterations : int
-        Steps in which beta rises; the authors' factor of the square root of two makes 40.
-    """
+    """Denoise by pressing most creases to exactly flat, few of them left."""
     original = np.ascontiguousarray(positions, dtype=np.float64)
     if iterations == 0:
         return original.copy()
@@ -57,10 +43,7 @@ def l0_minimisation(positions: Positions, faces: Faces, iterations: int = 40) ->
 
 
 def edge_stencils(faces: Faces, pairs: Indices) -> Indices:
-    """Vertices (a, left, b, right) of each pair of faces that share the edge a-b; shape (p, 4).
-
-    `left` belongs to the first face of the pair. Faces that share all three vertices have no crease and are left out.
-    """
+    """Vertices (a, left, b, right) of each pair of faces that share the edge a-b; shape (p, 4)."""
     first, second = faces[pairs[:, 0]], faces[pairs[:, 1]]
     # A corner stands across from the common edge where the other face does not have it.
     left = ~(first[:, :, None] == second[:, None, :]).any(axis=2)

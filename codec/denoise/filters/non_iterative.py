@@ -16,18 +16,7 @@ INFLUENCE = 1.0
 
 
 def non_iterative_smoothing(positions: Positions, faces: Faces, iterations: int = 1) -> Positions:
-    """Denoise by a robust mean of the predictions that the faces around make for a vertex.
-
-    A face predicts the vertex's projection on its plane, whose normal is taken from a mesh smoothed beforehand
-    (mollified, at half the spatial width). Both Gaussians are one mean edge wide.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    iterations : int
-        The method needs one pass; more repeat it.
-    """
+    """Denoise by a robust mean of the predictions that the faces around make for a vertex."""
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     topology = Topology(faces, len(positions))
     for _ in range(iterations):

@@ -18,24 +18,7 @@ def themselves(count: int) -> Rows:
 
 
 def reach(centres: Positions, seeds: Rows, points: Positions, adjacent: Rows, radius: float | Floats) -> Rows:
-    """Points that are reached from each centre over adjacent points, all of them within a radius of the centre.
-
-    Parameters
-    ----------
-    centres : ndarray of float64, shape (k, 3)
-    seeds : Rows
-        For each centre, the points where the search starts; those beyond the radius do not count.
-    points : ndarray of float64, shape (m, 3)
-        Vertices, or centroids of faces.
-    adjacent : Rows
-        Neighbours of each point.
-    radius : float or ndarray of float64, shape (k,)
-
-    Returns
-    -------
-    Rows
-        k rows of point numbers, in the order of a breadth-first search.
-    """
+    """Points that are reached from each centre over adjacent points, all of them within a radius of the centre."""
     count, size = len(centres), len(points)
     radii = np.ascontiguousarray(np.broadcast_to(np.asarray(radius, dtype=np.float64), count))
     starts, seen = np.zeros(count + 1, np.int64), np.full(size, -1, np.int32)

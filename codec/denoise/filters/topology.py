@@ -19,14 +19,7 @@ CROWD = 32
 
 @dataclass(frozen=True, eq=False)
 class Topology:
-    """Neighbourhoods of faces; what not every filter needs is found when it is first asked for.
-
-    Parameters
-    ----------
-    faces : ndarray of int32, shape (m, 3)
-    n : int
-        Number of vertices.
-    """
+    """Neighbourhoods of faces; what not every filter needs is found when it is first asked for."""
 
     faces: Faces
     n: int
@@ -46,11 +39,7 @@ class Topology:
 
     @cached_property
     def patches(self) -> Rows:
-        """Faces that share a vertex with each face; itself comes first.
-
-        In a fan of more than 64 faces only the 32 before and the 32 after in order of index count, lest the hub of a
-        wheel make everybody everybody's neighbour.
-        """
+        """Faces that share a vertex with each face; itself comes first."""
         sizes = np.minimum(np.diff(self.around.starts), 2 * CROWD + 1)
         members = np.empty(len(self.faces) + int(sizes[self.faces].sum()), np.int32)
         starts, seen = np.empty(len(self.faces) + 1, np.int64), np.empty(len(self.faces), np.int32)

@@ -13,17 +13,7 @@ from bsm.codec.geometry.incidence import Rows
 
 
 def bilateral_mesh_denoising(positions: Positions, faces: Faces, iterations: int = 5) -> Positions:
-    """Denoise by a bilateral filter of heights over the tangent planes.
-
-    The spatial width at a vertex is its shortest edge, its neighbourhood reaches twice as far, and the width of the
-    height kernel is the standard deviation of the absolute heights found there.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    iterations : int
-    """
+    """Denoise by a bilateral filter of heights over the tangent planes."""
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     topology = Topology(faces, len(positions))
     own = themselves(len(positions))

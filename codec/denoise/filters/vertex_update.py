@@ -34,10 +34,7 @@ def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
 
 
 def vertex_normals(normals: Floats, around: Rows) -> Floats:
-    """Unit vertex normals, shape (n, 3): the plain mean of the normals, shape (m, 3), of the faces around.
-
-    They are zero where these cancel.
-    """
+    """Unit vertex normals, shape (n, 3): the plain mean of the normals, shape (m, 3), of the faces around."""
     averaged = np.empty((len(around.starts) - 1, 3))
     _kernels.vertex_normals(normals, around.starts, around.members, averaged)
     return averaged
@@ -51,10 +48,7 @@ def pair_distances(values: Floats, pairs: Indices) -> Floats:
 
 
 def mean_centroid_distance(centroids: Floats, pairs: Indices) -> float:
-    """Mean distance between the centroids, shape (m, 3), of faces that share an edge, `pairs`, shape (e, 2).
-
-    It is 1 where that is zero or no two do.
-    """
+    """Mean distance between the centroids, shape (m, 3), of faces that share an edge, `pairs`, shape (e, 2)."""
     if len(pairs) == 0:
         return 1.0
     return float(pair_distances(centroids, pairs).mean()) or 1.0
@@ -67,21 +61,7 @@ def follow_normals(
     iterations: int,
     free: Mask | None = None,
 ) -> Positions:
-    """Move the vertices until the faces agree with given normals (Sun et al. 2007; equations 12 and 13 of the paper).
-
-    Every iteration moves each vertex by the mean, over its faces, of its offset from the plane through the face's
-    centroid with the given normal.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    topology : Topology
-    normals : ndarray of float64, shape (m, 3)
-        Unit normals; a zero normal pulls nowhere.
-    iterations : int
-    free : ndarray of bool, shape (n,), optional
-        Vertices that may move; all of them if absent.
-    """
+    """Move the vertices until the faces agree with given normals (Sun et al. 2007; equations 12 and 13 of the paper)"""
     if free is None:
         free = np.ones(len(positions), dtype=np.bool_)
     moved = np.array(positions, dtype=np.float64)

@@ -32,15 +32,7 @@ def regressed_normals(positions: Positions, topology: Topology, network: Network
 
 @dataclass(frozen=True, eq=False)
 class Learnt:
-    """What the networks make of a mesh.
-
-    Attributes
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-        Those that follow the normals.
-    normals : ndarray of float64, shape (m, 3)
-        Unit normals of the faces.
-    """
+    """What the networks make of a mesh."""
 
     positions: Positions
     normals: Floats
@@ -56,12 +48,7 @@ def learnt(positions: Positions, topology: Topology) -> Learnt:
 
 
 class Learner:
-    """`learnt` for the meshes of one connectivity, which remembers the last one that it was asked for.
-
-    Parameters
-    ----------
-    topology : Topology
-    """
+    """`learnt` for the meshes of one connectivity, which remembers the last one that it was asked for."""
 
     def __init__(self, topology: Topology) -> None:
         self._topology = topology

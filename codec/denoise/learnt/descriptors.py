@@ -1,13 +1,4 @@
-"""What a small network is told of a face: how the surface goes about it, in a frame of the face's own.
-
-The frame looks where the surface looks at large (z), and along the direction in which normals vary most (x). Normals
-filtered in many ways come first; then mean normals and heights in eight directions on two circles; then how many
-neighbours are alike. Nothing depends on where the mesh is, how it is turned, or on its unit.
-
-References
-----------
-P.-S. Wang, Y. Liu, X. Tong, "Mesh denoising via cascaded normal regression", ACM Transactions on Graphics 35, 2016.
-"""
+"""What a small network is told of a face: how the surface goes about it, in a frame of the face's own."""
 
 from __future__ import annotations
 
@@ -44,20 +35,7 @@ BATCH = 1024
 
 
 def descriptions(positions: Positions, topology: Topology, batch: int = BATCH) -> Iterator[tuple[Singles, Floats]]:
-    """Describe all faces, so many at a time.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    topology : Topology
-    batch : int
-
-    Yields
-    ------
-    ndarray of float32, shape (k, NUMBERS)
-    ndarray of float64, shape (k, 3, 3)
-        The frames: x, y and z.
-    """
+    """Describe all faces, so many at a time."""
     if len(topology.faces) == 0:
         return
     geometry = face_geometry(positions, topology.faces)
@@ -89,10 +67,7 @@ def _repeated(geometry: FaceGeometry, near: Rows, distance: float, sigma_r: floa
 
 
 def mirrored(x: bool, y: bool) -> tuple[npt.NDArray[np.int64], Singles]:
-    """The numbers of a face as seen in a frame with x, y or both the other way round.
-
-    Returns their order and their signs, both of shape (NUMBERS,).
-    """
+    """The numbers of a face as seen in a frame with x, y or both the other way round."""
     order = np.arange(NUMBERS)
     signs = np.ones(NUMBERS, dtype=np.float32)
     flip = np.array([-1.0 if x else 1.0, -1.0 if y else 1.0, 1.0], dtype=np.float32)

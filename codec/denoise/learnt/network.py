@@ -18,25 +18,14 @@ WEIGHTS = Path(__file__).with_name("weights.npz")
 
 @dataclass(frozen=True, eq=False)
 class Network:
-    """Numbers of faces to normals in the faces' frames.
-
-    Attributes
-    ----------
-    mean, scale : ndarray of float32, shape (NUMBERS,)
-        What the numbers are shifted by, and then multiplied with.
-    layers : tuple of pairs of ndarray of float32
-        Matrix, shape (in, out), and shift, shape (out,), of each layer.
-    """
+    """Numbers of faces to normals in the faces' frames."""
 
     mean: Singles
     scale: Singles
     layers: tuple[tuple[Singles, Singles], ...]
 
     def standardised(self, numbers: Singles) -> Singles:
-        """Numbers, shape (k, NUMBERS), brought to mean 0 and deviation 1, within bounds.
-
-        What was hardly ever seen counts no more than that.
-        """
+        """Numbers, shape (k, NUMBERS), brought to mean 0 and deviation 1, within bounds."""
         return np.asarray(np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST))
 
     def __call__(self, numbers: Singles) -> Singles:

@@ -26,10 +26,7 @@ between both ends."""
 
 
 def one_axis(positions: Positions, evidence: Evidence) -> Finding | None:
-    """Noise of `positions`, shape (n, 3), as strong as the direction of the surface says.
-
-    Its variance is ``n^T S n``, one S of rank one for the mesh.
-    """
+    """Noise of `positions`, shape (n, 3), as strong as the direction of the surface says."""
     chosen = evidence.probe.counted
     normals, along = evidence.normals[chosen], np.abs(evidence.along[chosen])
     folded = normals @ _hemisphere().T

@@ -24,35 +24,14 @@ IRREGULARITY = 0.15
 
 @dataclass(frozen=True)
 class NoiseLevel:
-    """Standard deviations of white noise, in the unit of the mesh.
-
-    Attributes
-    ----------
-    normal : float
-        Along the normal.
-    tangential : float
-        In each direction across the normal.
-    """
+    """Standard deviations of white noise, in the unit of the mesh."""
 
     normal: float
     tangential: float
 
 
 def estimate_noise(positions: Positions, smooth: Positions, topology: Topology, seed: int = 0) -> NoiseLevel:
-    """Estimate the noise on `positions`.
-
-    Detail that is as fine as the mesh itself counts as noise. The tangential estimate is what exceeds 0.15 mean
-    edges, the share that irregular triangles have in it, and at most the normal one.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    smooth : ndarray of float64, shape (n, 3)
-        A smoothed version, which says where the normals point.
-    topology : Topology
-    seed : int
-        Of the white noise for comparison.
-    """
+    """Estimate the noise on `positions`."""
     normals = vertex_normals(face_geometry(smooth, topology.faces).normals, topology.around)
     white = np.random.default_rng(seed).normal(size=positions.shape)
     counted = np.diff(topology.neighbours.starts) > 0

@@ -25,31 +25,7 @@ CENTRE = (0.55, 1.6)
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """What is known about the noise of a mesh.
-
-    Attributes
-    ----------
-    kind : str
-        "none", "white", "impulses", "correlated", "axis", "grid" (rounded positions), "local" or "unsteady" (what the
-        temporal filter of a sequence has left); "unknown" for a mesh too small for statistics.
-    level : float
-        Standard deviation along the normals where there is noise, in the unit of the mesh. Of correlated noise only
-        what the finest frequencies show.
-    levels : ndarray of float64, shape (n,)
-        Level at every vertex; 0 where the mesh is to stay as it is.
-    edge : float
-        Mean edge length.
-    reason : str
-        A sentence for the user.
-    axis : ndarray of float64, shape (3,), optional
-        Direction of noise along one axis.
-    growth : ndarray of float64, shape (n,), optional
-        Of noise along an axis that grows with depth (a depth camera's): its level over `level` at every vertex.
-    grid : Grid, optional
-        To which positions were rounded.
-    whiteness : float
-        Level of the finest frequencies over that of the fine ones; 1 for white noise.
-    """
+    """What is known about the noise of a mesh."""
 
     kind: str
     level: float

@@ -18,48 +18,18 @@ from bsm.codec.geometry.metrics import mean_edge_length
 
 
 def gaussian_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
-    """Move every vertex along its normal by a zero-mean Gaussian amount.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    sigma : float
-        Standard deviation over the mean edge length.
-    seed : int
-
-    Raises
-    ------
-    OptionError
-        If `sigma` is negative or not finite.
-    """
+    """Move every vertex along its normal by a zero-mean Gaussian amount."""
     amounts = np.random.default_rng(seed).normal(0.0, _length(positions, faces, sigma), (len(positions), 1))
     return positions + amounts * _directions(positions, faces)
 
 
 def gaussian_isotropic(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
-    """Move every coordinate of every vertex, shape (n, 3), by a zero-mean Gaussian amount.
-
-    Parameters as of `gaussian_along_normals`.
-    """
+    """Move every coordinate of every vertex, shape (n, 3), by a zero-mean Gaussian amount."""
     return positions + np.random.default_rng(seed).normal(0.0, _length(positions, faces, sigma), positions.shape)
 
 
 def impulsive(positions: Positions, faces: Faces, sigma: float, fraction: float, seed: int) -> Positions:
-    """Move a random choice of vertices along their normals by Gaussian amounts, and leave the others where they are.
-
-    Parameters
-    ----------
-    positions, faces, sigma, seed
-        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
-    fraction : float
-        Share of the vertices that move, between 0 and 1; rounded to a whole number of vertices.
-
-    Raises
-    ------
-    OptionError
-        If `sigma` is negative or not finite, or `fraction` is outside 0..1.
-    """
+    """Move a random choice of vertices along their normals by Gaussian amounts, and leave the others where they are."""
     _refuse_fraction(fraction)
     random = np.random.default_rng(seed)
     chosen = random.permutation(len(positions))[: round(fraction * len(positions))]
@@ -69,10 +39,7 @@ def impulsive(positions: Positions, faces: Faces, sigma: float, fraction: float,
 
 
 def uniform_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
-    """Move every vertex, shape (n, 3), along its normal by an amount from a symmetric interval.
-
-    Parameters as of `gaussian_along_normals`.
-    """
+    """Move every vertex, shape (n, 3), along its normal by an amount from a symmetric interval."""
     largest = np.sqrt(3.0) * _length(positions, faces, sigma)
     amounts = np.random.default_rng(seed).uniform(-largest, largest, (len(positions), 1))
     return positions + amounts * _directions(positions, faces)
@@ -81,15 +48,7 @@ def uniform_along_normals(positions: Positions, faces: Faces, sigma: float, seed
 def gaussian_along_axis(
     positions: Positions, faces: Faces, sigma: float, seed: int, axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
 ) -> Positions:
-    """Move every vertex, shape (n, 3), along one direction by a Gaussian amount.
-
-    Parameters as of `gaussian_along_normals`.
-
-    Raises
-    ------
-    OptionError
-        If `sigma` is negative or not finite, or the axis has no direction.
-    """
+    """Move every vertex, shape (n, 3), along one direction by a Gaussian amount."""
     length = float(np.linalg.norm(axis))
     if not 0.0 < length < np.inf:
         raise OptionError(f"the axis must have a direction, not {axis}")
@@ -98,15 +57,7 @@ def gaussian_along_axis(
 
 
 def correlated_along_normals(positions: Positions, faces: Faces, sigma: float, seed: int, rounds: int = 2) -> Positions:
-    """Move every vertex along its normal by an amount that it shares in part with its neighbours.
-
-    Parameters
-    ----------
-    positions, faces, sigma, seed
-        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
-    rounds : int
-        How often white noise is averaged half and half with its neighbours, before it is brought to strength.
-    """
+    """Move every vertex along its normal by an amount that it shares in part with its neighbours."""
     neighbours = vertex_neighbours(faces, len(positions))
     degrees = np.diff(neighbours.starts)
     owners = np.repeat(np.arange(len(positions)), degrees)
@@ -126,15 +77,7 @@ def gaussian_with_range(
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0),
     ratio: float = 4.0,
 ) -> Positions:
-    """Move every vertex along one direction, the more the further it is away (a depth camera's noise).
-
-    Parameters
-    ----------
-    positions, faces, sigma, seed, axis
-        As in `gaussian_along_axis`, shapes (n, 3) and (m, 3); `sigma` is the root mean square over the mesh.
-    ratio : float
-        Strength at the far end over that at the near one; it grows with the square of the distance.
-    """
+    """Move every vertex along one direction, the more the further it is away (a depth camera's noise)."""
     depth = positions @ np.asarray(axis, dtype=np.float64)
     place = (depth - depth.min()) / (float(np.ptp(depth)) or 1.0)
     strength = np.square(1.0 + (np.sqrt(ratio) - 1.0) * place)[:, None]
@@ -145,15 +88,7 @@ def gaussian_with_range(
 def ripples_along_normals(
     positions: Positions, faces: Faces, sigma: float, seed: int, length: float = 6.0
 ) -> Positions:
-    """Move every vertex along its normal by the sum of three waves of random directions (a scanner that trembles).
-
-    Parameters
-    ----------
-    positions, faces, sigma, seed
-        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
-    length : float
-        Of the waves, in mean edges.
-    """
+    """Move every vertex along its normal by the sum of three waves of random directions (a scanner that trembles)."""
     random = np.random.default_rng(seed)
     directions = random.normal(size=(3, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
@@ -164,37 +99,14 @@ def ripples_along_normals(
 
 
 def rounded(positions: Positions, faces: Faces, sigma: float, seed: int) -> Positions:
-    """Round every coordinate to a grid.
-
-    Parameters
-    ----------
-    positions, faces
-        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
-    sigma : float
-        Standard deviation of what that changes in each coordinate, over the mean edge length.
-    seed : int
-        Of where the grid lies.
-    """
+    """Round every coordinate to a grid."""
     step = np.sqrt(12.0) * _length(positions, faces, sigma) or 1.0
     offset = step * np.random.default_rng(seed).random(3)
     return np.asarray(np.round((positions - offset) / step) * step + offset) if sigma > 0.0 else np.array(positions)
 
 
 def gaussian_in_part(positions: Positions, faces: Faces, sigma: float, fraction: float, seed: int) -> Positions:
-    """Move the vertices at one end of the mesh along their normals by Gaussian amounts, and no others.
-
-    Parameters
-    ----------
-    positions, faces, sigma, seed
-        As in `gaussian_along_normals`; shapes (n, 3) and (m, 3).
-    fraction : float
-        Share of the vertices that move: those furthest along the longest side of the bounding box.
-
-    Raises
-    ------
-    OptionError
-        If `sigma` is negative or not finite, or `fraction` is outside 0..1.
-    """
+    """Move the vertices at one end of the mesh along their normals by Gaussian amounts, and no others."""
     _refuse_fraction(fraction)
     place = positions[:, int(np.argmax(np.ptp(positions, axis=0)))]
     chosen = np.argsort(place, kind="stable")[len(place) - round(fraction * len(place)) :]

@@ -41,14 +41,7 @@ REFINEMENTS = 30
 
 @dataclass(frozen=True, eq=False)
 class Outliers:
-    """Vertices that stand out.
-
-    Attributes
-    ----------
-    vertices : ndarray of int64, shape (k,)
-    displacements : ndarray of float64, shape (k, 3)
-        By which they are off their places.
-    """
+    """Vertices that stand out."""
 
     vertices: np.ndarray
     displacements: Floats
@@ -61,14 +54,7 @@ class Outliers:
 
 
 def find_outliers(positions: Positions, probe: Probe) -> Outliers:
-    """Look for single vertices off their places.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-        Welded.
-    probe : Probe
-    """
+    """Look for single vertices off their places."""
     edge = mean_edge_length(positions, probe.topology.faces)
     normals = probe.smooth_normals(positions, passes=1)
     operator, gain = probe.fine_operator
@@ -122,7 +108,6 @@ def _believed(amounts: Floats) -> bool:
 
 
 def _usual(amounts: Floats) -> float:
-    """Median displacement of those that are displaced, in mean edges."""
     return float(np.median(np.abs(amounts[amounts != 0.0])))
 
 

@@ -27,19 +27,7 @@ SHARE, BOUND = 0.6, 0.8416
 
 
 class Probe:
-    """Measures what is noise-like on the meshes of one connectivity.
-
-    Parameters
-    ----------
-    topology : Topology
-
-    Attributes
-    ----------
-    average : sparse matrix, shape (n, n)
-        Mean over the neighbours, P; a vertex without neighbours keeps its value.
-    counted : ndarray of bool, shape (n,)
-        Vertices whose surroundings are a surface: not on the boundary, three neighbours or more.
-    """
+    """Measures what is noise-like on the meshes of one connectivity."""
 
     def __init__(self, topology: Topology) -> None:
         self.topology = topology
@@ -68,7 +56,6 @@ class Probe:
         return self._gain(self._repeated)
 
     def _gain(self, filtered: Callable[[Floats], Floats]) -> Floats:
-        """The norms of a filter's rows, which are too full to be formed: estimated with random signs."""
         signs = np.random.default_rng(0).choice(np.array([-1.0, 1.0]), (self.topology.n, GAIN_PROBES))
         gain = np.sqrt(np.square(filtered(signs)).mean(axis=1))
         return np.asarray(np.where(gain > 0.0, gain, np.inf))
@@ -109,10 +96,7 @@ class Probe:
         return white
 
     def levels(self, along: Floats) -> Floats:
-        """Standard deviations of `along`, shape (n,), in the windows, shape (windows.count,).
-
-        Robustly: from quantiles of absolute values.
-        """
+        """Standard deviations of `along`, shape (n,), in the windows, shape (windows.count,)."""
         return self.windows.quantiles(np.abs(along), SHARE) / BOUND
 
     def _repeated(self, values: npt.NDArray[np.float64]) -> Floats:

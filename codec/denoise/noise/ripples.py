@@ -48,16 +48,7 @@ OUTSIDE = 2.5
 
 @dataclass(frozen=True, eq=False)
 class Ripples:
-    """Waves, and what they did to the vertices.
-
-    Attributes
-    ----------
-    lengths : ndarray of float64, shape (k,)
-        Of the waves, in mean edges.
-    level : float
-        Standard deviation of the displacements, in mean edges.
-    displacements : ndarray of float64, shape (n, 3)
-    """
+    """Waves, and what they did to the vertices."""
 
     lengths: Floats
     level: float
@@ -75,14 +66,7 @@ class Ripples:
 
 
 def find_ripples(positions: Positions, probe: Probe) -> Ripples:
-    """Look for waves.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-        Welded.
-    probe : Probe
-    """
+    """Look for waves."""
     none = Ripples(np.zeros(0), 0.0, np.zeros_like(positions))
     edge = mean_edge_length(positions, probe.topology.faces)
     normals = probe.smooth_normals(positions)[probe.counted]
@@ -115,10 +99,7 @@ def find_ripples(positions: Positions, probe: Probe) -> Ripples:
 
 
 class _Fit:
-    """Waves along the normals, and what the fine filter sees with and without them; in mean edges.
-
-    Heights are filtered, not displacements: normals of a noisy mesh are noise themselves.
-    """
+    """Waves along the normals, and what the fine filter sees with and without them; in mean edges."""
 
     def __init__(self, places: Positions, probe: Probe) -> None:
         self._probe, self._given = probe, places - places.mean(axis=0)

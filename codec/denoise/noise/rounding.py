@@ -23,13 +23,7 @@ SAME = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Cells between which positions cannot be told apart.
-
-    Attributes
-    ----------
-    steps : ndarray of float64, shape (3,)
-        Size of a cell along each axis; 0 where the coordinate has only a few values.
-    """
+    """Cells between which positions cannot be told apart."""
 
     steps: Floats
 

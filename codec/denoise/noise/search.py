@@ -54,14 +54,7 @@ HEAVY_LEVEL = 0.3
 
 
 def find_noise(positions: Positions, probe: Probe) -> Finding:
-    """Look for noise.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-        Welded: a vertex of its own for every triangle has no neighbours to be compared with.
-    probe : Probe
-    """
+    """Look for noise."""
     edge = mean_edge_length(positions, probe.topology.faces)
     if int(probe.windows.valid.sum()) < FEWEST_WINDOWS:
         return Finding("unknown", 0.0, np.zeros(probe.topology.n), edge, "too few vertices to tell noise from shape")
@@ -115,7 +108,6 @@ def _everywhere(positions: Positions, evidence: Evidence) -> Finding | None:
 
 
 def _levels(evidence: Evidence, filtered: Floats) -> Floats:
-    """Levels in the windows of what another filter leaves, shape (n, 3), along the normals."""
     return evidence.probe.levels(np.einsum("ij,ij->i", filtered, evidence.normals))
 
 
@@ -169,7 +161,6 @@ def _standardised(evidence: Evidence, chosen: Mask) -> Floats:
 
 
 def _looks_random(evidence: Evidence, chosen: Mask) -> bool:
-    """Both sides alike, and neither a heap of zeros nor a hole there."""
     return is_random(_standardised(evidence, chosen))
 
 

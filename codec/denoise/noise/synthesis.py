@@ -14,16 +14,7 @@ MOST_STEPS = 12
 
 
 class Synthesis:
-    """Draws noise of the kind and strength of a finding.
-
-    Parameters
-    ----------
-    finding : Finding
-    probe : Probe
-        Of the mesh that noise is drawn for.
-    tangential : float
-        Standard deviation of white noise in each direction across the normals.
-    """
+    """Draws noise of the kind and strength of a finding."""
 
     def __init__(self, finding: Finding, probe: Probe, tangential: float) -> None:
         self._finding, self._probe, self._tangential = finding, probe, tangential
@@ -37,13 +28,7 @@ class Synthesis:
         return self._strength
 
     def draw(self, positions: Positions, seed: int) -> Positions:
-        """Positions with noise.
-
-        Parameters
-        ----------
-        positions : ndarray of float64, shape (n, 3)
-        seed : int
-        """
+        """Positions with noise."""
         finding, topology = self._finding, self._probe.topology
         random = np.random.default_rng(seed)
         if finding.grid is not None:

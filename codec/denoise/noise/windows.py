@@ -20,22 +20,7 @@ FEWEST = 20
 
 
 class Windows:
-    """Disjoint connected pieces of about `SIZE` vertices.
-
-    Parameters
-    ----------
-    topology : Topology
-    counted : ndarray of bool, shape (n,)
-        Vertices that take part in statistics.
-
-    Attributes
-    ----------
-    labels : ndarray of int32, shape (n,)
-        Window of each vertex.
-    count : int
-    valid : ndarray of bool, shape (count,)
-        Windows with enough counted vertices for statistics.
-    """
+    """Disjoint connected pieces of about `SIZE` vertices."""
 
     def __init__(self, topology: Topology, counted: Mask) -> None:
         self._graph = graph_of_faces(topology.faces, topology.n)
@@ -75,10 +60,7 @@ class Windows:
         return self.quantiles(values, 0.5)
 
     def quantiles(self, values: Floats, share: float) -> Floats:
-        """The value below which `share` of the counted vertices of each window lie, interpolated.
-
-        `values` have shape (n,). Returns shape (count,); NaN where a window is not valid.
-        """
+        """The value below which `share` of the counted vertices of each window lie, interpolated."""
         chosen = values[self._members]
         ordered = chosen[np.lexsort((chosen, self._windows))]
         place = share * (self._sizes[self.valid] - 1)

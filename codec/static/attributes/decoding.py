@@ -53,15 +53,7 @@ SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
 @dataclass(frozen=True, eq=False)
 class DeclaredAttribute:
-    """An attribute before its values.
-
-    Parameters
-    ----------
-    index : int
-    declaration : Declaration
-    joins : Joins, optional
-        Where corners have values of their own.
-    """
+    """An attribute before its values."""
 
     index: int
     declaration: Declaration
@@ -77,15 +69,7 @@ class Declarations:
     known: tuple[DeclaredAttribute, ...] = ()
 
     def add(self, packet: packets.Attribute, allowance: Allowance) -> Declarations:
-        """With one more; its seams are paid for.
-
-        Raises
-        ------
-        LimitError
-            If all together have more numbers, or take more work or memory, than are granted.
-        CorruptError, TruncatedError
-            If its seams are none of these faces, or those of an attribute that is missing.
-        """
+        """With one more; its seams are paid for."""
         allowance.spend(DECLARED)
         every = [*(one.declaration for one in self.known), packet.declaration]
         allowance.limits.check("attribute_values", sum(numbers_of(one, len(self.faces)) for one in every))
@@ -93,13 +77,7 @@ class Declarations:
         return replace(self, known=(*self.known, one))
 
     def rows_of(self, one: DeclaredAttribute, numbering: Numbering) -> int:
-        """How many values of an attribute are coded (D 1.2), or belong to it, if it is recomputed.
-
-        Raises
-        ------
-        CorruptError
-            If its declaration says otherwise.
-        """
+        """How many values of an attribute are coded (D 1.2), or belong to it, if it is recomputed."""
         declaration = one.declaration
         if declaration.domain == FACE:
             expected = len(self.faces)
@@ -134,7 +112,6 @@ class Declarations:
 
     @property
     def _corners(self) -> Corners:
-        """Made once for all attributes."""
         return self._with_seams[0].joins.corners if self._with_seams else corners_of(self.faces, self.vertices)
 
 
@@ -185,10 +162,7 @@ class AttributeDecoder:
         self._coder: PieceDecoder | None = None
 
     def decode(self, packet: packets.Values, places: Levels | None) -> AttributeEvent:
-        """Decode a chunk of its values; what decodes them is given up behind the last.
-
-        `places`, shape (n, 3), are positions on their grid, if values lean on these.
-        """
+        """Decode a chunk of its values; what decodes them is given up behind the last."""
         if self.complete:
             raise CorruptError("it has all its values already")
         allowance, faces = self._structure.allowance, len(self._surface.faces)
@@ -266,13 +240,7 @@ class AttributeDecoders:
         return any(one.declaration.coding == RECOMPUTED for one in self._valued.values())
 
     def add(self, packet: packets.Values, places: Callable[[], Levels]) -> AttributeEvent:
-        """Decode a chunk of values; `places` gives positions, shape (n, 3), if they lean on these.
-
-        Raises
-        ------
-        BsmError
-            If it cannot be.
-        """
+        """Decode a chunk of values; `places` gives positions, shape (n, 3), if they lean on these."""
         valued = self._valued.get(packet.attribute)
         if valued is None:
             raise CorruptError(f"attribute {packet.attribute} is not declared")
@@ -301,13 +269,7 @@ class AttributedMesh:
         self._carried = AttributeDecoders(structure)
 
     def add(self, packet: packets.Values) -> AttributeEvent:
-        """Decode a chunk of values.
-
-        Raises
-        ------
-        BsmError
-            If it cannot be: also if the attribute leans on positions that are missing.
-        """
+        """Decode a chunk of values."""
         return self._carried.add(packet, lambda: self._places)
 
     def mesh(self) -> TriangleMesh:

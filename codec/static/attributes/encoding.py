@@ -42,20 +42,7 @@ SEMANTICS = ("generic", "color", "normal", "texcoord")
 
 @dataclass(frozen=True, eq=False)
 class Place:
-    """Where a given mesh's vertices, faces and corners are in the order of coding.
-
-    Parameters
-    ----------
-    given : TriangleMesh
-    corners : Corners
-        Of the coded faces.
-    faces : int64 array, shape (m,)
-        The given face that is coded as each.
-    turns : int64 array, shape (m,)
-        The corner of the given face that is its first.
-    loose : int64 array
-        Given vertices that no face uses, where the stream holds them.
-    """
+    """Where a given mesh's vertices, faces and corners are in the order of coding."""
 
     given: TriangleMesh
     corners: Corners
@@ -79,18 +66,7 @@ def place_of(given: TriangleMesh, joined: JoinedMesh, prepared: Prepared) -> Pla
 
 @dataclass(frozen=True, eq=False)
 class PreparedAttribute:
-    """An attribute in the order of coding, before positions are known.
-
-    Parameters
-    ----------
-    declaration : Declaration
-    seams : bytes
-        As they are sent; none where there are none of its own.
-    surface : Surface
-    levels : int64 array, shape (k, words)
-    said : str
-        What has become of it.
-    """
+    """An attribute in the order of coding, before positions are known."""
 
     declaration: Declaration
     seams: bytes
@@ -113,13 +89,7 @@ class PreparedAttribute:
 
 
 def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
-    """Attributes in the order of coding.
-
-    Raises
-    ------
-    OptionError, TargetError
-        If there are too many, or a quality makes no sense or cannot be kept.
-    """
+    """Attributes in the order of coding."""
     wanted = tuple(wanted)
     if len(wanted) > MOST_ATTRIBUTES:
         raise OptionError(f"a stream has {MOST_ATTRIBUTES} attributes at most, not {len(wanted)}: leave some out")
@@ -213,10 +183,7 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
 
 
 def cheaper(one: PreparedAttribute, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
-    """What an attribute declares, and its chunks.
-
-    It leans on a grid's values, `places`, shape (n, 3), where that takes fewer bytes.
-    """
+    """What an attribute declares, and its chunks."""
     if places is not None and leans(one.declaration):
         chunks = one.chunks(places, CHUNK)
         if sum(map(len, chunks)) < sum(map(len, one.plain)):

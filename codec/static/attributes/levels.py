@@ -27,16 +27,7 @@ _USUAL_STEPS = (1.0, 1.0 / 255.0, 1.0 / 65535.0)
 
 @dataclass(frozen=True, eq=False)
 class QuantizedValues:
-    """Values as whole numbers.
-
-    Parameters
-    ----------
-    fields : dict
-        Of a declaration: coding, largest, offset, step.
-    levels : int64 array, shape (k, words)
-    said : str
-        What has become of the values.
-    """
+    """Values as whole numbers."""
 
     fields: dict[str, Any]
     levels: Words
@@ -56,15 +47,7 @@ def restored(declaration: Declaration, levels: Words) -> Values:
 
 
 def quantized(values: Values, semantic: str, quality: Quality, name: str) -> QuantizedValues:
-    """Values, shape (k, c), as whole numbers that keep what is asked.
-
-    Raises
-    ------
-    OptionError
-        If that makes no sense for such values.
-    TargetError
-        If it cannot be kept.
-    """
+    """Values, shape (k, c), as whole numbers that keep what is asked."""
     is_float, normals = values.dtype.kind == "f", semantic == "normal" and values.shape[1] == 3
     if quality.way == "recompute":
         if not (is_float and normals):
@@ -194,7 +177,6 @@ def _affine(coding: int, levels: Words, offset: Reals, step: float) -> dict[str,
 
 
 def _sample(values: Values, fields: dict[str, Any]) -> Declaration:
-    """A declaration to restore by."""
     kind = KINDS.index(values.dtype.name)
     return Declaration(name="x", kind=kind, components=values.shape[1], rows=1, **fields)
 
@@ -219,7 +201,6 @@ def _places(units: Reals, largest: int) -> Words:
 
 
 def _angles(vectors: Values, units: Reals) -> Reals:
-    """Degrees between directions."""
     wide = vectors.astype(np.float64)
     across = np.linalg.norm(np.cross(wide, units), axis=1)
     return np.asarray(np.degrees(np.arctan2(across, (wide * units).sum(axis=1))))

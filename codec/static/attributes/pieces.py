@@ -69,10 +69,7 @@ def leans(declaration: Declaration) -> bool:
 
 
 class PieceEncoder:
-    """Codes the numbers of an attribute, shape (k, pieces), at most `MOST_COMPONENTS` of each value at a time.
-
-    `places`: positions of the vertices, shape (n, 3), if they are predicted from these.
-    """
+    """Codes the numbers of an attribute, shape (k, pieces), at most `MOST_COMPONENTS` of each value at a time."""
 
     def __init__(self, declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None) -> None:
         def make(some: slice) -> ValueEncoder | FaceValueEncoder:

@@ -35,18 +35,7 @@ MOVING = {"color": 1.0, "generic": 0.25}
 
 @dataclass(frozen=True)
 class Quality:
-    """What is asked of an attribute.
-
-    Parameters
-    ----------
-    way : str
-        "exact"; "bits": so many of each number; "bound": no number is farther off; "share": the same in percent of the
-        largest range; "rms": where values change from frame to frame, so many percent is the root mean square of each
-        frame, and none is ten times as far off; elsewhere it is "share"; "angle": no normal is more degrees off;
-        "recompute": normals are made from the decoded mesh; "none": it is left out.
-    amount : float
-        Of bits, of the attribute's own unit, percent, or degrees.
-    """
+    """What is asked of an attribute."""
 
     way: Way
     amount: float = 0.0
@@ -63,13 +52,7 @@ class Quality:
 
 
 def parse_quality(text: str) -> Quality:
-    """The quality that a user means: "exact", "12bits", "0.01", "1%", "1%rms", "2deg", "recompute" or "none".
-
-    Raises
-    ------
-    OptionError
-        If it is none of these.
-    """
+    """The quality that a user means: "exact", "12bits", "0.01", "1%", "1%rms", "2deg", "recompute" or "none"."""
     for plain in _PLAIN:
         if text == plain:
             return Quality(plain)
@@ -104,13 +87,7 @@ def qualities(
     normals: str = "keep",
     moving: Collection[str] = (),
 ) -> list[tuple[Attribute, Quality]]:
-    """Attributes, and what is asked of each, but for those that are left out; `moving` change from frame to frame.
-
-    Raises
-    ------
-    OptionError
-        If something is asked of an attribute that there is not.
-    """
+    """Attributes, and what is asked of each, but for those that are left out; `moving` change from frame to frame."""
     unknown = sorted(set(asked) - {one.name for one in attributes} - {"*"})
     if unknown:
         there = ", ".join(one.name for one in attributes) or "none"

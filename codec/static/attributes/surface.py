@@ -15,15 +15,7 @@ from bsm.codec.static.numbering import Numbering
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """The values of an attribute as vertices of a mesh of their own.
-
-    Parameters
-    ----------
-    faces : int32 array, shape (m, 3)
-        Numbers of values; of an attribute of faces, of the vertices.
-    vertices : int32 array, shape (k,)
-        The vertex at which each value is, -1: none, for what no face uses; empty for an attribute of faces.
-    """
+    """The values of an attribute as vertices of a mesh of their own."""
 
     faces: Faces
     vertices: Indices
@@ -40,18 +32,7 @@ class Surface:
 
 
 def surface_of(domain: int, faces: Faces, vertices: int, loose: int, joins: Joins | None) -> Surface:
-    """The surface on which values of a domain lie.
-
-    Parameters
-    ----------
-    domain : int
-    faces : int32 array, shape (m, 3)
-        As they are coded.
-    vertices, loose : int
-        How many are coded, and how many values there are for what no face uses.
-    joins : Joins, optional
-        For CORNER.
-    """
+    """The surface on which values of a domain lie."""
     if domain == FACE:
         return Surface(faces, np.zeros(0, np.int32))
     at = np.arange(vertices, dtype=np.int32) if joins is None else joins.vertices
@@ -61,17 +42,7 @@ def surface_of(domain: int, faces: Faces, vertices: int, loose: int, joins: Join
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """How an attribute is given to the user.
-
-    Parameters
-    ----------
-    domain : str
-        "vertex", "corner" or "face".
-    rows : int64 array
-        The coded value that each of the user's is.
-    indices : int32 array, shape (m, 3), optional
-        For corners: which of the user's values each has.
-    """
+    """How an attribute is given to the user."""
 
     domain: Domain
     rows: Order

@@ -73,27 +73,7 @@ NEAR = 8.0
 
 
 class BlockSearch:
-    """Tries blocks for one mesh, alone and refined.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    options : EncodeOptions
-    contract : Contract
-    sight : Sight
-    reaches : float64 array, shape (n,)
-        How far each vertex may come to lie from its place, in BSM units.
-    borders : Borders
-    judge : Judge
-    told : callable
-        A context in which one trial is made.
-    progress : callable, optional
-        Called with the number of blocks done and of all blocks.
-    angle : float
-        Mean angle of normals that comes with what is asked for, degrees.
-    thorough : bool
-        As of `Fulfilment`.
-    """
+    """Tries blocks for one mesh, alone and refined."""
 
     def __init__(
         self,
@@ -167,8 +147,7 @@ class BlockSearch:
 
     def _plain(self, blocks: Spectral) -> Draft | None:
         """The smallest of a few steps without refinement, except for vertices out of reach: these cost more at coarser
-        ones.
-        """
+        ones."""
         sheet = blocks is not self._blocks
         found: list[Draft] = []
 
@@ -188,7 +167,6 @@ class BlockSearch:
 
     @property
     def _is_smooth(self) -> bool:
-        """Whether normals can be right without refinement: they cannot where faces are flat, or bent at random."""
         character = self._shaper.character
         return not character.is_model and character.roughness < min(ROUGH * self._angle, ROUGHEST)
 
@@ -214,7 +192,6 @@ class BlockSearch:
         return layer, np.where(out[:, None], levels, 0.0).astype(np.int32)
 
     def _brought_back(self, base: Base, positions: Matrix) -> Matrix:
-        """Positions after that layer."""
         back = self._back(base, positions)
         return positions if back is None else base.moved(*back, positions)
 
@@ -227,7 +204,6 @@ class BlockSearch:
         return None if levels is None else (layer, levels)
 
     def _outliers(self, positions: Matrix) -> int:
-        """How many vertices are out of reach, borders aside."""
         return int(self._judge.out(positions).sum())
 
     def _refined(self, base: Base) -> Stack | None:

@@ -19,14 +19,7 @@ ROUND = 2.0 / math.sqrt(3.0) * 0.999
 
 @dataclass(frozen=True, eq=False)
 class Borders:
-    """Vertices of borders, and how far they may come to lie from their places.
-
-    Parameters
-    ----------
-    vertices : bool array, shape (n,)
-    reach : float
-        In BSM units.
-    """
+    """Vertices of borders, and how far they may come to lie from their places."""
 
     vertices: Mask
     reach: float

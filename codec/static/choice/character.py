@@ -24,15 +24,7 @@ a few faces are most of the surface."""
 
 
 class Character:
-    """Measures of a surface.
-
-    Parameters
-    ----------
-    original : Original
-        In BSM units.
-    flaps : int32 array, shape (k, 4)
-        The ends of its inner edges, and the corners opposite.
-    """
+    """Measures of a surface."""
 
     def __init__(self, original: Original, flaps: Indices) -> None:
         self._original = original
@@ -108,7 +100,6 @@ class Character:
 
     @cached_property
     def _corners(self) -> Matrix:
-        """Corners of some flaps, from the lower corner of the mesh on, shape (k, 12)."""
         return np.ascontiguousarray((self._original.positions[self._flaps] - self._low).reshape(-1, 12))
 
     @cached_property

@@ -18,23 +18,7 @@ WITHIN = 8.0
 
 
 class Creases(NamedTuple):
-    """Bends near the angle from which on faces are shaded each by itself; the struct of that name in `creases.h`.
-
-    Parameters
-    ----------
-    faces : int32 array, shape (m, 3)
-    pairs : int32 array, shape (k, 2)
-        Faces that share a vertex.
-    sharp : uint8 array, shape (k,)
-        Whether there is a crease between them.
-    costs : float64 array, shape (k,)
-        Of being wrong about that.
-    starts : int32 array, shape (n + 1,)
-        Pairs whose bend hangs on vertex v are ``members[starts[v]:starts[v + 1]]``.
-    members : int32 array
-    cosine : float
-        Of the angle that makes a crease.
-    """
+    """Bends near the angle from which on faces are shaded each by itself; the struct of that name in `creases.h`."""
 
     faces: Faces
     pairs: Indices
@@ -50,15 +34,7 @@ class Creases(NamedTuple):
 
 
 def creases_of(positions: Positions, faces: Faces) -> Creases:
-    """The creases of a mesh, and what is almost one.
-
-    A pair costs the share of the surface that is shaded otherwise if it is wrong: the corners where both faces meet.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-    faces : int32 array, shape (m, 3)
-    """
+    """The creases of a mesh, and what is almost one."""
     count = len(positions)
     around = vertex_faces(faces, count)
     crosses = np.empty((len(faces), 4))

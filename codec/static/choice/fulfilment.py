@@ -50,20 +50,7 @@ MARGIN = 1e-9
 
 
 class Fulfilment:
-    """Looks for the smallest stream of a mesh that keeps a contract.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    options : EncodeOptions
-    contract : Contract
-    sight : Sight
-        Of the same mesh.
-    progress : callable, optional
-        Called with the number of blocks done and of all blocks, and with none and all of them around every other trial.
-    thorough : bool
-        Rules leave out no way that may win, and bounds are used up as far as can be: some times the work.
-    """
+    """Looks for the smallest stream of a mesh that keeps a contract."""
 
     def __init__(
         self,
@@ -113,18 +100,7 @@ class Fulfilment:
         )
 
     def draft(self, size: Callable[[Draft], int] = attrgetter("size")) -> Draft:
-        """The smallest draft that was found.
-
-        Parameters
-        ----------
-        size : callable
-            What a draft comes to with all that it has to carry: attributes may cost less on one way than on another.
-
-        Raises
-        ------
-        TargetError
-            If none keeps the contract; says what the best that was found comes to.
-        """
+        """The smallest draft that was found."""
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         for every in (False, True):
@@ -179,7 +155,6 @@ class Fulfilment:
 
     @property
     def _few_looks(self) -> bool:
-        """Whether pictures may be taken of more than one way."""
         return self._contract.look < math.inf and self._prepared.graph.size < FEW_LOOKS
 
     @property

@@ -66,16 +66,7 @@ MOST_PARTS, COARSEST_GRIDS = 256, 3
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """Places that may be coded.
-
-    Parameters
-    ----------
-    step : float
-        As a header holds it, in the mesh's unit.
-    places : int32 array, shape (n, 3)
-    estimate : float
-        What their bytes grow with: the entropy of their second differences.
-    """
+    """Places that may be coded."""
 
     step: float
     places: Levels
@@ -83,24 +74,7 @@ class Placed:
 
 
 class GridSearch:
-    """Tries grids for one mesh.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    shaper : Shaper
-    contract : Contract
-    reach : float
-        How far a vertex may come to lie from its place, in BSM units.
-    borders : Borders
-    judge : Judge
-    told : callable
-        A context in which one trial is made.
-    angle : float
-        Mean angle of normals that comes with what is asked for, degrees.
-    thorough : bool
-        As of `Fulfilment`.
-    """
+    """Tries grids for one mesh."""
 
     def __init__(
         self,
@@ -229,10 +203,7 @@ class GridSearch:
                     yield entropy, step
 
     def _coarsest(self, shaped: Shaped) -> Iterator[Draft]:
-        """The coarsest grids on which a model of few vertices is right already where it is rounded.
-
-        Those that begin at the origin of the mesh's unit need not say where.
-        """
+        """The coarsest grids on which a model of few vertices is right already where it is rounded."""
         from_origin = Shaped(self._prepared, self._shaper, np.zeros(3), still=self._borders.vertices)
         farthest = float(np.abs(self._prepared.mesh.positions).max())
         reach = min(self._reach, self._borders.cell / ROUND, FITS_LOOK * self._look)
@@ -270,6 +241,5 @@ class GridSearch:
         return WORTH * min(max(math.pow(self._angle / WORTH_ANGLE, WORTH_GROWTH), 0.5), 2.0)
 
     def _steepness(self, step: float) -> float:
-        """How the angle of rounded grids grows with the step about one, in their logarithms."""
         coarse, fine = self._character.rounded_angle(step), self._character.rounded_angle(0.7 * step)
         return min(max(math.log(max(coarse, 1e-6) / max(fine, 1e-6)) / -math.log(0.7), 0.4), 1.2)

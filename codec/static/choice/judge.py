@@ -34,17 +34,7 @@ ALL = (0.0, math.inf)
 
 
 class Sight:
-    """What is measured of an original once, whatever is promised.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    threads : int, optional
-    normals : float32 array, shape (m, 9), optional
-        Of the corners of its faces, which it is sent with: it is to look the same shaded by these, too.
-    alike : bool
-        In mean angles all faces count alike, whatever their area.
-    """
+    """What is measured of an original once, whatever is promised."""
 
     def __init__(
         self, prepared: Prepared, threads: int | None, normals: Normals | None = None, *, alike: bool = False
@@ -71,17 +61,7 @@ class Sight:
 
 
 class Judge:
-    """Says how well decoded positions keep a contract.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    sight : Sight
-    contract : Contract
-    reach : float64 array, shape (n,)
-        How far each vertex may come to lie from its place, in BSM units.
-    borders : Borders
-    """
+    """Says how well decoded positions keep a contract."""
 
     def __init__(self, prepared: Prepared, sight: Sight, contract: Contract, reach: Matrix, borders: Borders) -> None:
         self._prepared = prepared
@@ -132,11 +112,9 @@ class Judge:
         return self._contract.worded(farther, angle, look, visual)
 
     def _angle(self, positions: Matrix) -> float:
-        """Mean angle of normals; 0 where nothing is asked of them."""
         return self._sight.original.angle(positions) if self._contract.angle < ANY_ANGLE else 0.0
 
     def _visual(self, positions: Matrix) -> float:
-        """NMSVE; 0 where nothing is asked of it."""
         return self._sight.reference.nmsve(positions) if self._contract.visual < math.inf else 0.0
 
     def _distance(self, positions: Matrix, nearly: tuple[float, float]) -> tuple[float, bool]:

@@ -38,16 +38,7 @@ def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
 
 
 def rounded(prepared: Prepared, bits: int) -> Draft:
-    """Every position at the nearest place of a grid of so many bits along the longest side of the bounding box.
-
-    In single precision, by the operations of Draco's quantiser, so that the places are the same; but for meshes so far
-    from the origin that single precision would move them by some part of a cell, in double precision.
-
-    Raises
-    ------
-    TargetError
-        If the cells are beyond the range of numbers.
-    """
+    """Every position at the nearest place of a grid of so many bits along the longest side of the bounding box."""
     positions = prepared.mesh.positions
     cells = (1 << bits) - 1
     largest, extent = np.abs(positions).max(), np.ptp(positions, axis=0).max()
@@ -100,15 +91,7 @@ def _decimal(narrow: npt.NDArray[np.float32], least: float) -> float | None:
 
 
 def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float, float]) -> Draft:
-    """Every position at the nearest place of a grid that is given: at ``origin + k * cell``, k whole numbers.
-
-    What the decoder makes of a place depends on nothing but that: parts of a mesh on one grid fit bit for bit.
-
-    Raises
-    ------
-    TargetError
-        If the mesh is too large for such cells, or too far from the origin to tell its places from there exactly.
-    """
+    """Every position at the nearest place of a grid that is given: at ``origin + k * cell``, k whole numbers."""
     corner = np.array(origin)
     with np.errstate(over="ignore", invalid="ignore"):
         places = np.floor((prepared.mesh.positions - corner) / cell + 0.5)
@@ -141,18 +124,7 @@ LEAST_CELL = 2.0**-40
 
 
 class Shaped:
-    """Shaped grids of one mesh, at one step after another.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    shaper : Shaper
-        Of the same, in BSM units.
-    low : float64 array, shape (3,), optional
-        Where the grid begins, in the mesh's unit; None: at the corner of the bounding box.
-    still : bool array, shape (n,), optional
-        Vertices that take the nearest place, and not one that is better for normals.
-    """
+    """Shaped grids of one mesh, at one step after another."""
 
     def __init__(
         self, prepared: Prepared, shaper: Shaper, low: Matrix | None = None, *, still: Mask | None = None
@@ -174,11 +146,7 @@ class Shaped:
         return max(float((self._prepared.positions - self._low).max()) / (MOST_LARGEST - 4), LEAST_CELL)
 
     def places(self, step: float, aim: Aim, axes: int = 2) -> tuple[float, Levels, Positions, float]:
-        """The places of a grid at `step`, and what goes with them.
-
-        Returns the step as a header holds it, in the mesh's unit; places and the positions there, both of
-        shape (n, 3), the latter in the mesh's unit too; and bytes of second differences, by `Character.entropy`.
-        """
+        """The places of a grid at `step`, and what goes with them."""
         unit = self._prepared.units.scale
         held = single(step * unit)
         wanted = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)

@@ -42,17 +42,7 @@ SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 
 
 class Planner:
-    """Makes the plan for one step after another; what is measured on the mesh alone is measured once.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    options : EncodeOptions
-    widest : float
-        Columns of a dictionary that are not exceeded even where more would pay, over the rows of a block.
-    trial : Trial
-        What is tried in place of what the specification says.
-    """
+    """Makes the plan for one step after another; what is measured on the mesh alone is measured once."""
 
     def __init__(
         self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, trial: Trial = AS_SPECIFIED
@@ -63,13 +53,7 @@ class Planner:
         self._trial = trial
 
     def schemes(self, step: float) -> list[Scheme]:
-        """How the blocks of each section are coded at a step.
-
-        Raises
-        ------
-        OptionError
-            If the step is too fine for levels to hold.
-        """
+        """How the blocks of each section are coded at a step."""
         rules = self._rules()
         bits, prepared = self._options.bits, self._prepared
         if bits is None:
@@ -89,10 +73,7 @@ class Planner:
         return self._spectrum.worthwhile_size(step, most) >= most
 
     def smoothing(self, blended: Matrix) -> float:
-        """The amount of smoothing that lowers what the options are after most.
-
-        `blended`, shape (n, 3), is the decoded mesh before it.
-        """
+        """The amount of smoothing that lowers what the options are after most."""
         vertices, reference = self._sample
         spectrum = smoothing_spectrum(self._prepared.graph, blended).only(vertices)
         best, least = 0.0, self._badness(reference, spectrum.smoothed(0.0))

@@ -19,19 +19,7 @@ Found = TypeVar("Found")
 
 @dataclass(frozen=True)
 class Trial(Generic[Found]):
-    """What a step came to.
-
-    Parameters
-    ----------
-    step : float
-    excess : float
-        Logarithm of what came over what may, of normals or pictures: above 0 they are too far off.
-    near : bool
-        Whether every vertex is near enough.
-    found : object
-    sure : bool
-        Whether `excess` is known, and not just what a glance tells.
-    """
+    """What a step came to."""
 
     step: float
     excess: float
@@ -59,22 +47,7 @@ def widest_step(
     slopes: tuple[float, float],
     slack: float = SLACK,
 ) -> Trial[Found] | None:
-    """About the largest step whose trial keeps the bounds: a secant in the logarithms, within brackets.
-
-    Parameters
-    ----------
-    measure : callable
-        Tries a step; with a second argument that is true, until it is sure.
-    first : float
-        To begin with.
-    tries : int
-    most : float
-        The largest step that may be tried.
-    slopes : (float, float)
-        How the excess grows with the step's logarithm, at least and at most; at most as long as nobody knows.
-    slack : float
-        The search ends where a trial is below its bound by at most this share of it.
-    """
+    """About the largest step whose trial keeps the bounds: a secant in the logarithms, within brackets."""
     aim = math.log(1.0 - slack / 2.0)
     best: Trial[Found] | None = None
     widest: Trial[Found] | None = None

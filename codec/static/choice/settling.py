@@ -48,19 +48,7 @@ _MOST = 1 << 30
 
 
 class Sensitivity:
-    """What errors of each vertex cost in pictures.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-        Of the original, in BSM units, as `looker` has them.
-    graph : Graph
-        Of its faces.
-    looker : Looker
-    faces : int32 array, shape (m, 3)
-    step : float
-        Of a layer whose errors are about those to come, in BSM units.
-    """
+    """What errors of each vertex cost in pictures."""
 
     def __init__(self, positions: Positions, faces: Levels, graph: Graph, looker: Looker, step: float) -> None:
         self._positions, self._faces, self._graph = positions, faces, graph
@@ -98,23 +86,7 @@ class Sensitivity:
         worth: float,
         reach: Matrix,
     ) -> Levels:
-        """Levels that are worth their bits, shape (n, axes).
-
-        Parameters
-        ----------
-        offsets : float64 array, shape (n, 3)
-            What is wanted, in `frames`.
-        frames : float64 array, shape (n, 9)
-            The axes of the levels.
-        steps : float64 array, shape (n, axes)
-            About what levels move: along the first axis, where steps are equal and right, or along all three.
-        known : callable
-            What they move along all three when those along the first are those of its argument, shape (n, 3).
-        worth : float
-            What a bit is worth, over the mean cost of an error of one step along the normal.
-        reach : float64 array, shape (n,)
-            How far a vertex may come to lie from its place, but for rounding.
-        """
+        """Levels that are worth their bits, shape (n, axes)."""
         normal, tangent = self.costs
         count, axes = steps.shape
         unit = worth * float(normal.mean()) * float(steps[0, 0]) ** 2
@@ -148,7 +120,6 @@ class Sensitivity:
 
     @cached_property
     def _frames(self) -> Matrix:
-        """Normals and tangents of the original's vertices, shape (n, 3, 3)."""
         return local_frames(self._positions, self._faces).reshape(-1, 3, 3)
 
     def _spread(self, blame: Matrix) -> Matrix:

@@ -26,16 +26,7 @@ RATES = np.log1p(np.arange(4096.0))
 
 
 class Aim(NamedTuple):
-    """What shaping is after.
-
-    Parameters
-    ----------
-    worth : float
-        Mean angle, radians, that a nat per vertex is worth.
-    reach : float
-        How far a vertex may come to lie from its place.
-    sweeps : int
-    """
+    """What shaping is after."""
 
     worth: float
     reach: float = np.inf
@@ -43,15 +34,7 @@ class Aim(NamedTuple):
 
 
 class Shaper:
-    """Chooses levels for one mesh.
-
-    Parameters
-    ----------
-    original : Original
-        In BSM units.
-    graph : Graph
-        Of its faces.
-    """
+    """Chooses levels for one mesh."""
 
     def __init__(self, original: Original, graph: Graph) -> None:
         positions, faces = original.positions, original.faces
@@ -75,18 +58,7 @@ class Shaper:
         return self.character.mean_edge
 
     def levels(self, base: Positions, wanted: Levels, directions: Matrix, aim: Aim) -> Levels:
-        """Levels along fixed directions.
-
-        Parameters
-        ----------
-        base : float64 array, shape (n, 3)
-            Where a vertex is with levels of zero.
-        wanted : int32 array, shape (n, axes)
-            The nearest levels; axes is 1 or 3.
-        directions : float64 array, shape (n, axes, 3)
-            One level of each.
-        aim : Aim
-        """
+        """Levels along fixed directions."""
         chosen = np.array(wanted, np.int32, order="C")
         scales = np.maximum(np.abs(chosen).mean(axis=0), 0.4)
         moved = np.ascontiguousarray(base + np.einsum("na,naj->nj", chosen.astype(np.float64), directions))
@@ -95,19 +67,7 @@ class Shaper:
         return chosen
 
     def places(self, wanted: Levels, origin: Matrix, step: float, aim: Aim, axes: int = 2) -> tuple[Levels, float]:
-        """Places on a grid, and bytes of what they leave of second differences, by `Character.entropy`.
-
-        Parameters
-        ----------
-        wanted : int32 array, shape (n, 3)
-            The nearest places.
-        origin : float64 array, shape (3,)
-            Where place 0 is.
-        step : float
-        aim : Aim
-        axes : int
-            Along how many a vertex may move at once.
-        """
+        """Places on a grid, and bytes of what they leave of second differences, by `Character.entropy`."""
         chosen = np.array(wanted, np.int32, order="C")
         flaps, starts, members = self._flaps
         bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]

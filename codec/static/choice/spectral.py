@@ -27,16 +27,7 @@ from bsm.codec.static.work import Allowance
 
 @dataclass(frozen=True, eq=False)
 class Base:
-    """Blocks, coded.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    draft : Draft
-        Of the blocks alone.
-    positions : float64 array, shape (n, 3)
-        As decoded, in BSM units.
-    """
+    """Blocks, coded."""
 
     prepared: Prepared
     draft: Draft
@@ -134,17 +125,7 @@ def base_step(angle: float) -> float:
 
 
 class Spectral:
-    """Codes a mesh in blocks.
-
-    Parameters
-    ----------
-    prepared : Prepared
-    options : EncodeOptions
-    widest : float
-        Columns of a dictionary that are not exceeded, over the rows of a block.
-    trial : Trial
-        What is tried in place of what the specification says.
-    """
+    """Codes a mesh in blocks."""
 
     def __init__(
         self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, trial: Trial = AS_SPECIFIED
@@ -158,19 +139,7 @@ class Spectral:
         return self._planner.is_flat(step, share)
 
     def base(self, step: float, progress: Progress | None = None) -> Base:
-        """The blocks at a step.
-
-        Parameters
-        ----------
-        step : float
-        progress : callable, optional
-            Called with the number of blocks done and of all blocks.
-
-        Raises
-        ------
-        LimitError
-            If decoders with the options' limits would refuse these blocks.
-        """
+        """The blocks at a step."""
         prepared, options = self._prepared, self._options
         schemes = self._planner.schemes(step)
         blocks = encode_blocks(

@@ -29,15 +29,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True, eq=False)
 class CodedBlock:
-    """A block as the stream will hold it, and as the decoder will see it.
-
-    Parameters
-    ----------
-    packet : packets.Block
-    decoded : DecodedBlock
-    work, memory : float
-        What it will cost the decoder.
-    """
+    """A block as the stream will hold it, and as the decoder will see it."""
 
     packet: packets.Block
     decoded: DecodedBlock
@@ -46,16 +38,7 @@ class CodedBlock:
 
 
 class ChainEncoder:
-    """Encodes the blocks of one chain, in their order; the twin of `ChainDecoder`.
-
-    Parameters
-    ----------
-    scheme : Scheme
-    doi : (float, float), optional
-        eps_l and eps_h of dynamic orthogonal iterations; None: a block gets as many coefficients as pay.
-    spend : callable, optional
-        Is told of the work of each dictionary before it is done.
-    """
+    """Encodes the blocks of one chain, in their order; the twin of `ChainDecoder`."""
 
     def __init__(self, scheme: Scheme, doi: tuple[float, float] | None = None, spend: Spend = free) -> None:
         self._scheme = scheme
@@ -66,8 +49,7 @@ class ChainEncoder:
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
         """Encode the chain's next block, by its index in the scheme; `positions`, shape (n, 3), are those of all
-        vertices, in BSM units.
-        """
+        vertices, in BSM units."""
         scheme, chain, coding = self._scheme, self._chain, self._coding
         block = scheme.blocks.block(index)
         around = chain.around(block)
@@ -168,20 +150,7 @@ def encode_blocks(
     progress: Progress | None = None,
     spend: Spend = free,
 ) -> list[CodedBlock]:
-    """All blocks of a mesh at `positions`, shape (n, 3), in BSM units; chains are encoded side by side.
-
-    Parameters
-    ----------
-    schemes : sequence of Scheme
-        One for each section.
-    doi, spend
-        See `ChainEncoder`.
-    positions : float64 array, shape (n, 3)
-    threads : int, optional
-        None: one per core.
-    progress : callable, optional
-        Told the number of blocks done and of all blocks.
-    """
+    """All blocks of a mesh at `positions`, shape (n, 3), in BSM units; chains are encoded side by side."""
 
     def encode_chain(place: tuple[Scheme, range]) -> list[CodedBlock]:
         scheme, indices = place

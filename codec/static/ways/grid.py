@@ -34,23 +34,7 @@ FIRST, CHUNK = 1 << 12, 1 << 13
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """A grid in the mesh's unit, and where each axis of it ends.
-
-    Parameters
-    ----------
-    origin : tuple of float
-    step : float
-    largest : tuple of int
-        Largest value that is coded of each axis, or that a vertex has.
-    lattice : (int, int), or ()
-        (cells, points): a coded value k stands for the cell nearest to k * cells / points; (): for itself.
-    corner : (int, int, int), or ()
-        Cells from the origin on where the values begin; (): there.
-    light : bool
-        Whether values are coded so that they are quick to decode.
-    exact : bool
-        Whether the stream says which float of its cell each coordinate is.
-    """
+    """A grid in the mesh's unit, and where each axis of it ends."""
 
     origin: tuple[float, ...]
     step: float

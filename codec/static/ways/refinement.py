@@ -55,18 +55,7 @@ class PendingLevels:
 
 
 class RefinementStage:
-    """All blocks are there, or known to be lost; levels come.
-
-    Parameters
-    ----------
-    assembly : Assembly
-        That has all blocks when the levels are asked for.
-    structure : Structure
-    lanes : Lanes
-    layers : int
-        How many are wanted; the rest of the stream behind them is not.
-    tolerant : bool
-    """
+    """All blocks are there, or known to be lost; levels come."""
 
     def __init__(self, assembly: Assembly, structure: Structure, lanes: Lanes, layers: int, tolerant: bool) -> None:
         header = structure.header
@@ -117,10 +106,7 @@ class LayerDecoder:
         self._layer = layer
 
     def decode(self, packet: packets.Refinement) -> tuple[Indices, Levels]:
-        """Vertices, shape (k,), and their levels, shape (k, axes).
-
-        Once a packet is missing or broken, the rest of the layer cannot be decoded.
-        """
+        """Vertices, shape (k,), and their levels, shape (k, axes)."""
         self._structure.allowance.spend(chunk_cost(len(packet.data)), len(packet.data))
         following = self._decoder.coded
         if packet.first != following:
@@ -148,10 +134,7 @@ class Refined:
         self._slides: Slides | None = None
 
     def add(self, layer: int, vertices: Indices, levels: Levels) -> Indices:
-        """Add the levels, shape (k, axes), of successive vertices, shape (k,): heights at once, slides with the last.
-
-        Returns those that were moved: all whose base is whole.
-        """
+        """Add the levels, shape (k, axes), of successive vertices, shape (k,): heights at once, slides with the last"""
         base, rule = self._base, self._structure.header.layers[layer]
         rows, size = slice(int(vertices[0]), int(vertices[-1]) + 1), len(base.whole)
         whole = base.whole[rows]
@@ -207,7 +190,6 @@ class Refined:
 
     @cached_property
     def _positions(self) -> Matrix:
-        """Where vertices are now, in BSM units, shape (n, 3)."""
         return self._base.positions.copy()
 
     @cached_property
@@ -218,16 +200,7 @@ class Refined:
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """What layers refine.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (n, 3)
-        In BSM units.
-    frames : float64 array, shape (n, 9)
-    whole : bool array, shape (n,)
-        Whose frames are those of the encoder.
-    """
+    """What layers refine."""
 
     positions: Matrix
     frames: Matrix

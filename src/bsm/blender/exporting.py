@@ -23,27 +23,7 @@ Progress = Callable[[int, int], None]
 def export_object(
     path: str, moving: Any = None, *, animation: bool = True, progress: Progress | None = None, **keywords: Any
 ) -> dict[str, int]:
-    """Write an object to a stream; how many frames, vertices, faces and bytes that are.
-
-    Parameters
-    ----------
-    path : str
-    moving : object, optional
-        None: the active one.
-    animation : bool
-        Whether all frames of the scene are written, as a sequence, or only what is seen now.
-    progress : callable, optional
-        Called with the number of frames that are done, and of all.
-    **keywords
-        As `bsm.encode` takes them, or `bsm.encode_sequence`: `preset`, ...
-
-    Raises
-    ------
-    OptionError
-        If there is no such object.
-    MeshError
-        If its faces change from frame to frame.
-    """
+    """Write an object to a stream; how many frames, vertices, faces and bytes that are."""
     moving = moving or bpy.context.view_layer.objects.active
     if moving is None:
         raise OptionError("no object is active: select the one to export")

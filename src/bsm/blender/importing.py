@@ -30,18 +30,7 @@ Progress = Callable[[int, int], None]
 def import_file(
     path: str, *, frame_start: int = 1, set_scene: bool = True, progress: Progress | None = None
 ) -> list[Any]:
-    """Import a stream; the objects that were made, selected, the first of them active.
-
-    Parameters
-    ----------
-    path : str
-    frame_start : int
-        The frame of the scene that shows the first one of a sequence.
-    set_scene : bool
-        Let the scene have the sequence's frames per second, and end with it.
-    progress : callable, optional
-        Called with the number of frames that are done, and of all (0: not known).
-    """
+    """Import a stream; the objects that were made, selected, the first of them active."""
     header, chunks = peek_header(read_chunks(path))
     name = Path(path).stem
     if header is None or not header.gop_frames:

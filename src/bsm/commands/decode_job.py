@@ -9,27 +9,7 @@ from bsm.farm.jobs import Task
 
 @dataclass(frozen=True, kw_only=True)
 class DecodeJob(Task):
-    """What `bsm decode` is asked for.
-
-    Parameters
-    ----------
-    given : str, optional
-        The output as it was named; None: it was not.
-    many : bool
-        Whether this is one of several inputs.
-    format : str, optional
-        Of the output; None: by its name.
-    blocks, layers : int, optional
-        Where to stop.
-    permutation : str, optional
-        The file that has the order of the input's vertices.
-    tolerant : bool
-        Go on behind damage.
-    limits : str
-        What the stream may cost.
-    frames : str, optional
-        Of a sequence, A:B.
-    """
+    """What `bsm decode` is asked for."""
 
     given: str | None = None
     many: bool = False

@@ -146,12 +146,10 @@ def denoise_one(args: DenoiseJob, console: Console) -> Facts:
 
 
 def _suffix(name: str) -> str:
-    """The input's own, or what holds a sequence."""
     return f".{format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
 
 
 def _format_of(name: str) -> str | None:
-    """The format that a name tells, ours included."""
     return STREAM if name.lower().endswith(f".{STREAM}") else format_of_name(name)
 
 
@@ -249,7 +247,6 @@ def _counted(frames: Iterator[Positions], total: int, progress: Progress) -> Ite
 
 
 def _tell(console: Console, choice: AutomaticChoice | None, args: DenoiseJob, edge: float, unit: str = "") -> None:
-    """What the automatic mode found and chose."""
     for line in denoise_report.found(choice, args.goal, edge, unit):
         console.note(line)
 

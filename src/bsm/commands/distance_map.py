@@ -25,21 +25,7 @@ SHOWN = 99.0
 
 
 def write_map(path: str, original: TriangleMesh, positions: Positions, *, overwrite: bool) -> None:
-    """Write the original with the distance of each vertex from `positions`, shape (n, 3), as colours.
-
-    Parameters
-    ----------
-    path : str
-        A picture (.png), or a mesh in one of `COLORED`, which also has the distances as values where the format can.
-    original : TriangleMesh
-    positions : float64 array, shape (n, 3)
-    overwrite : bool
-
-    Raises
-    ------
-    OptionError
-        If the name tells neither.
-    """
+    """Write the original with the distance of each vertex from `positions`, shape (n, 3), as colours."""
     kind = "png" if Path(path).suffix.lower() == ".png" else format_of_name(path)
     if kind not in ("png", *COLORED):
         raise OptionError(f"{path}: a map of distances is a picture (.png) or a mesh (.{', .'.join(COLORED)})")

@@ -89,7 +89,6 @@ def is_one_sequence(inputs: Sequence[str], output: str | None) -> bool:
 
 
 def _form(args: argparse.Namespace) -> str | None:
-    """The format of the input, as far as it was said."""
     if args.piped_frames and args.format not in (None, "npy"):
         raise OptionError(f"--frames takes npy arrays, and --format says {args.format}")
     return "npy" if args.piped_frames else args.format

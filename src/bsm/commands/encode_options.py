@@ -12,19 +12,7 @@ from bsm.usage import suggestion
 
 @dataclass(frozen=True)
 class EncodeFlag:
-    """One field of `EncodeOptions` on the command line.
-
-    Parameters
-    ----------
-    field : str
-        Name of the field; the flag is the same with dashes.
-    type : callable
-        Reads the value; `bool` makes a flag without a value.
-    metavar : str
-        What the value is called in the help.
-    help : str
-        What it does.
-    """
+    """One field of `EncodeOptions` on the command line."""
 
     field: str
     type: Callable[[str], Any]

@@ -160,13 +160,7 @@ def looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
 
 
 def compare_if_sequences(args: argparse.Namespace, console: Console) -> bool:
-    """Compare two sequences; False if neither is one.
-
-    Raises
-    ------
-    MeshError
-        If one is a sequence and the other a mesh.
-    """
+    """Compare two sequences; False if neither is one."""
     with console.progress("reading", "frames") as progress:
         changing = Wanted(runs=True)
         original, decoded = (

@@ -11,29 +11,7 @@ from bsm.farm.jobs import Task
 
 @dataclass(frozen=True, kw_only=True)
 class EncodeJob(Task):
-    """What `bsm encode` is asked for.
-
-    Parameters
-    ----------
-    format : str, optional
-        Of the input; None: by its name or content.
-    reader : str, optional
-        The library that reads it.
-    permutation : str, optional
-        The file that gets the order of vertices.
-    metadata : mapping from str to str
-        Added to what the mesh says of itself.
-    wishes : mapping
-        Keywords of `bsm.options.encode_options`, or of `sequence_options`, except `threads`.
-    threads : int, optional
-        To use; None: one per core.
-    compared : bool
-        Whether the error of a sequence is measured.
-    members : tuple of str
-        The files of all frames, where each was named.
-    animation, cache_mesh : str, optional
-        Of a glTF the animation, of a cache of points the mesh; see `Wanted`.
-    """
+    """What `bsm encode` is asked for."""
 
     format: str | None = None
     reader: str | None = None

@@ -37,30 +37,7 @@ def run_bench(
     solvers: bool = True,
     note: Note = lambda text: None,
 ) -> dict[str, Any]:
-    """Measure everything.
-
-    Parameters
-    ----------
-    meshes : sequence of str
-        Mesh files; the first is also subdivided for the time per vertex.
-    sample : int
-        Blocks that exact solvers solve; their times are scaled to all blocks.
-    repeats : int
-        Runs of everything, the fastest counts.
-    largest : int
-        Vertices up to which the first mesh is subdivided; 0: not at all.
-    solvers : bool
-        Measure eigensolvers as well.
-    note : callable
-        Takes what begins, in a few words.
-
-    Returns
-    -------
-    dict
-        `meshes`: for each mesh `files` (see `compare_with_draco`), `link` (see `compare_links`) and, with `solvers`,
-        `dictionaries` and `speedups` (see `summarise`); `growth`: see
-        `measure_growth`. Ready for JSON.
-    """
+    """Measure everything."""
     rows = []
     for path in meshes:
         mesh = read_mesh(path).mesh.bare.without_isolated_vertices()[0]
@@ -98,17 +75,7 @@ def summarise(timings: Sequence[Timing]) -> dict[str, Any]:
 
 
 def compare_with_draco(mesh: TriangleMesh, repeats: int) -> dict[str, dict[str, float]]:
-    """Encode and decode at c = 10 %, and Draco (level 10, 9 bits).
-
-    Each is repeated without a break: the threads of a BLAS that the encoder woke go on spinning for a while, and would
-    take a core from whatever is measured next.
-
-    Returns
-    -------
-    dict
-        For `ours` and `draco`, each `encode` and `decode`: seconds on the clock with all threads, CPU seconds of all
-        threads, and vertices per second on the clock.
-    """
+    """Encode and decode at c = 10 %, and Draco (level 10, 9 bits)."""
     options = EncodeOptions(keep=0.10)
     ours, theirs = encode(mesh, options), encode_draco(mesh, DRACO_BITS, DRACO_LEVEL)
     works: dict[str, Callable[[], object]] = {
@@ -142,10 +109,7 @@ def compare_links(mesh: TriangleMesh, repeats: int) -> dict[str, Any]:
 
 
 def measure_growth(path: str, largest: int, repeats: int, note: Note) -> list[dict[str, Any]]:
-    """Time and memory per vertex of a mesh subdivided again and again, while it has at most `largest` vertices.
-
-    Each size is encoded and decoded in a process of its own (`bsm.evaluation.resources`).
-    """
+    """Time and memory per vertex of a mesh subdivided again and again, while it has at most `largest` vertices."""
     mesh = read_mesh(path).mesh.bare.without_isolated_vertices()[0]
     rows = []
     with tempfile.TemporaryDirectory() as folder:

@@ -19,14 +19,7 @@ from bsm.files.stream import inspect_stream
 
 @dataclass(frozen=True, eq=False)
 class Coded:
-    """A whole file, and how to compare what comes out of it with what went in.
-
-    Parameters
-    ----------
-    data : bytes
-    align : callable
-        Takes the decoded mesh and gives its positions in the original's vertex order, float64, shape (n, 3).
-    """
+    """A whole file, and how to compare what comes out of it with what went in."""
 
     data: bytes
     align: Callable[[TriangleMesh], Positions]
@@ -34,15 +27,7 @@ class Coded:
 
 @dataclass(frozen=True)
 class Breakdown:
-    """Where the bytes of a file went, as far as its format tells.
-
-    Parameters
-    ----------
-    connectivity, partition, order, coefficients, framing : int or None
-        Bytes.
-    bpv_paper : float or None
-        The paper's measure: bits of the coefficients before lossless packing, per vertex.
-    """
+    """Where the bytes of a file went, as far as its format tells."""
 
     connectivity: int | None = None
     partition: int | None = None
@@ -71,12 +56,7 @@ class Codec(Protocol):
 
 @dataclass(frozen=True)
 class Spectral:
-    """This project's codec; on one thread, so that times compare.
-
-    Parameters
-    ----------
-    options : EncodeOptions
-    """
+    """This project's codec; on one thread, so that times compare."""
 
     options: EncodeOptions
 
@@ -116,15 +96,7 @@ class Spectral:
 
 @dataclass(frozen=True)
 class Draco:
-    """Draco's edgebreaker through DracoPy.
-
-    Parameters
-    ----------
-    position_bits : int
-        Quantization of the positions.
-    levels : tuple of int
-        Compression levels to try; the smallest file counts.
-    """
+    """Draco's edgebreaker through DracoPy."""
 
     position_bits: int
     levels: tuple[int, ...] = (10,)
@@ -150,16 +122,7 @@ class Draco:
 
 @dataclass(frozen=True)
 class Curve:
-    """A codec at several operating points: one line of a plot, one JSON file per mesh.
-
-    Parameters
-    ----------
-    name : str
-        Short, fit for a file name.
-    label : str
-        For people.
-    codecs : tuple of Codec
-    """
+    """A codec at several operating points: one line of a plot, one JSON file per mesh."""
 
     name: str
     label: str
@@ -178,10 +141,7 @@ COLD_STARTS: dict[str, Any] = {"key_interval": 1, "key_seed": "cosines", "key_it
 
 
 def paper_options(**changes: Any) -> EncodeOptions:
-    """The paper's mode: METIS, 12 bits for every coefficient, one chain.
-
-    The shift is small because at z = 1 a large one slows convergence: 0.125 instead of 0.03 costs the bunny 0.3 dB.
-    """
+    """The paper's mode: METIS, 12 bits for every coefficient, one chain."""
     settings: dict[str, Any] = {"partition": "metis", "bits": 12, "key_interval": 0, "power": 1}
     return EncodeOptions(**{**settings, "threads": 1, "limits": "wide", **changes})
 

@@ -21,15 +21,7 @@ Triangles = npt.NDArray[np.int64]
 
 
 def encode_draco(mesh: TriangleMesh, position_bits: int, level: int) -> bytes:
-    """Encode positions and faces with edgebreaker.
-
-    Raises
-    ------
-    DependencyError
-        If DracoPy is missing.
-    MeshError
-        If Draco does not take the mesh: one whose faces have no area, for instance.
-    """
+    """Encode positions and faces with edgebreaker."""
     draco = _draco()
     try:
         data: bytes = draco.encode(
@@ -47,13 +39,7 @@ def decode_draco(data: bytes) -> TriangleMesh:
 
 
 def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits: int) -> Positions:
-    """What Draco made of each vertex of `mesh`, given the mesh that it decoded.
-
-    Raises
-    ------
-    MeshError
-        If faces do not map onto each other, or a vertex is missing: then a comparison would mean nothing.
-    """
+    """What Draco made of each vertex of `mesh`, given the mesh that it decoded."""
     numbers = np.arange(len(mesh.positions), dtype=np.uint32)[:, None]
     data = _draco().encode(
         mesh.positions.astype(np.float32),
@@ -79,7 +65,6 @@ def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits:
 
 
 def _with_three_corners(faces: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
-    """Without faces that name a vertex twice; edgebreaker leaves them out."""
     a, b, c = faces.T
     kept: npt.NDArray[np.int32] = faces[(a != b) & (b != c) & (c != a)]
     return kept

@@ -39,13 +39,7 @@ def break_even(ours: Delivery, theirs: Delivery) -> float:
 
 
 def deliveries(mesh: TriangleMesh, repeats: int, theta: float = THETA) -> tuple[Delivery, Delivery]:
-    """The smallest file of ours, and of Draco (level 10), that keeps the angle.
-
-    Raises
-    ------
-    CorruptError
-        If a decoded mesh does not keep the angle.
-    """
+    """The smallest file of ours, and of Draco (level 10), that keeps the angle."""
     encoder = Encoder(mesh, EncodeOptions(target=Target("theta_deg", theta)))
     ours = encoder.encode()
     order, reference = encoder.vertex_order, Reference(mesh.positions, mesh.faces)

@@ -57,16 +57,7 @@ OVERLAP_CASES: dict[str, tuple[dict[str, Any], Weighing]] = {
 
 @dataclass(frozen=True, eq=False)
 class BlockView:
-    """A mesh coded with derived parts, its error, and the parts, all in the decoder's order of vertices.
-
-    Parameters
-    ----------
-    error : float64 array, shape (n, 3)
-        Decoded minus original, in units of the diagonal.
-    graph : Graph
-    partition : Partition
-    info : StreamInfo
-    """
+    """A mesh coded with derived parts, its error, and the parts, all in the decoder's order of vertices."""
 
     error: Floats
     graph: Graph
@@ -91,11 +82,7 @@ def view_blocks(mesh: TriangleMesh, options: EncodeOptions) -> BlockView:
 
 
 def boundary_deviations(view: BlockView) -> dict[str, Floats]:
-    """Standard deviation of the error of each part's vertices, ``inside`` it and at its ``boundary``.
-
-    A vertex is at the boundary if an edge leads from it to another part. The deviation is that of the error vector:
-    the root of the mean squared distance from the mean error. Parts without vertices of a kind are left out there.
-    """
+    """Standard deviation of the error of each part's vertices, ``inside`` it and at its ``boundary``."""
     labels, parts = view.partition.labels, view.partition.parts
     tails = np.repeat(np.arange(view.graph.size), np.diff(view.graph.offsets))
     at_boundary = np.zeros(view.graph.size, dtype=bool)
@@ -176,16 +163,7 @@ def block_size_for(mesh: TriangleMesh, blocks: int) -> int:
 
 
 def dynamic_comparison(mesh: TriangleMesh, block_size: int, keep: float = 0.10) -> dict[str, list[dict[str, float]]]:
-    """Errors along the chain for a fixed size and for one that follows the error, at about the same rate.
-
-    The thresholds are a narrow band around one residual, found by bisection so that both keep about as many
-    coefficients.
-
-    Returns
-    -------
-    dict
-        ``fixed`` and ``dynamic``: what `errors_along_chain` returns.
-    """
+    """Errors along the chain for a fixed size and for one that follows the error, at about the same rate."""
     settings: dict[str, Any] = {"block_size": block_size, "power": 2}
     fixed = errors_along_chain(view_blocks(mesh, paper_options(**settings, keep=keep)))
     wanted = sum(block["coefficients"] for block in fixed)

@@ -21,19 +21,7 @@ AXES = {"nmsve_db": "NMSVE, dB", "theta_deg": "θ, degrees"}
 
 
 def draw_paper_figure(results: Sequence[Result], stem: Path) -> list[Path]:
-    """Bits per vertex of the coefficients against NMSVE, time beside every line: the paper's figure for one mesh.
-
-    Parameters
-    ----------
-    results : sequence of dict
-        Results of one mesh whose format tells ``bpv_paper``.
-    stem : path
-        Without suffix; a file of each of `FORMATS` is written.
-
-    Returns
-    -------
-    list of path
-    """
+    """Bits per vertex of the coefficients against NMSVE, time beside every line: the paper's figure for one mesh."""
 
     def draw(axes: Any) -> None:
         ends = []
@@ -82,14 +70,7 @@ def draw_rates(results: Sequence[Result], stem: Path, measure: str) -> list[Path
 
 
 def draw_per_block(blocks: Mapping[str, Sequence[Mapping[str, float]]], stem: Path) -> list[Path]:
-    """Squared error and coefficients of each block along the chain, one line per label: the paper's second figure.
-
-    Parameters
-    ----------
-    blocks : mapping of str to sequence of dict
-        For each label the blocks in order, each with ``squared_error`` and ``coefficients``.
-    stem : path
-    """
+    """Squared error and coefficients of each block along the chain, one line per label: the paper's second figure."""
 
     def draw(figure: Any) -> None:
         upper, lower = figure.subplots(2, 1, sharex=True)
@@ -140,14 +121,7 @@ def draw_sequence_rates(
 
 
 def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
-    """A PNG of the errors of each frame of a sequence.
-
-    Parameters
-    ----------
-    frames : sequence of dict
-        One for each frame, with ``rms_relative`` and ``max_error_relative``, in diagonals.
-    title : str
-    """
+    """A PNG of the errors of each frame of a sequence."""
     import_matplotlib()
     from matplotlib.figure import Figure
 
@@ -193,13 +167,7 @@ def time_range(result: Result) -> str:
 
 
 def import_matplotlib() -> ModuleType:
-    """matplotlib, without a screen.
-
-    Raises
-    ------
-    DependencyError
-        If it is missing.
-    """
+    """matplotlib, without a screen."""
     try:
         import matplotlib
     except ImportError as error:

@@ -16,15 +16,7 @@ MEASURES = ("nmsve_db", "theta_deg")
 
 @dataclass(frozen=True, eq=False)
 class RateCurve:
-    """Logarithm of the rate as a function of a distortion, between the measured points.
-
-    Parameters
-    ----------
-    distortions : float64 array, ascending
-        NMSVE in dB, or theta on a logarithmic scale: 10 log10 of degrees.
-    log_rates : float64 array, descending
-        Natural logarithm of bits per vertex of the whole file.
-    """
+    """Logarithm of the rate as a function of a distortion, between the measured points."""
 
     distortions: Floats
     log_rates: Floats
@@ -77,15 +69,7 @@ def scaled(value: float, measure: str) -> float | None:
 
 
 def bd_rate(reference: RateCurve, tested: RateCurve) -> float | None:
-    """Bjontegaard's average difference of rate at equal distortion, over the range that both curves cover.
-
-    The logarithm of the rate is interpolated by piecewise cubics (PCHIP) and averaged over the distortion.
-
-    Returns
-    -------
-    float or None
-        Percent: -50 means that `tested` needs half the bits of `reference`. None where the ranges do not overlap.
-    """
+    """Bjontegaard's average difference of rate at equal distortion, over the range that both curves cover."""
     if min(len(reference.distortions), len(tested.distortions)) < 2:
         return None
     low = max(reference.span[0], tested.span[0])
@@ -107,14 +91,7 @@ def rate_ratio(reference: RateCurve, tested: RateCurve, distortion: float) -> fl
 
 
 def compare_curves(reference: dict[str, Any], tested: dict[str, Any], angles: Sequence[float] = (7.0, 10.0)) -> Any:
-    """What a table says about one codec against another on one mesh.
-
-    Returns
-    -------
-    dict
-        ``mesh``, ``codec``, ``reference``, ``bd_rate_percent`` by measure, and ``bytes_at_theta``: the ratio of whole
-        files at each angle in `angles`; null where curves do not reach.
-    """
+    """What a table says about one codec against another on one mesh."""
     curves = {m: (rate_curve_of(reference["points"], m), rate_curve_of(tested["points"], m)) for m in MEASURES}
     return {
         "mesh": tested["mesh"]["name"],

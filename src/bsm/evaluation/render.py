@@ -35,26 +35,7 @@ def render(
     bounds: tuple[npt.NDArray[np.float64], float] | None = None,
     colors: npt.NDArray[np.float64] | None = None,
 ) -> Image:
-    """Draw a mesh, each face in one shade, on white.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    faces : ndarray of int32, shape (m, 3)
-    size : int
-        Pixels of a side.
-    view : ndarray, shape (3, 3), optional
-        From `view_matrix`; by default from the front and above.
-    bounds : (ndarray of shape (3,), float), optional
-        From `bounds_of`: what the picture shows, so that several show the same; by default the mesh.
-    colors : ndarray, shape (m, 3), optional
-        Colour of each face, 0..1.
-
-    Returns
-    -------
-    ndarray of float64, shape (size, size, 3)
-        In 0..1, first row on top.
-    """
+    """Draw a mesh, each face in one shade, on white."""
     view = DEFAULT_VIEW if view is None else view
     center, radius = bounds_of(positions, view) if bounds is None else bounds
     fine = size * _SUPERSAMPLING

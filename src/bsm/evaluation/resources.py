@@ -27,15 +27,7 @@ Result = TypeVar("Result")
 
 
 def measure_resources(mesh_path: Path, repeats: int = 1) -> dict[str, dict[str, float]]:
-    """What ``encode`` and ``decode`` of a mesh file take.
-
-    Returns
-    -------
-    dict
-        For both: ``vertices``, ``seconds`` on the clock and ``cpu_seconds`` of all threads (the least of `repeats`,
-        files not counted), ``cpu_microseconds_per_vertex``, which other work on the machine disturbs least, and
-        ``peak_mib`` (the whole process, reading the file included).
-    """
+    """What ``encode`` and ``decode`` of a mesh file take."""
     with tempfile.TemporaryDirectory() as folder:
         stream = str(Path(folder, "mesh.bsm"))
         return {
@@ -81,10 +73,7 @@ def _repeated(work: Callable[[], Result], repeats: int, vertices: int) -> tuple[
 
 
 def peak_memory() -> int:
-    """Largest resident memory of this process so far, in bytes.
-
-    On Linux `getrusage` also counts what the parent process held when it started this one; /proc does not.
-    """
+    """Largest resident memory of this process so far, in bytes."""
     status = Path("/proc/self/status")
     if status.exists():
         line = next(line for line in status.read_text().splitlines() if line.startswith("VmHWM:"))

@@ -54,19 +54,7 @@ def permuted(laplacian: Laplacian, rows: npt.NDArray[np.integer]) -> Laplacian:
 
 
 def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_order: RowOrder) -> float:
-    """NMSVE in dB of projecting a mesh on its blocks' subspaces and blending, without quantization.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        Without isolated vertices.
-    options : EncodeOptions
-        Of the subspaces and blocks; partition derived, weights by degree.
-    keep : float
-        Columns of a subspace, as a fraction of the block's rows.
-    row_order : callable
-        `in_bisection_order` or `in_breadth_first_order`.
-    """
+    """NMSVE in dB of projecting a mesh on its blocks' subspaces and blending, without quantization."""
     graph = graph_of_faces(mesh.faces, len(mesh.positions))
     partition = derive_partition(graph, max(1, round(graph.size / options.block_size)))
     blocks = grow_blocks(graph, partition, block_size(partition, options.overlap))

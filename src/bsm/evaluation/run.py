@@ -23,25 +23,7 @@ Progress = Callable[[int, int], None]
 
 
 def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int = 1) -> Result:
-    """Encode and decode once or more, and say everything that is to be said about it.
-
-    The rate is always the size of the whole file. Times are the least of `repeats`; what the comparison costs is not
-    counted.
-
-    Parameters
-    ----------
-    codec : Codec
-    mesh : TriangleMesh
-        Without isolated vertices.
-    reference : Reference
-        Of `mesh`.
-    repeats : int
-
-    Returns
-    -------
-    dict
-        An operating point of the schema that `run_curve` describes.
-    """
+    """Encode and decode once or more, and say everything that is to be said about it."""
     encode_seconds, coded = _timed(lambda: codec.encode(mesh), repeats)
     decode_seconds, decoded = _timed(lambda: codec.decode(coded.data), repeats)
     comparison = reference.compare(coded.align(decoded))
@@ -68,16 +50,7 @@ def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int
 def run_curve(
     curve: Curve, mesh: TriangleMesh, mesh_name: str, repeats: int = 1, progress: Progress | None = None
 ) -> Result:
-    """All operating points of one codec on one mesh.
-
-    Returns
-    -------
-    dict
-        ``schema`` (this format's number), ``codec``, ``label``, ``mesh`` (``name``, ``vertices``, ``faces``) and
-        ``points``: a list of what `measure` returns. Sizes are in bytes, rates in bits per vertex (``bpv_total``: the
-        whole file; ``bpv_geometry``: coefficients; ``bpv_paper``: the paper's formula), errors relative to the
-        diagonal, angles in degrees; null where a format does not tell.
-    """
+    """All operating points of one codec on one mesh."""
     mesh = mesh.without_isolated_vertices()[0]
     reference = Reference(mesh.positions, mesh.faces)
     points = []
@@ -107,13 +80,7 @@ def write_result(result: Result, folder: Path, overwrite: bool = True) -> Path:
 
 
 def read_results(folder: Path) -> Iterator[Result]:
-    """All results in a folder, by mesh and codec.
-
-    Raises
-    ------
-    CorruptError
-        If a file is of another schema.
-    """
+    """All results in a folder, by mesh and codec."""
     for path in sorted(folder.glob("*.*.json")):
         result = json.loads(path.read_text())
         if result.get("schema") != SCHEMA:

@@ -16,15 +16,7 @@ _ASPECT = 10.0
 
 
 def knot(vertices: int = 20_000, seed: int = 1) -> TriangleMesh:
-    """A closed tube along a trefoil, twisted like a rope, with dents and grain: detail at three scales.
-
-    Parameters
-    ----------
-    vertices : int
-        About how many.
-    seed : int
-        Of the irregular triangulation.
-    """
+    """A closed tube along a trefoil, twisted like a rope, with dents and grain: detail at three scales."""
     places = _scattered(vertices, np.random.default_rng(seed))
     return TriangleMesh(_tube(*places.T), _periodic_triangles(places))
 

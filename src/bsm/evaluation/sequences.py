@@ -39,11 +39,7 @@ def draco_point(positions: Positions, faces: Faces, bits: int, every: int) -> Po
 
 
 def pca_point(positions: Positions, faces: Faces, kg: float) -> Point:
-    """Principal components of the frames as vectors of length 3n, the fewest that reach `kg`, best of `PCA_BITS`.
-
-    Components and mean are quantized uniformly; all values are counted at their zero-order entropy, with nothing for
-    the tables, and connectivity as our coder has it: in favour of the baseline.
-    """
+    """Principal components of the frames as vectors of length 3n, the fewest that reach `kg`, best of `PCA_BITS`."""
     frames, vertices, _ = positions.shape
     matrix = positions.reshape(frames, -1)
     mean = matrix.mean(axis=0)
@@ -68,14 +64,7 @@ def pca_point(positions: Positions, faces: Faces, kg: float) -> Point:
 
 
 def temporal_bits(positions: Positions, step: float) -> dict[str, float]:
-    """About the bits a vertex and frame that components take over a learnt basis, itself included, and over cosines.
-
-    Parameters
-    ----------
-    positions : float64 array, shape (T, n, 3)
-    step : float
-        With which components are quantized, in diagonals of the first frame.
-    """
+    """About the bits a vertex and frame that components take over a learnt basis, itself included, and over cosines."""
     motion = trajectories((positions - positions[0].mean(axis=0)) / np.linalg.norm(np.ptp(positions[0], axis=0)))
     learnt = learn_basis(motion, step, MAX_EXPONENT)
     spectrum = spectrum_of(learnt.columns, learnt.exponents, 3)

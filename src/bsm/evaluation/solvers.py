@@ -36,18 +36,7 @@ _BLOCK_VERTICES, _OVERLAP = 500, 1.15
 
 @dataclass(frozen=True)
 class Solver:
-    """An eigensolver for the `width` lowest eigenvectors of a dense Laplacian, shape (n, width).
-
-    Parameters
-    ----------
-    name : str
-    solve : callable
-        Takes Laplacian and width.
-    tolerance : float
-        By how much, relative, the sum of the Rayleigh quotients may exceed the sum of the lowest eigenvalues.
-    whole : bool
-        It computes all eigenvectors, whatever the width.
-    """
+    """An eigensolver for the `width` lowest eigenvectors of a dense Laplacian, shape (n, width)."""
 
     name: str
     solve: Callable[[Matrix, int], Matrix]
@@ -93,20 +82,7 @@ POWERS = (1, 2, 4)
 
 @dataclass(frozen=True)
 class Timing:
-    """What the dictionaries of all blocks of a mesh cost.
-
-    Parameters
-    ----------
-    solver : str
-    keep : float
-        Columns as a fraction of the block size.
-    columns : int
-    seconds : float
-        CPU time, one thread, all blocks; scaled up where only some of them were solved.
-    nmsve_db : float
-        Of the mesh projected on its dictionaries.
-    exact : bool
-    """
+    """What the dictionaries of all blocks of a mesh cost."""
 
     solver: str
     keep: float
@@ -117,24 +93,7 @@ class Timing:
 
 
 def time_solvers(mesh: TriangleMesh, keeps: Sequence[float], sample: int, repeats: int) -> list[Timing]:
-    """Check, then time, all solvers on the blocks of a mesh.
-
-    Orthogonal iterations start from cosines and solve every block; what is timed is the whole way from the vertices of
-    a block to its dictionary: ordering rows, factorising, solving, orthonormalising. For the exact solvers, `sample`
-    blocks count for all, and only the call itself is timed.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        Without isolated vertices.
-    keeps : sequence of float
-    sample, repeats : int
-
-    Raises
-    ------
-    NumericError
-        If an answer is wrong.
-    """
+    """Check, then time, all solvers on the blocks of a mesh."""
     graph = graph_of_faces(mesh.faces, len(mesh.positions))
     partition = derive_partition(graph, max(1, round(graph.size / _BLOCK_VERTICES)))
     size = block_size(partition, _OVERLAP)
@@ -203,13 +162,7 @@ class _Setting:
 
 
 def check_lowest(solver: Solver, laplacian: Matrix, width: int) -> None:
-    """Check that a solver's columns are orthonormal and span the lowest eigenspace (Ky Fan's minimum of the trace).
-
-    Raises
-    ------
-    NumericError
-        If they do not.
-    """
+    """Check that a solver's columns are orthonormal and span the lowest eigenspace (Ky Fan's minimum of the trace)."""
     basis = solver.solve(laplacian, width)
     if not np.allclose(basis.T @ basis, np.eye(width), atol=1e-6):
         raise NumericError(f"{solver.name}: the columns are not orthonormal")
@@ -220,13 +173,7 @@ def check_lowest(solver: Solver, laplacian: Matrix, width: int) -> None:
 
 
 def check_iteration(block: Block, start: Matrix, power: int) -> None:
-    """Check an orthogonal iteration against dense solves and Householder reflections.
-
-    Raises
-    ------
-    NumericError
-        If they differ.
-    """
+    """Check an orthogonal iteration against dense solves and Householder reflections."""
     found = orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=power, iterations=1)
     columns = start
     for _ in range(power):

@@ -18,24 +18,7 @@ AHEAD = 2
 
 
 def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
-    """Do jobs on the workers of a cluster; those of a worker that dies are taken up by others.
-
-    Those that were on several workers that died, each time, are tried again in the end, each alone; twice, since the
-    cluster may still be recovering from the one before.
-
-    Parameters
-    ----------
-    address : str
-        Of the scheduler, ``tcp://host:8786``. It and its workers need this package, and workers the files under the
-        same names.
-
-    Raises
-    ------
-    DependencyError
-        If distributed is missing here, or this package there.
-    OSError
-        If there is no scheduler, or it goes away.
-    """
+    """Do jobs on the workers of a cluster; those of a worker that dies are taken up by others."""
     try:
         import distributed
     except ImportError as error:

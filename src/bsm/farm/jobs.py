@@ -27,25 +27,7 @@ class Job:
 
 @dataclass(frozen=True, kw_only=True)
 class Task:
-    """What is asked for an input; each command adds fields of its own.
-
-    Parameters
-    ----------
-    input, output : str
-        Of the job.
-    force : bool
-        Write over files.
-    quiet : bool
-        Say nothing but results and errors.
-    before : dict, optional
-        What came of the same job in an earlier run.
-    replaceable : frozenset of str
-        Outputs that may be written over without `force`: an earlier run was to make them.
-    doubtful : frozenset of str
-        Outputs that are there and should be an earlier run's, but are not known to be.
-    fresh : frozenset of str
-        Those that were not there when the run began; what is there later is somebody else's, or of an attempt of ours.
-    """
+    """What is asked for an input; each command adds fields of its own."""
 
     input: str = ""
     output: str = ""
@@ -67,21 +49,7 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """How many jobs are done.
-
-    Parameters
-    ----------
-    jobs : int
-        At a time, each in a process; 0: one per core.
-    dask : str, optional
-        The scheduler of a cluster that does them instead.
-    report : str, optional
-        The file that records them.
-    resume : bool
-        Go on from that record.
-    json : bool
-        Print results for machines.
-    """
+    """How many jobs are done."""
 
     jobs: int = 1
     dask: str | None = None

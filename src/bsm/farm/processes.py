@@ -28,11 +28,7 @@ Ends = Generator[tuple[int, Outcome], None, Handed]
 
 
 def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
-    """Do jobs in so many processes at a time.
-
-    Where one dies, nobody knows which job was too much for it: those that were handed out are tried again, each alone,
-    and one whose process dies again has failed.
-    """
+    """Do jobs in so many processes at a time."""
     waiting = iter(tasks)
     with termination_as_exception():
         while suspects := (yield from _until_one_dies(work, waiting, processes)):

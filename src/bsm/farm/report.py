@@ -37,19 +37,7 @@ def options_of(task: Task) -> Facts:
 
 
 class Report:
-    """The record of a run, rewritten as a whole while it goes on.
-
-    Parameters
-    ----------
-    path : str
-        A file, or a URL.
-    command : str
-    options : dict
-        See `options_of`.
-    jobs : sequence of Job
-    earlier : dict
-        What an earlier report says, by outputs: it stays there until the job is done.
-    """
+    """The record of a run, rewritten as a whole while it goes on."""
 
     def __init__(
         self, path: str, command: str, options: Facts, jobs: Sequence[Job], earlier: Mapping[str, Facts]
@@ -91,15 +79,7 @@ class Report:
 
 @dataclass(frozen=True)
 class Earlier:
-    """What an earlier report says.
-
-    Parameters
-    ----------
-    outputs : dict
-        Everything that was to be written then, and the SHA-256 of what was: that, and nothing else, may be replaced.
-    files : dict
-        What came of inputs, by outputs, where the same was asked for as now.
-    """
+    """What an earlier report says."""
 
     outputs: Mapping[str, str | None]
     files: Mapping[str, Facts]
@@ -109,13 +89,7 @@ NOTHING = Earlier({}, {})
 
 
 def read_report(path: str, command: str, options: Facts) -> Earlier:
-    """Read a report to go on from; nothing is known where there is none.
-
-    Raises
-    ------
-    FormatError
-        If the file is something else.
-    """
+    """Read a report to go on from; nothing is known where there is none."""
     try:
         report = json.loads(read_bytes(path))
         files = {str(entry["output"]): _entry(entry) for entry in report["files"]}
@@ -165,10 +139,7 @@ def recorded(work: Work, task: Task, console: Console) -> Facts:
 
 
 def _compared(work: Work, task: Task, console: Console) -> Facts:
-    """Work whose output is there already, as nobody says: it may be what a run wrote that was killed before it said so.
-
-    Then it is what comes now, byte for byte; anything else is somebody's, and is not replaced.
-    """
+    """Work whose output is there already: it may be what a run wrote that was killed before it said so."""
     path = Path(task.output)
     refuse = FileExistsError(
         errno.EEXIST, "the output is not what the report says was written; -f overwrites it", task.output
@@ -238,7 +209,6 @@ def _said(value: Any) -> str:
 
 
 def _error(facts: Facts) -> str:
-    """How far off the farthest vertex is, of the diagonal; of sequences, KG error."""
     if facts.get("max_error_relative") is not None:
         return f"{100 * facts['max_error_relative']:.3g} %"
     return f"KG {facts['kg']:.3g} %" if facts.get("kg") is not None else ""

@@ -25,24 +25,7 @@ def run_many(
     jobs: Sequence[Job],
     hear: Callable[[Job, Outcome], None] = lambda job, outcome: None,
 ) -> list[Facts]:
-    """Do all jobs; one that fails stops no other.
-
-    Parameters
-    ----------
-    run : Run
-    asked : Task
-        What all jobs have in common; each gets a copy with its input and output.
-    work : callable
-        Takes such a task.
-    jobs : sequence of Job
-    hear : callable
-        Is told what came of one job after the other, in their order.
-
-    Returns
-    -------
-    list of dict
-        What came of each, in their order; with "error" and "exit" where it failed.
-    """
+    """Do all jobs; one that fails stops no other."""
     if run.dask is not None:
         jobs = [_anywhere(job) for job in jobs]
     earlier, report = NOTHING, None
@@ -126,13 +109,6 @@ def _facts(job: Job, outcome: Outcome) -> Facts:
 
 
 def _anywhere(job: Job) -> Job:
-    """A job by names that mean the same in every folder.
-
-    Raises
-    ------
-    OptionError
-        If one is a pipe.
-    """
     if "-" in (job.input, job.output):
         raise OptionError("a pipe does not reach a cluster: name files")
     return Job(anywhere(job.input), anywhere(job.output))

@@ -41,7 +41,6 @@ READERS = ("bsm", "openmesh", "trimesh")
 
 
 def _format(kind: str) -> ModuleType:
-    """The module that reads and writes a format, which nobody loads who meets no file of it."""
     return importlib.import_module(f"bsm.files.formats.{kind}")
 
 
@@ -135,36 +134,13 @@ def format_mesh(mesh: TriangleMesh, file_format: str) -> bytes:
 
 
 def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh") -> Written:
-    """A mesh as a file of one of `WRITTEN_FORMATS`, what that cannot hold, and what lies beside it.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-    file_format : str
-    path : path
-        What the file will be called: the names of those beside it begin like its own.
-    """
+    """A mesh as a file of one of `WRITTEN_FORMATS`, what that cannot hold, and what lies beside it."""
     written: Written = getattr(_format(file_format), f"write_{file_format}")(mesh, Path(path).stem)
     return written
 
 
 def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: bool = True) -> tuple[str, ...]:
-    """Write a mesh file, as a whole or not at all, in the format of its name, and the files that belong beside it.
-
-    Returns
-    -------
-    tuple of str
-        What the format cannot hold: names of attributes and metadata.
-
-    Raises
-    ------
-    OptionError
-        If the name tells no format.
-    MeshError
-        If the format cannot hold the mesh.
-    OSError
-        If the file cannot be written.
-    """
+    """Write a mesh file, as a whole or not at all, in the format of its name, and the files that belong beside it."""
     kind = format_of_name(path)
     if kind not in WRITTEN_FORMATS:
         raise OptionError(f"{path}: the name tells no mesh format; use one of .{', .'.join(WRITTEN_FORMATS)}")
@@ -175,10 +151,7 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
 def save_written(
     path: str | os.PathLike[str], written: Written, *, overwrite: bool, overwrite_beside: bool | None = None
 ) -> tuple[str, ...]:
-    """Write a mesh file, and before it what lies beside it; returns what is left out. Beside a pipe nothing can lie.
-
-    What lies beside is replaced if `overwrite_beside` is true; None: if `overwrite` is.
-    """
+    """Write a mesh file, and before it what lies beside it; returns what is left out. Beside a pipe nothing can lie."""
     beside = {beside_it: written.beside[name] for name in written.beside if (beside_it := _sibling(path, name))}
     replace_beside = overwrite if overwrite_beside is None else overwrite_beside
     refuse_to_overwrite(path, overwrite)
@@ -193,7 +166,6 @@ def save_written(
 
 
 def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
-    """A file in the same folder; None if there is no folder."""
     if isinstance(path, str) and is_url(path):
         return f"{path.rpartition('/')[0]}/{name}"
     return str(Path(path).parent / name) if os.fspath(path) != "-" and can_be_replaced(path) else None

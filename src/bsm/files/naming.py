@@ -11,13 +11,7 @@ from bsm.files.standard import standard_output
 
 
 def default_output(path: str, suffix: str) -> str:
-    """`path` with another suffix; "-" (a pipe) stays.
-
-    Raises
-    ------
-    OptionError
-        If the name would be the input's own, or the input has none.
-    """
+    """`path` with another suffix; "-" (a pipe) stays."""
     if path == "-":
         return "-"
     if is_url(path):
@@ -32,13 +26,7 @@ def default_output(path: str, suffix: str) -> str:
 
 
 def output_inside(folder: str, path: str, suffix: str) -> str:
-    """The name that the output of `path` has in a folder.
-
-    Raises
-    ------
-    OptionError
-        If the input has no name.
-    """
+    """The name that the output of `path` has in a folder."""
     name = _with_suffix(path, suffix).name
     return inside(folder, name) if is_url(folder) else str(Path(folder, name))
 

@@ -31,20 +31,7 @@ class Terminated(SystemExit):
 
 @contextmanager
 def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Iterator[BinaryIO]:
-    """Open a file for writing whose name appears only when the `with` block has ended well.
-
-    The bytes go to a temporary file in the same folder, which is flushed to the disk and then renamed; any error,
-    Ctrl-C and SIGTERM remove it. "-" is standard output, where nothing can be taken back; neither can it in a device,
-    a named pipe, or what the shell has opened (``/dev/stdout``, ``>(...)``), wherever that leads. A URL is written
-    through fsspec.
-
-    Raises
-    ------
-    FileExistsError
-        If the file exists and `overwrite` is false.
-    OSError
-        If the folder does not exist or is read-only, or the disk is full.
-    """
+    """Open a file for writing whose name appears only when the `with` block has ended well."""
     if os.fspath(path) == "-":
         piped = standard_output()
         yield piped
@@ -100,7 +87,6 @@ def remove_abandoned(path: str) -> None:
 
 
 def _descriptor(path: str | os.PathLike[str]) -> int | None:
-    """The number of the open file that a path stands for, if it does."""
     name = os.fspath(path)
     match = _DESCRIPTOR.fullmatch(_STANDARD.get(name, name))
     return int(match[1] or match[2]) if match else None

@@ -30,13 +30,7 @@ def write_permutation(path: str | os.PathLike[str], order: npt.NDArray[np.intege
 
 
 def read_permutation(path: str | os.PathLike[str]) -> Order:
-    """Read what `write_permutation` wrote.
-
-    Raises
-    ------
-    FormatError
-        If the file is no such thing.
-    """
+    """Read what `write_permutation` wrote."""
     try:
         order = np.lib.format.read_array(io.BytesIO(read_bytes(path)), allow_pickle=False)
     except (ValueError, EOFError, MemoryError) as error:
@@ -56,23 +50,7 @@ def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
 
 
 def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Positions:
-    """The positions of `other`, numbered as in `original`; neither may have vertices that no face uses.
-
-    Where vertices of `original` at one position are one of `other`, they have its position.
-
-    Parameters
-    ----------
-    original, other : TriangleMesh
-        The same faces, up to their order, their first corners, and the numbering of the vertices.
-    order : int64 array, optional
-        Vertex j of `other` is vertex order[j] of `original` (before isolated ones were left out). Without it `other`
-        must have the numbering of `original`, or that of the decoder.
-
-    Raises
-    ------
-    MeshError
-        If the faces are not the same.
-    """
+    """The positions of `other`, numbered as in `original`; neither may have vertices that no face uses."""
     if len(original.positions) > len(other.positions):
         from bsm.codec.static.joining import join
 
@@ -105,10 +83,7 @@ def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None
 
 
 def paired_corners(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> tuple[Order, Order]:
-    """Corners of `original` and of `other` that are the same, as numbers 3 f + i of corner i of face f.
-
-    Arguments and errors as those of `in_order_of`.
-    """
+    """Corners of `original` and of `other` that are the same, as numbers 3 f + i of corner i of face f."""
     numbers = np.zeros((len(other.positions), 3))
     numbers[:, 0] = np.arange(len(numbers))
     found = in_order_of(original, replace(other, positions=numbers, attributes=()), order)[:, 0].astype(np.int64)
@@ -120,10 +95,7 @@ def paired_corners(original: TriangleMesh, other: TriangleMesh, order: Order | N
 
 
 def unsplit(original: TriangleMesh, other: TriangleMesh) -> TriangleMesh | None:
-    """The mesh that a decoder gave, of which `other` is what became after vertices were split; faces and corners stay.
-
-    None: `other` is no such thing. `original` has one vertex at each position, and none that no face uses.
-    """
+    """The decoded mesh of which `other` is what became after vertices were split; faces and corners stay."""
     faces = _encode(original).faces
     if len(faces) != len(other.faces):
         return None
@@ -146,13 +118,11 @@ def _places(order: Order, count: int) -> Order:
 
 
 def _canonical(faces: Faces) -> Faces:
-    """The faces with their smallest corner first, in ascending order: equal for equal sets of oriented faces."""
     rows, corners = _canonical_order(faces)
     return np.take_along_axis(faces, corners, axis=1)[rows]
 
 
 def _canonical_order(faces: Faces) -> tuple[Order, Order]:
-    """The order of faces, and, face by face, that of the corners, shape (m, 3), which make them canonical."""
     corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3
     turned = np.take_along_axis(faces, corners, axis=1)
     return np.lexsort(turned.T[::-1]), corners

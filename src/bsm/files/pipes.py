@@ -27,25 +27,7 @@ def named(path: str | os.PathLike[str]) -> str:
 
 
 class Input:
-    """Bytes to be read once, from the beginning to the end.
-
-    Parameters
-    ----------
-    source : path, buffer or binary file
-        A path is opened when the first byte is asked for; an open file is read from where it stands, and left open.
-
-    Attributes
-    ----------
-    name : str
-        The path as it was given, or what an open file says of itself; empty for a buffer.
-
-    Raises
-    ------
-    ArgumentError
-        If it is none of these; also while reading, if the file gives text.
-    FormatError, OSError
-        While reading: if it is a folder, or cannot be opened.
-    """
+    """Bytes to be read once, from the beginning to the end."""
 
     def __init__(self, source: Source) -> None:
         self.name = ""

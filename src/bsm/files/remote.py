@@ -37,15 +37,7 @@ _VERSIONS = (
 
 @dataclass(frozen=True)
 class RemoteState:
-    """What tells whether a file is still the same.
-
-    Parameters
-    ----------
-    size : int or None
-        Bytes; None: the server does not say.
-    version : str
-        Time of the last change, or what a server has instead; "" where there is none.
-    """
+    """What tells whether a file is still the same."""
 
     size: int | None
     version: str
@@ -81,13 +73,7 @@ def inside(folder: str, name: str) -> str:
 
 
 def expanded(url: str) -> list[str]:
-    """What a URL with ``*`` in it names, sorted; any other as it is.
-
-    Raises
-    ------
-    FileNotFoundError
-        If nothing is there.
-    """
+    """What a URL with ``*`` in it names, sorted; any other as it is."""
     if "*" not in url:
         return [url]
     with _errors_of(url):
@@ -118,15 +104,7 @@ def _errors_of(url: str) -> Iterator[None]:
 
 
 def open_remote(url: str) -> BinaryIO:
-    """Open a file for reading, piece by piece; not every server lets one go back.
-
-    Raises
-    ------
-    DependencyError
-        If fsspec, or what it needs for this scheme, is missing.
-    OSError
-        If the file cannot be read.
-    """
+    """Open a file for reading, piece by piece; not every server lets one go back."""
     with _errors_of(url):
         files, path = _system(url)
         # What the web gives is read as it comes: many a server answers no questions about parts.
@@ -136,17 +114,7 @@ def open_remote(url: str) -> BinaryIO:
 
 @contextmanager
 def open_remote_output(url: str, *, overwrite: bool) -> Iterator[BinaryIO]:
-    """Open a file for writing that appears only when the `with` block has ended well.
-
-    Raises
-    ------
-    FileExistsError
-        If it exists and `overwrite` is false.
-    OptionError
-        If nothing can be written there.
-    DependencyError, OSError
-        As `open_remote`.
-    """
+    """Open a file for writing that appears only when the `with` block has ended well."""
     refuse_to_replace(url, overwrite)
     with tempfile.SpooledTemporaryFile(_IN_MEMORY) as whole:
         yield cast(BinaryIO, whole)
@@ -217,7 +185,6 @@ def _scheme(url: str) -> str:
 
 
 def _path(url: str) -> str:
-    """A URL without query and fragment, which only the web has: elsewhere ``?`` and ``#`` are parts of names."""
     return re.split(r"[?#]", url, maxsplit=1)[0] if _scheme(url) in _WEB else url
 
 

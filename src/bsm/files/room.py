@@ -67,15 +67,7 @@ def require_archive(data: bytes, limits: Limits) -> None:
 
 
 def gunzipped(data: bytes, limits: Limits) -> bytes:
-    """What gzip has compressed, in one member or several.
-
-    Raises
-    ------
-    LimitError
-        If it becomes too much, before all of it is there.
-    TruncatedError, CorruptError
-        If it is cut short or damaged.
-    """
+    """What gzip has compressed, in one member or several."""
     pieces, size, begin = [], 0, 0
     try:
         while begin < len(data):
@@ -95,24 +87,12 @@ def gunzipped(data: bytes, limits: Limits) -> bytes:
 
 
 def _behind_zeros(data: bytes, begin: int) -> int:
-    """Where something other than zeros begins, which may fill up a file."""
     found = _OTHER.search(data, begin)
     return found.start() if found else len(data)
 
 
 def require_room(kind: str, data: bytes, limits: Limits) -> None:
-    """Count lines and words of a text before objects are made of them.
-
-    Parameters
-    ----------
-    kind : str
-        "obj", "off", "ply" or "stl"; binary files are left to their own headers.
-
-    Raises
-    ------
-    LimitError
-        If there are more vertices or faces than are granted, or lines and words would take more memory.
-    """
+    """Count lines and words of a text before objects are made of them."""
     if kind in ("ply", "stl") and not _is_text(kind, data):
         return
     lines = data.count(b"\n") + data.count(b"\r") + 1

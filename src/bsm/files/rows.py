@@ -17,13 +17,7 @@ Doubles = npt.NDArray[np.float64]
 
 
 class Rows:
-    """Lines of numbers: all values in one array, and where each line's begin.
-
-    Raises
-    ------
-    MeshError
-        If a line holds something that is not a number.
-    """
+    """Lines of numbers: all values in one array, and where each line's begin."""
 
     def __init__(self, lines: Sequence[bytes], what: str) -> None:
         fields = [line.split() for line in lines]

@@ -47,28 +47,7 @@ def open_sequence(
     wanted: Wanted | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Frames | None:
-    """The sequence that `source` names, or None if it is not one but perhaps a mesh.
-
-    Nothing is taken from an `Input` that is none; the path of a pipe is not looked at, unless `file_format` is "npy".
-
-    Parameters
-    ----------
-    source : path, buffer or binary file
-        A path may be that of a folder, a pattern, or "-" for standard input.
-    file_format : str, optional
-        Of the file or of the frames' files.
-    reader : str, optional
-        Of the frames' files, see `read_mesh`.
-    wanted : Wanted, optional
-        None: a glTF is a mesh, animated or not.
-    limits : Limits
-        `vertices`, `faces`, `frames`, and what reading may cost.
-
-    Raises
-    ------
-    FormatError, MeshError, TruncatedError, LimitError
-        If it is one, but cannot be read; also later, while the frames are read.
-    """
+    """The sequence that `source` names, or None if it is not one but perhaps a mesh."""
     if is_pipe(source) and file_format != "npy":
         return None
     given = as_input(source)
@@ -103,13 +82,7 @@ class FrameWriter(Protocol):
     """Takes frame after frame."""
 
     def __call__(self, frame: Positions, faces: Faces | None = None) -> None:
-        """Take a frame, shape (n, 3), and its faces, shape (m, 3), where they are others than before.
-
-        Raises
-        ------
-        OptionError
-            If the form has one set of faces.
-        """
+        """Take a frame, shape (n, 3), and its faces, shape (m, 3), where they are others than before."""
 
 
 def _of_file(path: str, kind: str, reader: str | None, wanted: Wanted, limits: Limits) -> Frames | None:
@@ -128,21 +101,7 @@ def _of_file(path: str, kind: str, reader: str | None, wanted: Wanted, limits: L
 def sequence_writer(
     path: str, kind: str, faces: Faces, count: int, *, overwrite: bool, told: Told | None = None
 ) -> Iterator[FrameWriter]:
-    """Open a sequence for writing; yields what takes frame after frame.
-
-    Parameters
-    ----------
-    path : str
-        A file for the forms of `ONE_FILE` ("-" is standard output), otherwise a folder, which is made, or a name with a
-        place for numbers, ``walk/%04d.obj``.
-    kind : str
-        One of `SEQUENCE_FORMATS`.
-    count : int
-        Number of frames, if known; an npz whose length is not known is put together in memory, and PC2 and MDD need it.
-    told : Told, optional
-        What belongs to all frames, asked for with each where it changes; npy holds none of it, npz attributes, caches
-        the mesh of the first frame beside them.
-    """
+    """Open a sequence for writing; yields what takes frame after frame."""
     told = told or Told()
     if is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
         if is_url(path):
@@ -228,13 +187,7 @@ def _is_folder(path: str) -> bool:
 
 
 def sequence_kind(path: str, file_format: str | None) -> str:
-    """The form in which a sequence is written: as asked for, or as the name tells.
-
-    Raises
-    ------
-    OptionError
-        If a single mesh file is named, or the name ends like that of a form that is not written.
-    """
+    """The form in which a sequence is written: as asked for, or as the name tells."""
     if path == "-":
         kind = file_format or "npy"
         if kind not in ("npz", "npy"):

@@ -39,26 +39,7 @@ def peek_header(chunks: Iterator[bytes]) -> tuple[Header | None, Iterator[bytes]
 
 
 class SequenceStream:
-    """A stream that is decoded while its frames are asked for.
-
-    Parameters
-    ----------
-    chunks : iterator of bytes
-    note : callable, optional
-        Is told of frames that are lost; None: a loss is an error.
-    start : int
-        First frame to give.
-    limits : Limits
-
-    Attributes
-    ----------
-    header : Header
-        Of the first run that came.
-    faces : int32 array, shape (m, 3)
-        Of the present frame.
-    run_starts : list of int
-        The frames before which faces changed, so far.
-    """
+    """A stream that is decoded while its frames are asked for."""
 
     def __init__(
         self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0, limits: Limits = DEFAULT_LIMITS
@@ -93,13 +74,7 @@ class SequenceStream:
         return self._decoder.metadata
 
     def frames(self) -> Iterator[tuple[int, Positions]]:
-        """Number and positions, shape (n, 3), of one frame after the other.
-
-        Raises
-        ------
-        MeshError
-            If the faces change.
-        """
+        """Number and positions, shape (n, 3), of one frame after the other."""
         for index, positions in self.changing_frames():
             if self.run_starts:
                 raise MeshError(

@@ -71,8 +71,7 @@ class AttributeInfo:
 @dataclass(frozen=True)
 class SectionInfo:
     """A section of a mesh: its faces and blocks, the bytes of both, and how many bytes of the stream it takes until its
-    first block (of a mesh on a grid, its first positions; None: there is none) is whole.
-    """
+    first block (of a mesh on a grid, its first positions; None: there is none) is whole."""
 
     faces: int
     blocks: int
@@ -83,12 +82,7 @@ class SectionInfo:
 
 @dataclass(frozen=True)
 class StreamInfo:
-    """What a stream consists of, known without decoding it; sizes in bytes.
-
-    `connectivity`, `partition`, `order`, `coefficient_bytes` (of positions on a grid and of refinement, too),
-    `attribute_bytes` and `metadata_bytes` (images, too) count what the packets carry; `framing` is all the rest:
-    preamble, header, tags, checksums and the end. The `coefficients` of a sequence are those of its first frame.
-    """
+    """What a stream consists of, known without decoding it; sizes in bytes."""
 
     header: packets.Header
     metadata: packets.Metadata
@@ -145,22 +139,12 @@ class StreamInfo:
 
     @property
     def bpv_paper(self) -> float:
-        """3 q_c c k / n, the paper's measure: c k as the sum over the blocks, n the vertices of the mesh.
-
-        The paper prints n_d in the place of n; with the vertices of a block there, the bunny (70 blocks, 12 bits,
-        c = 10 %) would take 252 bits per vertex, with those of the mesh it takes 4.2.
-        """
+        """3 q_c c k / n, the paper's measure: c k as the sum over the blocks, n the vertices of the mesh."""
         return 3 * self.bits_per_coefficient * sum(self.coefficients) / self.header.vertices
 
 
 def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> StreamInfo:
-    """Read a stream to its end, check every checksum, and count.
-
-    Raises
-    ------
-    FormatError, UnsupportedError, CorruptError, TruncatedError, LimitError
-        If the stream is not whole.
-    """
+    """Read a stream to its end, check every checksum, and count."""
     header: packets.Header | None = None
     present: packets.Header | None = None
     metadata = packets.Metadata()
@@ -269,15 +253,7 @@ def decode_whole(
 def decode_blocks(
     chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits = DEFAULT_LIMITS
 ) -> TriangleMesh:
-    """Decode the first `count` blocks, read no further, and return the faces whose vertices have all arrived.
-
-    Raises
-    ------
-    MeshError
-        If no face is complete yet.
-    BsmError
-        If the stream ends or is damaged before that.
-    """
+    """Decode the first `count` blocks, read no further, and return the faces whose vertices have all arrived."""
     from bsm.codec.static.decoder import Decoder
     from bsm.codec.static.events import BlockEvent, EndEvent, HeaderEvent
 
@@ -301,20 +277,7 @@ def decode_blocks(
 def decode_what_is_left(
     chunks: Iterator[bytes], report: Callable[[str], None], limits: Limits = DEFAULT_LIMITS
 ) -> TriangleMesh:
-    """Decode every block of a damaged stream that does not depend on what is lost; `report` is told what is.
-
-    Returns
-    -------
-    TriangleMesh
-        The faces whose vertices are known.
-
-    Raises
-    ------
-    MeshError
-        If there is no such face.
-    BsmError
-        If the damage is before the first block.
-    """
+    """Decode every block of a damaged stream that does not depend on what is lost; `report` is told what is."""
     from bsm.codec.static.decoder import Decoder
     from bsm.codec.static.events import EndEvent, LossEvent
 

@@ -39,10 +39,7 @@ _MOST, _WHOLE = float(np.finfo(np.float32).max), 2**24
 
 @dataclass(frozen=True)
 class Compressed:
-    """A .glb, how many of its primitives are coded, and why others are not: how many for each reason.
-
-    `fallback` is the file for loaders that do not know the extension, if one was named.
-    """
+    """A .glb, how many of its primitives are coded, and why others are not: how many for each reason."""
 
     data: bytes
     coded: int
@@ -57,25 +54,7 @@ def compress(
     fallback: str | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Compressed:
-    """Code each primitive of triangles where that makes the scene smaller.
-
-    Parameters
-    ----------
-    document : Document
-    coder : callable
-        The stream of a mesh.
-    images : ImageRule, optional
-        How images are written; None: as they are.
-    fallback : str, optional
-        Name of a file with plain arrays for loaders that do not know the extension; None: they must know it.
-    progress : callable, optional
-        Told how many primitives are done, and of how many.
-
-    Raises
-    ------
-    FormatError
-        If the scene contradicts itself, or its geometry is compressed already.
-    """
+    """Code each primitive of triangles where that makes the scene smaller."""
     with _consistent():
         for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
             raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
@@ -140,7 +119,6 @@ def _primitives(tree: Tree) -> list[Tree]:
 
 
 def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
-    """Values as an accessor has them; integers that are floats there are shares of their largest."""
     if component == _FLOAT and values.dtype.kind == "u":
         return (values / np.float64(np.iinfo(values.dtype).max)).astype(np.float32)
     return values.astype(_KINDS[component])
@@ -152,7 +130,6 @@ def bounds_of(positions: npt.NDArray[Any]) -> Tree:
 
 
 def _length(entry: Tree) -> int:
-    """Bytes of JSON."""
     return len(json.dumps(_short(entry), separators=(",", ":"))) + 1
 
 
@@ -208,7 +185,6 @@ class _Scene:
 
     @staticmethod
     def _arrays(one: Coded) -> list[tuple[str, npt.NDArray[Any]]]:
-        """What decoders fill in."""
         found = [(name, _stored(array, one.accessors[name][0])) for name, array in one.shape.arrays.items()]
         return [*found, ("indices", one.shape.index)]
 

@@ -33,17 +33,7 @@ _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 @dataclass(frozen=True, eq=False)
 class Document:
-    """A document.
-
-    Parameters
-    ----------
-    tree : dict
-        What its JSON says.
-    buffers : list of bytes
-        The bytes of its buffers.
-    images : dict from int to bytes
-        The bytes of images that lie in files beside it, or in their addresses.
-    """
+    """A document."""
 
     tree: Tree
     buffers: list[bytes]
@@ -113,13 +103,7 @@ def is_plain(accessor: Tree) -> bool:
 
 
 def read_document(path: str) -> Document:
-    """A document from a .glb, or from a .gltf and the files beside it.
-
-    Raises
-    ------
-    FormatError
-        If it is none, or names files that are not beside it.
-    """
+    """A document from a .glb, or from a .gltf and the files beside it."""
     data = Path(path).read_bytes()
     folder = Path(path).parent.resolve()
     try:

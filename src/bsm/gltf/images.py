@@ -31,13 +31,7 @@ class ImageRule:
 
 
 def smaller(data: bytes, rule: ImageRule) -> bytes | None:
-    """An image by a rule; None if that would not be smaller, or Pillow cannot read it.
-
-    Raises
-    ------
-    DependencyError
-        If Pillow is missing.
-    """
+    """An image by a rule; None if that would not be smaller, or Pillow cannot read it."""
     try:
         from PIL import Image, UnidentifiedImageError
     except ImportError as error:

@@ -23,19 +23,7 @@ _TURNS = {"x": [0.0, 0.0, _HALF, _HALF], "z": [-_HALF, 0.0, 0.0, _HALF]}
 
 
 def moving_scene(stream: bytes) -> bytes:
-    """Write a .glb whose one mesh shows the frames of a stream.
-
-    Parameters
-    ----------
-    stream : bytes
-        A sequence.
-
-    Raises
-    ------
-    BsmError
-        If it cannot be decoded; `UnsupportedError` also for the stream of a single mesh, and for numbers of faces,
-        which glTF has no place for.
-    """
+    """Write a .glb whose one mesh shows the frames of a stream."""
     sequence = SequenceStream(iter([stream]))
     _, positions = next(sequence.changing_frames())
     attributes = tuple(a for a in sequence.attributes if a.domain != "face" or a.name not in _SORTING)

@@ -42,10 +42,7 @@ _TURN = "0.002"
 
 @dataclass(frozen=True, eq=False)
 class Carried:
-    """Primitives as one mesh, and the accessors of decoded arrays: component type, normalized or not.
-
-    `qualities` is what is asked of its attributes, where that is not what meshes have by themselves.
-    """
+    """Primitives as one mesh, and the accessors of decoded arrays: component type, normalized or not."""
 
     mesh: TriangleMesh
     accessors: dict[str, tuple[int, bool]]
@@ -144,7 +141,6 @@ def _is_normalized(document: Document, index: int) -> bool:
 
 
 def _is_geometry(name: str) -> bool:
-    """Whether numbers mean the same as floats, whichever type they are stored in (KHR_mesh_quantization)."""
     base = name.rpartition("/")[2]
     return base in ("POSITION", "NORMAL", "TANGENT") or base.startswith("TEXCOORD_")
 
@@ -199,10 +195,7 @@ def _eighths(weights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
-    """What a decoder makes of a stream: three vertices for each face, and what each vertex has, by names of glTF.
-
-    `labels` says for each corner to which primitive it belongs.
-    """
+    """What a decoder makes of a stream: three vertices for each face, and what each vertex has, by names of glTF."""
 
     index: npt.NDArray[np.uint32]
     arrays: dict[str, npt.NDArray[Any]]

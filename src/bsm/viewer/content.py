@@ -31,16 +31,7 @@ class Rival:
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """One stream of the viewer.
-
-    Parameters
-    ----------
-    name : str
-    stream : bytes
-    original : float32 array, shape (n, 3), optional
-        Where the vertices were before they were encoded, numbered as the stream numbers them.
-    draco : Rival, optional
-    """
+    """One stream of the viewer."""
 
     name: str
     stream: bytes
@@ -49,15 +40,7 @@ class Content:
 
 
 def compared(name: str, stream: bytes, original: TriangleMesh, limits: Limits = DEFAULT_LIMITS) -> Content:
-    """A stream of a mesh beside its original, and beside Draco's file of that if DracoPy is installed.
-
-    Raises
-    ------
-    UnsupportedError
-        If it is the stream of a sequence.
-    MeshError
-        If the stream has other faces.
-    """
+    """A stream of a mesh beside its original, and beside Draco's file of that if DracoPy is installed."""
     header, _ = peek_header(Input(stream).chunks())
     if header is not None and header.gop_frames:
         raise UnsupportedError(f"{name} is a sequence; only single meshes are compared with an original")
@@ -75,10 +58,7 @@ def compared(name: str, stream: bytes, original: TriangleMesh, limits: Limits = 
 
 
 def _rival(original: TriangleMesh, decoded: TriangleMesh) -> Rival | None:
-    """Draco's file of `original` with normals as good as those of `decoded`.
-
-    None without DracoPy and what it needs (the extra eval), or if it refuses.
-    """
+    """Draco's file of `original` with normals as good as those of `decoded`."""
     from bsm.codec.geometry.metrics import Reference
 
     try:

@@ -20,15 +20,7 @@ _PAUSE = 0.05
 
 
 class Growing:
-    """A stream that one thread receives and others send on.
-
-    While a sequence is being written, who comes late enters at its newest GOP that needs none before it, behind the
-    mesh that this is of (S 1.4, S 9.5); once it has ended, at the beginning. All else is sent from the beginning.
-
-    Parameters
-    ----------
-    name : str
-    """
+    """A stream that one thread receives and others send on."""
 
     def __init__(self, name: str) -> None:
         self.name = name

@@ -77,6 +77,5 @@ def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
 
 
 def _as_input(source: Any) -> Any:
-    """Streams and files as `Input`; anything else as it is."""
     readable = isinstance(source, (bytes, bytearray, memoryview, str, os.PathLike)) or hasattr(source, "read")
     return Input(source) if readable else source

@@ -26,13 +26,7 @@ Place = Callable[[str, bytes], dict[str, str]]
 
 
 def built(name: str) -> str:
-    """Text of a file that `tools/web` builds.
-
-    Raises
-    ------
-    DependencyError
-        If it is missing.
-    """
+    """Text of a file that `tools/web` builds."""
     try:
         return files("bsm.viewer").joinpath(name).read_text("utf-8")
     except OSError as error:
@@ -63,14 +57,7 @@ def _page(entries: list[dict[str, Any]]) -> str:
 
 
 class PageServer(ThreadingHTTPServer):
-    """Serves the page and its streams to this machine alone.
-
-    Parameters
-    ----------
-    contents : sequence of Content or Growing
-    port : int
-        0: any that is free.
-    """
+    """Serves the page and its streams to this machine alone."""
 
     daemon_threads = True
 

@@ -12,14 +12,7 @@ from bsm.viewer.page import built
 
 
 class StreamWidget(anywidget.AnyWidget):
-    """Shows one stream, as `bsm view` does.
-
-    Parameters
-    ----------
-    content : Content
-    height : int
-        Of the widget, in pixels.
-    """
+    """Shows one stream, as `bsm view` does."""
 
     _esm = built("viewer.js")
     name = traitlets.Unicode().tag(sync=True)

@@ -1,6 +1,7 @@
 """Presets do not outdo each other: none writes more than another one whose stream keeps its promise as well."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,7 +11,6 @@ from bsm.codec.look.measure import look
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS
 from bsm.files.mesh import read_mesh
-from tests.conftest import mesh_folder
 from tests.shapes import patch, torus
 
 PROMISING = {name: options.contract for name, options in PRESETS.items() if options.contract is not None}
@@ -47,7 +47,5 @@ def test_no_preset_is_outdone(mesh: TriangleMesh) -> None:
 
 @pytest.mark.real
 @pytest.mark.parametrize("name", [*MODELS, *(pytest.param(name, marks=pytest.mark.long) for name in LONG)])
-def test_no_preset_is_outdone_on_real_meshes(name: str) -> None:
-    folder = mesh_folder()
-    assert folder is not None
-    assert not outdone(read_mesh(str(folder / name)).mesh.bare)
+def test_no_preset_is_outdone_on_real_meshes(name: str, meshes: Path) -> None:
+    assert not outdone(read_mesh(str(meshes / name)).mesh.bare)

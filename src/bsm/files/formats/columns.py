@@ -24,18 +24,7 @@ _TEXCOORDS = ("texture coordinates", "uv", "tcoords")
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """A value for each point, each polygon, or each corner of the polygons; it may be wrong.
-
-    Parameters
-    ----------
-    name : str
-        Others of this name get a longer one when they become attributes.
-    values : ndarray, shape (k, c)
-    domain, semantic : str
-        As those of `Attribute`; "face" is a polygon here.
-    indices : ndarray of int64, shape (sum(sizes),), optional
-        For corners: which value each has; None: its own.
-    """
+    """A value for each point, each polygon, or each corner of the polygons; it may be wrong."""
 
     name: str
     values: Array
@@ -89,15 +78,7 @@ def compact(values: Array) -> Array:
 
 
 def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
-    """Colours as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known.
-
-    Parameters
-    ----------
-    values : ndarray, shape (k, 3 or 4)
-    domain : str
-    written_whole : bool
-        They were written without a point, so that 1 is the darkest grey but black.
-    """
+    """Colours as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
     if values.dtype.kind == "f" and values.size and np.isfinite(values).all():
         bytes_ = np.rint(values) if written_whole or values.max() > 1 else np.rint(values * 255)
         exact = values if written_whole or values.max() > 1 else values * 255

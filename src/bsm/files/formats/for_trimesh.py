@@ -72,10 +72,7 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
 
 
 def parts_of(mesh: TriangleMesh) -> Iterator[tuple[str, TriangleMesh]]:
-    """The parts that a mesh was made of, and their names; each has the materials of its faces, and no other metadata.
-
-    All of it is one part where nothing is said of parts.
-    """
+    """The parts that a mesh was made of, and their names; each has the materials of its faces, and no other metadata"""
     part, material = face_numbers(mesh, "part"), face_numbers(mesh, "material")
     numbers = np.zeros(len(mesh.faces), np.int64) if part is None else part.values[:, 0]
     attributes = [attribute for attribute in mesh.attributes if attribute is not part]

@@ -32,15 +32,7 @@ class _AsItIs:
 
 
 def write_glb(mesh: TriangleMesh, stem: str) -> Written:
-    """The GLB of a mesh: a part for each material, and for each part that it was made of; images are in it.
-
-    Raises
-    ------
-    MeshError
-        If the single precision of the format would move vertices.
-    DependencyError
-        If trimesh is missing.
-    """
+    """The GLB of a mesh: a part for each material, and for each part that it was made of; images are in it."""
     trimesh = import_trimesh(".glb files are written")
     if not single_suffices(mesh.positions):
         raise MeshError("the coordinates need double precision, which GLB does not have; write PLY, OBJ or OFF")
@@ -73,12 +65,10 @@ def write_glb(mesh: TriangleMesh, stem: str) -> Written:
 
 
 def _is_said(material: Material) -> bool:
-    """Whether trimesh writes a parameter."""
     return any(name in (*TEXTURES, *FACTORS, *SCALARS) for name in as_gltf(material))
 
 
 def _is_single(attribute: Attribute) -> bool:
-    """Whether single precision holds all values."""
     return bool((attribute.values.astype(np.float32) == attribute.values).all())
 
 

@@ -176,16 +176,7 @@ def parse_mtl(text: str) -> tuple[dict[str, Material], list[str]]:
 
 
 def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], images: Mapping[int, str]) -> bytes:
-    """A library of materials.
-
-    Parameters
-    ----------
-    materials : mapping from int to dict
-    names : mapping from int to str
-        What they are called there.
-    images : mapping from int to str
-        The names of the files of images.
-    """
+    """A library of materials."""
     lines: list[str] = []
     for number, material in materials.items():
         lines.append(f"newmtl {names[number]}")
@@ -209,20 +200,7 @@ def one_line(text: str) -> str:
 
 
 def fetched(metadata: Metadata, folder: Path | None, most: int) -> tuple[dict[str, Value], list[str]]:
-    """Metadata with what stands in the files they name, and notes on those that are not there.
-
-    Only files in the folder of the mesh, or below it, are looked at, and only images are taken: a mesh from somebody
-    else must not carry away what it has no business with.
-
-    Parameters
-    ----------
-    metadata : mapping
-        "mtllib" and "image.<number>.name" name files.
-    folder : Path, optional
-        Where the mesh lies; None: nowhere, nothing can be beside it.
-    most : int
-        Bytes of the largest file that is read.
-    """
+    """Metadata with what stands in the files they name, and notes on those that are not there."""
     found = dict(metadata)
     notes: list[str] = []
     library = found.get("mtllib")

@@ -27,15 +27,7 @@ class Readable(Protocol):
 
 
 def read_header(file: Readable | IO[bytes]) -> tuple[tuple[int, ...], bool, Kind]:
-    """Shape, whether the order is Fortran's, and type of an array of numbers; nothing is unpickled.
-
-    Raises
-    ------
-    CorruptError
-        If there is no legal header.
-    MeshError
-        If the array does not hold numbers.
-    """
+    """Shape, whether the order is Fortran's, and type of an array of numbers; nothing is unpickled."""
     try:
         version = np.lib.format.read_magic(file)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
@@ -55,15 +47,7 @@ def size_of(shape: tuple[int, ...], kind: Kind) -> int:
 
 
 def read_npy(file: Readable, bound: str = "vertices", limits: Limits = DEFAULT_LIMITS) -> Array | None:
-    """The next table of three columns of a pipe, or None at its end; the limit called `bound` is that of its rows.
-
-    Raises
-    ------
-    FormatError, CorruptError, MeshError, TruncatedError
-        If no table of numbers follows, or only a part of one.
-    LimitError
-        If it claims more rows than are granted; nothing is waited for then.
-    """
+    """The next table of three columns of a pipe, or None at its end; the limit called `bound` is that of its rows."""
     magic = file.read(len(NPY))
     if not magic:
         return None

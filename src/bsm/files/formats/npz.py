@@ -55,17 +55,7 @@ def opened_archive(archive: str | os.PathLike[str] | BinaryIO) -> zipfile.ZipFil
 
 
 class NpzArray:
-    """An array of an npz, read from its beginning on; the archive is open until the end of the `with` block.
-
-    Raises
-    ------
-    FormatError
-        If it is no npz, or has no such array.
-    MeshError
-        If the array does not hold numbers.
-    CorruptError
-        If it contradicts its own header; also while reading.
-    """
+    """An array of an npz, read from its beginning on; the archive is open until the end of the `with` block."""
 
     def __init__(self, archive: Archive, name: str) -> None:
         self._name = name
@@ -156,13 +146,7 @@ def read_arrays(archive: Archive, *names: str) -> tuple[Array, ...]:
 
 
 def read_npz(data: bytes, limits: Limits) -> MeshFile:
-    """Read the npz of a mesh; shapes are looked at before numbers are read, and what is of no use is not read.
-
-    Raises
-    ------
-    MeshError, LimitError
-        If it holds a sequence, or no mesh, or a larger one; and as `NpzArray`.
-    """
+    """Read the npz of a mesh; shapes are looked at before numbers are read, and what is of no use is not read."""
     with opened_archive(io.BytesIO(data)) as archive:
         return _read_npz(archive, len(data), limits)
 
@@ -284,11 +268,7 @@ def write_npz(mesh: TriangleMesh, stem: str) -> Written:
 def open_npz_sequence(
     file: BinaryIO, faces: Faces, count: int, attributes: Callable[[], tuple[Attribute, ...]] = tuple
 ) -> Iterator[Callable[[Positions], None]]:
-    """Write an npz of `positions`, shape (T, n, 3), `faces` and attributes; yields what takes frame after frame.
-
-    With `count` > 0 frames, as many must come, and none is kept in memory; with 0, all are. `attributes` are asked for
-    with each frame; what of them is another array than before has shape (T, n, c).
-    """
+    """Write an npz of `positions`, shape (T, n, 3), `faces` and attributes; yields what takes frame after frame."""
     kept: list[Positions] = []
     taken = 0
 

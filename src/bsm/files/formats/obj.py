@@ -116,7 +116,6 @@ class _References:
 
 
 def _vertex_columns(points: Rows) -> Iterator[Column]:
-    """Colours behind the coordinates: x y z r g b, or x y z r g b a."""
     numbers = points.counts.min(initial=100)
     if 6 <= numbers <= 7 and points.counts.max() == numbers:
         yield color_column(points.columns(3, int(numbers) - 3), "vertex")

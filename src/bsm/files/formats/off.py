@@ -70,7 +70,6 @@ def _vertex_columns(extras: bytes, points: Rows, lines: Sequence[bytes]) -> tupl
 
 
 def _are_whole(colors: Doubles, lines: Sequence[bytes]) -> bool:
-    """Whether colours are written as whole numbers up to 255: where none is above 1, the way of writing tells."""
     if colors.size == 0 or (colors != np.rint(colors)).any():
         return False
     return bool(colors.max() > 1) or not any(b"." in b" ".join(line.split()[-colors.shape[1] :]) for line in lines)

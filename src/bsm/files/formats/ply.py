@@ -139,10 +139,7 @@ _PROPERTIES = {
 
 
 def write_ply(mesh: TriangleMesh, stem: str) -> Written:
-    """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double.
-
-    Vertices are split where corners differ in an attribute. Images lie beside it.
-    """
+    """The binary PLY of a mesh: coordinates as float where that moves no vertex visibly, else as double."""
     library = Library(mesh, stem)
     mesh = split_by_attributes(mesh)
     images = [f"{IMAGE} {name}" for name in library.images.values()]

@@ -44,22 +44,7 @@ class MeshFile:
 
 @dataclass(frozen=True, eq=False)
 class Polygons:
-    """The points of a file in full precision, and its polygons over them.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    sizes : ndarray of int64, shape (p,)
-        Number of corners of each polygon.
-    corners : ndarray of int64, shape (sum(sizes),)
-        The vertex indices of all polygons, one after the other; they may be wrong.
-    notes, dropped : tuple of str
-        As those of `MeshFile`.
-    columns : tuple of Column
-        What each point, polygon or corner has beside that.
-    metadata : mapping
-        As that of `TriangleMesh`.
-    """
+    """The points of a file in full precision, and its polygons over them."""
 
     positions: Doubles
     sizes: Ints
@@ -70,13 +55,7 @@ class Polygons:
     metadata: Metadata = field(default_factory=dict)
 
     def checked(self, limits: Limits) -> MeshFile:
-        """The mesh of triangles.
-
-        Raises
-        ------
-        LimitError, MeshError
-            If the mesh is too large, has no faces or points that are not finite, or refers to points that do not exist.
-        """
+        """The mesh of triangles."""
         positions, sizes, corners = self.positions, self.sizes, self.corners
         limits.check("vertices", len(positions))
         limits.check("faces", int(np.maximum(sizes - 2, 0).sum()))
@@ -108,28 +87,7 @@ class Polygons:
 
 
 def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, Ints, int]:
-    """Cut polygons into triangles, in the order of the polygons.
-
-    A polygon becomes the fan around its first corner; where a triangle of that fan faces the other way than the polygon
-    (which is then not convex), around the first corner that gives no such triangle.
-
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (n, 3)
-    sizes : ndarray of int64, shape (p,)
-        Corners of each polygon; those with fewer than three give no triangle.
-    corners : ndarray of int64, shape (sum(sizes),)
-        Vertex indices, legal.
-
-    Returns
-    -------
-    places : ndarray of int64, shape (m, 3)
-        Where in `corners` those of each triangle are.
-    owner : ndarray of int64, shape (m,)
-        The polygon that each triangle is of.
-    folded : int
-        Number of polygons that no corner sees as a whole: their triangles overlap.
-    """
+    """Cut polygons into triangles, in the order of the polygons."""
     if (sizes == 3).all():
         return np.arange(len(corners)).reshape(-1, 3), np.arange(len(sizes)), 0
     scaled = positions / max(float(np.abs(positions).max()), 1e-300)  # so that no product overflows

@@ -18,14 +18,7 @@ _REMARK = re.compile(r"meta ([\w.-]{1,255}): (.+)")
 
 
 def remarks(metadata: Metadata, written: Iterable[str] = ()) -> tuple[list[str], tuple[str, ...]]:
-    """The lines that hold metadata, and the names of what they cannot hold.
-
-    Parameters
-    ----------
-    metadata : mapping
-    written : iterable of str
-        What the file says already, in its own words.
-    """
+    """The lines that hold metadata, and the names of what they cannot hold."""
     lines: list[str] = []
     left_out: list[str] = []
     room = MOST_BYTES

@@ -67,13 +67,7 @@ def _soup_text(data: bytes) -> Doubles:
 
 
 def write_stl(mesh: TriangleMesh, stem: str) -> Written:
-    """The binary STL of a mesh.
-
-    Raises
-    ------
-    MeshError
-        If the single precision of the format would move vertices.
-    """
+    """The binary STL of a mesh."""
     if not single_suffices(mesh.positions):
         raise MeshError("the coordinates need double precision, which STL does not have; write PLY, OBJ or OFF")
     triangles = np.zeros(len(mesh.faces), _RECORD)

@@ -174,7 +174,6 @@ class _Numbers:
             at += length
 
     def _numbers(self, given: bytes, count: int, raw: bool) -> Array:
-        """The first numbers of a header."""
         data = self._taken(given, 0, 0, count * self._head.itemsize, raw)
         return np.frombuffer(data, self._head)
 
@@ -211,15 +210,7 @@ def _count(says: dict[str, str], name: str, default: int) -> int:
 
 
 def read_vtp(data: bytes, limits: Limits) -> Polygons:
-    """Read a VTP with one piece.
-
-    Raises
-    ------
-    FormatError, MeshError
-        If it is none, or holds no polygons, or several pieces.
-    CorruptError, TruncatedError, LimitError
-        If it contradicts itself, or becomes too much.
-    """
+    """Read a VTP with one piece."""
     found = _APPENDED.search(data)
     encoding = b"raw" if found and b"raw" in found[1] else b"base64"
     text, behind = (data, b"") if found is None else (data[: found.start()] + b"</VTKFile>", data[found.end() :])
@@ -312,10 +303,7 @@ def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
 
 
 def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
-    """The VTP of a mesh, its arrays as bytes behind the XML; the first number of vertices is what ParaView colours by.
-
-    Vertices are split where corners differ in an attribute.
-    """
+    """The VTP of a mesh, its arrays as bytes behind the XML; ParaView colours by the first number of vertices."""
     mesh = split_by_attributes(mesh)
     kind = np.float32 if single_suffices(mesh.positions) else np.float64
     blocks: list[bytes] = []
@@ -357,7 +345,6 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
 
 
 def _quoted(name: str) -> str:
-    """A name as the value of an attribute of XML."""
     from xml.sax.saxutils import quoteattr  # which takes with it all that speaks HTTP
 
     return quoteattr(_UNPRINTABLE.sub("_", name))

@@ -26,24 +26,7 @@ from bsm.files.formats.polygons import MeshFile, Polygons
 
 
 def read_with_openmesh(data: bytes, kind: str, ours: TriangleMesh, limits: Limits) -> MeshFile:
-    """Read a file with openmesh.
-
-    Parameters
-    ----------
-    data : bytes
-    kind : str
-        "obj", "off", "ply" or "stl".
-    ours : TriangleMesh
-        The same file, as our own reader has it.
-    limits : Limits
-
-    Raises
-    ------
-    DependencyError
-        If openmesh is missing.
-    FormatError
-        If openmesh cannot read it.
-    """
+    """Read a file with openmesh."""
     try:
         import openmesh
     except ImportError as error:

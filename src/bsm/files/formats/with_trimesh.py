@@ -42,25 +42,7 @@ def import_trimesh(what: str) -> Any:
 
 
 def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) -> Polygons:
-    """Read a file with trimesh, which neither merges vertices nor splits them here.
-
-    Parameters
-    ----------
-    data : bytes
-    path : str, optional
-        Where it came from, if that is a file: some formats keep their arrays in files beside it.
-    kind : str
-        The suffix that tells the format.
-    limits : Limits
-        Looked at before the parts are put together; what trimesh takes to read them is not bounded.
-
-    Raises
-    ------
-    DependencyError
-        If trimesh is missing.
-    FormatError
-        If trimesh cannot read it.
-    """
+    """Read a file with trimesh, which neither merges vertices nor splits them here."""
     if kind in _ARCHIVES:
         raise FormatError(f".{kind} files hold files: unpack it, and read what is in it")
     trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")
@@ -280,10 +262,7 @@ def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> dict[str, Value]:
 
 
 def _materials(parts: list[_Part]) -> tuple[dict[str, Value], Array]:
-    """The metadata of all materials and their images, and the number of each face's material.
-
-    Faces without one have a number of which nothing is said.
-    """
+    """The metadata of all materials and their images, and the number of each face's material."""
     known: list[Material] = []
     images: list[bytes] = []
     numbers = [np.empty(0, np.int32)]

@@ -13,16 +13,7 @@ from bsm.files.formats.materials import Material
 
 @dataclass(frozen=True)
 class Written:
-    """A mesh file as it will be written.
-
-    Parameters
-    ----------
-    data : bytes
-    left_out : tuple of str
-        The names of attributes and metadata that the format cannot hold.
-    beside : mapping from str to bytes
-        Files that it names and that belong into its folder: materials and images.
-    """
+    """A mesh file as it will be written."""
 
     data: bytes
     left_out: tuple[str, ...] = ()
@@ -49,14 +40,7 @@ def face_numbers(mesh: TriangleMesh, name: str) -> Attribute | None:
 
 
 class Library:
-    """The materials of a mesh as files beside it; their names begin with that of the mesh.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-    stem : str
-        The name of the mesh's file without its suffix.
-    """
+    """The materials of a mesh as files beside it; their names begin with that of the mesh."""
 
     def __init__(self, mesh: TriangleMesh, stem: str) -> None:
         self.materials: dict[int, Material] = materials.materials_in(mesh.metadata)

@@ -35,18 +35,7 @@ _MDD = struct.Struct(">ii")
 
 @dataclass(frozen=True)
 class Cache:
-    """What the head of a cache says.
-
-    Parameters
-    ----------
-    points, frames : int
-    start : int
-        Where the coordinates begin, in bytes.
-    kind : str
-        The type of a coordinate, as numpy spells it.
-    rate : float
-        Frames per second, 0: not known.
-    """
+    """What the head of a cache says."""
 
     points: int
     frames: int
@@ -56,17 +45,7 @@ class Cache:
 
 
 def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted, limits: Limits) -> Frames:
-    """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves.
-
-    Raises
-    ------
-    FormatError, TruncatedError
-        If it is none, or has fewer bytes than it claims.
-    MeshError
-        If there is no mesh beside it, or one of another number of vertices.
-    LimitError
-        If there are more points or frames than are granted.
-    """
+    """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves."""
     cache = read_head(path, kind)
     limits.check("vertices", cache.points)
     limits.check("frames", cache.frames)
@@ -155,17 +134,7 @@ def _beside(path: str) -> str:
 def write_cache(
     file: BinaryIO, kind: str, count: int, rate: Callable[[], float]
 ) -> Iterator[Callable[[Positions], None]]:
-    """Write a cache; yields what takes frame after frame, as many as announced, and keeps none.
-
-    Raises
-    ------
-    OptionError
-        If the number of frames is not known beforehand, which stands first in these files.
-    MeshError
-        If single precision cannot hold a coordinate.
-    CorruptError
-        If other than so many frames came.
-    """
+    """Write a cache; yields what takes frame after frame, as many as announced, and keeps none."""
     if count < 1:
         raise OptionError(
             f"a {kind.upper()} begins with its number of frames, and this stream does not tell it; write npz"

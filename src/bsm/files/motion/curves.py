@@ -16,18 +16,7 @@ Array = npt.NDArray[Any]
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Values at keys, and how they go on between them.
-
-    Parameters
-    ----------
-    times : float64 array, shape (k,)
-        Ascending.
-    values : float64 array, shape (k, c), or (3 k, c) for cubic splines: in-tangent, value and out-tangent of each key
-    way : str
-        "LINEAR", "STEP" or "CUBICSPLINE".
-    turns : bool
-        Whether a value is a quaternion, which turns along the shorter arc.
-    """
+    """Values at keys, and how they go on between them."""
 
     times: Doubles
     values: Doubles

@@ -47,8 +47,7 @@ def frame_files(path: str) -> list[str]:
 
 def separate_meshes(path: str, file_format: str | None = None, reader: str | None = None) -> list[str]:
     """The mesh files of a folder or pattern if they are meshes by themselves: one, or the last has other faces than
-    the first; none if they are the frames of a sequence, or the path is that of a file.
-    """
+    the first; none if they are the frames of a sequence, or the path is that of a file."""
     if is_pipe(path) or is_url(path) or not names_many(path):
         return []
     names = frame_files(path)
@@ -60,13 +59,7 @@ def separate_meshes(path: str, file_format: str | None = None, reader: str | Non
 
 
 def in_order(names: Sequence[str]) -> list[str]:
-    """Names in the order of the numbers in them.
-
-    Raises
-    ------
-    MeshError
-        If they are numbered, and a number is missing.
-    """
+    """Names in the order of the numbers in them."""
     ordered = sorted(names, key=_natural)
     numbers = _numbers(ordered)
     steps = np.diff(numbers)
@@ -113,13 +106,7 @@ def _numbers(ordered: Sequence[str]) -> list[int]:
 def read_files(
     names: Sequence[str], file_format: str | None, reader: str | None, limits: Limits, *, runs: bool = False
 ) -> Frames:
-    """The frames in files, each read when it is asked for; with `runs`, their faces may change.
-
-    Raises
-    ------
-    BsmError
-        If one cannot be read, or has other faces than the first; also while the frames are read.
-    """
+    """The frames in files, each read when it is asked for; with `runs`, their faces may change."""
 
     def read(number: int) -> TriangleMesh:
         with about(f"{names[number]} (frame {number})"):
@@ -180,15 +167,7 @@ def is_numbered(path: str) -> bool:
 
 @contextmanager
 def write_files(path: str, kind: str, *, overwrite: bool) -> Iterator[Callable[[TriangleMesh], tuple[str, ...]]]:
-    """A file for each frame: in a folder, or called by a pattern; files that were written are removed after an error.
-
-    Parameters
-    ----------
-    path : str
-        A folder, or a path with one ``%d`` or ``%04d`` in the name of the file.
-    kind : str
-        One of the formats of meshes.
-    """
+    """A file for each frame: in a folder, or called by a pattern; files that were written are removed after an error"""
     pattern = Path(path) if is_numbered(path) else Path(path, f"%05d.{kind}")
     if not is_numbered(pattern.name):
         raise OptionError(f"{path}: write one %d or %04d for the number of the frame")

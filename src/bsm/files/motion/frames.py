@@ -18,26 +18,7 @@ LIKELY_RATES = (12, 15, 24, 25, 30, 48, 50, 60, 72, 90, 100, 120)
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """A sequence that is read as it is used.
-
-    Parameters
-    ----------
-    faces : int32 array, shape (m, 3)
-    count : int
-        Number of frames; 0 if that is not known beforehand.
-    frames : iterator of float64 arrays, shape (n, 3)
-        Can be used once.
-    meshes : iterator of TriangleMesh, optional
-        Instead of them, where faces or attributes may change.
-    attributes : tuple of Attribute
-        Those of the first frame, as far as all frames have the same or `meshes` have others; no normals, which move.
-    notes : tuple of str
-        What was left out.
-    frame_rate : float
-        Frames per second; 0: the files do not say.
-    metadata : mapping
-        As that of `TriangleMesh`.
-    """
+    """A sequence that is read as it is used."""
 
     faces: Faces
     count: int
@@ -51,19 +32,7 @@ class Frames:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What may be asked of a reader of sequences.
-
-    Parameters
-    ----------
-    rate : float
-        Frames per second, where a file holds curves to be sampled; 0: as the file's keys have it.
-    animation : str
-        Number or name of the animation of a file that has several.
-    mesh : path, optional
-        The mesh that a cache of points belongs to; None: the file of the same name beside it.
-    runs : bool
-        Whether the faces of files and of USD may change from frame to frame.
-    """
+    """What may be asked of a reader of sequences."""
 
     rate: float = 0.0
     animation: str = ""
@@ -72,13 +41,7 @@ class Wanted:
 
 
 def checked_frames(name: str, frames: Iterable[Positions], vertices: int) -> Iterator[Positions]:
-    """The frames of one file, as float64.
-
-    Raises
-    ------
-    MeshError
-        If a frame has another number of vertices, or a coordinate that is not finite.
-    """
+    """The frames of one file, as float64."""
     for number, frame in enumerate(frames):
         if frame.shape != (vertices, 3):
             raise MeshError(f"frame {number} of {name} has {len(frame)} vertices, and the mesh has {vertices}")

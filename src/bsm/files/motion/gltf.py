@@ -33,20 +33,7 @@ MOST_NUMBERS = 1 << 27
 
 
 class Document:
-    """A glTF as it was read.
-
-    Parameters
-    ----------
-    data : bytes
-        Of a GLB, or the JSON of a glTF.
-    folder : Path, optional
-        Where the buffers of a glTF lie; only files in it or below it are read.
-
-    Raises
-    ------
-    FormatError, TruncatedError
-        If it is none, or ends early.
-    """
+    """A glTF as it was read."""
 
     def __init__(self, data: bytes, folder: Path | None = None) -> None:
         self._folder = folder
@@ -233,17 +220,7 @@ def open_document(path: str) -> Document:
 
 
 def require_room_for_meshes(data: bytes, limits: Limits) -> None:
-    """Count what the meshes of a glTF become, before anybody makes them.
-
-    The same bytes may be used many times, and those of an accessor without a buffer are zeros, for which none pays.
-
-    Raises
-    ------
-    LimitError
-        If it is more than is granted.
-    FormatError
-        If what is counted makes no sense.
-    """
+    """Count what the meshes of a glTF become, before anybody makes them."""
     document = Document(data)
     try:
         numbers, named = 0, set()

@@ -24,15 +24,7 @@ PER_TRIANGLE, PER_PART = 200, 2000
 
 
 def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
-    """The frames of a GLB or glTF.
-
-    Raises
-    ------
-    FormatError, TruncatedError, UnsupportedError, LimitError
-        If it cannot be read, or nothing in it moves.
-    OptionError
-        If it has no such animation.
-    """
+    """The frames of a GLB or glTF."""
     try:
         document = open_document(path)
         with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later

@@ -28,27 +28,7 @@ class Skin:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """The triangles of one primitive, where the scene has them once.
-
-    Parameters
-    ----------
-    node : int
-    base : float64 array, shape (n, 3)
-    targets : float64 array, shape (k, n, 3)
-        What each morph target adds.
-    faces : int64 array, shape (m, 3)
-    skin : Skin, optional
-    joints, weights : arrays of shape (n, 4 or 8)
-        Of the skin.
-    columns : tuple of Column
-        What vertices have, before they were joined.
-    origin : int64 array
-        The vertex that each of the file's has become.
-    corners : int64 array, shape (m, 3)
-        The file's vertices at the corners.
-    material : int
-        -1: none.
-    """
+    """The triangles of one primitive, where the scene has them once."""
 
     node: int
     base: Doubles
@@ -64,22 +44,7 @@ class Part:
 
 
 class Scene:
-    """Everything of a document that is seen, and one animation of it.
-
-    Parameters
-    ----------
-    document : Document
-    animation : dict
-        Of the document's tree.
-    limits : Limits
-        What is seen must be within them, and what it takes to make it; asked before it is made.
-
-    Attributes
-    ----------
-    parts : list of Part
-    notes : list of str
-        What is left out.
-    """
+    """Everything of a document that is seen, and one animation of it."""
 
     def __init__(self, document: Document, animation: Tree, limits: Limits) -> None:
         self._document, self._limits = document, limits

@@ -37,17 +37,7 @@ _MOST_BYTES = (1 << 32) - 1
 
 @contextmanager
 def write_gltf(file: BinaryIO, path: str, faces: Faces, told: Told) -> Iterator[Callable[[Positions], None]]:
-    """Write a GLB; yields what takes frame after frame.
-
-    Raises
-    ------
-    LimitError
-        Beyond `MOST_FRAMES`, or 4 GiB, which is all that a GLB can hold.
-    MeshError
-        If single precision would move vertices.
-    DependencyError
-        If trimesh is missing.
-    """
+    """Write a GLB; yields what takes frame after frame."""
     with tempfile.TemporaryFile() as spool:
         targets: _Targets | None = None
 

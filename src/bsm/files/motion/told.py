@@ -12,17 +12,7 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 
 @dataclass(frozen=True, eq=False)
 class Told:
-    """What belongs to all frames.
-
-    Parameters
-    ----------
-    attributes : callable
-        Those of all frames, asked for when the first frame is there.
-    metadata : callable
-        As that of `TriangleMesh`; asked for then, too.
-    left_out : list of str
-        What the form cannot hold, known at the end.
-    """
+    """What belongs to all frames."""
 
     attributes: Callable[[], tuple[Attribute, ...]] = tuple
     metadata: Callable[[], Metadata] = dict

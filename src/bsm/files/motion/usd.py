@@ -148,13 +148,7 @@ def _meant(name: str, kind: str, values: Array) -> tuple[str, Array, Semantic]:
 
 
 def _require_room(path: str, limits: Limits) -> None:
-    """Look at a stage of text before usd-core does, whose stack deep nesting overflows.
-
-    Raises
-    ------
-    LimitError
-        If it is nested deeper than any scene, or its numbers would take more memory than is granted.
-    """
+    """Look at a stage of text before usd-core does, whose stack deep nesting overflows."""
     with open(path, "rb") as file:
         if not file.read(5).startswith(b"#usda"):
             return
@@ -283,15 +277,7 @@ def _turned(sizes: Ints, turned: Array) -> Ints:
 
 
 def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames | None:
-    """The frames of a stage, sampled at its rate or the one that is wanted; None if nothing moves.
-
-    Raises
-    ------
-    FormatError, LimitError, MeshError, LimitError
-        If it has no meshes, or faces that change; also while the frames are read.
-    DependencyError
-        If usd-core is missing.
-    """
+    """The frames of a stage, sampled at its rate or the one that is wanted; None if nothing moves."""
     stage = _Stage(path, limits)
     times = stage.times
     if len(times) < 2:
@@ -342,17 +328,7 @@ def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> MeshFile:
 
 @contextmanager
 def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[Callable[..., None]]:
-    """Write a stage of one mesh whose points have a time sample for each frame; yields what takes frame after frame.
-
-    That takes the faces, too, where they are others than before: they have time samples then.
-
-    Raises
-    ------
-    MeshError
-        If single precision, which points have, would move vertices.
-    DependencyError
-        If usd-core is missing.
-    """
+    """Write a stage of one mesh whose points have a time sample for each frame; yields what takes frame after frame."""
     pxr = import_usd()
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder, "mesh.usdc" if kind == "usdz" else f"mesh.{kind}"))
@@ -428,7 +404,6 @@ def _begun(pxr: Any, stage: Any, first: TriangleMesh, told: Told, images: Path |
 
 
 def _others(frame: TriangleMesh, materials: dict[int, Any]) -> list[Attribute]:
-    """The attributes that materials do not say."""
     shown = face_numbers(frame, "material") if materials else None
     return [one for one in frame.attributes if one is not shown]
 

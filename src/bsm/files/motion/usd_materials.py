@@ -40,14 +40,7 @@ _COORDINATES = "st"
 
 
 class Materials:
-    """The materials of the meshes of a stage, met one after the other.
-
-    Parameters
-    ----------
-    pxr : module
-    path : str
-        Of the stage, beside or in which images are.
-    """
+    """The materials of the meshes of a stage, met one after the other."""
 
     def __init__(self, pxr: Any, path: str) -> None:
         self._shade, self._geom, self._path = pxr.UsdShade, pxr.UsdGeom, path
@@ -141,10 +134,7 @@ def _text(numbers: Iterable[float]) -> str:
 
 
 def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | None) -> tuple[dict[int, Any], set[str]]:
-    """Write the materials of a mesh beneath it; returns them by their numbers, and the metadata that are said so.
-
-    Images are written to a folder; None: they cannot be held.
-    """
+    """Write the materials of a mesh beneath it; returns them by their numbers, and the metadata that are said so."""
     stage, shade = mesh.GetPrim().GetStage(), pxr.UsdShade
     words, images = materials_in(shown.metadata), images_in(shown.metadata)
     files = {} if folder is None else dict(_written_images(images, folder))
@@ -193,15 +183,7 @@ def _written_images(images: Mapping[int, tuple[str, bytes]], folder: Path) -> It
 
 
 class _Surface:
-    """The preview surface of a material.
-
-    Parameters
-    ----------
-    pxr : module
-    material : UsdShade.Material
-    images : mapping from int to str
-        The names of the files of images.
-    """
+    """The preview surface of a material."""
 
     def __init__(self, pxr: Any, material: Any, images: Mapping[int, str]) -> None:
         self._pxr, self._types, self._images = pxr, pxr.Sdf.ValueTypeNames, images
