@@ -12,6 +12,7 @@ sequences   moving meshes, against Draco frame by frame and principal components
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
 denoise     the scoreboard of denoising; `tables` writes it into docs/measured.md
 figures     the tables of docs/measured.md
+house       how large the repository is, beside its limits
 assets      a picture of whole assets before and after
 """
 
@@ -34,6 +35,7 @@ COMMANDS = {
     "denoise": "denoise:main",
     "tables": "tables:main",
     "figures": "figures.command:main",
+    "house": "house:main",
     "assets": "figures.assets:main",
 }
 """The function that does what a word asks for, and its module."""

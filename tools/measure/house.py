@@ -1,0 +1,142 @@
+"""How large the house is, beside what it may be: `python -m tools.measure house`; the exit code is 1 above a limit.
+
+Of the files that git knows, in lines as `wc` counts them. A limit is raised only by a commit that says why.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import dataclasses
+import re
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import bsm
+from bsm.bitstream.container.header import Header
+from bsm.codec.static.options import EncodeOptions
+from bsm.commands import encode_options
+from bsm.evaluation.sample import knot
+
+ROOT = Path(__file__).parents[2]
+PRODUCT = ("src", "codec", "bitstream")
+SEARCH = ("choice/", "encoder.py", "targets.py", "contract.py", "rules.py")
+"""Of codec/static: what finds the smallest stream that keeps a promise."""
+CORE = re.compile(r"core[^/]*\.md$")
+"""Of spec/: what a decoder of plain static meshes must read."""
+
+LIMITS = {
+    "product Python, lines": 33_000,
+    "all Python, lines": 68_000,
+    "product modules": 240,
+    "product C files and headers": 90,
+    "docstring lines of the product, percent": 12.0,
+    "header fields": 19,
+    "fields of EncodeOptions": 21,
+    "settings of --set": 12,
+    "words of spec/*.md": 25_000,
+    "words of the core": 11_000,
+    "tuned constants of the search": 60,
+    "files that encoding a mesh walks through": 70,
+}
+
+
+def house() -> dict[str, float]:
+    """What there is of each thing in `LIMITS`."""
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split(
+        "\n"
+    )
+    files = [Path(name) for name in listed if name and (ROOT / name).is_file() and not (ROOT / name).is_symlink()]
+    python = [file for file in files if file.suffix == ".py"]
+    product = [file for file in files if file.parts[0] in PRODUCT]
+    modules = [file for file in product if file.suffix == ".py"]
+    law = [file for file in files if file.parts[0] == "spec" and file.suffix == ".md" and len(file.parts) == 2]
+    search = [file for file in modules if str(file).startswith(tuple(f"codec/static/{name}" for name in SEARCH))]
+    lines = total(count_lines, modules)
+    return dict(
+        zip(
+            LIMITS,
+            (
+                lines,
+                total(count_lines, python),
+                len(modules),
+                sum(file.suffix in (".c", ".h") for file in product),
+                100.0 * total(docstring_lines, modules) / lines,
+                len(dataclasses.fields(Header)),
+                len(dataclasses.fields(EncodeOptions)),
+                len(encode_options.SETTINGS),
+                total(count_words, law),
+                total(count_words, [file for file in law if CORE.search(file.name)]),
+                total(count_constants, search),
+                len(walked()),
+            ),
+            strict=True,
+        )
+    )
+
+
+def total(count: Callable[[str], int], files: Iterable[Path]) -> int:
+    """The sum over the texts of files."""
+    return sum(count((ROOT / file).read_text(encoding="utf-8")) for file in files)
+
+
+def count_lines(text: str) -> int:
+    """As `wc -l`."""
+    return text.count("\n")
+
+
+def count_words(text: str) -> int:
+    """As `wc -w`."""
+    return len(text.split())
+
+
+def docstring_lines(text: str) -> int:
+    """Lines of texts that stand as statements: docstrings, and those behind constants and fields."""
+    expressions = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Expr))
+    texts = (node.value for node in expressions if isinstance(node.value, ast.Constant))
+    return sum((node.end_lineno or 0) - node.lineno + 1 for node in texts if isinstance(node.value, str))
+
+
+def count_constants(text: str) -> int:
+    """Numbers that names of the module stand for; each entry of a tuple or table is one, and so is an expression."""
+    values = (node.value for node in ast.parse(text).body if isinstance(node, ast.Assign | ast.AnnAssign))
+    return sum(map(_numbers, filter(None, values)))
+
+
+def _numbers(value: ast.expr) -> int:
+    if isinstance(value, ast.Tuple | ast.List | ast.Set):
+        return sum(map(_numbers, value.elts))
+    if isinstance(value, ast.Dict):
+        return sum(map(_numbers, value.values))
+    parts = (node.value for node in ast.walk(value) if isinstance(node, ast.Constant))
+    return int(any(type(part) in (int, float) for part in parts))
+
+
+def walked() -> set[str]:
+    """Product files with a function that runs while a mesh file is encoded with the default options."""
+    found: set[str] = set()
+    package = Path(bsm.__file__).parent
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "mesh.ply")
+        bsm.save(knot(4000), path)
+        bsm.encode(path, threads=1)  # what is imported on the way does not count
+        sys.setprofile(lambda frame, event, _: found.add(frame.f_code.co_filename))
+        try:
+            bsm.encode(path, threads=1)
+        finally:
+            sys.setprofile(None)
+    return {name for name in found if Path(name).is_relative_to(package) or Path(name).is_relative_to(ROOT)}
+
+
+def main() -> int:
+    """Print all beside its limit."""
+    argparse.ArgumentParser(description=__doc__.split("\n")[0]).parse_args()
+    above = 0
+    for what, number in house().items():
+        limit = LIMITS[what]
+        above += number > limit
+        print(f"{what:44}{number:10.5g}{limit:10.5g}  {'above' if number > limit else ''}".rstrip())
+    return int(above > 0)
