@@ -8,27 +8,26 @@ import pytest
 
 from bsm.bitstream.errors import CorruptError, MeshError
 from bsm.cli import main
-from bsm.codec.blocks.partition import partition_of_labels
-from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.options import EncodeOptions
-from bsm.evaluation.codecs import Curve, Draco, Spectral, our_curve, paper_options
-from bsm.evaluation.per_block import (
-    BlockView,
-    boundary_deviations,
-    boundary_table,
-    errors_along_chain,
-    quartiles,
-    spread,
-    view_blocks,
+from bsm.evaluation.curve import (
+    Curve,
+    Draco,
+    Spectral,
+    bd_rate,
+    compare_curves,
+    measure,
+    our_curve,
+    paper_options,
+    rate_curve,
+    rate_ratio,
+    read_results,
+    run_curve,
+    table,
+    write_result,
 )
-from bsm.evaluation.rates import bd_rate, compare_curves, rate_curve, rate_ratio
-from bsm.evaluation.resources import measure_resources
-from bsm.evaluation.row_order import in_bisection_order, in_breadth_first_order, nmsve_db_of, permuted
-from bsm.evaluation.run import measure, read_results, run_curve, write_result
-from bsm.evaluation.tables import table
-from bsm.files.mesh import read_mesh, write_mesh
+from bsm.files.mesh import write_mesh
 from tests.shapes import patch, torus
 
 POINT_KEYS = {
@@ -44,7 +43,6 @@ POINT_KEYS = {
     "encode_seconds",
     "decode_seconds",
 }
-SMALL = EncodeOptions(block_size=150, threads=1)
 
 
 def tiny_curve() -> Curve:
@@ -106,19 +104,19 @@ class TestCodecs:
         pytest.importorskip("DracoPy", reason="needs DracoPy (extra eval)")
         mesh = shuffled(torus())
         codec = Draco(position_bits, (7, 10))
-        coded = codec.encode(mesh)
-        error = np.abs(coded.align(codec.decode(coded.data)) - mesh.positions)
+        data, align = codec.encode(mesh)
+        error = np.abs(align(codec.decode(data)) - mesh.positions)
         step = np.ptp(mesh.positions, axis=0).max() / (2**position_bits - 1)
         assert error.max() <= step / 2 + 1e-6
 
     def test_a_wrong_mesh_is_not_taken_for_what_draco_decoded(self):
         pytest.importorskip("DracoPy", reason="needs DracoPy (extra eval)")
         mesh = torus()
-        coded = Draco(11).encode(mesh)
-        decoded = Draco(11).decode(coded.data)
+        data, align = Draco(11).encode(mesh)
+        decoded = Draco(11).decode(data)
         flipped = TriangleMesh(decoded.positions, decoded.faces[:, ::-1])
         with pytest.raises(MeshError, match="different triangles"):
-            coded.align(flipped)
+            align(flipped)
 
     def test_settings_tell_what_differs_from_the_defaults(self):
         step = EncodeOptions().first_step
@@ -160,7 +158,7 @@ class TestResults:
 class TestPictures:
     def test_drawn_from_json_alone(self, tmp_path):
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
-        from bsm.evaluation.plots import draw_all, draw_boxes, draw_per_block
+        from bsm.evaluation.plots import draw_all
 
         def point(bpv, db, theta, settings):
             numbers = {"bpv_total": bpv, "bpv_paper": bpv, "nmsve_db": db, "theta_deg": theta, "decode_seconds": bpv}
@@ -177,74 +175,11 @@ class TestPictures:
             },
         ]
         written = draw_all(curves, tmp_path)
-        written += draw_boxes({"no overlap": {"inside": np.ones(3), "boundary": np.arange(4.0)}}, tmp_path / "box")
-        written += draw_per_block({"fixed": [{"squared_error": 1e-6, "coefficients": 9.0}] * 3}, tmp_path / "blocks")
-        names = {
-            f"{stem}.{suffix}"
-            for stem in ("m.paper", "m.nmsve", "m.theta", "box", "blocks")
-            for suffix in ("png", "svg")
-        }
+        names = {f"{stem}.{suffix}" for stem in ("m.paper", "m.nmsve", "m.theta") for suffix in ("png", "svg")}
         assert {path.name for path in written} == names
         for path in written:
             start = path.read_bytes()[:200]
             assert start.startswith(b"\x89PNG") if path.suffix == ".png" else b"<?xml" in start
-
-
-class TestBlocks:
-    def test_deviations_inside_and_at_the_boundary(self):
-        # Three columns of a grid belong to part 0, three to part 1; columns 2 and 3 face each other.
-        mesh = patch(8, 6)
-        column = np.arange(48) % 6
-        error = np.zeros((48, 3))
-        error[column == 2, 0] = np.where(np.arange(8) % 2, 1.0, -1.0)
-        error[column == 3, 1] = 5.0
-        partition = partition_of_labels((column >= 3).astype(np.int32))
-        view = BlockView(error, graph_of_faces(mesh.faces, 48), partition, None)
-        found = boundary_deviations(view)
-        assert found["inside"] == pytest.approx([0.0, 0.0])
-        # Plus and minus one deviate by one; a common shift does not deviate at all.
-        assert found["boundary"] == pytest.approx([1.0, 0.0])
-
-    def test_overlap_lowers_the_error_at_boundaries(self):
-        options = paper_options(block_size=150, power=2, keep=0.15)
-        medians = {
-            case: {where: quartiles(values)["median"] for where, values in groups.items()}
-            for case, groups in boundary_table(torus(60, 40), options).items()
-        }
-        assert medians["weighted average"]["boundary"] < 0.9 * medians["no overlap"]["boundary"]
-
-    def test_one_block_has_no_boundary(self):
-        assert quartiles(boundary_deviations(view_blocks(patch(8, 8), SMALL))["boundary"])["median"] is None
-
-    def test_errors_along_the_chain_are_those_of_the_mesh(self):
-        view = view_blocks(torus(), paper_options(block_size=150))
-        rows = errors_along_chain(view)
-        sizes = [len(view.blocks().core(index)) for index in range(len(rows))]
-        total = sum(size * row["squared_error"] for size, row in zip(sizes, rows, strict=True))
-        assert total == pytest.approx(np.square(view.error).sum())
-        assert {row["coefficients"] for row in rows} == {float(view.info.header.coefficients)}
-
-    def test_spread(self):
-        assert spread([{"squared_error": 1.0}, {"squared_error": 9.0}]) == pytest.approx(0.5)
-
-    def test_reordered_rows_are_the_same_block(self):
-        view = view_blocks(torus(), SMALL)
-        blocks = view.blocks()
-        block, found = in_bisection_order(blocks, 1).block, in_breadth_first_order(blocks, 1)
-        other = found.block
-        assert other.vertices.tolist() == blocks.members_of(1).tolist()
-        back = permuted(found, np.argsort(other.vertices)[np.argsort(np.argsort(block.vertices))]).block
-        assert back.vertices.tolist() == block.vertices.tolist()
-        assert edges(back) == edges(block)
-
-    @pytest.mark.real
-    def test_the_order_of_rows_helps_the_warm_start(self, meshes):
-        mesh = read_mesh(meshes / "static" / "fandisk_6475.ply").mesh
-        options = paper_options(block_size=432)
-        ordered, unordered = (
-            nmsve_db_of(mesh, options, 0.1, order) for order in (in_bisection_order, in_breadth_first_order)
-        )
-        assert ordered < unordered - 0.5
 
 
 class TestCommands:
@@ -279,16 +214,6 @@ class TestCommands:
         assert "no codec is called mp3" in capsys.readouterr().err
 
 
-def test_memory_and_time_of_both_directions(tmp_path):
-    mesh = torus(30, 30)
-    write_mesh(tmp_path / "torus.npz", mesh)
-    for measured in measure_resources(tmp_path / "torus.npz").values():
-        assert measured["vertices"] == 900
-        assert 20 < measured["peak_mib"] < 2048
-        assert measured["cpu_microseconds_per_vertex"] == pytest.approx(1e6 * measured["cpu_seconds"] / 900)
-        assert measured["seconds"] > 0
-
-
 def test_table():
     assert table(("a", "b"), [("x", "3"), ("yyy", "2")]) == "| a   |  b |\n| --- | -: |\n| x   |  3 |\n| yyy |  2 |"
 
@@ -298,8 +223,3 @@ def shuffled(mesh: TriangleMesh) -> TriangleMesh:
     random = np.random.default_rng(3)
     order = random.permutation(len(mesh.positions))
     return TriangleMesh(mesh.positions[order], random.permutation(np.argsort(order)[mesh.faces]))
-
-
-def edges(block) -> set[tuple[int, int]]:
-    rows = np.repeat(np.arange(block.size), np.diff(block.offsets))
-    return set(zip(rows.tolist(), block.neighbours.tolist(), strict=True))

@@ -325,19 +325,13 @@ def test_an_npz_says_when_frames_are_missing(tmp_path):
 
 def test_curves(npz, tmp_path, capsys, monkeypatch):
     pytest.importorskip("DracoPy")
-    from bsm.evaluation import sequence_curve
+    from bsm.evaluation import sequences
 
-    monkeypatch.setattr(sequence_curve, "STEPS", (0.01, 0.001))
-    monkeypatch.setattr(sequence_curve, "DRACO_BITS", (8, 11))
-    monkeypatch.setattr(sequence_curve, "PCA_ERRORS", (1.0,))
+    monkeypatch.setattr(sequences, "STEPS", (0.01, 0.001))
+    monkeypatch.setattr(sequences, "DRACO_BITS", (8, 11))
     assert bsm("curve", npz, "-o", tmp_path / "curves") == 0
     lines = json.loads((tmp_path / "curves" / "torus-sequence.json").read_text())["lines"]
-    assert {line: len(points) for line, points in lines.items()} == {
-        "ours": 2,
-        "ours-low-delay": 2,
-        "draco": 2,
-        "pca": 1,
-    }
+    assert {line: len(points) for line, points in lines.items()} == {"ours": 2, "ours-low-delay": 2, "draco": 2}
     for line in ("ours", "ours-low-delay", "draco"):
         coarse, fine = lines[line]
         assert coarse["kg"] > fine["kg"] and coarse["bpvf"] < fine["bpvf"]

@@ -6,7 +6,7 @@ contract    what presets give, checked by themselves and by surfaces, against Dr
 time        processor time of presets per vertex, against Draco's
 grids       whole files with exact positions on a grid, against Draco's
 attributes  what attributes take, against Draco's
-borders     how far parts gape that are encoded apart
+speed       time and memory per vertex as meshes grow; links on which it is there first
 boundary    errors inside blocks and at their boundaries
 sequences   moving meshes, against Draco frame by frame and principal components
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
@@ -28,13 +28,13 @@ COMMANDS = {
     "time": "presets:time_command",
     "grids": "grids:main",
     "attributes": "attributes:main",
-    "borders": "borders:main",
-    "boundary": "boundary:main",
+    "boundary": "blocks:main",
     "sequences": "sequences:main",
     "fields": "fields:main",
     "denoise": "denoise:main",
     "tables": "tables:main",
     "figures": "figures.command:main",
+    "speed": "speed:main",
     "house": "house:main",
     "assets": "figures.assets:main",
 }

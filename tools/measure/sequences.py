@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -26,13 +27,14 @@ from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
-from bsm.evaluation.sequences import Point, draco_point, pca_point, temporal_bits
+from bsm.evaluation.sequences import Point, draco_point, point_of
 from bsm.files.formats.npz import read_arrays
 from bsm.files.output import open_output
 from bsm.options import sequence_options
 from tools.measure.made_motion import MADE
 
 DRACO_BITS = (8, 10)
+PCA_BITS = (6, 8, 10, 12, 14)
 KG_GOAL = 0.15
 TOGETHER = (1, 4, 8)
 """Frames that are sent at a time with low delay."""
@@ -45,6 +47,48 @@ def our_point(positions: Positions, faces: Faces, options: SequenceOptions, kg: 
     name = f"ours, {options.low_delay} at a time" if options.low_delay else "ours"
     size = sum(map(len, attempt.chunks))
     return {"codec": name, "bytes": size, "bpvf": attempt.bpvf, **asdict(attempt.comparison)}
+
+
+def pca_point(positions: Positions, faces: Faces, kg: float) -> Point:
+    """Principal components of the frames as vectors of length 3n, the fewest that reach `kg`, best of `PCA_BITS`."""
+    frames, vertices, _ = positions.shape
+    matrix = positions.reshape(frames, -1)
+    mean = matrix.mean(axis=0)
+    u, s, vt = np.linalg.svd(matrix - mean, full_matrices=False)
+    connectivity = len(encode_connectivity(faces, vertices).payload)
+    extent = float(np.linalg.norm(positions - positions.mean(axis=1, keepdims=True)))
+    points = []
+    for bits in PCA_BITS:
+        step = float(np.ptp(mean)) / 2**bits
+        for count in _counts(frames):
+            # Each component is quantized as finely as it weighs on average over the frames.
+            weight = s[:count] / np.sqrt(frames)
+            levels = np.round(vt[:count] * weight[:, None] / step)
+            base = np.round(mean / step)
+            decoded = (u[:, :count] * np.sqrt(frames)) @ (levels * step) + base * step
+            error = 100 * float(np.linalg.norm(decoded - matrix)) / extent
+            if error <= kg:
+                size = connectivity + 4 * u[:, :count].size + (_entropy(levels) + _entropy(base)) / 8
+                points.append(point_of(f"PCA {count}", int(size), positions, decoded.reshape(positions.shape), faces))
+                break
+    return min(points, key=lambda point: float(point["bpvf"]), default={"codec": "PCA", "bpvf": None})
+
+
+def _counts(frames: int) -> Iterator[int]:
+    """1, 2, 3, ... in steps of a tenth."""
+    count = 1
+    while count <= frames:
+        yield count
+        count += max(1, count // 10)
+
+
+def _entropy(levels: Positions) -> float:
+    """Bits of all levels at their zero-order entropy, row by row."""
+    total = 0.0
+    for row in np.atleast_2d(levels):
+        _, counts = np.unique(row, return_counts=True)
+        total -= float((counts * np.log2(counts / counts.sum())).sum())
+    return total
 
 
 def speed(positions: Positions, faces: Faces, options: SequenceOptions) -> dict[str, float]:
@@ -105,7 +149,6 @@ def measure(name: str, frames: Positions, faces: Faces, every: int, *, brief: bo
         _say(name, *points.values())
     if brief:
         return result
-    result["temporal"] = temporal_bits(frames, 0.002)
     result["goal"] = our_point(frames, faces, options, KG_GOAL)
     result["speed"] = speed(frames, faces, options)
     _say(name, result["goal"])

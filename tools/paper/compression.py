@@ -6,10 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from bsm.evaluation.codecs import PAPER_KEEPS, Curve, paper_curves, paper_options
-from bsm.evaluation.per_block import block_size_for, boundary_table, dynamic_comparison, quartiles, spread
-from bsm.evaluation.plots import draw_boxes, draw_paper_figure, draw_per_block
-from bsm.evaluation.run import run_curve
+from bsm.evaluation.curve import PAPER_KEEPS, Curve, paper_curves, paper_options, run_curve
+from bsm.evaluation.plots import draw_paper_figure
+from tools.measure.blocks import (
+    block_size_for,
+    boundary_table,
+    draw_boxes,
+    draw_per_block,
+    dynamic_comparison,
+    quartiles,
+    spread,
+)
 from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Table
 from tools.paper.pictures import drawn
 from tools.paper.study import Study

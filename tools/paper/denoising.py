@@ -15,7 +15,7 @@ from bsm.codec.denoise.filters.guided import guided_normal_filtering, guided_res
 from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
-from bsm.evaluation.codecs import Spectral, paper_options
+from bsm.evaluation.curve import Spectral, paper_options
 from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
 from tools.paper.iterations import SEGMENTS
 from tools.paper.pictures import diagram, normal_colors, portrait
@@ -181,7 +181,7 @@ def _dynamic(model: Model, coarse: Positions, segments: int) -> Positions:
     doi = (0.9 * threshold, threshold)
     codec = Spectral(paper_options(keep=0.3, power=3, block_size=model.block(segments), doi=doi))
     mesh, kept = TriangleMesh(model.noisy, model.faces).without_isolated_vertices()
-    coded = codec.encode(mesh)
+    data, align = codec.encode(mesh)
     positions = np.array(model.noisy)
-    positions[kept] = coded.align(codec.decode(coded.data))
+    positions[kept] = align(codec.decode(data))
     return positions

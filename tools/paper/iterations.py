@@ -19,7 +19,7 @@ from bsm.codec.denoise.coarse import KEEP, RULES, CoarseFilter
 from bsm.codec.geometry.metrics import decibel
 from bsm.codec.signal.chain import Chain
 from bsm.codec.signal.predict import unheld
-from bsm.evaluation.row_order import RowOrder, in_bisection_order, in_breadth_first_order
+from tools.measure.blocks import RowOrder, in_bisection_order, in_breadth_first_order
 from tools.paper.exhibit import Cell, Column, Exhibit, Table
 from tools.paper.pictures import portrait
 from tools.paper.published import POWERS, TIMES

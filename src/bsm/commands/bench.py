@@ -1,4 +1,4 @@
-"""bsm bench: how fast it is, against exact eigensolvers and against Draco, and as meshes grow."""
+"""bsm bench: how fast it is, against exact eigensolvers and against Draco."""
 
 from __future__ import annotations
 
@@ -9,15 +9,12 @@ from bsm.console import Console, print_json
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("meshes", metavar="MESH", nargs="+", help="mesh files; the first is also subdivided")
+    parser.add_argument("meshes", metavar="MESH", nargs="+", help="mesh files")
     parser.add_argument(
         "--sample", type=int, default=16, metavar="N", help="blocks that exact solvers solve (default: %(default)s)"
     )
     parser.add_argument(
         "--repeat", type=int, default=3, metavar="N", help="runs of everything, the fastest counts (default: 3)"
-    )
-    parser.add_argument(
-        "--largest", type=int, default=2_500_000, metavar="N", help="subdivide up to N vertices; 0: not at all"
     )
     parser.add_argument("--no-solvers", action="store_true", help="leave out exact eigensolvers, which take minutes")
     parser.add_argument("--json", action="store_true", help="print it as JSON")
@@ -29,12 +26,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     with console.progress("reading") as progress:
         result = run_bench(
-            args.meshes,
-            sample=args.sample,
-            repeats=args.repeat,
-            largest=args.largest,
-            solvers=not args.no_solvers,
-            note=progress.stage,
+            args.meshes, sample=args.sample, repeats=args.repeat, solvers=not args.no_solvers, note=progress.stage
         )
     if args.json:
         print_json(result)

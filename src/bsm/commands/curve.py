@@ -12,7 +12,7 @@ from bsm.console import Console, print_json
 from bsm.files.mesh import read_mesh
 
 if TYPE_CHECKING:
-    from bsm.evaluation.codecs import Curve
+    from bsm.evaluation.curve import Curve
 
 GROUPS = ("ours", "paper", "draco")
 
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> None:
     """Run, write, read again, compare and draw."""
     from bsm.commands.sequence_curve import run_sequence
-    from bsm.evaluation.run import read_results, run_curve, write_result
+    from bsm.evaluation.curve import read_results, run_curve, write_result
 
     folder = Path(args.output)
     sequences = [path for path in args.meshes if run_sequence(path, folder, console)]
@@ -65,7 +65,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 
 def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
-    from bsm.evaluation.codecs import draco_curve, our_curve, paper_curves
+    from bsm.evaluation.curve import draco_curve, our_curve, paper_curves
 
     paper = paper_curves(round(vertices / blocks) if blocks else 500)
     groups = {
@@ -82,7 +82,7 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
 
 def _comparisons(results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """Every codec against Draco, mesh by mesh."""
-    from bsm.evaluation.rates import compare_curves
+    from bsm.evaluation.curve import compare_curves
 
     draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
     return [
@@ -93,7 +93,7 @@ def _comparisons(results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def _tables(results: Sequence[dict[str, Any]], comparisons: Sequence[dict[str, Any]]) -> str:
-    from bsm.evaluation.tables import number, percent, table
+    from bsm.evaluation.curve import number, percent, table
 
     measured = table(
         ("mesh", "codec", "bpv, file", "bpv, paper", "NMSVE, dB", "theta", "encode, s", "decode, s"),

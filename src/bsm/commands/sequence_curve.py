@@ -18,7 +18,7 @@ def run_sequence(path: str, folder: Path, console: Console) -> bool:
     if source is None:
         return False
 
-    from bsm.evaluation.sequence_curve import draw_lines, measure_lines, table_of, write_lines
+    from bsm.evaluation.sequences import draw_lines, measure_lines, table_of, write_lines
 
     frames = np.array(list(source.frames))
     mesh, kept = TriangleMesh(frames[0], source.faces).without_isolated_vertices()

@@ -1,77 +1,87 @@
-"""Speed: dictionaries against exact eigensolvers, whole files against Draco, and time per vertex as meshes grow."""
+"""Speed: whole files against Draco, and dictionaries against exact eigensolvers, whose answers are checked.
+
+Solvers' times are CPU seconds of one thread, the least of several runs.
+"""
 
 from __future__ import annotations
 
-import math
-import tempfile
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy.linalg
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import eigsh
+from threadpoolctl import threadpool_limits
 
+from bsm.bitstream.errors import NumericError
+from bsm.codec.arrays import Matrix
+from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
+from bsm.codec.basis.orthogonal_iteration import cosine_columns, hash_columns, orthogonal_iteration
+from bsm.codec.blocks.blend import Blend, degree_weights
+from bsm.codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
+from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
+from bsm.evaluation.curve import number, table
 from bsm.evaluation.draco import decode_draco, encode_draco
-from bsm.evaluation.link import break_even, deliveries
-from bsm.evaluation.resources import measure_resources
-from bsm.evaluation.solvers import Timing, time_solvers
-from bsm.evaluation.tables import number, table
-from bsm.files.mesh import format_mesh, read_mesh
+from bsm.files.mesh import read_mesh
 
 KEEPS = (0.10, 0.15, 0.20, 0.25)
+POWERS = (1, 2, 4)
 DRACO_BITS, DRACO_LEVEL = 9, 10
-Note = Callable[[str], None]
+SHIFT = 0.125
+_BLOCK_VERTICES, _OVERLAP = 500, 1.15
+Result = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Solver:
+    """An eigensolver for the `width` lowest eigenvectors of a dense Laplacian, shape (n, width)."""
+
+    name: str
+    solve: Callable[[Matrix, int], Matrix]
+    whole: bool = False
+    """It finds all of them, however many are asked for."""
+
+
+def _arpack(laplacian: Matrix, width: int) -> Matrix:
+    start = hash_columns(len(laplacian), 1)[:, 0]
+    vectors: Matrix = eigsh(csc_matrix(laplacian), width, sigma=-SHIFT, which="LM", v0=start)[1]
+    return vectors
+
+
+EXACT = (
+    Solver("numpy svd, full", lambda a, c: np.linalg.svd(a)[0][:, ::-1][:, :c], whole=True),
+    Solver("numpy eigh", lambda a, c: np.linalg.eigh(a)[1][:, :c], whole=True),
+    Solver("scipy eigh, evr, subset", lambda a, c: scipy.linalg.eigh(a, subset_by_index=[0, c - 1])[1]),
+    Solver("ARPACK, shift-invert", _arpack),
+)
 
 
 def run_bench(
-    meshes: Sequence[str],
-    *,
-    sample: int = 16,
-    repeats: int = 3,
-    largest: int = 2_500_000,
-    solvers: bool = True,
-    note: Note = lambda text: None,
-) -> dict[str, Any]:
-    """Measure everything."""
+    meshes: Sequence[str], *, sample: int = 16, repeats: int = 3, solvers: bool = True, note: Callable[[str], None]
+) -> Result:
+    """Measure everything; `sample`: blocks that exact solvers solve."""
     rows = []
     for path in meshes:
         mesh = read_mesh(path).mesh.bare.without_isolated_vertices()[0]
         note(f"{Path(path).name}, whole files")
-        files = compare_with_draco(mesh, repeats)
-        row = {"mesh": Path(path).stem, "vertices": len(mesh.positions), "files": files}
-        row |= {"link": compare_links(mesh, repeats), "dictionaries": [], "speedups": []}
+        row = {"mesh": Path(path).stem, "vertices": len(mesh.positions), "files": compare_with_draco(mesh, repeats)}
         if solvers:
             note(f"{Path(path).name}, eigensolvers")
-            row |= summarise(time_solvers(mesh, KEEPS, sample, repeats))
+            with threadpool_limits(1):
+                row["dictionaries"] = time_solvers(mesh, sample, repeats)
         rows.append(row)
-    return {"meshes": rows, "growth": measure_growth(meshes[0], largest, repeats, note) if largest else []}
-
-
-def summarise(timings: Sequence[Timing]) -> dict[str, Any]:
-    """`dictionaries`: all timings; `speedups`: for each fraction and power, against full SVD and the fastest solver."""
-    speedups = []
-    for timing in timings:
-        if timing.exact:
-            continue
-        rivals = [other for other in timings if other.exact and other.keep == timing.keep]
-        fastest = min(rivals, key=lambda rival: rival.seconds)
-        svd = next(rival for rival in rivals if rival.solver.startswith("numpy svd"))
-        speedups.append(
-            {
-                "solver": timing.solver,
-                "keep": timing.keep,
-                "against_svd": svd.seconds / timing.seconds,
-                "against_fastest": fastest.seconds / timing.seconds,
-                "fastest": fastest.solver,
-                "nmsve_above_exact_db": timing.nmsve_db - fastest.nmsve_db,
-            }
-        )
-    return {"dictionaries": [asdict(timing) for timing in timings], "speedups": speedups}
+    return {"meshes": rows}
 
 
 def compare_with_draco(mesh: TriangleMesh, repeats: int) -> dict[str, dict[str, float]]:
@@ -84,128 +94,112 @@ def compare_with_draco(mesh: TriangleMesh, repeats: int) -> dict[str, dict[str, 
         "ours decode": lambda: decode(ours),
         "draco decode": lambda: decode_draco(theirs),
     }
-    clock = dict.fromkeys(works, math.inf)
-    cpu = dict.fromkeys(works, math.inf)
+    found = {}
     for name, work in works.items():
-        for _ in range(repeats + 1):
-            begin, cpu_begin = time.perf_counter(), time.process_time()
-            work()
-            clock[name] = min(clock[name], time.perf_counter() - begin)
-            cpu[name] = min(cpu[name], time.process_time() - cpu_begin)
-    return {
-        name: {
-            "seconds": clock[name],
-            "cpu_seconds": cpu[name],
-            "vertices_per_second": len(mesh.positions) / clock[name],
-        }
-        for name in works
-    }
+        seconds, cpu = (least_time(work, repeats + 1, clock) for clock in (time.perf_counter, time.process_time))
+        found[name] = {"seconds": seconds, "cpu_seconds": cpu, "vertices_per_second": len(mesh.positions) / seconds}
+    return found
 
 
-def compare_links(mesh: TriangleMesh, repeats: int) -> dict[str, Any]:
-    """`ours` and `draco`: files that keep 7 degrees; `break_even_mbit`: below, ours is there and decoded first."""
-    ours, theirs = deliveries(mesh, repeats)
-    return {"ours": asdict(ours), "draco": asdict(theirs), "break_even_mbit": break_even(ours, theirs)}
+def time_solvers(mesh: TriangleMesh, sample: int, repeats: int) -> list[Result]:
+    """What the dictionaries of all blocks cost, for each fraction of columns: exact, and by iterations."""
+    graph = graph_of_faces(mesh.faces, len(mesh.positions))
+    partition = derive_partition(graph, max(1, round(graph.size / _BLOCK_VERTICES)))
+    size = block_size(partition, _OVERLAP)
+    blocks = grow_blocks(graph, partition, size)
+    ordered = [blocks.block(index) for index in range(blocks.count)]
+    chosen = [dense_laplacian(block) for block in ordered[:: max(1, len(ordered) // sample)][:sample]]
+    reference = Reference(mesh.positions, mesh.faces)
+    wholes: dict[str, float] = {}
 
+    def exact_seconds(solver: Solver, width: int) -> float:
+        for laplacian in chosen:
+            check_lowest(solver, laplacian, min(width, len(laplacian) - 1))
+        seconds = least_time(lambda: [solver.solve(a, min(width, len(a) - 1)) for a in chosen], repeats)
+        return seconds * len(ordered) / len(chosen)
 
-def measure_growth(path: str, largest: int, repeats: int, note: Note) -> list[dict[str, Any]]:
-    """Time and memory per vertex of a mesh subdivided again and again, while it has at most `largest` vertices."""
-    mesh = read_mesh(path).mesh.bare.without_isolated_vertices()[0]
-    rows = []
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "mesh.ply")
-        while len(mesh.positions) <= largest:
-            note(f"{Path(path).name} of {len(mesh.positions)} vertices")
-            file.write_bytes(format_mesh(mesh, "ply"))
-            rows.append({"vertices": len(mesh.positions), **measure_resources(file, repeats)})
-            mesh = subdivide(mesh)
+    def nmsve_db(bases: list[Matrix]) -> float:
+        blend = Blend(len(mesh.positions))
+        for block, basis in zip(ordered, bases, strict=True):
+            projected = basis @ (basis.T @ mesh.positions[block.vertices])
+            blend.add(block.vertices, projected, degree_weights(block.degrees))
+        return reference.compare(blend.positions(np.arange(len(mesh.positions), dtype=np.int32))).nmsve_db
+
+    rows: list[Result] = []
+    for keep in KEEPS:
+        width = max(1, round(keep * size))
+        exact_db = nmsve_db([np.linalg.eigh(dense_laplacian(block))[1][:, :width] for block in ordered])
+        facts = {"keep": keep, "columns": width}
+        times = {}
+        for solver in EXACT:
+            seconds = wholes.get(solver.name) or exact_seconds(solver, width)
+            if solver.whole:
+                wholes[solver.name] = seconds
+            times[solver.name] = seconds
+            rows.append({"solver": solver.name, **facts, "seconds": seconds, "nmsve_db": exact_db, "exact": True})
+        for power in POWERS:
+            work = partial(iterated_all, blocks, width, power)
+            seconds = least_time(work, repeats)
+            speedups = {"against_svd": times[EXACT[0].name] / seconds, "against_fastest": min(times.values()) / seconds}
+            row = {"solver": f"OI, R^{power}", **facts, "seconds": seconds, "nmsve_db": nmsve_db(work())}
+            rows.append({**row, "exact": False, **speedups})
     return rows
 
 
-def subdivide(mesh: TriangleMesh) -> TriangleMesh:
-    """Cut every face into four at the middles of its edges."""
-    count, faces = len(mesh.positions), mesh.faces
-    ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    keys, edge_of = np.unique(ends[:, 0].astype(np.int64) * count + ends[:, 1], return_inverse=True)
-    middles = (mesh.positions[keys // count] + mesh.positions[keys % count]) / 2
-    ab, bc, ca = (count + edge_of).reshape(3, -1)
-    a, b, c = faces.T
-    parts = [np.stack(corners, axis=1) for corners in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
-    return TriangleMesh(np.concatenate([mesh.positions, middles]), np.concatenate(parts).astype(np.int32))
+def iterated_all(blocks: Blocks, width: int, power: int) -> list[Matrix]:
+    """The dictionary of each block by one orthogonal iteration from cosines."""
+    return [iterated(blocks.block(index), width, power) for index in range(blocks.count)]
 
 
-def bench_tables(result: dict[str, Any]) -> str:
+def iterated(block: Block, width: int, power: int) -> Matrix:
+    """One of `iterated_all`."""
+    start = cosine_columns(block.size, 0, min(width, block.size))
+    return orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=power, iterations=1)
+
+
+def check_lowest(solver: Solver, laplacian: Matrix, width: int) -> None:
+    """Check that a solver's columns are orthonormal and span the lowest eigenspace (Ky Fan's minimum of the trace)."""
+    basis = solver.solve(laplacian, width)
+    if not np.allclose(basis.T @ basis, np.eye(width), atol=1e-6):
+        raise NumericError(f"{solver.name}: the columns are not orthonormal")
+    least = np.linalg.eigvalsh(laplacian)[:width].sum()
+    excess = np.einsum("ij,ij->", basis, laplacian @ basis) - least
+    if not abs(excess) <= 1e-8 * max(1.0, least):
+        raise NumericError(f"{solver.name}: the trace is {excess:g} above the sum of the lowest eigenvalues")
+
+
+def least_time(work: Callable[[], object], repeats: int, clock: Callable[[], float] = time.thread_time) -> float:
+    """Seconds of a clock, by default this thread's, the least of `repeats` runs."""
+    seconds = []
+    for _ in range(repeats):
+        begin = clock()
+        work()
+        seconds.append(clock() - begin)
+    return min(seconds)
+
+
+def bench_tables(result: Result) -> str:
     """The result of `run_bench` for people."""
     parts = []
     for row in result["meshes"]:
-        parts.append(f"{row['mesh']}, {row['vertices']} vertices; dictionaries of all blocks, one thread, CPU time:\n")
-        parts.append(
-            table(
-                ("solver", "c", "columns", "ms", "NMSVE, dB"),
-                [
-                    (
-                        timing["solver"],
-                        f"{timing['keep']:.0%}",
-                        str(timing["columns"]),
-                        number(1e3 * timing["seconds"], 1),
-                        number(timing["nmsve_db"], 2),
-                    )
-                    for timing in row["dictionaries"]
-                ],
+        parts.append(f"{row['mesh']}, {row['vertices']} vertices:\n")
+        names = {"seconds": 1e3, "cpu_seconds": 1e3, "vertices_per_second": 1}
+        files = [
+            (name, *(number(unit * times[key], 1 if unit > 1 else 0) for key, unit in names.items()))
+            for name, times in row["files"].items()
+        ]
+        parts.append(table(("whole file", "ms", "CPU ms", "vertices/s"), files))
+        if "dictionaries" not in row:
+            continue
+        rows = [
+            (
+                f"{one['solver']}, c = {one['keep']:.0%}",
+                number(1e3 * one["seconds"], 1),
+                number(one["nmsve_db"], 2),
+                *(number(one.get(f"against_{rival}"), 1) for rival in ("svd", "fastest")),
             )
-        )
-        parts.append("")
-        parts.append(
-            table(
-                ("iteration", "c", "times SVD", "times fastest", "fastest exact", "dB above exact"),
-                [
-                    (
-                        speedup["solver"],
-                        f"{speedup['keep']:.0%}",
-                        number(speedup["against_svd"], 1),
-                        number(speedup["against_fastest"], 1),
-                        speedup["fastest"],
-                        number(speedup["nmsve_above_exact_db"], 2),
-                    )
-                    for speedup in row["speedups"]
-                ],
-            )
-        )
-        parts.append("")
-        parts.append(
-            table(
-                ("whole file", "ms", "CPU ms", "vertices/s"),
-                [
-                    (
-                        name,
-                        number(1e3 * times["seconds"], 1),
-                        number(1e3 * times["cpu_seconds"], 1),
-                        number(times["vertices_per_second"], 0),
-                    )
-                    for name, times in row["files"].items()
-                ],
-            )
-        )
-        link = row["link"]
-        files = " and ".join(
-            f"{link[who]['size']} bytes ({link[who]['theta_deg']:.2f} degrees)" for who in ("ours", "draco")
-        )
-        parts.append(f"\n{files}: below {link['break_even_mbit']:.1f} Mbit/s ours is there and decoded first\n")
-    if result["growth"]:
-        parts.append("growth, CPU microseconds of all threads and peak memory of the process per vertex:\n")
-        parts.append(
-            table(
-                ("vertices", "encode, us", "decode, us", "encode, B", "decode, B"),
-                [
-                    (
-                        str(row["vertices"]),
-                        number(row["encode"]["cpu_microseconds_per_vertex"], 2),
-                        number(row["decode"]["cpu_microseconds_per_vertex"], 2),
-                        number(2**20 * row["encode"]["peak_mib"] / row["vertices"], 0),
-                        number(2**20 * row["decode"]["peak_mib"] / row["vertices"], 0),
-                    )
-                    for row in result["growth"]
-                ],
-            )
-        )
+            for one in row["dictionaries"]
+        ]
+        columns = ("dictionaries of all blocks, one thread", "CPU ms", "NMSVE, dB", "times SVD", "times fastest exact")
+        parts.append(f"\n{table(columns, rows)}")
     return "\n".join(parts)

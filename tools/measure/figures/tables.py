@@ -13,24 +13,39 @@ import numpy as np
 from bsm.bitstream.errors import DependencyError, OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.evaluation.codecs import COLD_STARTS, EXACT_BASES, Spectral, draco_curve, our_curve, paper_options
-from bsm.evaluation.per_block import (
+from bsm.evaluation.curve import (
+    COLD_STARTS,
+    EXACT_BASES,
+    Spectral,
+    compare_curves,
+    draco_curve,
+    measure,
+    number,
+    our_curve,
+    paper_options,
+    percent,
+    rate_curve_of,
+    run_curve,
+    scaled,
+    table,
+    write_result,
+)
+from bsm.files.mesh import read_mesh
+from bsm.files.output import open_output
+from tools.measure.blocks import (
     block_size_for,
     boundary_rows,
     boundary_table,
+    draw_per_block,
     dynamic_comparison,
+    in_bisection_order,
+    in_breadth_first_order,
+    nmsve_db_of,
     quartiles,
     spread,
 )
-from bsm.evaluation.plots import draw_per_block
-from bsm.evaluation.rates import compare_curves, rate_curve_of, scaled
-from bsm.evaluation.resources import measure_resources
-from bsm.evaluation.row_order import in_bisection_order, in_breadth_first_order, nmsve_db_of
-from bsm.evaluation.run import measure, run_curve, write_result
-from bsm.evaluation.tables import number, percent, table
-from bsm.files.mesh import read_mesh
-from bsm.files.output import open_output
 from tools.measure.figures.connectivity import HEADINGS, connectivity_row
+from tools.measure.speed import measure_resources
 
 BLOCKS = {
     "bunny_34834": 70,

@@ -1,20 +1,30 @@
-"""Errors block by block: inside blocks and at their boundaries, and along the chain."""
+"""Errors block by block, inside blocks and at their boundaries; and what the order of a block's rows is worth.
+
+python -m tools.measure boundary MESH
+"""
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.sparse import csr_matrix
 
 from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.basis.laplacian import Laplacian, laplacian_of
 from bsm.codec.blocks.blend import Blend, degree_weights
-from bsm.codec.blocks.overlap import Block, Blocks, grow_blocks
+from bsm.codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
 from bsm.codec.blocks.partition import Partition, derive_partition
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Reference
+from bsm.codec.signal.chain import Chain, ChainRules
+from bsm.codec.signal.predict import unheld
 from bsm.codec.static.choice.plan import Planner
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
@@ -22,9 +32,13 @@ from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Parts, prepare
 from bsm.codec.static.ways.block_coder import encode_blocks
-from bsm.evaluation.codecs import paper_options
-from bsm.evaluation.tables import number, table
+from bsm.commands.encode_options import add_coding_flags, settings_of
+from bsm.console import Console, print_json
+from bsm.evaluation.curve import number, paper_options, table
+from bsm.evaluation.plots import draw_axes, new_figure, save_figure
+from bsm.files.mesh import read_mesh
 from bsm.files.stream import StreamInfo, inspect_stream
+from tools.command import run_command
 
 Floats = npt.NDArray[np.float64]
 
@@ -178,3 +192,118 @@ def dynamic_comparison(mesh: TriangleMesh, block_size: int, keep: float = 0.10) 
             break
         low, high = (middle, high) if kept > wanted else (low, middle)
     return {"fixed": fixed, "dynamic": dynamic}
+
+
+RowOrder = Callable[[Blocks, int], Laplacian]
+
+
+def in_bisection_order(blocks: Blocks, index: int) -> Laplacian:
+    """Laplacian of a block as the codec has it."""
+    return laplacian_of(blocks.block(index))
+
+
+def in_breadth_first_order(blocks: Blocks, index: int) -> Laplacian:
+    """Laplacian of a block with its rows as growing found them: its part in mesh order, then ring after ring."""
+    block = blocks.block(index)
+    found = blocks.members_of(index)
+    by_vertex = np.argsort(block.vertices)
+    return permuted(laplacian_of(block), by_vertex[np.searchsorted(block.vertices, found, sorter=by_vertex)])
+
+
+def permuted(laplacian: Laplacian, rows: npt.NDArray[np.integer]) -> Laplacian:
+    """A Laplacian with its row `rows[r]` as row r."""
+    block, fronts = laplacian.block, laplacian.fronts
+    entries = np.ones(len(block.neighbours), np.int8)
+    graph = csr_matrix((entries, block.neighbours, block.offsets), shape=(block.size, block.size))
+    graph = graph[rows][:, rows]
+    graph.sort_indices()
+    other = Block(block.vertices[rows], graph.indptr.astype(np.int32), graph.indices.astype(np.int32))
+    # The order of elimination is the same: fronts found from rows in another order than bisection's would be huge.
+    places = np.argsort(rows).astype(np.uint32)
+    return Laplacian(
+        other,
+        fronts._replace(rows=places[fronts.rows], steps=fronts.steps[rows].astype(np.uint32)),
+        np.ones(len(other.neighbours)),
+        laplacian.diagonal[rows],
+    )
+
+
+def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_order: RowOrder) -> float:
+    """NMSVE in dB of projecting a mesh on its blocks' subspaces and blending, without quantization."""
+    graph = graph_of_faces(mesh.faces, len(mesh.positions))
+    partition = derive_partition(graph, max(1, round(graph.size / options.block_size)))
+    blocks = grow_blocks(graph, partition, block_size(partition, options.overlap))
+    rules = ChainRules(
+        exact=options.exact_keys,
+        key_interval=options.key_interval,
+        power=options.power,
+        iterations=options.iterations,
+        key_iterations=options.key_iterations,
+        shift=options.shift,
+        stiffness=0.0,
+    )
+    chain, blend = Chain(rules, graph), Blend(graph.size)
+    for index in range(blocks.count):
+        laplacian = row_order(blocks, index)
+        block = laplacian.block
+        subspace = chain.dictionary(unheld(laplacian, options.shift), max(1, round(keep * block.size)))
+        positions = subspace @ (subspace.T @ mesh.positions[block.vertices])
+        chain.commit(block, subspace, positions)
+        blend.add(block.vertices, positions, degree_weights(block.degrees))
+    reference = Reference(mesh.positions, mesh.faces)
+    return reference.compare(blend.positions(np.arange(graph.size, dtype=np.int32))).nmsve_db
+
+
+def draw_per_block(blocks: Mapping[str, Sequence[Mapping[str, float]]], stem: Path) -> list[Path]:
+    """Squared error and coefficients of each block along the chain, one line per label: the paper's second figure."""
+
+    figure = new_figure()
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for label, rows in blocks.items():
+        upper.plot([row["squared_error"] for row in rows], lw=1, label=label)
+        lower.step(range(len(rows)), [row["coefficients"] for row in rows], where="mid", lw=1, label=label)
+    upper.set(yscale="log", ylabel="mean squared error")
+    lower.set(xlabel="block", ylabel="coefficients kept")
+    upper.legend(fontsize=7)
+    return save_figure(figure, stem)
+
+
+def draw_boxes(groups: Mapping[str, Mapping[str, npt.NDArray[np.float64]]], stem: Path) -> list[Path]:
+    """Box plots of deviations: for each case one box per group of values (inside blocks, at their boundaries)."""
+
+    def draw(axes: Any) -> None:
+        names = [f"{case}\n{group}" for case, values in groups.items() for group in values]
+        axes.boxplot([1e3 * v for values in groups.values() for v in values.values()], tick_labels=names)
+        axes.tick_params(axis="x", labelsize=7)
+        axes.set_ylabel("standard deviation of the error, thousandths of the diagonal")
+
+    return draw_axes(draw, stem)
+
+
+def work(args: argparse.Namespace, console: Console) -> None:
+    """Print the quartiles over the blocks, as the paper's box plot shows them."""
+    mesh = read_mesh(args.input).mesh
+    deviations_of = boundary_table(mesh, paper_options(**{"power": 2, **settings_of(args)}))
+    rows = [
+        {"case": case, "where": where, **quartiles(deviations)}
+        for case, groups in deviations_of.items()
+        for where, deviations in groups.items()
+    ]
+    if args.json:
+        print_json({"mesh": Path(args.input).stem, "rows": rows})
+    else:
+        print("Standard deviation of the error over the blocks, in thousandths of the diagonal:\n")
+        print(boundary_rows(rows))
+    if args.output:
+        for path in draw_boxes(deviations_of, Path(args.output)):
+            console.note(str(path))
+
+
+def main() -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("input", metavar="MESH", help="mesh file")
+    parser.add_argument("-o", "--output", metavar="STEM", help="draw the box plot as STEM.png and STEM.svg")
+    parser.add_argument("--json", action="store_true", help="print it as JSON")
+    add_coding_flags(parser)
+    run_command(parser, work)

@@ -1,0 +1,361 @@
+"""Rate against error: codecs run over meshes at several settings, written down as JSON, and compared from it."""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from bsm.bitstream.errors import CorruptError
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.arrays import Positions
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Reference
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.targets import Target
+from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
+from bsm.evaluation.plots import MEASURES
+from bsm.evaluation.sample import knot
+from bsm.files.output import open_output
+from bsm.files.stream import inspect_stream
+
+Result = dict[str, Any]
+Align = Callable[[TriangleMesh], Positions]
+"""What a codec made of each vertex of the mesh that it was given, of the mesh that it decoded."""
+
+SCHEMA = 1
+PARTS = ("connectivity", "partition", "order", "coefficients", "framing")
+
+
+class Codec(Protocol):
+    """A codec at one setting."""
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What tells this setting from others, ready for JSON."""
+
+    def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
+        """A whole file of a mesh all of whose vertices are in faces."""
+
+    def decode(self, data: bytes) -> TriangleMesh:
+        """The mesh of a file, vertices in the file's order."""
+
+    def parts(self, data: bytes) -> dict[str, Any]:
+        """Bytes of each of `PARTS`, and `bpv_paper`, as far as the format tells."""
+
+
+@dataclass(frozen=True)
+class Spectral:
+    """This project's codec; on one thread, so that times compare."""
+
+    options: EncodeOptions
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """The options that are not the defaults, and the step where it counts; not what decoders grant."""
+        defaults, values = (
+            EncodeOptions(),
+            {item.name: getattr(self.options, item.name) for item in fields(EncodeOptions)},
+        )
+        changed = {k: value for k, value in values.items() if k != "limits" and value != getattr(defaults, k)}
+        if self.options.target is not None:
+            return {**changed, "target": asdict(self.options.target)}
+        return changed if self.options.bits else {"step": self.options.first_step, **changed}
+
+    def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
+        """See `Codec`; the encoder itself knows the order of the vertices."""
+        encoder = Encoder(mesh, self.options)
+        data = encoder.encode()
+        order = slice(None) if self.options.keep_order else encoder.vertex_index
+        return data, lambda decoded: decoded.positions[order]
+
+    def decode(self, data: bytes) -> TriangleMesh:
+        """See `Codec`; on as many threads as the encoder was given."""
+        return decode(data, NAMED_LIMITS[self.options.limits](), self.options.threads)
+
+    def parts(self, data: bytes) -> dict[str, Any]:
+        """What `bsm info` shows."""
+        info = inspect_stream(iter([data]))
+        sizes = (info.connectivity, info.partition, info.order, info.coefficient_bytes, info.framing)
+        return {**dict(zip(PARTS, sizes, strict=True)), "bpv_paper": info.bpv_paper}
+
+
+@dataclass(frozen=True)
+class Draco:
+    """Draco's edgebreaker through DracoPy."""
+
+    position_bits: int
+    levels: tuple[int, ...] = (10,)
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Bits and levels."""
+        return {"position_bits": self.position_bits, "levels": list(self.levels)}
+
+    def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
+        """See `Codec`; the order of the vertices is found when it is asked for."""
+        data = min((encode_draco(mesh, self.position_bits, level) for level in self.levels), key=len)
+        return data, lambda decoded: positions_in_order(mesh, decoded, self.position_bits)
+
+    def decode(self, data: bytes) -> TriangleMesh:
+        """See `Codec`."""
+        return decode_draco(data)
+
+    def parts(self, data: bytes) -> dict[str, Any]:
+        """Draco does not tell."""
+        return dict.fromkeys((*PARTS, "bpv_paper"))
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A codec at several operating points: one line of a plot, one JSON file per mesh."""
+
+    name: str
+    label: str
+    codecs: tuple[Codec, ...]
+
+
+PAPER_KEEPS = (0.05, 0.10, 0.15, 0.20, 0.25)
+PAPER_THRESHOLDS = (0.14, 0.1, 0.07, 0.05, 0.035)
+"""eps_h of dynamic orthogonal iterations; eps_l is a tenth less."""
+EXACT_BASES: dict[str, Any] = {"key_interval": 1, "key_seed": "svd"}
+"""Every block in its exact basis, as by SVD."""
+COLD_STARTS: dict[str, Any] = {"key_interval": 1, "key_seed": "cosines", "key_iterations": 1}
+"""Every block by one orthogonal iteration from cosines."""
+PAPER_LINES: tuple[tuple[str, str, dict[str, Any]], ...] = (
+    ("svd", "SVD", EXACT_BASES),
+    ("oi-r1", "OI, R", {}),
+    ("oi-r1-t2", "OI, R, 2 iterations", {"iterations": 2}),
+    ("oi-r1-t3", "OI, R, 3 iterations", {"iterations": 3}),
+    ("oi-r2", "OI, R²", {"power": 2}),
+    ("oi-r3", "OI, R³", {"power": 3}),
+    ("oi-r4", "OI, R⁴", {"power": 4}),
+    ("oi-r1-cold", "OI, R, no warm start", COLD_STARTS),
+    ("oi-r2-cold", "OI, R², no warm start", COLD_STARTS | {"power": 2}),
+)
+OUR_STEPS = (2.4e-2, 1.6e-2, 1.1e-2, 8e-3, 5.5e-3, 4e-3, 2.8e-3, 2e-3, 1.3e-3, 8e-4)
+FINE_STEP = 4e-3
+OUR_ANGLES = (3.0, 2.0, 1.2, 0.7, 0.4, 0.2)
+"""Below this step, and at these mean angles of normals in degrees, blocks alone are no longer the smallest way."""
+
+
+def paper_options(**changes: Any) -> EncodeOptions:
+    """The paper's mode: METIS, 12 bits for every coefficient, one chain."""
+    settings: dict[str, Any] = {"partition": "metis", "bits": 12, "key_interval": 0, "power": 1}
+    return EncodeOptions(**{**settings, "threads": 1, "limits": "wide", **changes})
+
+
+def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) -> tuple[Curve, ...]:
+    """The lines of the paper's rate-distortion figure: full SVD, orthogonal iterations of several kinds, and DOI."""
+
+    def line(name: str, label: str, settings: Sequence[dict[str, Any]]) -> Curve:
+        return Curve(name, label, tuple(Spectral(paper_options(block_size=block_size, **one)) for one in settings))
+
+    dynamic = [{"keep": 0.4, "doi": (0.9 * threshold, threshold)} for threshold in PAPER_THRESHOLDS]
+    fixed = (line(name, label, [{"keep": keep, **own} for keep in keeps]) for name, label, own in PAPER_LINES)
+    return (*fixed, line("doi-r1", "DOI, R", dynamic))
+
+
+def our_curve(*, fine: bool = False, **changes: Any) -> Curve:
+    """The product at a ladder of steps, everything else its defaults; with `fine`, at angles instead of fine steps."""
+    steps = [step for step in OUR_STEPS if not fine or step >= FINE_STEP]
+    codecs = [Spectral(EncodeOptions(**{"threads": 1, "step": step, **changes})) for step in steps]
+    if fine:
+        codecs += [Spectral(EncodeOptions(threads=1, target=Target("theta_deg", angle))) for angle in OUR_ANGLES]
+    return Curve("ours", "ours", tuple(codecs))
+
+
+def draco_curve() -> Curve:
+    """Draco at 6 to 14 bits per coordinate; level 10, below nine bits level 7 where it is smaller."""
+    return Curve("draco", "Draco", tuple(Draco(bits, (7, 10) if bits < 9 else (10,)) for bits in range(6, 15)))
+
+
+# ------------------------------------------------------------------------------------------------------------- running
+
+
+def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int = 1) -> Result:
+    """Encode and decode once or more, and say everything that is to be said about it."""
+    encode_seconds, (data, align) = timed(lambda: codec.encode(mesh), repeats)
+    decode_seconds, decoded = timed(lambda: codec.decode(data), repeats)
+    comparison = reference.compare(align(decoded))
+    parts = codec.parts(data)
+    bpv_paper, geometry = parts.pop("bpv_paper"), parts["coefficients"]
+    vertices = len(mesh.positions)
+    return {
+        "settings": codec.settings,
+        "bytes": {**parts, "total": len(data)},
+        "bpv_total": 8 * len(data) / vertices,
+        "bpv_geometry": None if geometry is None else 8 * geometry / vertices,
+        "bpv_paper": bpv_paper,
+        # JSON has no infinity; what is lossless has no decibels.
+        "nmsve_db": comparison.nmsve_db if math.isfinite(comparison.nmsve_db) else None,
+        "theta_deg": comparison.theta_deg,
+        "rms_relative": comparison.rms_relative,
+        "max_error_relative": comparison.max_error_relative,
+        "encode_seconds": encode_seconds,
+        "decode_seconds": decode_seconds,
+    }
+
+
+def run_curve(
+    curve: Curve,
+    mesh: TriangleMesh,
+    name: str,
+    repeats: int = 1,
+    progress: Callable[[int, int], None] = lambda done, count: None,
+) -> Result:
+    """All operating points of one codec on a mesh of that name."""
+    mesh = mesh.without_isolated_vertices()[0]
+    reference = Reference(mesh.positions, mesh.faces)
+    # Loads the compiled kernels, so that no time contains that.
+    sample = knot(1_000)
+    measure(curve.codecs[0], sample, Reference(sample.positions, sample.faces))
+    points = []
+    for codec in curve.codecs:
+        points.append(measure(codec, mesh, reference, repeats))
+        progress(len(points), len(curve.codecs))
+    facts = {"name": name, "vertices": len(mesh.positions), "faces": len(mesh.faces)}
+    return {"schema": SCHEMA, "codec": curve.name, "label": curve.label, "mesh": facts, "points": points}
+
+
+def write_result(result: Result, folder: Path) -> Path:
+    """Write one result as ``<mesh>.<codec>.json``."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{result['mesh']['name']}.{result['codec']}.json"
+    with open_output(path, overwrite=True) as file:
+        file.write(json.dumps(result, indent=1, allow_nan=False).encode())
+    return path
+
+
+def read_results(folder: Path) -> Iterator[Result]:
+    """All results in a folder, by mesh and codec."""
+    for path in sorted(folder.glob("*.*.json")):
+        result = json.loads(path.read_text())
+        if result.get("schema") != SCHEMA:
+            raise CorruptError(f"{path}: schema {result.get('schema')} is not {SCHEMA}; run the evaluation again")
+        yield result
+
+
+def timed(work: Callable[[], Any], repeats: int) -> tuple[float, Any]:
+    """Seconds of the fastest of some runs, and the result."""
+    least, result = math.inf, None
+    for _ in range(max(1, repeats)):
+        start = time.perf_counter()
+        result = work()
+        least = min(least, time.perf_counter() - start)
+    return least, result
+
+
+# ----------------------------------------------------------------------------------------------------------- comparing
+
+
+@dataclass(frozen=True, eq=False)
+class RateCurve:
+    """Logarithm of the rate as a function of a distortion, between the measured points."""
+
+    distortions: Positions
+    log_rates: Positions
+
+    @property
+    def interpolated(self) -> PchipInterpolator:
+        """Piecewise cubic, monotone."""
+        return PchipInterpolator(self.distortions, self.log_rates)
+
+    def log_rate(self, distortion: float) -> float | None:
+        """None outside the measured range, or with a single point."""
+        if len(self.distortions) < 2 or not self.distortions[0] <= distortion <= self.distortions[-1]:
+            return None
+        return float(self.interpolated(distortion))
+
+    def rate(self, distortion: float) -> float | None:
+        """As `log_rate`, but bits per vertex."""
+        log_rate = self.log_rate(distortion)
+        return None if log_rate is None else float(np.exp(log_rate))
+
+
+def rate_curve(rates: Sequence[float], distortions: Sequence[float]) -> RateCurve:
+    """Curve through the points that no other point beats in both rate and distortion."""
+    kept: dict[float, float] = {}
+    least = np.inf
+    # From the least distortion up, a point is of use only if it costs less than all before it.
+    for index in np.lexsort((rates, distortions)):
+        if rates[index] < least:
+            least = rates[index]
+            kept.setdefault(distortions[index], math.log(least))
+    return RateCurve(np.array(list(kept), np.float64), np.array(list(kept.values()), np.float64))
+
+
+def rate_curve_of(points: Sequence[Result], measure: str, rate: str = "bpv_total") -> RateCurve:
+    """Curve of a result's points: a rate against one of `MEASURES`; lossless points are left out."""
+    usable = [(point[rate], scaled(point[measure], measure)) for point in points if point[measure] is not None]
+    pairs = [(bits, distortion) for bits, distortion in usable if distortion is not None]
+    return rate_curve([bits for bits, _ in pairs], [distortion for _, distortion in pairs])
+
+
+def scaled(value: float, measure: str) -> float | None:
+    """A distortion on the scale that curves are interpolated over: theta becomes 10 log10(theta)."""
+    if measure != "theta_deg":
+        return value
+    return 10.0 * float(np.log10(value)) if value > 0.0 else None
+
+
+def bd_rate(reference: RateCurve, tested: RateCurve) -> float | None:
+    """Bjontegaard's average difference of rate at equal distortion, percent, over the range that both curves cover."""
+    curves = reference, tested
+    if min(len(curve.distortions) for curve in curves) < 2:
+        return None
+    low, high = max(curve.distortions[0] for curve in curves), min(curve.distortions[-1] for curve in curves)
+    if not low < high:
+        return None
+    areas = [curve.interpolated.integrate(low, high) for curve in curves]
+    return float(100.0 * np.expm1((areas[1] - areas[0]) / (high - low)))
+
+
+def rate_ratio(reference: RateCurve, tested: RateCurve, distortion: float) -> float | None:
+    """Bits of `tested` over bits of `reference` at one distortion, None where one of them does not reach it."""
+    first, second = reference.rate(distortion), tested.rate(distortion)
+    return None if first is None or second is None else second / first
+
+
+def compare_curves(reference: Result, tested: Result, angles: Sequence[float] = (7.0, 10.0)) -> Result:
+    """What a table says about one codec against another on one mesh."""
+    curves = {m: (rate_curve_of(reference["points"], m), rate_curve_of(tested["points"], m)) for m in MEASURES}
+    at_angles = {f"{a:g}": rate_ratio(*curves["theta_deg"], scaled(a, "theta_deg") or 0.0) for a in angles}
+    return {
+        "mesh": tested["mesh"]["name"],
+        "codec": tested["codec"],
+        "reference": reference["codec"],
+        "bd_rate_percent": {name: bd_rate(*pair) for name, pair in curves.items()},
+        "bytes_at_theta": at_angles,
+    }
+
+
+def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Markdown: columns padded to the same width, the first to the left and the others to the right."""
+    widths = [max(2, *(len(row[i]) for row in (columns, *rows))) for i in range(len(columns))]
+    rule = ["-" * widths[0], *("-" * (width - 1) + ":" for width in widths[1:])]
+
+    def line(cells: Sequence[str]) -> str:
+        padded = [cells[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells[1:], widths[1:]))]
+        return f"| {' | '.join(padded)} |"
+
+    return "\n".join([line(columns), line(rule), *map(line, rows)])
+
+
+def number(value: float | None, digits: int) -> str:
+    """A number, or a dash where there is none."""
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
+def percent(value: float | None) -> str:
+    """A signed percentage, or a dash."""
+    return "-" if value is None else f"{value:+.1f} %"

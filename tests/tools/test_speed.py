@@ -1,0 +1,40 @@
+"""Time and memory of one mesh, and links."""
+
+import numpy as np
+import pytest
+
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.files.mesh import write_mesh
+from tests.shapes import tetrahedron, torus
+from tools.measure.speed import Delivery, break_even, measure_resources, subdivide
+
+
+def test_subdividing_keeps_the_surface_and_its_topology():
+    for mesh in (tetrahedron(), torus()):
+        fine = subdivide(mesh)
+        edges = len(mesh.faces) * 3 // 2
+        assert len(fine.positions) == len(mesh.positions) + edges and len(fine.faces) == 4 * len(mesh.faces)
+        assert len(graph_of_faces(fine.faces, len(fine.positions)).neighbours) == 2 * (2 * edges + 3 * len(mesh.faces))
+
+        def areas(m):
+            a, b, c = (m.positions[m.faces[:, i]] for i in range(3))
+            return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+
+        assert np.isclose(areas(fine), areas(mesh))
+
+
+def test_the_link_on_which_both_are_as_quick():
+    ours, theirs = Delivery(1_000, 7.0, 0.05), Delivery(11_000, 6.9, 0.01)
+    assert break_even(ours, theirs) == pytest.approx(2.0)  # 80,000 bits in 40 ms
+    assert break_even(Delivery(1_000, 7.0, 0.01), theirs) == float("inf")
+    assert break_even(Delivery(11_000, 7.0, 0.05), theirs) == 0.0
+
+
+def test_memory_and_time_of_both_directions(tmp_path):
+    mesh = torus(30, 30)
+    write_mesh(tmp_path / "torus.npz", mesh)
+    for measured in measure_resources(tmp_path / "torus.npz").values():
+        assert measured["vertices"] == 900
+        assert 20 < measured["peak_mib"] < 2048
+        assert measured["cpu_microseconds_per_vertex"] == pytest.approx(1e6 * measured["cpu_seconds"] / 900)
+        assert measured["seconds"] > 0
