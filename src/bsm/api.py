@@ -142,12 +142,10 @@ def encode_many(
     >>> [("error" in row, row["output"]) for row in rows]
     [(False, 'streams/a.bsm'), (False, 'streams/b.bsm')]
     """
-    from bsm.batch import plan
     from bsm.console import Console
-    from bsm.encoding.job import EncodeJob
-    from bsm.encoding.mesh import encode_one
-    from bsm.farm.jobs import Run
-    from bsm.farm.run import run_many
+    from bsm.jobs.encode import EncodeJob, encode_one
+    from bsm.jobs.run import plan, run_many
+    from bsm.jobs.task import Run
 
     keywords_to.encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
@@ -161,7 +159,7 @@ def encode_many(
     planned = plan(names, folder, lambda _: ".bsm")
     threads = keywords.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
     told = metadata or {}
-    job = EncodeJob(force=overwrite, quiet=True, metadata=told, wishes=keywords, threads=threads, compared=False)
+    job = EncodeJob(force=overwrite, quiet=True, metadata=told, options=keywords, threads=threads, compared=False)
     return run_many(run, job, Console(quiet=True), encode_one, planned)
 
 

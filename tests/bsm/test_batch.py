@@ -13,13 +13,13 @@ from functools import partial
 import numpy as np
 import pytest
 
-from bsm.batch import plan
 from bsm.bitstream.errors import OptionError
 from bsm.cli import main
 from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
+from bsm.jobs.run import plan
 from tests.bsm import program
 
 ROOT = program.ROOT

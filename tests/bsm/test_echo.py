@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.encoding.sequence import Kept
+from bsm.jobs.encode import Kept
 
 
 @pytest.mark.parametrize("scale", [1e-300, 1.0, 1e300])

@@ -18,10 +18,11 @@ from bsm.bitstream.errors import ArgumentError, DependencyError, FormatError, Op
 from bsm.cli import main
 from bsm.console import Console
 from bsm.evaluation.sample import knot
-from bsm.farm.jobs import Job, Run, Task
-from bsm.farm.run import run_many
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.output import open_output
+from bsm.jobs.run import run_many
+from bsm.jobs.task import Job, Run, Task
+from tests.bsm.deadly import deadly
 from tests.bsm.program import ROOT
 from tests.bsm.program import bsm as program
 from tests.shapes import torus
@@ -73,7 +74,7 @@ def larger(tmp_path_factory):
     """Ten meshes that take a while."""
     folder = tmp_path_factory.mktemp("larger")
     for number in range(10):
-        write_mesh(folder / f"{number:02}.npz", knot(20_000, seed=number))
+        write_mesh(folder / f"{number:02}.npz", knot(8_000, seed=number))
     return sorted(map(str, folder.iterdir()))
 
 
@@ -139,19 +140,6 @@ def test_no_scheduler(sources, tmp_path, capsys):
 
 
 # ----------------------------------------------------------------------------------------------------------- processes
-
-
-def deadly(args, console):
-    """Work that kills its process, always or once; or is at fault."""
-    mark = Path(args.output).with_suffix(".mark")
-    with open_output(args.output, overwrite=args.may_replace(args.output)) as file:
-        file.write(b"begun")
-        if "always" in args.input or ("once" in args.input and not mark.exists()):
-            mark.touch()
-            os.kill(os.getpid(), signal.SIGKILL)
-    if "fault" in args.input:
-        raise KeyError("a fault of ours")
-    return {"input": args.input, "output": args.output}
 
 
 def test_a_process_that_dies_takes_only_its_own_job_along(tmp_path):
@@ -303,7 +291,7 @@ def test_a_forged_report_lets_nothing_be_replaced(sources, tmp_path):
     told = json.loads(report.read_text())
     whole = contents(output)
     (output / "00.bsm").write_bytes(b"precious")
-    for claim in ({}, {"output_sha256": "0" * 64}, {"error": "?"}, {"input_state": [1]}):
+    for claim in ({}, {"output_sha256": "0" * 64}, {"error": "?", "exit": 1}, {"input_state": [1]}):
         entries = [{"input": facts["input"], "output": facts["output"], **claim} for facts in first]
         forged(report, told["command"], told["options"], *entries)
         done = bsm.encode_many(sources[:2], output, report=report, resume=True, grid=8)
@@ -315,6 +303,31 @@ def test_a_forged_report_lets_nothing_be_replaced(sources, tmp_path):
     forged(report, told["command"], told["options"], {"input": sources[0], "output": str(elsewhere)})
     bsm.encode_many(sources[1:2], output, report=report, resume=True, grid=8)
     assert elsewhere.read_bytes() == b"precious"
+
+
+@pytest.mark.parametrize(
+    "claim",
+    [
+        {"input_bytes": 10**400},
+        {"input_bytes": 1e308},
+        {"seconds": 10**400},
+        {"output_bytes": 5e-324},
+        {"kg": float("nan")},
+        {"error": ""},
+        {"error": "x"},
+        {"error": "x", "exit": "a"},
+        {"error": "x", "exit": 0},
+        {"exit": "a"},
+    ],
+)
+def test_what_no_report_says_is_refused_in_one_sentence(claim, tmp_path, capsys):
+    write_mesh(tmp_path / "a.ply", torus(5, 5))
+    entry = {"input": str(tmp_path / "a.ply"), "output": str(tmp_path / "a.bsm"), **claim}
+    forged(tmp_path / "r.json", "encode_one", {}, entry, {**entry, "output": "b.bsm"})
+    words = ("encode", tmp_path / "a.ply", "-q", "--report", tmp_path / "r.json", "--resume")
+    assert main([str(word) for word in words]) == 3
+    (said,) = capsys.readouterr().err.splitlines()
+    assert "no report of ours to go on from" in said and not (tmp_path / "a.bsm").exists()
 
 
 def test_what_was_written_and_not_yet_told_of_is_known_again(sources, tmp_path):

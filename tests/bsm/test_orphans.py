@@ -9,15 +9,14 @@ from contextlib import suppress
 
 import pytest
 
-from bsm.batch import plan
-from bsm.farm.jobs import Task
-from bsm.farm.run import task_of
 from bsm.files.output import open_output
+from bsm.jobs.run import plan, task_of
+from bsm.jobs.task import Task
 
 PROGRAM = """
 import os, sys, time
-from bsm.farm.jobs import Task
-from bsm.farm.processes import in_processes
+from bsm.jobs.task import Task
+from bsm.jobs.workers import in_processes
 
 def sleeping(task, console):
     open(os.path.join(task.input, str(os.getpid())), "w").close()

@@ -66,6 +66,16 @@ def test_a_file_that_appears_meanwhile_is_not_overwritten(tmp_path):
     assert contents(tmp_path) == {"a": b"somebody else's"}
 
 
+def test_what_a_dead_writer_left_goes_with_the_next_write_and_nothing_of_a_living_one(tmp_path):
+    (tmp_path / ".a.abcd_123.part").write_bytes(b"cut off")
+    (tmp_path / ".ab.abcd_123.part").write_bytes(b"of another name")
+    with open_output(tmp_path / "a", overwrite=True) as first:
+        first.write(b"first")
+        with open_output(tmp_path / "a") as second:
+            second.write(b"second")
+    assert contents(tmp_path) == {"a": b"first", ".ab.abcd_123.part": b"of another name"}
+
+
 def test_permissions(tmp_path):
     before = os.umask(0o027)
     try:

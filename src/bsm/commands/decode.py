@@ -6,14 +6,12 @@ import argparse
 import time
 from pathlib import Path
 
-from bsm.batch import Facts, came_to, plan, run_jobs, size_of
 from bsm.bitstream.errors import OptionError
 from bsm.commands import sequence_decode
 from bsm.commands.decode_job import DecodeJob
 from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console
-from bsm.farm.run import anywhere
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
@@ -21,7 +19,10 @@ from bsm.files.permutation import read_permutation, reorder
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence import SEQUENCE_FORMATS
 from bsm.files.sequence_stream import peek_header
+from bsm.files.state import size_of
 from bsm.files.stream import decode_blocks, decode_what_is_left, decode_whole
+from bsm.jobs.run import anywhere, came_to, plan, run_jobs
+from bsm.jobs.task import Facts
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bsm.farm.jobs import Task
+from bsm.jobs.task import Task
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,6 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bsm.batch import Facts, plan, run_jobs, size_of
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.metrics import mean_edge_length
@@ -18,7 +17,6 @@ from bsm.commands import denoise_report
 from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.reader import add_reader_flag
 from bsm.console import Console, Progress
-from bsm.farm.jobs import Task
 from bsm.files.formats.written import Written
 from bsm.files.mesh import (
     MESH_FORMATS,
@@ -33,6 +31,9 @@ from bsm.files.motion.frames import Frames
 from bsm.files.naming import output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
+from bsm.files.state import size_of
+from bsm.jobs.run import plan, run_jobs
+from bsm.jobs.task import Facts, Task
 
 if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions

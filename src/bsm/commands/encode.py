@@ -6,19 +6,18 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from bsm.batch import plan, plan_trees, refuse_collisions, run_jobs
 from bsm.bitstream.errors import OptionError
 from bsm.commands.encode_options import add_encode_flags, wishes_of
 from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.reader import add_reader_flag
 from bsm.commands.sequence_options import add_sequence_flags, sequence_wishes
 from bsm.console import Console
-from bsm.encoding.job import EncodeJob
-from bsm.encoding.mesh import encode_one
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.naming import refuse_terminal
 from bsm.files.sequence import SEQUENCES_READ
+from bsm.jobs.encode import EncodeJob, encode_one
+from bsm.jobs.run import plan, plan_trees, refuse_collisions, run_jobs
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -75,9 +74,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
     refuse_terminal(jobs[0].output)
-    many, wishes = run_of(args), {**wishes_of(args), **sequence_wishes(args)}
-    threads = wishes.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
-    more = {"output": "", "metadata": _metadata(args), "wishes": wishes, "threads": threads, "members": members}
+    many, options = run_of(args), {**wishes_of(args), **sequence_wishes(args)}
+    threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
+    more = {"output": "", "metadata": _metadata(args), "options": options, "threads": threads, "members": members}
     more["format"] = _form(args)
     job = asked(EncodeJob, args, **more, compared=not args.quiet or args.json)
     return run_jobs(many, job, console, encode_one, jobs)

@@ -8,16 +8,16 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from bsm.batch import Facts, Job, input_names, run_jobs
 from bsm.bitstream.container.wire import VERSION
 from bsm.bitstream.limits import Limits
 from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console, printable
-from bsm.farm.jobs import Task
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence_stream import MOST_SAID, SequenceStream, said_of_runs
 from bsm.files.stream import StreamInfo, inspect_stream
+from bsm.jobs.run import input_names, run_jobs
+from bsm.jobs.task import Facts, Job, Task
 from bsm.loops import Loops
 
 

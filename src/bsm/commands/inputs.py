@@ -6,7 +6,7 @@ import argparse
 from dataclasses import fields
 from typing import Any, TypeVar
 
-from bsm.farm.jobs import Run
+from bsm.jobs.task import Run
 
 _Asked = TypeVar("_Asked")
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 
-from bsm.batch import refuse_collisions
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -15,6 +14,7 @@ from bsm.files.about import about
 from bsm.files.mesh import MESH_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.naming import refuse_terminal
 from bsm.files.output import refuse_to_overwrite
+from bsm.jobs.run import refuse_collisions
 
 KINDS = ("gaussian", "isotropic", "uniform", "impulsive", "axis", "correlated", "ripples", "range", "rounded", "part")
 

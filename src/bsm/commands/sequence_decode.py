@@ -11,7 +11,6 @@ from itertools import chain, islice
 import numpy as np
 import numpy.typing as npt
 
-from bsm.batch import Facts, size_of
 from bsm.bitstream.errors import OptionError
 from bsm.commands.decode_job import DecodeJob
 from bsm.commands.limits import limits_of
@@ -22,6 +21,8 @@ from bsm.files.output import refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
 from bsm.files.sequence import ONE_FILE, sequence_kind, sequence_writer
 from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of, said_of_runs
+from bsm.files.state import size_of
+from bsm.jobs.task import Facts
 
 
 def add_flags(parser: argparse.ArgumentParser) -> None:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass
 
-from bsm.batch import Facts, Job, input_names, run_jobs
 from bsm.bitstream.errors import OptionError
 from bsm.commands.inputs import add_inputs, asked, run_of
 from bsm.commands.limits import add_limits_flag, limits_of
 from bsm.console import Console
-from bsm.farm.jobs import Task
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence_stream import decode_through
 from bsm.files.stream import decode_whole, inspect_stream
+from bsm.jobs.run import input_names, run_jobs
+from bsm.jobs.task import Facts, Job, Task
 from bsm.steadiness import check_steadiness
 
 

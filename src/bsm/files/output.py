@@ -18,6 +18,11 @@ from typing import BinaryIO
 from bsm.files.remote import is_url, open_remote_output, refuse_to_replace
 from bsm.files.standard import standard_output
 
+try:
+    import fcntl
+except ImportError:  # not a POSIX system
+    fcntl = None  # type: ignore[assignment]
+
 _TEMPORARY = ".part"
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 # What the shell has opened: `>(...)`, or `> file`.
@@ -52,7 +57,7 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
     target = Path(os.path.realpath(path))
     refuse_to_overwrite(path, overwrite)
     with termination_as_exception(), _by_its_own_name(path):
-        handle, name = tempfile.mkstemp(prefix=f".{target.name[:200]}.", suffix=_TEMPORARY, dir=target.parent)
+        handle, name, lock = _temporary(target)
         try:
             with os.fdopen(handle, "wb") as file:
                 yield file
@@ -67,6 +72,9 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
             with suppress(FileNotFoundError):
                 os.unlink(name)
             raise
+        finally:
+            if lock is not None:
+                os.close(lock)
 
 
 def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
@@ -77,13 +85,26 @@ def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
         raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", os.fspath(path))
 
 
-def remove_abandoned(path: str) -> None:
-    """Remove what is left of attempts to write `path` that were cut off; nobody else may be writing it."""
-    if is_url(path) or not can_be_replaced(path):
-        return
-    target = Path(os.path.realpath(path))
-    for part in target.parent.glob(f".{glob.escape(target.name[:200])}.????????{_TEMPORARY}"):
-        part.unlink(missing_ok=True)
+def _temporary(target: Path) -> tuple[int, str, int | None]:
+    """A new file beside `target`, and a handle that keeps it locked; what was left by writers that died is removed."""
+    pattern = f".{target.name[:200]}."
+    while True:
+        handle, name = tempfile.mkstemp(prefix=pattern, suffix=_TEMPORARY, dir=target.parent)
+        if fcntl is None:
+            return handle, name, None
+        lock = os.dup(handle)
+        with suppress(OSError):  # a file system without locks
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        if os.fstat(lock).st_nlink:
+            break
+        # Before it was locked another writer took it for a dead one's.
+        os.close(handle)
+        os.close(lock)
+    for part in target.parent.glob(f"{glob.escape(pattern)}????????{_TEMPORARY}"):
+        with suppress(OSError), part.open("rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            part.unlink()
+    return handle, name, lock
 
 
 def _descriptor(path: str | os.PathLike[str]) -> int | None:

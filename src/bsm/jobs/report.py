@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import errno
 import json
-import math
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,10 +14,10 @@ from typing import Any
 from bsm import __version__
 from bsm.bitstream.errors import FormatError
 from bsm.console import Console
-from bsm.farm.jobs import Facts, Job, Task, Work
-from bsm.files.output import open_output, remove_abandoned
+from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes, read_chunks
 from bsm.files.state import files_behind, state_of
+from bsm.jobs.task import Facts, Job, Task, Work
 
 _OF_JOBS = {"input", "output", "replaceable", "doubtful", "fresh", "before"}
 _ABOUT_THE_RUN = {"folder", "quiet", "force", "threads", *_OF_JOBS}
@@ -92,37 +91,40 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
     """Read a report to go on from; nothing is known where there is none."""
     try:
         report = json.loads(read_bytes(path))
-        files = {str(entry["output"]): _entry(entry) for entry in report["files"]}
+        files = {entry["output"]: entry for entry in map(_entry, report["files"])}
         same = (report["command"], report["options"]) == (command, options)
+        json.dumps({**report, "totals": totals(list(files.values()))}, allow_nan=False)
     except FileNotFoundError:
         return NOTHING
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
         raise FormatError(f"{path}: this is no report of ours to go on from; name another with --report") from error
     return Earlier({name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {})
 
 
-_NUMBERS = ("input_bytes", "output_bytes", "seconds", "max_error_relative", "kg")
-_TEXTS = ("input", "output", "error", "output_sha256")
+_MOST_BYTES = 1 << 63
+_FIELDS: Mapping[str, Callable[[Any], bool]] = {
+    **dict.fromkeys(("input_bytes", "output_bytes"), lambda value: type(value) is int and 0 <= value < _MOST_BYTES),
+    **dict.fromkeys(("seconds", "max_error_relative", "kg"), lambda value: type(value) in (int, float)),
+    **dict.fromkeys(("input", "output", "output_sha256"), lambda value: isinstance(value, str)),
+    "error": lambda value: isinstance(value, str) and bool(value.strip()),
+    "exit": lambda value: type(value) is int and 0 < value < 256,
+}
 
 
 def _entry(given: Any) -> Facts:
     """What a report says of a file; raises as `read_report` catches."""
     entry = dict(given)
-    for name in _NUMBERS:
-        value = entry.get(name)
-        if isinstance(value, bool) or not (value is None or (isinstance(value, int | float) and math.isfinite(value))):
-            raise ValueError(f"{name} is {value!r}")
-    if not all(isinstance(entry[name], str) for name in ("input", "output", *(set(_TEXTS) & set(entry)))):
-        raise ValueError("names are no texts")
-    json.dumps(entry, allow_nan=False)
+    needed = ("input", "output", *(("error", "exit") if "error" in entry else ()))
+    for name, fits in _FIELDS.items():
+        if (name in needed or entry.get(name) is not None) and not fits(entry[name]):
+            raise ValueError(f"{name} is {entry[name]!r}")
+    _cells(entry)
     return entry
 
 
 def recorded(work: Work, task: Task, console: Console) -> Facts:
     """Work that says what it read and wrote; it is not done again where both are still as `task.before` says."""
     state, before = state_of(task.input), task.before
-    if before:
-        remove_abandoned(before["output"])
     if (
         before
         and state
@@ -201,10 +203,10 @@ def _cells(facts: Facts) -> str:
     taken, given = facts.get("input_bytes"), facts.get("output_bytes")
     ratio = f"{taken / given:.2f}" if taken and given else ""
     seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds', 0.0):.2f}"
-    return f"{_said(taken):>12} {_said(given):>12} {ratio:>7} {_error(facts):>10} {seconds:>8}"
+    return f"{_cell(taken):>12} {_cell(given):>12} {ratio:>7} {_error(facts):>10} {seconds:>8}"
 
 
-def _said(value: Any) -> str:
+def _cell(value: Any) -> str:
     return "" if value is None else str(value)
 
 

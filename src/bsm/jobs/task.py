@@ -10,9 +10,8 @@ from typing import Any, TypeAlias, TypeVar
 from bsm.console import Console
 from bsm.exits import behind, is_expected
 from bsm.files.about import about
-from bsm.files.output import remove_abandoned
 
-Same = TypeVar("Same", bound="Task")
+_Same = TypeVar("_Same", bound="Task")
 Facts = dict[str, Any]
 """What came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up."""
 
@@ -33,12 +32,12 @@ class Task:
     output: str = ""
     force: bool = False
     quiet: bool = False
-    before: Facts | None = None
-    replaceable: frozenset[str] = frozenset()
-    doubtful: frozenset[str] = frozenset()
-    fresh: frozenset[str] = frozenset()
+    before: Facts | None = None  # what an earlier report says of it
+    replaceable: frozenset[str] = frozenset()  # files that are as that report says
+    doubtful: frozenset[str] = frozenset()  # files that it names and that are not
+    fresh: frozenset[str] = frozenset()  # files that were not there when the run began
 
-    def repeated(self: Same) -> Same:
+    def repeated(self: _Same) -> _Same:
         """This task after an attempt that was cut off."""
         return replace(self, replaceable=self.replaceable | self.fresh)
 
@@ -49,7 +48,7 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """How many jobs are done."""
+    """How many jobs are done at a time, where, and what is written of them."""
 
     jobs: int = 1
     dask: str | None = None
@@ -69,11 +68,11 @@ Work: TypeAlias = Callable[[Any, Console], Facts]
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a job: facts or an error, and what was said meanwhile."""
+    """What came of a job: facts or an error, and notes made meanwhile."""
 
     facts: Facts
     error: Exception | None = None
-    said: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 class UnexpectedError(Exception):
@@ -81,7 +80,6 @@ class UnexpectedError(Exception):
 
 
 Numbered: TypeAlias = tuple[int, Task]
-"""The number of a job, and what is asked."""
 Tasks: TypeAlias = Iterable[Numbered]
 """Made as they are needed."""
 Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]
@@ -92,27 +90,17 @@ def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
     """Do one job; whatever fails is an outcome too, but for signals and for pipes that nobody reads."""
     try:
         with about(task.input):
-            return Outcome(work(task, console), said=tuple(console.kept or ()))
+            return Outcome(work(task, console), notes=tuple(console.kept or ()))
     except Exception as error:
         if behind(error) is not error or isinstance(error, BrokenPipeError):
             raise
-        failure = error if is_expected(error) else _fault(task.input, error)
+        failure = error
+        if not is_expected(error):
+            text = "".join(traceback.format_exception(error)).rstrip()
+            failure = UnexpectedError(f"{task.input}: unexpected error, please report it: {text}")
         return Outcome({}, failure, tuple(console.kept or ()))
 
 
 def far_outcome(work: Work, task: Task) -> Outcome:
-    """`outcome_of` where nobody listens and an earlier attempt may have been cut off."""
-    for path in task.replaceable:
-        remove_abandoned(path)
+    """`outcome_of` in another process."""
     return outcome_of(work, task, Console(task.quiet, kept=[]))
-
-
-def one_by_one(work: Work, tasks: Tasks, console: Console) -> Outcomes:
-    """Do all jobs here."""
-    for number, task in tasks:
-        yield number, outcome_of(work, task, console)
-
-
-def _fault(name: str, error: Exception) -> UnexpectedError:
-    text = "".join(traceback.format_exception(error)).rstrip()
-    return UnexpectedError(f"{name}: unexpected error, please report it: {text}")

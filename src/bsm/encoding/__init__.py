@@ -1,1 +1,0 @@
-"""Mesh files and sequences to streams, one job at a time."""

@@ -1,0 +1,246 @@
+"""Meshes and sequences to streams: the work of `bsm encode` and of `bsm.encode_many`."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import deque
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import OptionError
+from bsm.codec.arrays import Positions
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.console import Console, Progress, finite
+from bsm.files.mesh import read_mesh
+from bsm.files.motion.frames import Frames, Wanted
+from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.files.permutation import write_permutation
+from bsm.files.sequence import open_frames, open_sequence
+from bsm.files.sequence_stream import said_of_runs
+from bsm.files.state import size_of
+from bsm.jobs.run import came_to
+from bsm.jobs.task import Facts, Task
+from bsm.lengths import LENGTHS, refuse_other_units
+from bsm.loops import Loops
+from bsm.meshes import told_of
+from bsm.options import encode_options, sequence_options
+
+if TYPE_CHECKING:
+    from bsm.codec.sequence.options import SequenceOptions
+
+_OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
+"""Options that only a sequence has: a GLB is then one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EncodeJob(Task):
+    """What `bsm encode` is asked for; `options` are keywords of `bsm.options`."""
+
+    format: str | None = None
+    reader: str | None = None
+    permutation: str | None = None
+    metadata: Mapping[str, str] = field(default_factory=dict)
+    options: Mapping[str, Any] = field(default_factory=dict)
+    threads: int | None = None
+    compared: bool = True
+    members: tuple[str, ...] = ()
+    animation: str | None = None
+    cache_mesh: str | None = None
+
+
+def encode_one(job: EncodeJob, console: Console) -> Facts:
+    """Encode one input and say what came out."""
+    for path in filter(None, (job.output, job.permutation)):
+        refuse_to_overwrite(path, job.may_replace(path))
+    sequence = _sequence_of(job)
+    return _encode_mesh(job, console) if sequence is None else _encode_sequence(job, console, sequence)
+
+
+def _sequence_of(job: EncodeJob) -> Frames | None:
+    """The sequence that a job's input is; None: it is perhaps a mesh."""
+    runs = bool(job.options.get("runs"))
+    if job.members:
+        return open_frames(job.members, job.format, job.reader, runs=runs)
+    asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
+    wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
+    return open_sequence(job.input, job.format, job.reader, None if all(one is None for one in asked) else wanted)
+
+
+def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
+    from bsm.codec.static.encoder import Encoder
+
+    for name, given in (("animation", job.animation), ("mesh", job.cache_mesh)):
+        if given is not None:
+            raise OptionError(f"--{name} is for sequences, and this is one mesh")
+    chosen = encode_options(**job.options, threads=job.threads)
+    with console.progress("reading"):
+        source = read_mesh(job.input, job.format, reader=job.reader)
+    mesh = told_of(source.mesh, chosen, job.metadata)
+    refuse_other_units({name: job.options.get(name) for name in LENGTHS}, mesh.metadata)
+    begin = time.perf_counter()
+    encoder = Encoder(mesh, chosen)
+    overwrite = job.may_replace(job.output)
+    with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
+        result = encoder.result(progress)
+        for chunk in result.frames:
+            file.write(chunk)
+    seconds = time.perf_counter() - begin
+    images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
+    left_out = source.mesh.metadata.keys() - mesh.metadata.keys()
+    notes = [
+        *source.notes,
+        *encoder.notes,
+        *(["left out: materials, images"] if left_out else []),
+        *([f"{images} of the bytes are images, as they are"] if images else []),
+    ]
+    vertices, faces, size, error = result.header.vertices, len(encoder.mesh.faces), result.size, result.comparison
+    taken, bpv = size_of(job.input), 8 * size / vertices
+    _finish(
+        job,
+        console,
+        notes,
+        encoder.vertex_order,
+        f"{vertices} vertices, {faces} faces, {came_to(taken, size)}, "
+        f"{bpv:.2f} bits per vertex; farthest vertex {100 * error.max_error_relative:.3g} % of the "
+        f"diagonal, normals {error.angle_deg:.2f} degrees by area and {error.theta_deg:.2f} by face, "
+        f"{error.nmsve_db:.2f} dB; {seconds:.2f} s",
+    )
+    counts = {"input": job.input, "output": job.output, "vertices": vertices, "faces": faces}
+    sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpv_total": bpv}
+    angles = {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
+    ends = {"max_error_relative": error.max_error_relative, "seconds": seconds, "notes": notes}
+    return {**counts, **sizes, **angles, **ends}
+
+
+def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
+    """Encode one sequence; every GOP is written as soon as its frames are there."""
+    from bsm.codec.sequence.encoder import SequenceEncoder
+
+    begin = time.perf_counter()
+    chosen = sequence_options(**job.options, threads=job.threads)
+    if job.permutation and chosen.runs:
+        raise OptionError("--permutation is the order of one mesh, and runs=yes lets the faces change")
+    rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
+    metadata = {**source.metadata, **rate, **job.metadata}
+    encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
+    echo = Echo()
+    size = 0
+    overwrite = job.may_replace(job.output)
+    with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
+        frames = source.frames if source.meshes is None else source.meshes
+        given = _staged(echo.taken(frames, job.compared), source.count, chosen, progress)
+        for chunk in encoder.chunks(given, progress):
+            size += file.write(chunk)
+            file.flush()
+            if job.compared:
+                echo.compare(chunk, encoder.vertex_order)
+    seconds = time.perf_counter() - begin
+    runs = encoder.run_starts[1:]
+    notes = [*source.notes, *encoder.notes, *([said_of_runs(runs)] if runs else echo.loops.said())]
+    vertices, faces, bpvf = len(encoder.vertex_order), len(encoder.face_order), 8 * size / encoder.samples
+    taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
+    _finish(
+        job,
+        console,
+        notes,
+        encoder.vertex_order,
+        f"{echo.frames} frames of {vertices} vertices, {faces} faces{' at the end' if runs else ''}, "
+        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {echo.kg:.3g} %, {seconds:.2f} s",
+    )
+    counts = {"input": job.input, "output": job.output, "frames": echo.frames, "vertices": vertices, "faces": faces}
+    sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpvf_total": bpvf}
+    return {**counts, **sizes, "kg": finite(echo.kg), "seconds": seconds, "notes": notes}
+
+
+def _finish(job: EncodeJob, console: Console, notes: list[str], order: npt.NDArray[np.int64], summary: str) -> None:
+    """Tell notes and what came out, and write the permutation."""
+    for note in notes:
+        console.note(f"{job.input}: {note}")
+    if job.permutation:
+        write_permutation(job.permutation, order, overwrite=job.force)
+    console.note(f"{job.input} -> {job.output}: {summary}")
+
+
+def _staged(
+    frames: Iterator[Positions | TriangleMesh], count: int, chosen: SequenceOptions, progress: Progress
+) -> Iterator[Positions | TriangleMesh]:
+    """The frames, which begin a stage with each GOP."""
+    for number, frame in enumerate(frames):
+        longest = chosen.longest(len(frame.positions if isinstance(frame, TriangleMesh) else frame))
+        if not chosen.low_delay and number and number % longest == 0:
+            gops = f" of {-(-count // longest)}" if count else ""
+            progress.stage(f"encoding GOP {1 + number // longest}{gops}")
+        yield frame
+
+
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """A frame in half its memory: in single precision within its box, which is finer than any error that is told."""
+
+    middle: Positions
+    size: float
+    offsets: npt.NDArray[np.float32]
+
+    @classmethod
+    def of(cls, positions: Positions) -> Kept:
+        """Keep positions, shape (n, 3); of such as are not finite anything, since the encoder refuses them."""
+        with np.errstate(all="ignore"):
+            low, high = positions.min(axis=0), positions.max(axis=0)
+            middle, size = low / 2 + high / 2, float((high / 2 - low / 2).max()) or 1.0
+            return cls(middle, size, ((positions - middle) / size).astype(np.float32))
+
+    def rows(self, order: np.ndarray) -> Positions:
+        """The positions of some vertices, shape (n, 3)."""
+        return np.asarray(self.offsets[order].astype(np.float64) * self.size + self.middle)
+
+
+@dataclass
+class Echo:
+    """Hears what a decoder makes of a stream while it is written, and holds only the frames that are not out yet."""
+
+    frames: int = 0
+    loops: Loops = field(default_factory=Loops)
+    _waiting: deque[Kept] = field(default_factory=deque)
+    _squares: float = 0.0
+    _extent: float = 0.0
+
+    def __post_init__(self) -> None:
+        from bsm.codec.sequence.decoder import SequenceDecoder
+
+        self._decoder = SequenceDecoder()
+
+    def taken(
+        self, frames: Iterator[Positions] | Iterator[TriangleMesh], kept: bool
+    ) -> Iterator[Positions | TriangleMesh]:
+        """The frames, which are also kept until they have been compared."""
+        for frame in frames:
+            positions = frame.positions if isinstance(frame, TriangleMesh) else frame
+            self.frames += 1
+            self.loops.take(positions)
+            if kept:
+                self._waiting.append(Kept.of(positions))
+            yield frame
+
+    def compare(self, chunk: bytes, order: np.ndarray) -> None:
+        """Decode a piece of the stream and add up the error of its frames; vertex j of a decoded one is `order[j]`."""
+        from bsm.bitstream.container.reader import Signal
+        from bsm.codec.sequence.events import FrameEvent
+
+        self._decoder.receive_data(chunk)
+        while not isinstance(event := self._decoder.next_event(), Signal):
+            if isinstance(event, FrameEvent):
+                frame = self._waiting.popleft().rows(order)
+                self._squares += float(np.square(event.positions - frame).sum())
+                self._extent += float(np.square(frame - frame.mean(axis=0)).sum())
+
+    @property
+    def kg(self) -> float:
+        """Karni and Gotsman's error so far, in percent, see `codec.geometry.metrics.kg_error`."""
+        if self._squares == 0.0:
+            return 0.0
+        return 100.0 * math.sqrt(self._squares / self._extent) if self._extent else math.inf

@@ -1,0 +1,184 @@
+"""Jobs in processes of this machine, or on a Dask cluster; both may die."""
+
+from __future__ import annotations
+
+import errno
+import logging
+import multiprocessing
+import multiprocessing.connection
+import os
+import signal
+import threading
+import time
+import uuid
+from collections.abc import Generator, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from itertools import islice
+from typing import Any
+
+from bsm.bitstream.errors import DependencyError
+from bsm.bitstream.extras import how_to_install
+from bsm.exits import exit_of
+from bsm.files.output import Terminated, termination_as_exception
+from bsm.jobs.task import Numbered, Outcome, Outcomes, Task, Tasks, Work, far_outcome
+
+AHEAD = 2
+"""Jobs handed out for each process, and for each thread of a cluster."""
+GRACE = 3.0
+"""Seconds that a process has to clear away, once its parent is gone, and once it was told to end."""
+
+Handed = dict[int, Task]
+
+
+def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
+    """Do jobs in so many processes at a time."""
+    waiting = iter(tasks)
+    with termination_as_exception():
+        while suspects := (yield from _until_one_dies(work, waiting, processes)):
+            for number, task in suspects.items():
+                if (yield from _until_one_dies(work, iter([(number, task.repeated())]), 1)):
+                    yield number, Outcome({}, MemoryError(f"{task.input}: its process died, twice"))
+
+
+def _until_one_dies(
+    work: Work, tasks: Iterator[Numbered], processes: int
+) -> Generator[tuple[int, Outcome], None, Handed]:
+    """Do jobs until there are none, or a process dies; returns what was handed out and has not ended."""
+    # Not forked: threads of this process may hold locks.
+    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
+    handed: Handed = {}
+    futures: dict[Future[Outcome], int] = {}
+    whole = True
+    try:
+        while whole:
+            try:
+                for number, task in islice(tasks, AHEAD * processes - len(futures)):
+                    handed[number] = task
+                    with _interrupts_ignored():
+                        futures[pool.submit(_task, work, task)] = number
+            except BrokenProcessPool:
+                whole = False
+            if not futures:
+                break
+            done = wait(futures, return_when=FIRST_COMPLETED).done
+            if not whole or any(isinstance(future.exception(), BrokenProcessPool) for future in done):
+                whole, done = False, wait(futures).done
+            for future in done:
+                number = futures.pop(future)
+                if not isinstance(future.exception(), BrokenProcessPool):
+                    del handed[number]
+                    yield number, future.result()
+    finally:
+        alive = list((pool._processes or {}).values()) if handed else []
+        pool.shutdown(wait=not handed, cancel_futures=True)
+        for process in alive:
+            process.terminate()
+        for process in alive:
+            process.join()
+    return handed
+
+
+def _end_with_parent() -> None:
+    """Let this process not outlive the one that began it, however that ends."""
+    parent = multiprocessing.parent_process()
+    if parent is None:
+        return
+    sentinel = parent.sentinel
+
+    def watch() -> None:
+        multiprocessing.connection.wait([sentinel])
+        # It may have told this process to end, which is then clearing away what it has begun.
+        time.sleep(GRACE)
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(GRACE)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def _task(work: Work, task: Task) -> Outcome:
+    try:
+        return far_outcome(work, task)
+    except Terminated:
+        # What was begun is cleared away; nothing else is to be taken up.
+        os._exit(exit_of(Terminated()).code)
+
+
+@contextmanager
+def _interrupts_ignored() -> Iterator[None]:
+    """Let processes that begin here leave Ctrl-C to this one from their first moment on."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
+    """Do jobs on the workers of a cluster; those of a worker that dies are taken up by others."""
+    try:
+        import distributed
+    except ImportError as error:
+        raise DependencyError(f"a cluster needs Dask: {how_to_install('dask')}") from error
+    try:
+        client: Any = distributed.Client(address, set_as_default=False)  # type: ignore[no-untyped-call]
+    except (OSError, ValueError) as error:
+        raise OSError(errno.EHOSTUNREACH, "no Dask scheduler answers here", address) from error
+    waiting, run = iter(tasks), uuid.uuid4().hex
+    handed: dict[str, Numbered] = {}
+    suspects: list[Numbered] = []
+    # A scheduler that goes away is told of here, and not by the library.
+    logger = logging.getLogger("distributed.client")
+    level = logger.level
+    logger.setLevel(logging.CRITICAL + 1)
+    try:
+        with client:
+            running: Any = distributed.as_completed(loop=client.loop)  # type: ignore[no-untyped-call]
+            try:
+                while True:
+                    while len(handed) < AHEAD * max(1, sum(client.ncores().values())) and (task := next(waiting, None)):
+                        key = f"bsm-{run}-{task[0]}"
+                        handed[key] = task
+                        running.add(client.submit(far_outcome, work, task[1], key=key))
+                    if not handed:
+                        break
+                    future = next(running)
+                    number, args = handed.pop(future.key)
+                    if outcome := _of_cluster(future):
+                        yield number, outcome
+                    else:
+                        suspects.append((number, args))
+                for number, args in suspects:
+                    keys = (f"bsm-{run}-{number}-{attempt}" for attempt in ("alone", "again"))
+                    attempts = (_of_cluster(client.submit(far_outcome, work, args, key=key)) for key in keys)
+                    died = MemoryError(f"{args.input}: its workers died, again and again")
+                    yield number, next(filter(None, attempts), Outcome({}, died))
+            except distributed.CancelledError as error:
+                raise OSError(errno.ECONNRESET, "the Dask scheduler went away", address) from error
+            finally:
+                # Whoever stops listening wants no more work done.
+                client.cancel(list(running.futures))
+    finally:
+        logger.setLevel(level)
+
+
+def _of_cluster(future: Any) -> Outcome | None:
+    """What came of a job; None: several workers died that had it, or another one."""
+    from distributed import KilledWorker
+
+    try:
+        outcome: Outcome = future.result()
+    except KilledWorker:
+        return None
+    except Exception as error:
+        # From a worker, or as the cause of what the scheduler says.
+        missing = next((it for it in (error, error.__cause__) if isinstance(it, ImportError)), None)
+        if missing is None:
+            raise
+        raise DependencyError(f"scheduler and workers need this package: pip install bsm-codec ({missing})") from error
+    return outcome
