@@ -82,7 +82,19 @@ def larger(tmp_path_factory):
 def test_a_worker_that_is_killed_loses_nothing_and_repeats_nothing(cluster, larger, tmp_path):
     distributed = pytest.importorskip("distributed")
     output, report = tmp_path / "out", tmp_path / "report.json"
-    command = ("encode", *larger, "-o", f"{output}/", "--dask", cluster.scheduler_address, "--report", report, "--json")
+    command = (
+        "encode",
+        *larger,
+        "-o",
+        f"{output}/",
+        "--dask",
+        cluster.scheduler_address,
+        "--report",
+        report,
+        "--json",
+        "--set",
+        "step=0.001",
+    )
     with distributed.Client(cluster.scheduler_address, set_as_default=False) as client, started(*command) as process:
         until(lambda: output.exists() and len(list(output.glob("*.bsm"))) >= 2, process)
         before = client.run(os.getpid)
@@ -99,7 +111,7 @@ def test_a_worker_that_is_killed_loses_nothing_and_repeats_nothing(cluster, larg
     assert sorted(contents(output)) == [Path(file["output"]).name for file in told["files"]]
     for file in told["files"]:
         assert file["bytes"] == os.path.getsize(file["output"])
-        assert Path(file["output"]).read_bytes() == bsm.encode(file["input"], threads=1)
+        assert Path(file["output"]).read_bytes() == bsm.encode(file["input"], threads=1, step=0.001)
     lines = said.decode().splitlines()
     assert sum(" -> " in line and "vertices" in line for line in lines) == 10
     assert lines[-1].startswith("10 of 10 files") and lines[-12].split() == [
@@ -110,7 +122,7 @@ def test_a_worker_that_is_killed_loses_nothing_and_repeats_nothing(cluster, larg
 def test_a_cluster_goes_on_behind_failures_and_back(cluster, sources, tmp_path):
     (tmp_path / "no.ply").write_text("nothing")
     inputs = [*sources[:2], str(tmp_path / "no.ply"), str(tmp_path / "none.ply")]
-    done = bsm.encode_many(inputs, tmp_path / "new", dask=cluster.scheduler_address, theta=5)
+    done = bsm.encode_many(inputs, tmp_path / "new", dask=cluster.scheduler_address, grid=8)
     assert [facts.get("exit") for facts in done] == [None, None, 3, 9]
     assert sorted(contents(tmp_path / "new")) == ["00.bsm", "01.bsm"]
     streams = [facts["output"] for facts in done[:2]]
@@ -179,12 +191,12 @@ def web(sources):
 def test_inputs_from_the_web(web, sources, tmp_path):
     pytest.importorskip("aiohttp")
     names = [f"{web}/00.ply", f"{web}/01.ply?version=2", f"{web}/none.ply"]
-    done = program("encode", *names, "-o", f"{tmp_path}/", "-j", 2, "--json", text=True)
+    done = program("encode", *names, "-o", f"{tmp_path}/", "-j", 2, "--json", "--grid", 8, text=True)
     files = json.loads(done.stdout)["files"]
     assert done.returncode == 9 and f"{web}/none.ply: No such file" in done.stderr
     assert [file.get("input_bytes") for file in files] == [*map(os.path.getsize, sources[:2]), None]
     for name, source in zip(("00.bsm", "01.bsm"), sources):
-        assert (tmp_path / name).read_bytes() == bsm.encode(source)
+        assert (tmp_path / name).read_bytes() == bsm.encode(source, grid=8)
     assert len(bsm.load(names[0]).faces) == len(read_mesh(sources[0]).mesh.faces)
 
 
@@ -241,8 +253,8 @@ def test_only_what_is_not_as_it_was_is_done_again(sources, tmp_path):
         Path(inputs[-1]).write_bytes(Path(source).read_bytes())
     output, report = tmp_path / "out", tmp_path / "report.json"
 
-    def run(names=inputs, **more):
-        done = bsm.encode_many(names, output, report=report, resume=True, **more)
+    def run(names=inputs, grid=8, **more):
+        done = bsm.encode_many(names, output, report=report, resume=True, grid=grid, **more)
         told = json.loads(report.read_text())
         assert told["complete"] and told["files"] == done
         return {Path(facts["input"]).stem for facts in done if "resumed" not in facts}
@@ -254,19 +266,19 @@ def test_only_what_is_not_as_it_was_is_done_again(sources, tmp_path):
     (output / "01.bsm").write_bytes(whole["01.bsm"][:-1] + b"?")
     (output / ".01.bsm.abcd_123.part").write_bytes(b"cut off")
     os.utime(inputs[2], (1, 1))
-    refused = bsm.encode_many(inputs, output, report=report, resume=True)
+    refused = bsm.encode_many(inputs, output, report=report, resume=True, grid=8)
     assert [facts.get("exit") for facts in refused] == [None, 9, None, None, None, None]
     assert "not what the report says" in refused[1]["error"]
     assert (output / "01.bsm").read_bytes().endswith(b"?")
     assert run(overwrite=True) == {"01"}
     assert {name: data for name, data in contents(output).items() if name != "05.bsm"} == whole
-    assert run(preset="fine", jobs=2) == {"00", "01", "02", "03", "04", "05"}
-    assert run(preset="fine") == set()
+    assert run(grid=9, jobs=2) == {"00", "01", "02", "03", "04", "05"}
+    assert run(grid=9) == set()
 
 
 def test_a_run_that_was_killed_goes_on(larger, tmp_path):
     output, report = tmp_path / "out", tmp_path / "report.json"
-    command = ("encode", *larger, "-o", f"{output}/", "--report", report, "--resume")
+    command = ("encode", *larger, "-o", f"{output}/", "--report", report, "--resume", "--set", "step=0.001")
     with started(*command) as process:
         until(lambda: report.exists() and json.loads(report.read_text())["totals"]["done"] >= 2, process)
         process.kill()
