@@ -27,7 +27,7 @@ def main() -> None:
     parser.add_argument("--resume", action="store_true")
     args = parser.parse_args()
     # Threads share what memory:// holds; processes would not.
-    here = None if args.scheduler else LocalCluster(n_workers=2, processes=False, dashboard_address=None)
+    here = None if args.scheduler else LocalCluster(n_workers=2, processes=False, dashboard_address=":0")
     with here or nullcontext():
         address = args.scheduler or here.scheduler_address
         done = bsm.encode_many(
