@@ -5,6 +5,7 @@ import copy
 import functools
 import io
 import json
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -15,9 +16,8 @@ import pytest
 import bsm
 from bsm.cli import main
 from bsm.files.stream import inspect_stream
-from bsm.gltf.compress import EXTENSION, compress, count_primitives
-from bsm.gltf.document import glb, read_document
-from bsm.gltf.images import ImageRule, smaller
+from bsm.gltf.compress import ImageRule, compress, count_primitives, smaller
+from bsm.gltf.document import EXTENSION, glb, read_document
 from bsm.gltf.primitives import drawn
 from tests.shapes import torus
 
@@ -375,7 +375,7 @@ def test_scenes_of_many_meshes_are_quick_to_decode(tmp_path, count, more, light)
     document = read_document(str(tmp_path / "one.glb"))
     primitive = document.tree["meshes"][0]["primitives"][0]
     document.tree["meshes"] = [{"primitives": [copy.deepcopy(primitive)]} for _ in range(count)]
-    (tmp_path / "many.glb").write_bytes(glb(document.tree, document.buffers[0]))
+    (tmp_path / "many.glb").write_bytes(glb(document.tree, document.buffer(0)))
     assert main(["glb", str(tmp_path / "many.glb"), "-o", str(tmp_path / "small.glb"), *more]) == 0
     after = read_document(str(tmp_path / "small.glb"))
     streams = {told["stream"] for told, _ in coded_of(after).values()}
@@ -404,10 +404,22 @@ def test_a_gltf_with_files_beside_it(tmp_path):
     (tmp_path / "scene.gltf").write_text(json.dumps(tree))
     assert main(["glb", str(tmp_path / "scene.gltf"), "-o", str(tmp_path / "small.glb")]) == 0
     assert coded_of(read_document(str(tmp_path / "small.glb")))
-    tree["buffers"][0]["uri"] = "../elsewhere.bin"
-    (tmp_path / "scene.gltf").write_text(json.dumps(tree))
-    with pytest.raises(bsm.FormatError, match="no file beside"):
-        read_document(str(tmp_path / "scene.gltf"))
+    (tmp_path / "loop").symlink_to("loop")
+    os.mkfifo(tmp_path / "pipe")
+    for uri, why in {
+        "../elsewhere.bin": "not in its folder",
+        "https://example.org/a.bin": "no file beside",
+        "loop": "cannot be opened|no file beside",
+        "pipe": "no file beside",
+        "none": "no file beside",
+        "a\0b": "cannot be opened",
+    }.items():
+        tree["buffers"][0]["uri"] = uri
+        (tmp_path / "scene.gltf").write_text(json.dumps(tree))
+        with pytest.raises(bsm.FormatError, match=why):
+            compress(read_document(str(tmp_path / "scene.gltf")), bsm.encode)
+        words = ["encode", str(tmp_path / "scene.gltf"), "--animation", "0", "-o", str(tmp_path / "a.bsm")]
+        assert main(words) == 3
 
 
 def test_what_an_animation_uses_stays(source):
@@ -455,7 +467,7 @@ def test_scenes_that_contradict_themselves(tmp_path, damage):
     damage(tree)
     path = tmp_path / "bad.glb"
     path.write_bytes(glb(tree, data))
-    with pytest.raises((bsm.FormatError, bsm.LimitError)):
+    with pytest.raises((bsm.FormatError, bsm.TruncatedError, bsm.LimitError)):
         compress(read_document(str(path)), bsm.encode)
 
 
@@ -532,7 +544,7 @@ def test_no_gltf(tmp_path):
     for content in (b"", b"glTF", b"{}", b"[1]", glb({"asset": 3}, b"")):
         path = tmp_path / "bad.glb"
         path.write_bytes(content)
-        with pytest.raises(bsm.FormatError):
+        with pytest.raises((bsm.FormatError, bsm.TruncatedError)):
             read_document(str(path))
 
 

@@ -35,8 +35,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npy import write_npy
 from bsm.files.mesh import format_mesh, read_mesh
-from bsm.files.motion.frames import Wanted
-from bsm.files.motion.told import Told
+from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer
 from tools.bombs.measure import Taken, bounds, forget_peak, resident, seconds_of_cpu
 from tools.vectors.meshes import torus
@@ -102,7 +101,7 @@ def _written(kind: str) -> bytes:
     mesh = torus(3, 3)
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder, f"a.{kind}"))
-        with sequence_writer(path, kind, mesh.faces, 3, overwrite=False, told=Told()) as write:
+        with sequence_writer(path, kind, mesh.faces, 3, overwrite=False, shared=Shared()) as write:
             for frame in range(3):
                 write(mesh.positions + frame)
         return Path(path).read_bytes()

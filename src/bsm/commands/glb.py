@@ -12,10 +12,9 @@ from bsm.console import Console
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes
 from bsm.files.stream import is_stream
-from bsm.gltf.compress import compress, count_primitives
+from bsm.gltf.compress import ImageRule, compress, count_primitives
 from bsm.gltf.document import read_document
-from bsm.gltf.images import ImageRule
-from bsm.gltf.moving import moving_scene
+from bsm.gltf.write import moving_scene
 
 MANY = 16
 """Primitives from which on a page waits longer for decoding than for the bytes that it saves."""
@@ -86,11 +85,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
             file.write(found.fallback)
     with open_output(args.output, overwrite=args.force) as file:
         file.write(found.data)
-    size = Path(args.input).stat().st_size + sum(map(len, document.images.values()))
-    size += sum(len(b) for b, told in zip(document.buffers, document.tree.get("buffers", [])) if "uri" in told)
     console.note(
         f"{args.input} -> {args.output}: {found.coded} of {found.coded + sum(found.left.values())} primitives coded, "
-        f"{size} -> {len(found.data)} bytes"
+        f"{document.received} -> {len(found.data)} bytes"
     )
     for reason, count in found.left.items():
         console.note(f"{args.input}: {count} stayed as {'it was' if count == 1 else 'they were'}: {reason}")

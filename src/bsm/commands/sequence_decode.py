@@ -15,7 +15,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.commands.decode_job import DecodeJob
 from bsm.commands.limits import limits_of
 from bsm.console import Console
-from bsm.files.motion.told import Told
+from bsm.files.motion.frames import Shared
 from bsm.files.naming import default_output, output_inside
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
@@ -56,7 +56,7 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
     if args.permutation:
         mesh = reorder(numbered(faces, int(faces.max()) + 1), read_permutation(args.permutation))
         order, faces = numbers_of(mesh.positions), mesh.faces
-    told = Told(
+    shared = Shared(
         lambda: () if args.permutation else stream.attributes,
         lambda: {} if args.permutation else stream.metadata,
     )
@@ -68,7 +68,7 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
             faces,
             expected,
             overwrite=args.may_replace(output),
-            told=told,
+            shared=shared,
         ) as write,
         console.progress("decoding", "frames") as progress,
     ):
@@ -89,7 +89,7 @@ def decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) 
                 progress(count, expected)
         if count == 0:
             raise OptionError("the stream has none of these frames")
-    lost = [one.name for one in stream.attributes] if args.permutation else told.left_out
+    lost = [one.name for one in stream.attributes] if args.permutation else shared.left_out
     if lost:
         because = " with --permutation" if args.permutation else ""
         console.note(f"{args.input}: left out: {', '.join(lost)}, which {kind} does not hold{because}")

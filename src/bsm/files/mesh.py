@@ -13,7 +13,7 @@ import os
 import re
 from dataclasses import replace
 from pathlib import Path
-from types import ModuleType
+from typing import Any
 
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
@@ -22,7 +22,6 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.materials import fetched
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.formats.written import Written
-from bsm.files.motion.gltf import require_room_for_meshes
 from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
 from bsm.files.pipes import Source, as_input
 from bsm.files.remote import is_url
@@ -40,8 +39,12 @@ READERS = ("bsm", "openmesh", "trimesh")
 """Who can be asked to read a file: ourselves, or a library."""
 
 
-def _format(kind: str) -> ModuleType:
-    return importlib.import_module(f"bsm.files.formats.{kind}")
+_ROOMS = {**{kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}, "glb": "bsm.gltf.write"}
+
+
+def by_name(module: str, function: str) -> Any:
+    """A reader or writer, imported when it is asked for."""
+    return getattr(importlib.import_module(module), function)
 
 
 def read_mesh(
@@ -99,9 +102,8 @@ def read_mesh(
     if (reader == "openmesh" and kind not in _PLAIN) or (reader == "bsm" and kind not in MESH_FORMATS):
         raise OptionError(f"{reader} does not read {f'.{kind}' if kind else 'this'}; the default reader may")
     if kind in USD_FORMATS and path and reader is None:
-        from bsm.files.motion.usd import read_usd_mesh
-
-        return read_usd_mesh(path, limits)
+        usd: MeshFile = by_name("bsm.files.motion.usd", "read_usd_mesh")(path, limits)
+        return usd
     if reader == "trimesh" or kind not in MESH_FORMATS:
         from bsm.files.formats.with_trimesh import import_trimesh, read_with_trimesh
 
@@ -109,18 +111,15 @@ def read_mesh(
             require_archive(data, limits)
         if kind in ("glb", "gltf"):
             import_trimesh(f".{kind} files are read")
-            require_room_for_meshes(data, limits)
+            by_name("bsm.gltf.document", "require_room_for_meshes")(data, limits)
         return read_with_trimesh(data, path, kind, limits).checked(limits)
-    if kind == "npz":
-        read: MeshFile = _format(kind).read_npz(data, limits)
-        return read
-    if kind == "vtp":
-        found: Polygons = _format(kind).read_vtp(data, limits)
-        return found.checked(limits)
-    require_room(kind, data, limits)
-    polygons: Polygons = getattr(_format(kind), f"read_{kind}")(data)
-    metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
-    ours = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes)).checked(limits)
+    if kind in _PLAIN:
+        require_room(kind, data, limits)
+    polygons: Polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
+    if kind in _PLAIN:
+        metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
+        polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
+    ours = polygons.checked(limits)
     if reader == "openmesh":
         from bsm.files.formats.with_openmesh import read_with_openmesh
 
@@ -135,7 +134,7 @@ def format_mesh(mesh: TriangleMesh, file_format: str) -> bytes:
 
 def written_mesh(mesh: TriangleMesh, file_format: str, path: str | os.PathLike[str] = "mesh") -> Written:
     """A mesh as a file of one of `WRITTEN_FORMATS`, what that cannot hold, and what lies beside it."""
-    written: Written = getattr(_format(file_format), f"write_{file_format}")(mesh, Path(path).stem)
+    written: Written = by_name(_ROOMS[file_format], f"write_{file_format}")(mesh, Path(path).stem)
     return written
 
 

@@ -20,12 +20,11 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.files.formats.npy import NPY, write_npy
 from bsm.files.formats.npz import open_npz_sequence
-from bsm.files.mesh import USD_FORMATS, WRITTEN_FORMATS, save_written, written_mesh
+from bsm.files.mesh import USD_FORMATS, WRITTEN_FORMATS, by_name, save_written, written_mesh
 from bsm.files.motion.arrays import read_archive, read_pipe
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.folder import frame_files, in_order, is_numbered, names_many, read_files, write_files
-from bsm.files.motion.frames import Frames, Wanted
-from bsm.files.motion.told import Told
+from bsm.files.motion.frames import Frames, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Source, as_input, is_pipe
 from bsm.files.remote import is_url
@@ -89,20 +88,18 @@ def _of_file(path: str, kind: str, reader: str | None, wanted: Wanted, limits: L
     if kind in CACHES:
         return read_cache(path, kind, reader, wanted, limits)
     if kind in GLTF:
-        from bsm.files.motion.gltf_frames import read_gltf
-
-        return read_gltf(path, wanted, limits)
-    from bsm.files.motion.usd import read_usd
-
-    return read_usd(path, wanted, limits)
+        found: Frames | None = by_name("bsm.gltf.frames", "read_gltf")(path, wanted, limits)
+    else:
+        found = by_name("bsm.files.motion.usd", "read_usd")(path, wanted, limits)
+    return found
 
 
 @contextmanager
 def sequence_writer(
-    path: str, kind: str, faces: Faces, count: int, *, overwrite: bool, told: Told | None = None
+    path: str, kind: str, faces: Faces, count: int, *, overwrite: bool, shared: Shared | None = None
 ) -> Iterator[FrameWriter]:
     """Open a sequence for writing; yields what takes frame after frame."""
-    told = told or Told()
+    shared = shared or Shared()
     if is_numbered(path) or kind not in ONE_FILE or (kind == "glb" and _is_folder(path)):
         if is_url(path):
             raise OptionError(f"{path}: frames are written to a folder of this machine, or as an npz")
@@ -112,39 +109,35 @@ def sequence_writer(
             def take(frame: Positions, faces: Faces | None = None) -> None:
                 nonlocal present, fresh
                 present = present if faces is None else faces
-                told.loses(write_mesh(told.mesh(frame, present, with_metadata=fresh)))
+                shared.loses(write_mesh(shared.mesh(frame, present, with_metadata=fresh)))
                 fresh = False
 
             yield take
         return
     if kind in CACHES:
-        with _cache_writer(path, kind, faces, count, overwrite, told) as write:
-            yield _of_one_mesh(write, kind, told)
+        with _cache_writer(path, kind, faces, count, overwrite, shared) as write:
+            yield _of_one_mesh(write, kind, shared)
         return
     with open_output(path, overwrite=overwrite) as file:
         if kind == "npz":
-            with open_npz_sequence(file, faces, count, told.attributes) as write:
+            with open_npz_sequence(file, faces, count, shared.attributes) as write:
                 yield _of_one_mesh(write, kind)
         elif kind == "npy":
             write_npy(file, faces)
             yield _of_one_mesh(lambda frame: write_npy(file, frame), kind)
         elif kind == "glb":
-            from bsm.files.motion.gltf_written import write_gltf
-
-            with write_gltf(file, path, faces, told) as write:
-                yield _of_one_mesh(write, kind, told)
+            with by_name("bsm.gltf.write", "write_frames")(file, path, faces, shared) as write:
+                yield _of_one_mesh(write, kind, shared)
         else:
-            from bsm.files.motion.usd import write_usd
-
-            with write_usd(file, kind, faces, told) as write_changing:
+            with by_name("bsm.files.motion.usd", "write_usd")(file, kind, faces, shared) as write_changing:
                 yield write_changing
             return
         if kind == "npy":
-            told.loses([one.name for one in told.attributes()])
+            shared.loses([one.name for one in shared.attributes()])
 
 
-def _of_one_mesh(write: Callable[[Positions], None], kind: str, told: Told | None = None) -> FrameWriter:
-    """A writer of a form that has one set of faces, and, where it is `told`, attributes of the first frame alone."""
+def _of_one_mesh(write: Callable[[Positions], None], kind: str, shared: Shared | None = None) -> FrameWriter:
+    """A writer of a form that has one set of faces, and, where it is `shared`, attributes of the first frame alone."""
     numbers = count_from(0)
 
     def take(frame: Positions, faces: Faces | None = None) -> None:
@@ -155,22 +148,22 @@ def _of_one_mesh(write: Callable[[Positions], None], kind: str, told: Told | Non
                 "numbered files (%04d.obj) or to USD, or frames of the same faces, --frames A:B"
             )
         write(frame)
-        if told is not None:
-            told.loses(f"how {one.name} changes" for one in told.moved())
+        if shared is not None:
+            shared.loses(f"how {one.name} changes" for one in shared.moved())
 
     return take
 
 
 @contextmanager
 def _cache_writer(
-    path: str, kind: str, faces: Faces, count: int, overwrite: bool, told: Told
+    path: str, kind: str, faces: Faces, count: int, overwrite: bool, shared: Shared
 ) -> Iterator[Callable[[Positions], None]]:
     """A cache, and beside it the mesh of its first frame."""
     beside = mesh_of(path)
     refuse_to_overwrite(beside, overwrite)
     first: list[Positions] = []
     with open_output(path, overwrite=overwrite) as file:
-        with write_cache(file, kind, count, lambda: told.frame_rate) as write:
+        with write_cache(file, kind, count, lambda: shared.frame_rate) as write:
 
             def take(frame: Positions) -> None:
                 if not first:
@@ -178,8 +171,8 @@ def _cache_writer(
                 write(frame)
 
             yield take
-        mesh = told.mesh(first[0], faces)
-        told.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite))
+        mesh = shared.mesh(first[0], faces)
+        shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite))
 
 
 def _is_folder(path: str) -> bool:

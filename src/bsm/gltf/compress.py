@@ -3,37 +3,39 @@
 from __future__ import annotations
 
 import copy
+import io
 import json
+import re
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 from urllib.parse import quote
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import BsmError, FormatError
-from bsm.files.motion.gltf import NONSENSE
-from bsm.gltf.bundles import Bundle, Coded, bundles_of, code_bundle, size_of, that_share, users_of
-from bsm.gltf.document import Document, Tree, glb, is_plain, span_of
-from bsm.gltf.images import MIME, ImageRule, smaller
-from bsm.gltf.primitives import Coder
+from bsm.bitstream.errors import DependencyError, FormatError, OptionError
+from bsm.bitstream.extras import how_to_install
+from bsm.gltf.document import (
+    COMPONENTS,
+    EXTENSION,
+    KINDS,
+    VECTORS,
+    WEBP,
+    Document,
+    Tree,
+    as_format_error,
+    bounds_of,
+    glb,
+    is_plain,
+    span_of,
+)
+from bsm.gltf.primitives import Bundle, BundleStream, Coder, bundles_of, code_bundle, size_of, that_share, users_of
 
-EXTENSION = "EXT_bsm_compression"
 _COMPRESSED = {EXTENSION, "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
-_WEBP = "EXT_texture_webp"
-_UINT, _FLOAT = 5125, 5126
-_KINDS: dict[int, type[np.generic]] = {
-    5120: np.int8,
-    5121: np.uint8,
-    5122: np.int16,
-    5123: np.uint16,
-    _UINT: np.uint32,
-    _FLOAT: np.float32,
-}
-_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
+_UINT, _FLOAT = COMPONENTS["uint32"], COMPONENTS["float32"]
+_TYPES = {width: name for name, width in VECTORS.items()}
 _MOST, _WHOLE = float(np.finfo(np.float32).max), 2**24
 
 
@@ -55,7 +57,7 @@ def compress(
     progress: Callable[[int, int], None] | None = None,
 ) -> Compressed:
     """Code each primitive of triangles where that makes the scene smaller."""
-    with _consistent():
+    with as_format_error():
         for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
             raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
         return _compressed(document, coder, images, fallback, progress)
@@ -63,18 +65,8 @@ def compress(
 
 def count_primitives(document: Document) -> int:
     """How many primitives the meshes of a scene have; raises FormatError if it contradicts itself."""
-    with _consistent():
+    with as_format_error():
         return len(_primitives(document.tree))
-
-
-@contextmanager
-def _consistent() -> Iterator[None]:
-    try:
-        yield
-    except NONSENSE as error:
-        if isinstance(error, BsmError):
-            raise
-        raise FormatError(f"this glTF contradicts itself: {type(error).__name__}: {error}") from error
 
 
 def _compressed(
@@ -93,10 +85,10 @@ def _compressed(
     for together in that_share(bundles, users):
         if progress:
             progress(begun, total)
-        found: dict[int, Coded] = {}
+        found: dict[int, BundleStream] = {}
         for number in together:
             one = code_bundle(document, bundles[number], coder)
-            if isinstance(one, Coded):
+            if isinstance(one, BundleStream):
                 found[number] = one
             else:
                 left[one] += size_of(bundles[number])
@@ -121,12 +113,7 @@ def _primitives(tree: Tree) -> list[Tree]:
 def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
     if component == _FLOAT and values.dtype.kind == "u":
         return (values / np.float64(np.iinfo(values.dtype).max)).astype(np.float32)
-    return values.astype(_KINDS[component])
-
-
-def bounds_of(positions: npt.NDArray[Any]) -> Tree:
-    """What an accessor of positions says of them."""
-    return {"min": positions.min(axis=0).astype(float).tolist(), "max": positions.max(axis=0).astype(float).tolist()}
+    return values.astype(KINDS[component])
 
 
 def _length(entry: Tree) -> int:
@@ -139,12 +126,17 @@ class _Scene:
     def __init__(self, document: Document, fallback: str | None) -> None:
         self.tree: Tree = copy.deepcopy(document.tree)
         self._document = document
+        self._images = {
+            number: document.image(number)[1]
+            for number, image in enumerate(document.items("images"))
+            if "uri" in image and "://" not in str(image["uri"])
+        }
         self._fresh: dict[int, bytes] = {}  # what new bufferViews hold
         self._virtual = 0  # bytes of what decoders fill
         self._fallback = fallback
         self.plain: list[bytes] = []
 
-    def would_shrink(self, found: list[Coded], freed: list[int]) -> bool:
+    def would_shrink(self, found: list[BundleStream], freed: list[int]) -> bool:
         """Whether streams and what is said of them are smaller than the accessors that nothing needs any more."""
         before = 0
         for index in freed:
@@ -160,7 +152,7 @@ class _Scene:
             after += sum(map(_length, entries))
         return bool(found) and after < before
 
-    def put(self, bundle: Bundle, one: Coded) -> None:
+    def put(self, bundle: Bundle, one: BundleStream) -> None:
         """Put a stream in the place of the accessors of a bundle."""
         stream = self._add_bytes(one.stream)
         views = {}
@@ -184,12 +176,12 @@ class _Scene:
                     target |= {name: places[f"{number}/{name}"] for name in target}
 
     @staticmethod
-    def _arrays(one: Coded) -> list[tuple[str, npt.NDArray[Any]]]:
+    def _arrays(one: BundleStream) -> list[tuple[str, npt.NDArray[Any]]]:
         found = [(name, _stored(array, one.accessors[name][0])) for name, array in one.shape.arrays.items()]
         return [*found, ("indices", one.shape.index)]
 
     @staticmethod
-    def _view(stream: int, name: str, array: npt.NDArray[Any], one: Coded) -> Tree:
+    def _view(stream: int, name: str, array: npt.NDArray[Any], one: BundleStream) -> Tree:
         usual = _UINT if name == "indices" else _FLOAT
         component, _ = one.accessors.get(name, (_UINT, False))
         told: Tree = {"stream": stream, "attribute": name}
@@ -197,7 +189,7 @@ class _Scene:
         return {"buffer": 1, "byteLength": array.nbytes, "extensions": {EXTENSION: told}}
 
     @staticmethod
-    def _accessor(view: int, name: str, array: npt.NDArray[Any], one: Coded) -> Tree:
+    def _accessor(view: int, name: str, array: npt.NDArray[Any], one: BundleStream) -> Tree:
         component, normalized = one.accessors[name]
         accessor: Tree = {
             "bufferView": view,
@@ -227,14 +219,14 @@ class _Scene:
     def rewrite_images(self, rule: ImageRule) -> None:
         """Write images by a rule where that makes them smaller."""
         for number, image in enumerate(self.tree.get("images", [])):
-            data = self._document.images.get(number)
+            data = self._images.get(number)
             if "bufferView" in image:
                 data = self._document.view(image["bufferView"])
             found = data and smaller(data, rule)
             if not found:
                 continue
             image.pop("uri", None)
-            image |= {"mimeType": MIME[rule.kind], "bufferView": self._add_bytes(found)}
+            image |= {"mimeType": f"image/{rule.kind}", "bufferView": self._add_bytes(found)}
             if rule.kind == "webp":
                 self._refer_to_webp(number)
 
@@ -242,8 +234,8 @@ class _Scene:
         for texture in self.tree.get("textures", []):
             if texture.get("source") == image:
                 del texture["source"]
-                texture.setdefault("extensions", {})[_WEBP] = {"source": image}
-                self._use(_WEBP, required=True)
+                texture.setdefault("extensions", {})[WEBP] = {"source": image}
+                self._use(WEBP, required=True)
 
     def _use(self, extension: str, *, required: bool) -> None:
         for key in ("extensionsUsed", "extensionsRequired") if required else ("extensionsUsed",):
@@ -254,7 +246,7 @@ class _Scene:
     def finished(self) -> bytes:
         """The .glb: bufferViews that nothing uses any more are gone, images that lay beside are in it."""
         tree = self.tree
-        for number, data in self._document.images.items():
+        for number, data in self._images.items():
             image = tree["images"][number]
             if "uri" in image:
                 kind = "image/png" if data.startswith(b"\x89PNG") else "image/jpeg"
@@ -378,3 +370,53 @@ def _drop_unused(tree: Tree, kind: str, refers: Any) -> list[int]:
     if kind in tree:
         tree[kind] = [tree[kind][old] for old in kept]
     return kept
+
+
+# -------------------------------------------------------------------------------------------------------------- images
+
+
+@dataclass(frozen=True)
+class ImageRule:
+    """How images are written: format, quality from 1 to 100, and the most pixels of a side (0: any number)."""
+
+    kind: str
+    quality: int = 85
+    side: int = 0
+
+    @classmethod
+    def parse(cls, text: str) -> Self:
+        """The rule that "webp", "webp:85" or "webp:85@1024" says."""
+        match = re.fullmatch(r"(webp|jpeg|png)(?::(\d{1,3}))?(?:@(\d{1,5}))?", text)
+        if not match or not 1 <= int(match[2] or 85) <= 100:
+            raise OptionError(f"images are written as webp, webp:85 or webp:85@1024 (jpeg, png, too), not as {text!r}")
+        return cls(match[1], int(match[2] or 85), int(match[3] or 0))
+
+
+def smaller(data: bytes, rule: ImageRule) -> bytes | None:
+    """An image by a rule; None if that would not be smaller, or Pillow cannot read it."""
+    try:
+        from PIL import Image, UnidentifiedImageError
+    except ImportError as error:
+        raise DependencyError(f"images are written with Pillow; run: {how_to_install('formats')}") from error
+    try:
+        found = _written(Image.open(io.BytesIO(data)), rule)
+    except (UnidentifiedImageError, OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        return None
+    return found if found and len(found) < len(data) else None
+
+
+def _written(image: Any, rule: ImageRule) -> bytes | None:
+    """The file of an image; None if the format would lose what shows through."""
+    from PIL import Image
+
+    if rule.kind == "jpeg" and image.mode not in ("RGB", "L"):
+        if "A" in image.getbands() or "transparency" in image.info:
+            return None
+        image = image.convert("RGB")
+    if rule.side and max(image.size) > rule.side:
+        factor = rule.side / max(image.size)
+        size = (max(1, round(image.width * factor)), max(1, round(image.height * factor)))
+        image = image.resize(size, Image.Resampling.LANCZOS)
+    written = io.BytesIO()
+    image.save(written, rule.kind, quality=rule.quality, **({"method": 6} if rule.kind == "webp" else {}))
+    return written.getvalue()

@@ -1,4 +1,4 @@
-"""A glTF document: its tree and its bytes, from and to files."""
+"""A glTF document, binary or not: its tree, its bytes, and the numbers in them, checked before they are used."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import base64
 import json
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -14,154 +14,276 @@ from urllib.parse import unquote
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import FormatError
-from bsm.files.motion.gltf import NONSENSE
+from bsm.bitstream.errors import BsmError, FormatError, LimitError, TruncatedError, UnsupportedError
+from bsm.bitstream.limits import Limits
+from bsm.files.pipes import Input
 
+Array = npt.NDArray[Any]
 Tree = dict[str, Any]
+KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+COMPONENTS = {np.dtype(kind).name: number for number, kind in KINDS.items()}
+VECTORS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+_WIDTHS = {**VECTORS, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+_MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
+EXTENSION, WEBP = "EXT_bsm_compression", "EXT_texture_webp"
+PER_NUMBER = 48
+"""Bytes that a number of an accessor takes while it is made into what a mesh has."""
+_COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
+MOST_NUMBERS = 1 << 27
+"""In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""
 
-_MAGIC, _JSON, _BIN = b"glTF", 0x4E4F534A, 0x004E4942
-_TYPES: dict[int, type[np.generic]] = {
-    5120: np.int8,
-    5121: np.uint8,
-    5122: np.int16,
-    5123: np.uint16,
-    5125: np.uint32,
-    5126: np.float32,
-}
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+
+@contextmanager
+def as_format_error() -> Iterator[None]:
+    """Make an error of ours of whatever a tree leads to that holds anything anywhere."""
+    try:
+        yield
+    except BsmError:
+        raise
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError, OverflowError) as error:
+        raise FormatError(f"this glTF makes no sense: {type(error).__name__}: {error}") from error
 
 
-@dataclass(frozen=True, eq=False)
 class Document:
-    """A document."""
+    """A glTF as it was read; `folder` is where it lies."""
 
-    tree: Tree
-    buffers: list[bytes]
-    images: dict[int, bytes]
+    def __init__(self, data: bytes, folder: Path | None = None) -> None:
+        self._folder, self._own = folder, len(data)
+        text, self._binary = _chunks(data) if data.startswith(_MAGIC) else (data, b"")
+        try:
+            tree = json.loads(text)
+        except (ValueError, RecursionError) as error:
+            raise FormatError(f"this is no glTF: {error}") from error
+        if not isinstance(tree, dict) or not isinstance(tree.get("asset"), dict):
+            raise FormatError("this is no glTF: it says nothing of itself as an asset")
+        self.tree: Tree = tree
+        self._resources: dict[str, bytes] = {}
 
-    def view(self, index: int) -> bytes:
-        """The bytes of a bufferView."""
-        view = self._entry("bufferViews", index)
-        start, length = view.get("byteOffset", 0), view["byteLength"]
-        data = self.buffers[view["buffer"]]
-        if min(start, length) < 0 or start + length > len(data):
-            raise FormatError(f"bufferView {index} ends behind its buffer")
-        return data[start : start + length]
-
-    def array(self, index: int) -> npt.NDArray[Any] | None:
-        """The values of an accessor, shape (n, c), as they are stored; None if it is sparse or without bytes."""
-        accessor = self._entry("accessors", index)
-        if not is_plain(accessor):
-            return None
-        view = self._entry("bufferViews", accessor["bufferView"])
-        if view.get("extensions"):
-            return None
-        kind, width = np.dtype(_TYPES[accessor["componentType"]]).newbyteorder("<"), _WIDTHS[accessor["type"]]
-        count, stride, data = accessor["count"], _stride(accessor, view), self.view(accessor["bufferView"])
-        start, end = span_of(accessor, view)
-        if count < 1 or min(start, stride) < 0 or end > len(data):
-            raise FormatError(f"accessor {index} is not inside of its bufferView")
-        rows: npt.NDArray[Any] = np.ndarray((count, width), kind, data, start, (stride, kind.itemsize))
-        return np.ascontiguousarray(rows)
-
-    def claimed(self, index: int) -> int:
-        """How many numbers an accessor says that it has."""
-        accessor = self._entry("accessors", index)
-        return int(accessor["count"]) * _WIDTHS.get(accessor["type"], 1)
+    def require_plain(self) -> None:
+        """Raise `UnsupportedError` if its meshes are compressed."""
+        required = [name for name in _COMPRESSED if name in self.tree.get("extensionsRequired", [])]
+        if required:
+            raise UnsupportedError(
+                f"the meshes are compressed with {required[0]}, which is not read here; "
+                "take that out first, for instance with gltf-transform copy"
+            )
 
     @property
     def received(self) -> int:
-        """Bytes of all buffers."""
-        return sum(map(len, self.buffers))
+        """Bytes of the document, and of what was read so far that lies beside it."""
+        return self._own + sum(map(len, self._resources.values()))
 
-    def _entry(self, kind: str, index: int) -> Tree:
-        try:
-            entry: Tree = self.tree[kind][index]
-        except (KeyError, IndexError) as error:
-            raise FormatError(f"this glTF has no {kind}[{index}]") from error
+    def items(self, name: str) -> list[Tree]:
+        """A list of the tree; empty if there is none."""
+        found = self.tree.get(name, [])
+        if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
+            raise FormatError(f"the {name} of this glTF are no list of objects")
+        return found
+
+    def item(self, name: str, index: object) -> Tree:
+        """One of a list of the tree."""
+        found = self.tree.get(name, [])
+        if not isinstance(found, list) or not isinstance(index, int) or not 0 <= index < len(found):
+            raise FormatError(f"this glTF refers to number {index!r} of {len(self.items(name))} {name}")
+        if not isinstance(entry := found[index], dict):
+            raise FormatError(f"number {index} of the {name} of this glTF is no object")
         return entry
 
+    def primitives(self) -> Iterator[Tree]:
+        """The primitives of all meshes."""
+        for mesh in self.items("meshes"):
+            yield from mesh["primitives"]
 
-def _size(accessor: Tree) -> int:
-    return np.dtype(_TYPES[accessor["componentType"]]).itemsize * _WIDTHS[accessor["type"]]
+    def buffer(self, index: object) -> bytes:
+        """The bytes of a buffer."""
+        buffer = self.item("buffers", index)
+        data = self._behind(str(buffer["uri"])) if "uri" in buffer else self._binary if index == 0 else b""
+        if len(data) < _count(buffer, "byteLength"):
+            raise TruncatedError(
+                f"buffer {index} of this glTF should have {buffer['byteLength']} bytes, not {len(data)}"
+            )
+        return data
+
+    def view(self, index: object) -> bytes:
+        """What a bufferView holds."""
+        data, start, size = self._place(index)
+        return data[start : start + size]
+
+    def _place(self, index: object) -> tuple[bytes, int, int]:
+        view = self.item("bufferViews", index)
+        data = self.buffer(view.get("buffer"))
+        start, size = _count(view, "byteOffset"), _count(view, "byteLength")
+        if start + size > len(data):
+            raise TruncatedError(f"bufferView {index} of this glTF ends behind the {len(data)} bytes of its buffer")
+        return data, start, size
+
+    def numbers(self, index: object, *, whole: bool = False) -> Array:
+        """The numbers of an accessor, shape (count, width); normalized ones as floats unless `whole`."""
+        accessor = self.item("accessors", index)
+        kind, width = KINDS.get(accessor.get("componentType", 0)), _WIDTHS.get(accessor.get("type", ""))
+        if kind is None or width is None:
+            raise FormatError(f"accessor {index} of this glTF is of no type that is known")
+        count = _count(accessor, "count")
+        if count * width > MOST_NUMBERS:
+            raise LimitError(f"accessor {index} of this glTF has {count} values; the limit is {MOST_NUMBERS} numbers")
+        size = np.dtype(kind).itemsize
+        # Columns of matrices begin at multiples of four bytes.
+        rows = {"MAT2": 2, "MAT3": 3}.get(accessor["type"], 0) if size < 4 else 0
+        if rows and rows * size % 4:
+            raise UnsupportedError(f"accessor {index} of this glTF holds small matrices of small numbers")
+        if "bufferView" in accessor:
+            found = self._strided(accessor, kind, count, width)
+        else:
+            found = np.zeros((count, width), kind)
+        if sparse := accessor.get("sparse"):
+            self._replace(found, sparse, kind, width)
+        if accessor.get("normalized") and not whole and found.dtype.kind in "iu":
+            return np.maximum(found / np.iinfo(found.dtype).max, -1.0)
+        return found
+
+    def array(self, index: object) -> Array | None:
+        """The values of an accessor, shape (n, c), as they are stored; None if it is sparse or without plain bytes."""
+        accessor = self.item("accessors", index)
+        if not is_plain(accessor) or self.item("bufferViews", accessor["bufferView"]).get("extensions"):
+            return None
+        if not self.count(index):
+            raise FormatError(f"accessor {index} of this glTF is empty")
+        found = self.numbers(index, whole=True)
+        return found.astype(found.dtype.newbyteorder("="))
+
+    def count(self, index: object) -> int:
+        """How many values an accessor claims."""
+        return _count(self.item("accessors", index), "count")
+
+    def claimed(self, index: object) -> int:
+        """How many numbers an accessor claims; those without a buffer are zeros, for which no byte pays."""
+        return self.count(index) * _WIDTHS.get(str(self.item("accessors", index).get("type")), 16)
+
+    def image(self, index: object) -> tuple[str, bytes]:
+        """Name and bytes of an image."""
+        image = self.item("images", index)
+        if "bufferView" in image:
+            return str(image.get("name", "")), self.view(image["bufferView"])
+        uri = str(image.get("uri", ""))
+        name = "" if uri.startswith("data:") else Path(unquote(uri)).name
+        return str(image.get("name") or name), self._behind(uri)
+
+    def _strided(self, where: Tree, kind: str, count: int, width: int) -> Array:
+        data, start, size = self._place(where["bufferView"])
+        offset, item = _count(where, "byteOffset"), np.dtype(kind).itemsize * width
+        stride = _count(self.item("bufferViews", where["bufferView"]), "byteStride") or item
+        if stride < item or (count and offset + stride * (count - 1) + item > size):
+            raise TruncatedError(
+                f"{count} values of {item} bytes do not fit into the {size} bytes of their buffer view"
+            )
+        return np.array(np.ndarray((count, width), kind, data, start + offset, (stride, np.dtype(kind).itemsize)))
+
+    def _replace(self, found: Array, sparse: Tree, kind: str, width: int) -> None:
+        count, where = _count(sparse, "count"), sparse["indices"]
+        places = self._strided(where, KINDS[where["componentType"]], count, 1)[:, 0]
+        if len(places) and places.max() >= len(found):
+            raise FormatError(f"a sparse accessor replaces value {places.max()} of {len(found)}")
+        found[places] = self._strided(sparse["values"], kind, count, width)
+
+    def _behind(self, uri: str) -> bytes:
+        if uri not in self._resources:
+            self._resources[uri] = _resource(uri, self._folder)
+        return self._resources[uri]
 
 
-def _stride(accessor: Tree, view: Tree) -> int:
-    stride: int = view.get("byteStride") or _size(accessor)
-    return stride
-
-
-def span_of(accessor: Tree, view: Tree) -> tuple[int, int]:
-    """Where the bytes of an accessor begin and end in its bufferView."""
-    start = accessor.get("byteOffset", 0)
-    return start, start + _stride(accessor, view) * (accessor["count"] - 1) + _size(accessor)
-
-
-def is_plain(accessor: Tree) -> bool:
-    """Whether its numbers are bytes of a bufferView, and no others."""
-    return "sparse" not in accessor and "bufferView" in accessor and accessor["type"] in _WIDTHS
-
-
-def read_document(path: str) -> Document:
-    """A document from a .glb, or from a .gltf and the files beside it."""
-    data = Path(path).read_bytes()
-    folder = Path(path).parent.resolve()
-    try:
-        return _document(data, folder)
-    except (*NONSENSE, struct.error) as error:
-        if isinstance(error, FormatError):
-            raise
-        raise FormatError(f"{path} is no glTF: {type(error).__name__}: {error}") from error
-
-
-def _document(data: bytes, folder: Path) -> Document:
-    chunk = b""
-    if data.startswith(_MAGIC):
-        chunks = dict(_chunks(data))
-        data, chunk = chunks.get(_JSON, b""), chunks.get(_BIN, b"")
-    tree: Tree = json.loads(data)
-    tree["asset"]["version"]
-    buffers = [
-        _resource(buffer["uri"], folder) if "uri" in buffer else chunk if number == 0 else b""
-        for number, buffer in enumerate(tree.get("buffers", []))
-    ]
-    images = {
-        number: _resource(image["uri"], folder)
-        for number, image in enumerate(tree.get("images", []))
-        if "uri" in image and not _is_remote(image["uri"])
-    }
-    return Document(tree, buffers, images)
-
-
-def _chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
-    at = 12
-    while at + 8 <= len(data):
-        length, kind = struct.unpack_from("<II", data, at)
-        if at + 8 + length > len(data):
-            raise ValueError("a chunk ends behind the file")
-        yield kind, data[at + 8 : at + 8 + length]
-        at += 8 + length + -length % 4
-
-
-def _is_remote(uri: str) -> bool:
-    return "://" in uri
-
-
-def _resource(uri: str, folder: Path) -> bytes:
-    """What a relative address beside the document names, or a data address holds."""
+def _resource(uri: str, folder: Path | None) -> bytes:
+    """The bytes of a data URI, or of a file beside the document."""
     if uri.startswith("data:"):
-        return base64.b64decode(uri.partition(",")[2])
-    path = (folder / unquote(uri)).resolve()
-    if _is_remote(uri) or not path.is_relative_to(folder) or not path.is_file():
-        raise FormatError(f"{uri} is no file beside the glTF")
-    return path.read_bytes()
+        try:
+            return base64.b64decode(uri.partition(",")[2], validate=True)
+        except ValueError as error:
+            raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
+    if folder is None:
+        raise FormatError(f"this glTF needs the file {uri} beside it, and did not come from a folder")
+    try:
+        path = Path(folder, unquote(uri)).resolve()
+        inside, is_file = path.is_relative_to(folder.resolve()), path.is_file()
+    except (OSError, RuntimeError, ValueError) as error:  # of a loop of links, or a NUL
+        raise FormatError(f"this glTF refers to {uri}, which cannot be opened: {error}") from error
+    if not inside:
+        raise FormatError(f"this glTF refers to {uri}, which is not in its folder")
+    if not is_file:
+        raise FormatError(f"this glTF refers to {uri}, which is no file beside it")
+    return Input(str(path)).read_all()
+
+
+def _chunks(data: bytes) -> tuple[bytes, bytes]:
+    """The JSON and the binary chunk of a GLB."""
+    if len(data) < 20:
+        raise TruncatedError("a GLB begins with 20 bytes; this one ends before")
+    _, version, length, size, kind = struct.unpack_from("<4sIIII", data)
+    if version != 2 or kind != _JSON:
+        raise FormatError(f"this is no GLB of version 2 (version {version})")
+    if len(data) < max(length, 20 + size):
+        raise TruncatedError(f"this GLB should have {max(length, 20 + size)} bytes, not {len(data)}")
+    start = 20 + size
+    if len(data) < start + 8:
+        return data[20:start], b""
+    size, kind = struct.unpack_from("<II", data, start)
+    return data[20:start], data[start + 8 : start + 8 + size] if kind == _BINARY else b""
+
+
+def head_of_glb(tree: Tree, size: int) -> bytes:
+    """What stands in a .glb before the `size` bytes of its first buffer, a multiple of four."""
+    text = json.dumps(tree, separators=(",", ":"), ensure_ascii=False).encode(errors="replace")
+    text += b" " * (-len(text) % 4)
+    head = struct.pack("<4sIIII", _MAGIC, 2, 28 + len(text) + size, len(text), _JSON)
+    return head + text + struct.pack("<II", size, _BINARY)
 
 
 def glb(tree: Tree, data: bytes) -> bytes:
     """A .glb of a tree and the bytes of its first buffer."""
-    text = json.dumps(tree, separators=(",", ":"), ensure_ascii=False).encode()
-    text += b" " * (-len(text) % 4)
     data += b"\0" * (-len(data) % 4)
-    total = 12 + 8 + len(text) + 8 + len(data)
-    head = struct.pack("<4sIIII", _MAGIC, 2, total, len(text), _JSON)
-    return head + text + struct.pack("<II", len(data), _BIN) + data
+    return head_of_glb(tree, len(data)) + data
+
+
+def bounds_of(values: Array) -> Tree:
+    """What an accessor says of its numbers."""
+    return {"min": values.min(axis=0).astype(float).tolist(), "max": values.max(axis=0).astype(float).tolist()}
+
+
+def is_plain(accessor: Tree) -> bool:
+    """Whether its numbers are bytes of a bufferView, and no others."""
+    return "sparse" not in accessor and "bufferView" in accessor and accessor["type"] in VECTORS
+
+
+def span_of(accessor: Tree, view: Tree) -> tuple[int, int]:
+    """Where the bytes of an accessor begin and end in its bufferView."""
+    size = np.dtype(KINDS[accessor["componentType"]]).itemsize * VECTORS[accessor["type"]]
+    start = accessor.get("byteOffset", 0)
+    return start, start + (view.get("byteStride") or size) * (accessor["count"] - 1) + size
+
+
+def _count(where: Tree, name: str) -> int:
+    value = where.get(name, 0)
+    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
+        raise FormatError(f"{name} of this glTF is {value!r}, not a number of bytes or values")
+    return value
+
+
+def read_document(path: str) -> Document:
+    """The document in a file."""
+    return Document(Input(path).read_all(), Path(path).parent)
+
+
+def require_room_for_meshes(data: bytes, limits: Limits) -> None:
+    """Count what the meshes of a glTF become, before anybody makes them."""
+    document = Document(data)
+    with as_format_error():
+        numbers, named = 0, set()
+        for primitive in document.primitives():
+            given = [*primitive["attributes"].values(), primitive.get("indices")]
+            given += [index for target in primitive.get("targets", []) for index in target.values()]
+            numbers += sum(document.claimed(index) for index in given if index is not None)
+            where = primitive["attributes"].get("POSITION")
+            if where is not None and ("bufferView" in document.item("accessors", where) or primitive.get("extensions")):
+                named.add(where)
+        vertices = sum(document.count(index) for index in named)
+    beside = sum(_count(buffer, "byteLength") for buffer in document.items("buffers") if "uri" in buffer)
+    limits.check("vertices", vertices)
+    limits.check_memory(PER_NUMBER * numbers, vertices, len(data) + beside)

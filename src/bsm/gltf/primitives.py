@@ -1,4 +1,4 @@
-"""Primitives of a scene as meshes, and as what decoders of their streams draw."""
+"""Primitives of a scene as meshes, what decoders of their streams draw, and which of them one stream holds."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.motion.gltf import PER_NUMBER
-from bsm.gltf.document import Document, Tree
+from bsm.codec.static.decoder import decode
+from bsm.gltf.document import COMPONENTS, PER_NUMBER, Document, Tree
 
 _TRIANGLES = 4
-_FLOAT = 5126
+_FLOAT, _UBYTE = COMPONENTS["float32"], COMPONENTS["uint8"]
 _SEMANTICS: dict[str, tuple[Semantic, int]] = {
     "NORMAL": ("normal", 3),
     "TEXCOORD_0": ("texcoord", 2),
     "TEXCOORD_1": ("texcoord", 2),
 }
 _LARGEST = {np.dtype(np.uint8): 255, np.dtype(np.uint16): 65535}
-_COMPONENTS = {"int8": 5120, "uint8": 5121, "int16": 5122, "uint16": 5123, "uint32": 5125, "float32": _FLOAT}
 _PIECE = "material"
 """The attribute of faces by which decoders sort them."""
 _GRID = 2.0**-15
@@ -179,10 +179,10 @@ def _carried(name: str, array: npt.NDArray[Any], normalized: bool) -> tuple[Attr
         return Attribute(name, array, "vertex", "color"), _FLOAT, False
     if name == "WEIGHTS_0":
         weights = _eighths(array / np.float64(1 if is_float else _LARGEST.get(array.dtype, 1)))
-        return Attribute(name, weights), 5121, True
+        return Attribute(name, weights), _UBYTE, True
     if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes
         return None
-    return Attribute(name, array), _COMPONENTS[array.dtype.name], normalized and not is_float
+    return Attribute(name, array), COMPONENTS[array.dtype.name], normalized and not is_float
 
 
 def _eighths(weights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
@@ -244,3 +244,81 @@ class Coder(Protocol):
 
     def __call__(self, mesh: TriangleMesh, *, attributes: dict[str, str]) -> bytes:
         """Its bytes; `attributes` is what is asked of some of its attributes."""
+
+
+Bundle = list[list[Tree]]
+"""Primitives of one mesh that one stream can hold, each with all others that are drawn of the same accessors."""
+
+
+@dataclass(frozen=True, eq=False)
+class BundleStream:
+    """The stream of a bundle, what is drawn of it, and the accessors of that: component type, normalized or not."""
+
+    stream: bytes
+    shape: Drawn
+    accessors: dict[str, tuple[int, bool]]
+
+
+def code_bundle(document: Document, bundle: Bundle, coder: Coder) -> BundleStream | str:
+    """A bundle coded, or why it cannot be."""
+    found = as_mesh(document, [same[0] for same in bundle])
+    if isinstance(found, str):
+        return found
+    try:
+        stream = coder(found.mesh, attributes=found.qualities)
+    except BsmError as error:
+        return f"no stream: {error}"
+    shape = drawn(decode(stream))
+    if len(shape.pieces) != len(bundle):
+        return "faces that are none"
+    return BundleStream(stream, shape, found.accessors)
+
+
+def _accessors_of(primitive: Tree) -> dict[str, int]:
+    return arrays_of(primitive) | ({"": primitive["indices"]} if "indices" in primitive else {})
+
+
+def bundles_of(document: Document, tree: Tree) -> list[Bundle]:
+    """The primitives of a tree, each in one bundle; `document` has the same accessors."""
+    known: dict[str, list[Tree]] = {}
+    bundles: list[Bundle] = []
+    for mesh in tree.get("meshes", []):
+        alike: dict[str, Bundle] = {}
+        for primitive in mesh["primitives"]:
+            key = str((sorted(_accessors_of(primitive).items()), primitive.get("mode")))
+            if key not in known:
+                known[key] = []
+                alike.setdefault(like(document, primitive), []).append(known[key])
+            known[key].append(primitive)
+        bundles += alike.values()
+    return bundles
+
+
+def size_of(bundle: Bundle) -> int:
+    """How many primitives are drawn of it."""
+    return sum(len(same) for same in bundle)
+
+
+def users_of(bundles: list[Bundle], tree: Tree) -> dict[int, set[int]]:
+    """Which bundles use each accessor; -1: an animation or a skin."""
+    users: dict[int, set[int]] = {}
+    for number, bundle in enumerate(bundles):
+        for same in bundle:
+            for index in _accessors_of(same[0]).values():
+                users.setdefault(index, set()).add(number)
+    samplers = [sampler for animation in tree.get("animations", []) for sampler in animation["samplers"]]
+    used = [sampler[end] for sampler in samplers for end in ("input", "output")]
+    used += [skin["inverseBindMatrices"] for skin in tree.get("skins", []) if "inverseBindMatrices" in skin]
+    for index in used:
+        users.setdefault(index, set()).add(-1)
+    return users
+
+
+def that_share(bundles: list[Bundle], users: dict[int, set[int]]) -> list[list[int]]:
+    """Numbers of bundles, those together that share accessors, if only by others."""
+    groups = {number: {number} for number in range(len(bundles))}
+    for numbers in users.values():
+        joined = set().union(*(groups[number] for number in numbers if number >= 0))
+        for number in joined:
+            groups[number] = joined
+    return [sorted(group) for number, group in groups.items() if number == min(group)]

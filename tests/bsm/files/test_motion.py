@@ -22,12 +22,11 @@ from bsm.cli import main
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.files.motion.curves import Curve, matrix_of
 from bsm.files.motion.folder import in_order, look_like_frames
-from bsm.files.motion.frames import Wanted
-from bsm.files.motion.gltf_frames import read_gltf
-from bsm.files.motion.told import Told
+from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
+from bsm.gltf.frames import read_gltf
+from bsm.gltf.scene import Curve, matrix_of
 from tests.motion import bending
 from tests.shapes import torus
 
@@ -113,8 +112,8 @@ def test_there_and_back(tmp_path, kind):
     positions, faces, attributes = painted()
     one_file = sequence_kind(f"a.{kind}", None) if kind not in ("obj", "ply", "off", "stl") else None
     path = tmp_path / (f"a.{kind}" if one_file else f"%02d.{kind}")
-    told = Told(lambda: attributes, lambda: {"unit": "cm", "up": "z", "frame_rate": 25.0})
-    with sequence_writer(str(path), kind, faces, COUNT, overwrite=False, told=told) as write:
+    shared = Shared(lambda: attributes, lambda: {"unit": "cm", "up": "z", "frame_rate": 25.0})
+    with sequence_writer(str(path), kind, faces, COUNT, overwrite=False, shared=shared) as write:
         for frame in positions:
             write(frame)
     source, frames = frames_of(path)
@@ -144,8 +143,8 @@ def test_usd_core_reads_what_we_write(tmp_path):
     from pxr import UsdGeom
 
     positions, faces, attributes = painted()
-    told = Told(lambda: attributes, lambda: {"unit": "mm", "up": "z", "frame_rate": 30.0})
-    with sequence_writer(str(tmp_path / "a.usdc"), "usdc", faces, COUNT, overwrite=False, told=told) as write:
+    shared = Shared(lambda: attributes, lambda: {"unit": "mm", "up": "z", "frame_rate": 30.0})
+    with sequence_writer(str(tmp_path / "a.usdc"), "usdc", faces, COUNT, overwrite=False, shared=shared) as write:
         for frame in positions:
             write(frame)
     stage = pxr.Stage.Open(str(tmp_path / "a.usdc"))
@@ -320,8 +319,8 @@ def test_pc2_and_mdd_byte_by_byte(tmp_path):
     positions = positions[:, :9]
     faces = np.array([[0, 1, 2], [3, 4, 5], [6, 7, 8]])
     for kind in ("pc2", "mdd"):
-        told = Told(metadata=lambda: {"frame_rate": 4.0})
-        with sequence_writer(str(tmp_path / f"a.{kind}"), kind, faces, 2, overwrite=True, told=told) as write:
+        shared = Shared(metadata=lambda: {"frame_rate": 4.0})
+        with sequence_writer(str(tmp_path / f"a.{kind}"), kind, faces, 2, overwrite=True, shared=shared) as write:
             write(positions[0])
             write(positions[1])
     head = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, 9, 0.0, 1.0, 2)

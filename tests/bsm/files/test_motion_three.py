@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from bsm.files.motion.frames import Wanted
-from bsm.files.motion.told import Told
+from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_sequence, sequence_writer
 from tests.motion import bending
 
@@ -39,11 +38,10 @@ def test_what_blender_wrote(name):
 
 
 def test_what_we_write(tmp_path):
-    pytest.importorskip("trimesh")
     positions, faces = bending(9)
     positions = positions.astype(np.float32).astype(np.float64)
-    told = Told(metadata=lambda: {"frame_rate": 25.0})
-    with sequence_writer(str(tmp_path / "a.glb"), "glb", faces, 9, overwrite=False, told=told) as write:
+    shared = Shared(metadata=lambda: {"frame_rate": 25.0})
+    with sequence_writer(str(tmp_path / "a.glb"), "glb", faces, 9, overwrite=False, shared=shared) as write:
         for frame in positions:
             write(frame)
     shown = shown_by_three(tmp_path / "a.glb", 25, 9)

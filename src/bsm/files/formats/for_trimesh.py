@@ -3,30 +3,32 @@
 from __future__ import annotations
 
 import io
-import math
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
-from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.splitting import split_by_attributes
 from bsm.files.formats.columns import Array
-from bsm.files.formats.materials import Material, as_gltf, described, images_in, materials_in, names_in
+from bsm.files.formats.materials import (
+    GLTF_TEXTURES,
+    Material,
+    described,
+    gltf_values,
+    images_in,
+    materials_in,
+    names_in,
+)
 from bsm.files.formats.with_trimesh import import_trimesh
-from bsm.files.formats.written import face_numbers, first
-
-TEXTURES = ("baseColorTexture", "normalTexture", "emissiveTexture", "occlusionTexture", "metallicRoughnessTexture")
-FACTORS = {"baseColorFactor": 4, "emissiveFactor": 3}
-SCALARS = ("metallicFactor", "roughnessFactor", "alphaCutoff", "doubleSided", "name", "alphaMode")
+from bsm.files.formats.written import face_numbers, first, rgba, shown_at_vertices
 
 
 def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
     """The arguments of `trimesh.Trimesh` that make it of a mesh; vertices are split where corners differ."""
     trimesh = import_trimesh("meshes of trimesh are made")
     mesh = split_by_attributes(mesh)
-    normal, color, texcoord = shown_by_trimesh(mesh)
+    normal, color, texcoord = shown_at_vertices(mesh)
     of_faces = first(mesh, "color", (3, 4), "face")
     known = materials_in(mesh.metadata)
     materials = [_material(trimesh, words, mesh.metadata) for words in known.values()]
@@ -45,12 +47,12 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
             of_each = np.array([place.get(number, len(known)) for number in numbers.values[:, 0].tolist()])
         visual = trimesh.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
         if color is not None:
-            visual.vertex_attributes["color"] = _rgba(color)
+            visual.vertex_attributes["color"] = rgba(color)
         of_faces = None
     elif color is not None:
-        visual, of_faces = trimesh.visual.ColorVisuals(vertex_colors=_rgba(color)), None
+        visual, of_faces = trimesh.visual.ColorVisuals(vertex_colors=rgba(color)), None
     elif of_faces is not None:
-        visual = trimesh.visual.ColorVisuals(face_colors=_rgba(of_faces))
+        visual = trimesh.visual.ColorVisuals(face_colors=rgba(of_faces))
     shown = {attribute.name for attribute in (normal, color, texcoord, of_faces) if attribute is not None}
     others = [attribute for attribute in mesh.attributes if attribute.name not in shown]
     metadata = {
@@ -93,58 +95,16 @@ def parts_of(mesh: TriangleMesh) -> Iterator[tuple[str, TriangleMesh]]:
         yield str(called or f"part {number}"), piece.without_isolated_vertices()[0]
 
 
-def shown_by_trimesh(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute | None, Attribute | None]:
-    """The normals, colours and texture coordinates of vertices that trimesh has a place for."""
-    return (
-        first(mesh, "normal", (3,), "vertex"),
-        first(mesh, "color", (3, 4), "vertex"),
-        first(mesh, "texcoord", (2, 3), "vertex"),
-    )
-
-
 def _flat(values: Array) -> Array:
     return values[:, 0] if values.shape[1] == 1 else values
 
 
-def _rgba(color: Attribute) -> Array:
-    """Colours as bytes, with an opaque alpha where there is none."""
-    values = color.values
-    if values.dtype == np.uint16:
-        values = values / 65535
-    if values.dtype != np.uint8:
-        values = np.rint(np.clip(values, 0, 1) * 255).astype(np.uint8)
-    opaque = np.full((len(values), 4 - values.shape[1]), 255, np.uint8)
-    return np.hstack([values, opaque])
-
-
 def _material(trimesh: Any, words: Material, metadata: Metadata) -> Any:
     """A material as trimesh has it."""
-    known: dict[str, Any] = {}
-    images = images_in(metadata)
-    for name, value in as_gltf(words).items():
-        if name in TEXTURES:
-            image = _opened(images.get(value, ("", b""))[1]) if isinstance(value, int) else None
-            known |= {name: image} if image is not None else {}
-        elif name in FACTORS:
-            numbers = _numbers(value)
-            known |= {name: numbers} if len(numbers) == FACTORS[name] else {}
-        elif name in ("metallicFactor", "roughnessFactor", "alphaCutoff"):
-            numbers = _numbers(value)
-            known |= {name: numbers[0]} if len(numbers) == 1 else {}
-        elif name == "doubleSided":
-            known[name] = bool(value)
-        elif name in ("name", "alphaMode"):
-            known[name] = str(value)
-    return trimesh.visual.material.PBRMaterial(**known)
-
-
-def _numbers(value: object) -> list[float]:
-    """The numbers of a text, or none if it is made of something else."""
-    try:
-        found = [float(word) for word in str(value).split()]
-    except ValueError:
-        return []
-    return found if all(map(math.isfinite, found)) else []
+    images, known = images_in(metadata), gltf_values(words)
+    for name in set(GLTF_TEXTURES) & known.keys():
+        known[name] = _opened(images.get(known[name], ("", b""))[1])
+    return trimesh.visual.material.PBRMaterial(**{name: value for name, value in known.items() if value is not None})
 
 
 def _opened(data: bytes) -> Any:

@@ -8,10 +8,11 @@ the file's name is "image.0.name", its bytes are "image.0.data". Which face has 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from bsm.codec.geometry.mesh import Metadata
 
@@ -34,6 +35,12 @@ _TO_GLTF = {
     "Pm": "metallicFactor",
     "Pr": "roughnessFactor",
 }
+GLTF_TEXTURES = ("baseColorTexture", "normalTexture", "emissiveTexture", "occlusionTexture", "metallicRoughnessTexture")
+_GLTF_NUMBERS = {
+    **{"baseColorFactor": 4, "emissiveFactor": 3},
+    **dict.fromkeys(("metallicFactor", "roughnessFactor", "alphaCutoff"), 1),
+}
+_ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
 _TO_MTL = {theirs: ours for ours, theirs in reversed(_TO_GLTF.items())}
 _SIGNATURES = {
     b"\x89PNG\r\n\x1a\n": "png",
@@ -130,6 +137,31 @@ def as_gltf(material: Material) -> Material:
     if len(color) == 3:
         renamed.setdefault("baseColorFactor", " ".join([*color, str(material.get("d", "1"))]))
     return renamed
+
+
+def gltf_values(material: Material) -> dict[str, Any]:
+    """What glTF can say of a material, as it says it; textures are the numbers of their images."""
+    found: dict[str, Any] = {}
+    for name, value in as_gltf(material).items():
+        numbers = as_numbers(value)
+        if name in GLTF_TEXTURES and isinstance(value, int):
+            found[name] = value
+        elif len(numbers) == _GLTF_NUMBERS.get(name):
+            found[name] = numbers if len(numbers) > 1 else numbers[0]
+        elif name == "doubleSided":
+            found[name] = bool(value)
+        elif name == "name" or (name == "alphaMode" and value in _ALPHA_MODES):
+            found[name] = str(value)
+    return found
+
+
+def as_numbers(value: object) -> list[float]:
+    """The finite numbers of a text or a number, or none if it is made of something else."""
+    try:
+        found = [float(word) for word in str(value).split()]
+    except ValueError:
+        return []
+    return found if all(map(math.isfinite, found)) else []
 
 
 def as_mtl(material: Material) -> Material:

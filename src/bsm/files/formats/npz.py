@@ -31,7 +31,7 @@ from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.columns import Column, meaning_of
 from bsm.files.formats.npy import Array, read_header, size_of
-from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.polygons import Polygons
 from bsm.files.formats.written import Written
 from bsm.files.room import AS_NUMBERS, TREE, require_inflated
 
@@ -145,13 +145,13 @@ def read_arrays(archive: Archive, *names: str) -> tuple[Array, ...]:
     return tuple(found)
 
 
-def read_npz(data: bytes, limits: Limits) -> MeshFile:
+def read_npz(data: bytes, limits: Limits) -> Polygons:
     """Read the npz of a mesh; shapes are looked at before numbers are read, and what is of no use is not read."""
     with opened_archive(io.BytesIO(data)) as archive:
         return _read_npz(archive, len(data), limits)
 
 
-def _read_npz(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> MeshFile:
+def _read_npz(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> Polygons:
     inflated = 0
     for name, bound in (("positions", "vertices"), ("faces", "faces")):
         shape, size = shape_of(archive, name)
@@ -192,8 +192,7 @@ def _read_npz(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> Mesh
     if len(dropped) > MOST_NAMED:
         dropped[MOST_NAMED:] = [f"{len(dropped) - MOST_NAMED} other arrays"]
     sizes, corners = np.full(len(mesh.faces), 3), mesh.faces.astype(np.int64).reshape(-1)
-    ours = Polygons(mesh.positions, sizes, corners, (), tuple(dropped), tuple(columns), metadata)
-    return ours.checked(limits)
+    return Polygons(mesh.positions, sizes, corners, (), tuple(dropped), tuple(columns), metadata)
 
 
 def shape_of(archive: Archive, name: str) -> tuple[tuple[int, ...], int]:

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError
+from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Mask
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -29,7 +30,7 @@ _COLORS = 3
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
 
 
-def read_obj(data: bytes) -> Polygons:
+def read_obj(data: bytes, limits: Limits) -> Polygons:
     """Read an OBJ: points and their colours, faces, texture coordinates, normals, materials and groups."""
     text = without_comments(data)
     if b"\0" in text:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError
+from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.columns import Column, color_column, compact
@@ -22,7 +23,7 @@ _OFF_HEADER = re.compile(
 )
 
 
-def read_off(data: bytes) -> Polygons:
+def read_off(data: bytes, limits: Limits) -> Polygons:
     """Read a text OFF."""
     text = without_comments(data)
     header = _OFF_HEADER.match(text)

@@ -9,6 +9,7 @@ from itertools import count, takewhile
 import numpy as np
 
 from bsm.bitstream.errors import MeshError
+from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.splitting import split_by_attributes
@@ -38,7 +39,7 @@ _NAMES = {"texnumber": "material", "material_index": "material"}
 """What properties are called here, unless by their own names."""
 
 
-def read_ply(data: bytes) -> Polygons:
+def read_ply(data: bytes, limits: Limits) -> Polygons:
     """Read a PLY with points and faces, of any byte order, and whatever numbers they have."""
     header = parse_header(data)
     names = [element.name for element in header.elements]

@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
+from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.columns import Column
 from bsm.files.formats.polygons import Polygons
@@ -18,7 +19,7 @@ _ATTRIBUTE = "attribute"
 """The number of 16 bits that a triangle has beside its corners; some programs keep colours in it."""
 
 
-def read_stl(data: bytes) -> Polygons:
+def read_stl(data: bytes, limits: Limits) -> Polygons:
     """Read a binary or a text STL; corners with exactly equal coordinates are one vertex, in order of appearance."""
     binary = _is_binary_stl(data)
     soup = _soup_binary(data) if binary else _soup_text(data)

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+import numpy.typing as npt
+
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats import materials
@@ -37,6 +40,25 @@ def face_numbers(mesh: TriangleMesh, name: str) -> Attribute | None:
     fits = (a for a in mesh.attributes if a.name == name and a.domain == "face" and a.components == 1)
     found = next(fits, None)
     return found if found is not None and found.values.dtype.kind in "iu" else None
+
+
+def shown_at_vertices(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute | None, Attribute | None]:
+    """The normals, colours and texture coordinates of vertices that other programs show."""
+    return (
+        first(mesh, "normal", (3,), "vertex"),
+        first(mesh, "color", (3, 4), "vertex"),
+        first(mesh, "texcoord", (2, 3), "vertex"),
+    )
+
+
+def rgba(color: Attribute) -> npt.NDArray[np.uint8]:
+    """Colours as bytes, with an opaque alpha where there is none."""
+    values = color.values
+    if values.dtype == np.uint16:
+        values = values / 65535
+    if values.dtype != np.uint8:
+        values = np.rint(np.clip(values, 0, 1) * 255).astype(np.uint8)
+    return np.hstack([values, np.full((len(values), 4 - values.shape[1]), 255, np.uint8)])
 
 
 class Library:

@@ -23,8 +23,7 @@ from bsm.files.formats.columns import PLURALS, Array, Column, color_column
 from bsm.files.formats.materials import named, without_materials
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.formats.written import face_numbers
-from bsm.files.motion.frames import Frames, Wanted, checked_frames
-from bsm.files.motion.told import Told
+from bsm.files.motion.frames import Frames, Shared, Wanted, checked_frames
 from bsm.files.motion.usd_materials import Materials, bind_materials, write_materials
 from bsm.files.rows import Doubles, Ints, single_suffices
 from bsm.lengths import metres
@@ -327,7 +326,7 @@ def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> MeshFile:
 
 
 @contextmanager
-def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[Callable[..., None]]:
+def write_usd(file: BinaryIO, kind: str, faces: Faces, shared: Shared) -> Iterator[Callable[..., None]]:
     """Write a stage of one mesh whose points have a time sample for each frame; yields what takes frame after frame."""
     pxr = import_usd()
     with tempfile.TemporaryDirectory() as folder:
@@ -342,14 +341,14 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[C
         def write(frame: Positions, other: Faces | None = None) -> None:
             nonlocal mesh, materials, taken, still
             if mesh is None:
-                still = told.mesh(frame, faces)
-                mesh, materials = _begun(pxr, stage, still, told, Path(folder) if kind == "usdz" else None)
+                still = shared.mesh(frame, faces)
+                mesh, materials = _begun(pxr, stage, still, shared, Path(folder) if kind == "usdz" else None)
             if other is not None:
                 if still is not None:
                     _set_mesh(pxr, mesh, materials, still, 0)
-                _set_mesh(pxr, mesh, materials, told.mesh(frame, other), taken)
+                _set_mesh(pxr, mesh, materials, shared.mesh(frame, other), taken)
                 still = None
-            for one in told.moved():
+            for one in shared.moved():
                 if still is not None and one.name not in keyed:
                     _written(pxr, mesh, next(own for own in still.attributes if own.name == one.name), taken - 1)
                 keyed.add(one.name)
@@ -376,9 +375,11 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, told: Told) -> Iterator[C
             shutil.copyfileobj(written, file)
 
 
-def _begun(pxr: Any, stage: Any, first: TriangleMesh, told: Told, images: Path | None) -> tuple[Any, dict[int, Any]]:
+def _begun(
+    pxr: Any, stage: Any, first: TriangleMesh, shared: Shared, images: Path | None
+) -> tuple[Any, dict[int, Any]]:
     """A stage with everything of a mesh but its points, and its materials by their numbers; images go to a folder."""
-    geom, rate = pxr.UsdGeom, told.frame_rate or USUAL_RATE
+    geom, rate = pxr.UsdGeom, shared.frame_rate or USUAL_RATE
     metadata = without_materials(first.metadata)
     geom.SetStageUpAxis(stage, geom.Tokens.z if str(metadata.get("up", "y")).lower() == "z" else geom.Tokens.y)
     unit = metadata.get("unit")
@@ -397,9 +398,9 @@ def _begun(pxr: Any, stage: Any, first: TriangleMesh, told: Told, images: Path |
     mesh.CreatePointsAttr()
     mesh.CreateExtentAttr()
     materials, said = write_materials(pxr, mesh, first, images)
-    told.loses(one.name for one in _others(first, materials) if not _written(pxr, mesh, one))
+    shared.loses(one.name for one in _others(first, materials) if not _written(pxr, mesh, one))
     said |= {"up", "name", "frame_rate"} | ({"unit"} if size else set())
-    told.loses(name for name in first.metadata if name not in said)
+    shared.loses(name for name in first.metadata if name not in said)
     return mesh, materials
 
 

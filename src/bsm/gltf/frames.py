@@ -7,16 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError, OptionError
+from bsm.bitstream.errors import FormatError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Positions
 from bsm.files.formats.columns import Column
 from bsm.files.formats.materials import Material, Value, described, named
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, rate_of_times
-from bsm.files.motion.gltf import NONSENSE, Document, Tree, open_document
-from bsm.files.motion.gltf_scene import Part, Scene
 from bsm.files.rows import Doubles
+from bsm.gltf.document import Document, Tree, as_format_error, read_document
+from bsm.gltf.scene import Part, Scene
 
 USUAL_RATE = 30.0
 PER_TRIANGLE, PER_PART = 200, 2000
@@ -25,14 +25,10 @@ PER_TRIANGLE, PER_PART = 200, 2000
 
 def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
     """The frames of a GLB or glTF."""
-    try:
-        document = open_document(path)
-        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
-            return _frames(path, document, wanted, limits)
-    except BsmError:
-        raise
-    except NONSENSE as error:  # a tree may hold anything anywhere
-        raise FormatError(f"this glTF makes no sense: {type(error).__name__}: {error}") from error
+    document = read_document(path)
+    with as_format_error(), np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
+        document.require_plain()
+        return _frames(path, document, wanted, limits)
 
 
 def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Frames:

@@ -1,0 +1,324 @@
+"""Meshes and sequences as GLB: one mesh; frames as morph targets, which play wherever glTF does; a whole stream."""
+
+from __future__ import annotations
+
+import io
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+
+from bsm.bitstream.errors import LimitError, MeshError, UnsupportedError
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.metrics import face_normals
+from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.files.formats.materials import (
+    GLTF_TEXTURES,
+    Material,
+    gltf_values,
+    images_in,
+    kind_of_image,
+    materials_in,
+    names_in,
+)
+from bsm.files.formats.written import Written, face_numbers, left_out, rgba, shown_at_vertices
+from bsm.files.motion.frames import Shared
+from bsm.files.rows import Doubles, Ints, single_suffices
+from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of
+from bsm.gltf.document import COMPONENTS, EXTENSION, VECTORS, WEBP, Array, Tree, bounds_of, head_of_glb
+from bsm.gltf.primitives import drawn
+
+MOST_FRAMES = 2048
+"""Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
+USUAL_RATE = 24.0
+_MOST_BYTES = (1 << 32) - 1
+_FLOAT, _UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
+_TYPES = {width: name for name, width in VECTORS.items()}
+_SORTING = ("part", "material")
+"""Attributes of faces that only sort these."""
+_HALF = 0.5**0.5
+_TURNS = {"x": [0.0, 0.0, _HALF, _HALF], "z": [-_HALF, 0.0, 0.0, _HALF]}
+"""What turns the axis that a sequence calls up to that of glTF."""
+
+
+class _Scene:
+    """A tree that grows, and the bytes of its buffer, which wait in a file."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self.tree: Tree = {"asset": {"version": "2.0", "generator": "bsm"}, "scene": 0, "scenes": [{"nodes": []}]}
+        self.tree |= {"buffers": [{}]}
+        self._file, self._size = file, 0
+        self._images: dict[bytes, int] = {}
+
+    def add(self, kind: str, entry: Tree) -> int:
+        """Add an entry to a list of the tree; its number."""
+        entries: list[Tree] = self.tree.setdefault(kind, [])
+        entries.append(entry)
+        return len(entries) - 1
+
+    def view(self, data: bytes) -> int:
+        """Add bytes as a bufferView."""
+        start = self._size
+        self._size += len(data) + -len(data) % 4
+        if self._size > _MOST_BYTES:
+            raise LimitError("this takes more than the 4 GiB of a GLB; take fewer frames (--frames A:B), or write USD")
+        self._file.write(data + b"\0" * (-len(data) % 4))
+        return self.add("bufferViews", {"buffer": 0, "byteOffset": start, "byteLength": len(data)})
+
+    def numbers(self, values: Array, *, bounds: bool = False, normalized: bool = False) -> int:
+        """Add rows of numbers as an accessor."""
+        kind = {"componentType": COMPONENTS[values.dtype.name], "count": len(values), "type": _TYPES[values.shape[1]]}
+        told: Tree = {"bufferView": self.view(values.tobytes()), **kind}
+        told |= {"normalized": True} if normalized else {}
+        return self.add("accessors", told | (bounds_of(values) if bounds else {}))
+
+    def place(self, mesh: Tree, **more: Any) -> None:
+        """Add a mesh, and a node of the scene that shows it."""
+        node = self.add("nodes", {"mesh": self.add("meshes", mesh), **more})
+        self.tree["scenes"][0]["nodes"].append(node)
+
+    def write(self, file: IO[bytes]) -> None:
+        """Write the GLB."""
+        self.tree["buffers"][0]["byteLength"] = self._size
+        file.write(head_of_glb(self.tree, self._size))
+        self._file.seek(0)
+        shutil.copyfileobj(self._file, file)
+
+    def whole(self) -> bytes:
+        """The GLB."""
+        written = io.BytesIO()
+        self.write(written)
+        return written.getvalue()
+
+
+# ------------------------------------------------------------------------------------------------------------ one mesh
+
+
+def write_glb(mesh: TriangleMesh, stem: str) -> Written:
+    """The GLB of a mesh: a part for each material, and for each part that it was made of; images are in it."""
+    scene = _Still(io.BytesIO(), mesh, stem)
+    return Written(scene.whole(), scene.left_out)
+
+
+class _Still(_Scene):
+    """A mesh as a scene; `primitives` come with the vertices of the mesh that theirs are."""
+
+    def __init__(self, file: IO[bytes], mesh: TriangleMesh, stem: str) -> None:
+        super().__init__(file)
+        if not single_suffices(mesh.positions):
+            raise MeshError("the coordinates need double precision, which GLB does not have; write PLY, OBJ or OFF")
+        split = split_by_attributes(replace(mesh, positions=numbered(mesh.faces, len(mesh.positions)).positions))
+        origin = numbers_of(split.positions)
+        split = replace(split, positions=mesh.positions[origin])
+        material, part = face_numbers(split, "material"), face_numbers(split, "part")
+        sorting = [np.zeros(len(split.faces), np.int64) if one is None else one.values for one in (part, material)]
+        kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
+        arrays, held = _at_vertices(split)
+        names, taken, said = names_in(mesh.metadata, "part"), set[str](), {"part.names"}
+        images = images_in(mesh.metadata)
+        materials = {n: self._material(n, words, images, said) for n, words in materials_in(mesh.metadata).items()}
+        if "TEXCOORD_0" in arrays and any(materials.get(n) is None for n in kinds[:, 1].tolist()):
+            bare = self.add("materials", {})  # readers pass over texture coordinates without any
+            materials |= {n: bare for n in kinds[:, 1].tolist() if materials.get(n) is None}
+        self.primitives: list[tuple[Tree, Ints]] = []
+        for place, (number, its_material) in enumerate(kinds.tolist()):
+            used, corners = np.unique(split.faces[of_face.reshape(-1) == place], return_inverse=True)
+            called = str(names.get(number) or (mesh.metadata.get("name") if len(kinds) == 1 else None) or stem)
+            called = next(n for n in (called, *(f"{called}_{i}" for i in range(1, len(kinds) + 1))) if n not in taken)
+            taken.add(called)
+            given = {
+                name: self.numbers(values[used], bounds=name == "POSITION", normalized=name == "COLOR_0")
+                for name, values in arrays.items()
+            }
+            primitive: Tree = {"attributes": given, "indices": self.numbers(corners.reshape(-1, 1).astype(np.uint32))}
+            if (which := materials.get(its_material)) is not None:
+                primitive["material"] = which
+            self.place({"name": called, "primitives": [primitive]}, name=called)
+            self.primitives.append((primitive, origin[used]))
+        said |= {f"part.{number}.name" for number in names}
+        rest = {name: value for name, value in mesh.metadata.items() if name not in said}
+        extras = {name: value for name, value in rest.items() if not isinstance(value, bytes)}
+        self.tree["scenes"][0] |= {"extras": extras} if extras else {}
+        self.left_out = left_out(mesh, [*held, material, part], [name for name in rest if name not in extras])
+
+    def _material(
+        self, number: int, words: Material, images: Mapping[int, tuple[str, bytes]], said: set[str]
+    ) -> int | None:
+        """Add a material; None if nothing of it can be said in glTF. Names of metadata that are said go to `said`."""
+        found: Tree = {}
+        surface: Tree = {}
+        for name, value in gltf_values(words).items():
+            if name in GLTF_TEXTURES:
+                if (texture := self._texture(images.get(value, ("", b""))[1])) is None:
+                    continue
+                said.add(f"image.{value}.data")
+                value = {"index": texture}
+            (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
+        found |= {"pbrMetallicRoughness": surface} if surface else {}
+        said |= {f"material.{number}.{name}" for name in words if gltf_values({name: words[name]})}
+        return self.add("materials", found) if found else None
+
+    def _texture(self, data: bytes) -> int | None:
+        """Add a texture, whose image stays the bytes that it was; None if glTF holds no such image."""
+        kind = {"jpg": "jpeg"}.get(found := kind_of_image(data) or "", found)
+        if kind not in ("png", "jpeg", "webp"):
+            return None
+        known = self._images.get(data)
+        if known is None:
+            known = self.add("images", {"bufferView": self.view(data), "mimeType": f"image/{kind}"})
+            self._images[data] = known
+        if kind != "webp":
+            return self.add("textures", {"source": known})
+        self.tree |= {"extensionsUsed": [WEBP], "extensionsRequired": [WEBP]}
+        return self.add("textures", {"extensions": {WEBP: {"source": known}}})
+
+
+def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]:
+    """What glTF has of each vertex, by its names, and the attributes that these are."""
+    normal, color, texcoord = shown = shown_at_vertices(mesh)
+    arrays: dict[str, Array] = {"POSITION": mesh.positions.astype(np.float32)}
+    if normal is not None:
+        arrays["NORMAL"] = _unit(normal.values.astype(np.float64)).astype(np.float32)
+    if texcoord is not None:
+        arrays["TEXCOORD_0"] = texcoord.values[:, :2].astype(np.float32)
+        arrays["TEXCOORD_0"][:, 1] = 1 - arrays["TEXCOORD_0"][:, 1]  # glTF counts from the top, we from the bottom
+    if color is not None:
+        arrays["COLOR_0"] = rgba(color)
+    held = [attribute for attribute in shown if attribute is not None]
+    for attribute in mesh.attributes:
+        values = attribute.values.astype(np.float32)
+        if attribute.domain == "vertex" and attribute not in held and (values == attribute.values).all():
+            arrays[f"_{attribute.name}"] = values
+            held.append(attribute)
+    return arrays, held
+
+
+def _unit(vectors: Doubles) -> Doubles:
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    found: Doubles = np.divide(vectors, lengths, out=np.tile([0.0, 0.0, 1.0], (len(vectors), 1)), where=lengths > 1e-12)
+    return found
+
+
+# -------------------------------------------------------------------------------------------------------------- frames
+
+
+@contextmanager
+def write_frames(file: IO[bytes], path: str, faces: Faces, shared: Shared) -> Iterator[Callable[[Positions], None]]:
+    """Write a GLB in which each frame is a morph target; yields what takes frame after frame.
+
+    Between frames the weights of two targets cross, so that what is shown is the straight line between them. Nothing
+    but the first frame is kept in memory; the targets wait in a file until their number is known.
+    """
+    with tempfile.TemporaryFile() as spool:
+        moving: _Moving | None = None
+
+        def write(frame: Positions) -> None:
+            nonlocal moving
+            if moving is None:
+                moving = _Moving(spool, shared.mesh(frame, faces), Path(path).stem)
+            else:
+                moving.add_frame(frame)
+
+        yield write
+        assert moving is not None
+        shared.loses(moving.left_out)
+        moving.animate(shared.frame_rate or USUAL_RATE)
+        moving.write(file)
+
+
+class _Moving(_Still):
+    """The first frame as a scene, and what the others add to it."""
+
+    def __init__(self, file: IO[bytes], first: TriangleMesh, stem: str) -> None:
+        self._faces, self._frames = first.faces, 1
+        normals = _vertex_normals(first.positions, first.faces)
+        kept = [one for one in first.attributes if one.semantic != "normal"]
+        normal = Attribute("normal", normals.astype(np.float32), "vertex", "normal")
+        super().__init__(file, replace(first, attributes=(*kept, normal)), stem)
+        self._first = (first.positions, normals)
+        for primitive, _ in self.primitives:
+            primitive["targets"] = []
+
+    def add_frame(self, frame: Positions) -> None:
+        """Take the next frame."""
+        if self._frames == MOST_FRAMES:
+            raise LimitError(
+                f"a GLB holds each frame as a morph target, of which viewers take {MOST_FRAMES}; "
+                "take fewer with --frames A:B, or write USD"
+            )
+        now = (frame, _vertex_normals(frame, self._faces))
+        with np.errstate(over="ignore"):
+            deltas = [(one - other).astype(np.float32) for one, other in zip(now, self._first, strict=True)]
+        if not all(np.isfinite(delta).all() for delta in deltas):
+            raise MeshError(f"frame {self._frames} is beyond single precision, which GLB has")
+        self._frames += 1
+        for primitive, rows in self.primitives:
+            positions, normals = (self.numbers(delta[rows], bounds=True) for delta in deltas)
+            primitive["targets"].append({"POSITION": positions, "NORMAL": normals})
+
+    def animate(self, rate: float) -> None:
+        """Let the targets be shown one after the other."""
+        count = self._frames - 1
+        if not count:
+            return
+        weights = np.vstack([np.zeros((1, count), np.float32), np.eye(count, dtype=np.float32)])
+        times = self.numbers((np.arange(self._frames) / rate).astype(np.float32)[:, None], bounds=True)
+        sampler = {"input": times, "output": self.numbers(weights.reshape(-1, 1)), "interpolation": "LINEAR"}
+        nodes = range(len(self.tree["nodes"]))
+        channels = [{"sampler": 0, "target": {"node": number, "path": "weights"}} for number in nodes]
+        self.add("animations", {"name": "frames", "samplers": [sampler], "channels": channels})
+        for mesh in self.tree["meshes"]:
+            mesh["weights"] = [0.0] * count
+
+
+def _vertex_normals(positions: Positions, faces: Faces) -> Doubles:
+    """The mean of the normals of a vertex' faces, shape (n, 3); a vertex without any looks up."""
+    normals = face_normals(positions, faces)
+    sums = [np.bincount(faces.reshape(-1), np.repeat(axis, 3), minlength=len(positions)) for axis in normals.T]
+    return _unit(np.column_stack(sums))
+
+
+# ------------------------------------------------------------------------------------------------------------ a stream
+
+
+def moving_scene(stream: bytes) -> bytes:
+    """A .glb whose one mesh shows the frames of a stream, which is in it as it is (`spec/EXT_bsm_compression.md`)."""
+    sequence = SequenceStream(iter([stream]))
+    _, positions = next(sequence.changing_frames())
+    attributes = tuple(a for a in sequence.attributes if a.domain != "face" or a.name not in _SORTING)
+    for attribute in attributes:
+        if attribute.domain == "face":
+            raise UnsupportedError(f"glTF has no place for {attribute.name}, which faces have")
+    shape = drawn(TriangleMesh(positions, sequence.faces, attributes, {}))
+    kinds = {"POSITION": (_FLOAT, 3), "NORMAL": (_FLOAT, 3)}
+    for semantic, names in (("texcoord", ("TEXCOORD_0", "TEXCOORD_1")), ("color", ("COLOR_0",))):
+        widths = [attribute.components for attribute in attributes if attribute.semantic == semantic]
+        kinds |= {name: (_FLOAT, width) for name, width in zip(names, widths, strict=False)}
+    kinds["indices"] = (_UINT, 1)
+    scene = _Scene(io.BytesIO())
+    source = scene.view(stream)
+    places: dict[str, int] = {}
+    room = 0
+    for name, (component, width) in kinds.items():
+        count = shape.corners if name == "indices" else shape.vertices
+        room = max(room, size := 4 * width * count)
+        view: Tree = {"buffer": 1, "byteLength": size, "extensions": {EXTENSION: {"stream": source, "attribute": name}}}
+        accessor = {"bufferView": scene.add("bufferViews", view), "componentType": component, "count": count}
+        places[name] = scene.add("accessors", accessor | {"type": _TYPES[width]})
+    scene.tree["accessors"][0] |= bounds_of(positions.astype(np.float32))
+    scene.add("buffers", {"byteLength": room, "extensions": {EXTENSION: {"fallback": True}}})
+    metadata: Metadata = sequence.metadata
+    node = {"name": str(metadata["name"])} if "name" in metadata else {}
+    turn = _TURNS.get(str(metadata.get("up", "y")).lower())
+    primitive = {"indices": places.pop("indices"), "attributes": places}
+    mesh = {"primitives": [primitive], "extensions": {EXTENSION: {"stream": source}}}
+    scene.place(mesh, **node, **({"rotation": turn} if turn else {}))
+    scene.tree |= {"extensionsUsed": [EXTENSION], "extensionsRequired": [EXTENSION]}
+    return scene.whole()
