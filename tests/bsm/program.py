@@ -1,19 +1,34 @@
-"""The program as a user runs it, in a process of its own."""
+"""The program: in this process, or as a user runs it, in one of its own."""
 
+import io
 import subprocess
 import sys
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
+
+import pytest
+
+from bsm.cli import main
 
 ROOT = Path(__file__).parents[2]
 
 
-def bsm(*arguments, **keywords):
-    """What came of `bsm` with these words; bytes, or with `text=True` strings."""
-    return subprocess.run(
-        [sys.executable, "-m", "bsm", *map(str, arguments)],
-        capture_output=True,
-        timeout=120,
-        cwd=ROOT,
-        check=False,
-        **keywords,
-    )
+def bsm(*arguments, input=b"", text=False):
+    """What came of `bsm` with these words; bytes, or with `text=True` strings. In this process: starting one costs
+    more than most of what is tested."""
+    words = list(map(str, arguments))
+    out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2))
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
+        patch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(input)))
+        try:
+            code = main(words)
+        except SystemExit as ended:
+            code = ended.code
+    found = [stream.buffer.getvalue() for stream in (out, err)]
+    return subprocess.CompletedProcess(words, code, *([one.decode() for one in found] if text else found))
+
+
+def process(*arguments, **keywords):
+    """The same in a process of its own."""
+    words = [sys.executable, "-m", "bsm", *map(str, arguments)]
+    return subprocess.run(words, capture_output=True, timeout=120, cwd=ROOT, check=False, **keywords)

@@ -16,7 +16,7 @@ from bsm.commands.encode_options import ENCODE_FLAGS, SETTINGS
 from bsm.evaluation.sample import knot
 from bsm.exits import EXITS
 from bsm.files.mesh import read_mesh, write_mesh
-from tests.bsm.program import ROOT, bsm
+from tests.bsm.program import ROOT, bsm, process
 from tests.shapes import torus
 
 SMALL = ["--set", "block-size=150", "--threads", "1", "--set", "step=0.004"]
@@ -181,10 +181,10 @@ def test_some_blocks_of_a_stream_that_is_cut_short(folder, tmp_path):
 
 
 def test_pipes(folder, mesh):
-    encoded = bsm("encode", "-", "-q", *SMALL, input=(folder / "sample.ply").read_bytes())
+    encoded = process("encode", "-", "-q", *SMALL, input=(folder / "sample.ply").read_bytes())
     assert (encoded.returncode, encoded.stderr) == (0, b"")
     assert encoded.stdout == (folder / "sample.bsm").read_bytes()
-    decoded = bsm("decode", "-", "--format", "obj", input=encoded.stdout)
+    decoded = process("decode", "-", "--format", "obj", input=encoded.stdout)
     assert decoded.returncode == 0
     assert decoded.stdout.count(b"\nf ") == len(mesh.faces)
     assert b"[" not in decoded.stderr, "no progress bar without a terminal"
@@ -341,7 +341,7 @@ def test_what_the_shell_has_closed(folder, tmp_path, words, code, said):
 
 def test_a_file_that_may_not_grow_is_named_and_removed(folder, tmp_path):
     resource = pytest.importorskip("resource")
-    done = bsm(
+    done = process(
         *("decode", folder / "sample.bsm", "-q", "-o", tmp_path / "a.ply"),
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000)),
     )

@@ -4,6 +4,7 @@ import json
 import shutil
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -23,24 +24,13 @@ from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
 from bsm.commands.noise import KINDS
 from bsm.files.formats.npz import npz_frames, npz_shape
 from bsm.files.mesh import read_mesh, write_mesh
+from tests.bsm import program
 from tests.shapes import torus
 
-ROOT = Path(__file__).parents[2]
 CLEAN = torus(36, 28, bumps=0.02)
 NOISY = gaussian_along_normals(CLEAN.positions, CLEAN.faces, 0.25, seed=3)
+bsm = partial(program.bsm, text=True)
 FEW = ("--iterations", "2", "--block-size", "200")
-
-
-def bsm(*arguments):
-    """Run the program as a user does, in a process of its own."""
-    return subprocess.run(
-        [sys.executable, "-m", "bsm", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        cwd=ROOT,
-        check=False,
-    )
 
 
 @pytest.fixture(scope="module")
@@ -146,7 +136,7 @@ def test_frames_come_and_go_through_pipes(frames, tmp_path):
             np.save(file, frame)
     with open(tmp_path / "in.npy", "rb") as source, open(tmp_path / "out.npy", "wb") as sink:
         command = [sys.executable, "-m", "bsm", "denoise", "-", "-o", "-", "--format", "npy", "-q", *FEW]
-        subprocess.run(command, stdin=source, stdout=sink, timeout=120, cwd=ROOT, check=True)
+        subprocess.run(command, stdin=source, stdout=sink, timeout=120, cwd=program.ROOT, check=True)
     expected = FrameDenoiser(frames[0], CLEAN.faces, DenoiseOptions(iterations=2, block_size=200))(frames[:3])
     with open(tmp_path / "out.npy", "rb") as file:
         assert (np.load(file) == CLEAN.faces).all()
