@@ -26,18 +26,7 @@ LARGEST = (0, 1, 2, 9, 100, 4095, 70_000, MOST_LARGEST)
 
 
 def gridded(coded: EncodedConnectivity, values: Ints, counts: Iterable[int], **fields: Any) -> Frames:
-    """Frames of a mesh on a grid.
-
-    Parameters
-    ----------
-    coded : EncodedConnectivity
-    values : int32, shape (n, 3)
-        Of the vertices as they are coded.
-    counts : integers
-        Vertices of each GRID frame.
-    **fields
-        Of the header; without `grid`, each axis ends with its largest value.
-    """
+    """Frames of a mesh on a grid."""
     fields = {"grid": values.max(axis=0).tolist()} | fields
     announced = {"vertices": len(values), "faces": len(coded.faces)}
     return [

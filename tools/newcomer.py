@@ -37,13 +37,7 @@ def main() -> None:
 
 
 def first_minutes(mesh: Path, wheel: Path, folder: Path) -> None:
-    """Do what a newcomer does, in a folder of no other use.
-
-    Raises
-    ------
-    subprocess.CalledProcessError
-        If a step fails.
-    """
+    """Do what a newcomer does, in a folder of no other use."""
     steps = {
         "install": f"{sys.executable} -m venv .venv && {PIP} {wheel}",
         "encode": f".venv/bin/bsm encode {mesh} -o first.bsm",

@@ -29,17 +29,7 @@ WriteBlock = Callable[[int, int], bytes]
 
 
 def in_sections(coded: EncodedConnectivity, counts: Sequence[int], write: WriteBlock, **fields: Any) -> Frames:
-    """Frames of a mesh with a section behind each of its cuts, and one before the first.
-
-    Parameters
-    ----------
-    coded : EncodedConnectivity
-    counts : sequence of int
-        Blocks of each section.
-    write : callable
-    **fields
-        Of the header.
-    """
+    """Frames of a mesh with a section behind each of its cuts, and one before the first."""
     ends = [cut.faces for cut in coded.cuts]
     pairs = zip((last - first for first, last in pairwise((0, *ends))), counts[:-1], strict=True)
     announced = {

@@ -18,15 +18,7 @@ Frames = list[tuple[int, bytes]]
 
 
 def frames_of(stream: bytes) -> Frames:
-    """Type and payload of every frame of a stream, END left out.
-
-    Raises
-    ------
-    BsmError
-        If a frame is damaged.
-    ValueError
-        If the stream ends inside one.
-    """
+    """Type and payload of every frame of a stream, END left out."""
     frames: Frames = []
     offset = len(write_preamble())
     while offset < len(stream):

@@ -162,18 +162,7 @@ def _experience(bank: Bank, expectations: npt.NDArray[np.uint16]) -> Experience:
 
 
 def rounded(experience: Experience) -> Experience:
-    """Learnt numbers with few different ones among them; what is round stays as it is.
-
-    Parameters
-    ----------
-    experience
-        Learnt numbers.
-
-    Returns
-    -------
-    Experience
-        Of a probability two binary digits are kept, or two of what it lacks to 1; of an expectation's weight three.
-    """
+    """Learnt numbers with few different ones among them; what is round stays as it is."""
     probability, seen = experience.slots.astype(np.int64) >> 4, experience.slots & 15
     rarer = np.minimum(probability, 4096 - probability)
     kept = np.where(seen == 0, rarer, _leading(rarer, 2))

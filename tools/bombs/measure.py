@@ -35,23 +35,7 @@ WEB = Path(__file__).parents[2] / "tools" / "web" / "scripts" / "measure.mjs"
 
 @dataclass
 class Taken:
-    """What decoding a stream took.
-
-    Attributes
-    ----------
-    outcome : str
-        "decoded", or the error.
-    vertices : int
-        Those of the faces.
-    shown : int
-        Vertices of all frames of a sequence.
-    work : float
-        Nanoseconds that the decoder counted.
-    seconds : float
-        Of CPU.
-    memory : int
-        Greatest number of bytes, beyond what there was before.
-    """
+    """What decoding a stream took."""
 
     outcome: str = "killed"
     vertices: int = 0

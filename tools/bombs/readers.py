@@ -54,14 +54,7 @@ MOST_ADDRESSES = 12 << 30
 
 @dataclass(frozen=True)
 class Sample:
-    """A file with what lies beside it.
-
-    Parameters
-    ----------
-    suffix : str
-    data : bytes
-    beside : tuple of (name, bytes)
-    """
+    """A file with what lies beside it."""
 
     suffix: str
     data: bytes

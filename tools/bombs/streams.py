@@ -53,14 +53,7 @@ Faces = npt.NDArray[np.int32]
 
 @dataclass(frozen=True)
 class Bomb:
-    """A stream, and what it is that costs.
-
-    Parameters
-    ----------
-    costs : str
-    make : callable
-        Gives the stream.
-    """
+    """A stream, and what it is that costs."""
 
     costs: str
     make: Callable[[], bytes]

@@ -37,15 +37,7 @@ Array = npt.NDArray[Any]
 
 @dataclass(frozen=True)
 class Row:
-    """What an attribute takes.
-
-    Parameters
-    ----------
-    what : str
-        Its name and quantization.
-    ours, theirs : int
-        Bytes; -1: they cannot.
-    """
+    """What an attribute takes."""
 
     what: str
     ours: int

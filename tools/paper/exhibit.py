@@ -8,18 +8,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Column:
-    """A quantity of a table.
-
-    Parameters
-    ----------
-    name : str
-    digits : int
-        After the point.
-    tolerance : float or None
-        Largest relative difference from the paper that passes as agreement; None: none is expected.
-    why : str
-        Where the numbers differ by more: the reason, a sentence.
-    """
+    """A quantity of a table."""
 
     name: str
     digits: int
@@ -29,16 +18,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Cell:
-    """One number: ours, and the paper's where it prints one.
-
-    Parameters
-    ----------
-    ours : float or None
-        None: not measured.
-    paper : float, optional
-    why : str
-        Reason for a difference of just this number, instead of the column's.
-    """
+    """One number: ours, and the paper's where it prints one."""
 
     ours: float | None
     paper: float | None = None
@@ -54,17 +34,7 @@ class Cell:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of numbers.
-
-    Parameters
-    ----------
-    title : str
-    stub : str
-        What the labels of the rows are.
-    columns : tuple of Column
-    rows : tuple of (str, tuple of Cell)
-        A label and a cell for every column.
-    """
+    """Rows of numbers."""
 
     title: str
     stub: str
@@ -110,15 +80,7 @@ class Table:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A picture in a file format of the web.
-
-    Parameters
-    ----------
-    caption : str
-    media : str
-        Media type: image/png or image/svg+xml.
-    data : bytes
-    """
+    """A picture in a file format of the web."""
 
     caption: str
     media: str
@@ -127,16 +89,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Claim:
-    """Something that the paper says in words, and whether it came out here.
-
-    Parameters
-    ----------
-    says : str
-        The paper's claim, a sentence.
-    holds : bool
-    found : str
-        What was measured, a sentence.
-    """
+    """Something that the paper says in words, and whether it came out here."""
 
     says: str
     holds: bool
@@ -145,20 +98,7 @@ class Claim:
 
 @dataclass(frozen=True, eq=False)
 class Exhibit:
-    """A table or figure of the paper, made again.
-
-    Parameters
-    ----------
-    title : str
-    place : str
-        Where the paper has it.
-    tables : tuple of Table
-    pictures : tuple of Picture
-    remarks : tuple of str
-        What the paper claims, what we find, and why it differs; a sentence or two each.
-    claims : tuple of Claim
-        What can be counted as agreement or disagreement although the paper prints no number.
-    """
+    """A table or figure of the paper, made again."""
 
     title: str
     place: str

@@ -36,13 +36,7 @@ EXHIBITS: dict[str, Callable[[Study], Exhibit]] = {
 
 
 def make_exhibits(study: Study, names: Sequence[str]) -> dict[str, Exhibit]:
-    """Some of `EXHIBITS`.
-
-    Raises
-    ------
-    OptionError
-        If there is none of that name.
-    """
+    """Some of `EXHIBITS`."""
     unknown = [name for name in names if name not in EXHIBITS]
     if unknown:
         raise OptionError(f"no exhibit is called {', '.join(unknown)}; there are {', '.join(EXHIBITS)}")

@@ -30,18 +30,7 @@ figure.wide figcaption { max-width: none }
 
 
 def report(exhibits: dict[str, Exhibit], models: Table, *, generated: bool, quick: bool) -> str:
-    """The whole HTML document.
-
-    Parameters
-    ----------
-    exhibits : dict of str to Exhibit
-    models : Table
-        Which mesh plays which model.
-    generated : bool
-        The models are generated, not the paper's.
-    quick : bool
-        Only a few settings were tried.
-    """
+    """The whole HTML document."""
     words = []
     if generated:
         words.append(

@@ -9,16 +9,7 @@ from tools.paper.exhibit import Exhibit
 
 @dataclass(frozen=True)
 class Score:
-    """A line of the scoreboard.
-
-    Attributes
-    ----------
-    name : str
-    numbers, agreeing : int
-        Numbers that stand beside one of the paper, and those of them within their tolerance.
-    claims, holding : int
-        Claims in words that were put to the test, and those of them that hold.
-    """
+    """A line of the scoreboard."""
 
     name: str
     numbers: int

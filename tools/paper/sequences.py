@@ -37,23 +37,7 @@ def iterate(laplacians: Iterable[Laplacian], graph: Graph, width: int, rules: Ch
 
 @dataclass(frozen=True)
 class SequenceTimes:
-    """Seconds a frame of the coarse step, and whether frames in one product come out as on their own.
-
-    Attributes
-    ----------
-    difference : float
-        Largest, of any coordinate.
-    shared : float
-        One dictionary, `GROUP` frames in a product.
-    single : float
-        One dictionary, frame by frame.
-    iterations : float
-        Factors and orthogonal iterations for each frame; order of rows and pattern of the factors shared.
-    remade : float
-        Everything that blocks need for each frame: row order, factors, iterations.
-    whole : float
-        Everything for each frame, segmentation too.
-    """
+    """Seconds a frame of the coarse step, and whether frames in one product come out as on their own."""
 
     difference: float
     shared: float

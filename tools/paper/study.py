@@ -35,25 +35,7 @@ GENERATED = 12_000
 
 @dataclass(frozen=True)
 class Role:
-    """A model of the paper.
-
-    Parameters
-    ----------
-    name : str
-        The paper's.
-    vertices : int
-        In the paper; 0 where it does not say.
-    clean, noisy : str
-        File names without suffix in `static/` (or `LARGEST`) and `noisy/`; "" where there is no noisy partner.
-    shape : callable
-        Makes a stand-in of about so many vertices.
-    sigma : float
-        Noise in mean edges where there is no noisy file.
-    remark : str
-        How our file differs from the paper's model.
-    azimuth : float
-        From where our file is best looked at, degrees about its y axis.
-    """
+    """A model of the paper."""
 
     name: str
     vertices: int
@@ -109,18 +91,7 @@ MOVING = Role("a sequence", 0, "samba", "", knot, 0.2)
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """A model as it is used.
-
-    Parameters
-    ----------
-    name : str
-        What it is.
-    role : Role
-    clean, noisy : float64 array, shape (n, 3)
-    faces : int32 array, shape (m, 3)
-    view : float64 array, shape (3, 3)
-        From where it is drawn, see `bsm.evaluation.render`.
-    """
+    """A model as it is used."""
 
     name: str
     role: Role
@@ -155,21 +126,7 @@ class Model:
 
 @dataclass(frozen=True, kw_only=True)
 class Effort:
-    """How many settings an exhibit tries.
-
-    Parameters
-    ----------
-    thinning : int
-        Of the paper's rows every so many are made, the first and the last always.
-    vertices : int
-        Most vertices of a generated model.
-    pixels : int
-        Side of a rendering.
-    repeats : int
-        Times are the least of so many runs.
-    frames : int
-        Of a sequence, at most.
-    """
+    """How many settings an exhibit tries."""
 
     thinning: int
     vertices: int
@@ -189,16 +146,7 @@ QUICK = Effort(thinning=4, vertices=1_200, pixels=120, repeats=1, frames=12)
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """Where exhibits get their models.
-
-    Parameters
-    ----------
-    folder : path or None
-        With `static/`, `noisy/` and `dynamic/`; None: all models are generated.
-    effort : Effort
-    note : callable
-        Told of progress.
-    """
+    """Where exhibits get their models."""
 
     folder: Path | None
     effort: Effort
@@ -206,13 +154,7 @@ class Study:
     _models: dict[str, Model] = field(default_factory=dict, init=False)
 
     def model(self, role: str) -> Model:
-        """The model that plays a role of the paper.
-
-        Raises
-        ------
-        OptionError
-            If the folder lacks it.
-        """
+        """The model that plays a role of the paper."""
         if role not in self._models:
             self._models[role] = self._generated(ROLES[role]) if self.folder is None else self._read(ROLES[role])
         return self._models[role]

@@ -50,13 +50,7 @@ def mutant(random: Random, seeds: list[bytes]) -> bytes:
 
 
 def random_stream(random: Random) -> bytes:
-    """A mesh or a sequence, encoded with options of any kind.
-
-    Raises
-    ------
-    BsmError
-        Where options exclude each other, or a target cannot be reached.
-    """
+    """A mesh or a sequence, encoded with options of any kind."""
     if random.random() < SEQUENCES:
         return _sequence(random)
     return encode(random_mesh(random), _static_options(random))

@@ -23,21 +23,7 @@ BUILD = ROOT / "build"
 
 @dataclass(frozen=True)
 class Place:
-    """Where a process runs.
-
-    Attributes
-    ----------
-    name : str
-        For people.
-    sources : Path
-        Where the package is.
-    variables : dict
-        Of the environment, beside those that there are.
-    wrapper : tuple of str
-        A command that runs the rest.
-    flags : tuple of str
-        Of Python.
-    """
+    """Where a process runs."""
 
     name: str
     sources: Path = ROOT

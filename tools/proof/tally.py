@@ -22,23 +22,7 @@ FULL = 1e-6
 
 @dataclass
 class Tally:
-    """Counts of one shard or of many.
-
-    Attributes
-    ----------
-    inputs, decoded, refused : int
-        Streams (or whatever the suite tries); those that gave positions; those that gave an error of their class.
-    skipped : int
-        Inputs that asked for more than the suite grants, and were not tried.
-    inexact, differing : int
-        Comparisons that were not equal to the last bit; that were off by more than the law allows.
-    worst : float
-        Greatest difference, in extents.
-    escapes : int
-        Errors that are none of a stream, crashes, and inputs that took too long.
-    findings : list of str
-        What went wrong, and where the input lies.
-    """
+    """Counts of one shard or of many."""
 
     inputs: int = 0
     decoded: int = 0

@@ -19,17 +19,7 @@ console.log("npm: Node decodes with the package");
 
 
 def make_npm(sources: Path, root: Path, output: Path) -> Path:
-    """Pack the package, have npm check what it would publish, install it and decode with it in Node.
-
-    Parameters
-    ----------
-    sources : Path
-        What is packed.
-    root : Path
-        The checkout; its tools/web/node_modules are used where they are.
-    output : Path
-        The folder for the package.
-    """
+    """Pack the package, have npm check what it would publish, install it and decode with it in Node."""
     web, installed = sources / "tools/web", root / "tools/web/node_modules"
     if installed.exists():
         (web / "node_modules").symlink_to(installed.resolve())

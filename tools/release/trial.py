@@ -14,23 +14,7 @@ COMPILERS = ("cc", "gcc", "clang", "c++", "cmake", "ninja")
 
 
 def try_wheel(wheel: Path, python: Path, sources: Path, tests: list[str]) -> None:
-    """Install a wheel where there is no compiler, and run both commands of README with it.
-
-    Parameters
-    ----------
-    wheel, python : Path
-    sources : Path
-        A checkout: for its tests, and for the commands.
-    tests : list of str
-        The tests that the second command runs.
-
-    Raises
-    ------
-    SystemExit
-        If what was installed is not the wheel.
-    subprocess.CalledProcessError
-        If a command fails.
-    """
+    """Install a wheel where there is no compiler, and run both commands of README with it."""
     first, second = readme_commands(sources)
     with tempfile.TemporaryDirectory() as folder:
         environment = without_compilers(Path(folder))

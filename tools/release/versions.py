@@ -8,13 +8,7 @@ from pathlib import Path
 
 
 def check_versions(root: Path) -> str:
-    """The version of a checkout.
-
-    Raises
-    ------
-    SystemExit
-        If package, npm package and change log do not agree.
-    """
+    """The version of a checkout."""
     match = re.search(r'^__version__ = "(.+)"', (root / "src/bsm/__init__.py").read_text(), flags=re.MULTILINE)
     if match is None:
         raise SystemExit("src/bsm/__init__.py has no version")

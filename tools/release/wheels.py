@@ -16,17 +16,7 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Processor:
-    """A kind of processor that wheels are made for.
-
-    Parameters
-    ----------
-    name : str
-        As Linux calls it.
-    glibc : str
-        The oldest C library that its wheels run with.
-    own : bool
-        Whether it is this machine's, whose compiler is used; Zig's, which compiles for any, is used for others.
-    """
+    """A kind of processor that wheels are made for."""
 
     name: str
     glibc: str = "2.17"
@@ -38,13 +28,7 @@ ARM = Processor("aarch64")
 
 
 def make_sdist(sources: Path, output: Path) -> Path:
-    """Make the source distribution, and look into it.
-
-    Raises
-    ------
-    SystemExit
-        If what builds need is missing in it.
-    """
+    """Make the source distribution, and look into it."""
     command = [sys.executable, "-m", "build", "--sdist", "--outdir", str(output), str(sources)]
     subprocess.run(command, check=True, env=clean(), stdout=subprocess.DEVNULL)
     path = max(output.glob("bsm_codec-*.tar.gz"), key=os.path.getmtime)
@@ -61,15 +45,6 @@ def make_wheel(sdist: Path, python: Path, processor: Processor, output: Path) ->
 
     The limited API and the sizes of C's types are the same on both processors, so that the headers of this machine's
     Python serve for both.
-
-    Parameters
-    ----------
-    sdist : Path
-    python : Path
-        Its version says which Pythons the wheel is for.
-    processor : Processor
-    output : Path
-        The folder for the wheel.
     """
     with tempfile.TemporaryDirectory() as folder:
         builder = _builder(Path(folder, "builder"), python)
@@ -92,14 +67,7 @@ def make_wheel(sdist: Path, python: Path, processor: Processor, output: Path) ->
 
 
 def check_contents(wheel: Path) -> None:
-    """Look into a wheel.
-
-    Raises
-    ------
-    SystemExit
-        If it installs anything but `bsm`, carries sources, lacks kernels or types, or has kernels by a name that no
-        Python looks for on its processor.
-    """
+    """Look into a wheel."""
     names = zipfile.ZipFile(wheel).namelist()
     tops = {name.partition("/")[0] for name in names}
     strange = {top for top in tops if top != "bsm" and not top.endswith(".dist-info")}

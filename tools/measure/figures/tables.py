@@ -88,30 +88,14 @@ SCALE = ("bunny_34834", "dragon_437645")
 
 @dataclass(frozen=True)
 class Source:
-    """Where figures find meshes and leave results.
-
-    Parameters
-    ----------
-    meshes : path
-        Folder of mesh files.
-    results : path or None
-        Folder for the JSON behind a figure; None: it is not kept.
-    note : callable
-        Told of progress, a line at a time.
-    """
+    """Where figures find meshes and leave results."""
 
     meshes: Path
     results: Path | None
     note: Callable[[str], None]
 
     def path(self, name: str) -> Path:
-        """The file of one mesh.
-
-        Raises
-        ------
-        OptionError
-            If the folder does not hold it.
-        """
+        """The file of one mesh."""
         found = sorted(self.meshes.glob(f"{name}.*"))
         if not found:
             raise OptionError(f"{self.meshes} holds no {name}.ply or the like")
@@ -125,16 +109,7 @@ class Source:
 
 @dataclass(frozen=True)
 class Figure:
-    """One table of the README.
-
-    Parameters
-    ----------
-    title : str
-    expectation : str
-        What the figures should come to.
-    text : str
-        The table.
-    """
+    """One table of the README."""
 
     title: str
     expectation: str
@@ -359,13 +334,7 @@ FIGURES: dict[str, Callable[[Source], Figure]] = {
 
 
 def make_figures(source: Source, names: Sequence[str]) -> list[Figure]:
-    """Some of `FIGURES`.
-
-    Raises
-    ------
-    OptionError
-        If there is no such figure.
-    """
+    """Some of `FIGURES`."""
     unknown = [name for name in names if name not in FIGURES]
     if unknown:
         raise OptionError(f"no figure is called {', '.join(unknown)}; there are {', '.join(FIGURES)}")
