@@ -7,40 +7,34 @@ import pytest
 
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.geometry.metrics import theta
-from tools.measure import denoise, tables
+from tools.measure import denoise
 
 
 def test_an_unknown_table_is_refused_with_the_known_ones(capsys) -> None:  # type: ignore[no-untyped-def]
     with pytest.raises(SystemExit) as stopped:
         denoise.main(["nowhere", "best"])
     assert stopped.value.code == 2
-    assert next(iter(denoise.TABLES)) in capsys.readouterr().err
+    assert "automatic" in capsys.readouterr().err
 
 
 def test_a_wrong_answer_stops_the_benchmark(monkeypatch, capsys) -> None:  # type: ignore[no-untyped-def]
-    monkeypatch.setitem(denoise.TABLES, "metrics", lambda folder: denoise.expect("one", False))
-    assert denoise.main(["nowhere", "metrics"]) == 1
+    monkeypatch.setitem(denoise.TABLES, "automatic", lambda folder: denoise.expect("one", False))
+    assert denoise.main(["nowhere", "automatic"]) == 1
     assert "one" in capsys.readouterr().err
 
 
-@pytest.mark.real
-def test_the_metrics_table_checks_and_prints(meshes: Path, capsys) -> None:  # type: ignore[no-untyped-def]
-    assert denoise.main([str(meshes), "metrics"]) == 0
-    assert "ms" in capsys.readouterr().out
-
-
 def test_the_readme_shows_what_was_measured() -> None:
-    figures = json.loads(tables.FIGURES.read_text(encoding="utf-8"))
-    text = tables.PAGE.read_text(encoding="utf-8")
-    assert tables.put_in(text, tables.denoising_tables(figures)) == text
+    figures = json.loads(denoise.FIGURES.read_text(encoding="utf-8"))
+    text = denoise.PAGE.read_text(encoding="utf-8")
+    assert denoise.put_in(text, denoise.denoising_tables(figures)) == text
     assert set(figures["automatic"]) == set(denoise.PARTNERS)
-    assert set(figures) == {"automatic", *denoise.TRIALS} - {"scoreboard"}  # that is for changes to come
+    assert set(figures) == {"automatic", *denoise.TRIALS}
 
 
 @pytest.mark.slow
 @pytest.mark.real
 def test_the_measured_figures_are_those_of_the_program(meshes: Path) -> None:
-    figures = json.loads(tables.FIGURES.read_text(encoding="utf-8"))
+    figures = json.loads(denoise.FIGURES.read_text(encoding="utf-8"))
     for name in ("twelve", "fandisk 0.3"):
         clean, noisy, faces = denoise.read_case(meshes, name)
         denoised, _ = denoise_automatically(noisy, faces)

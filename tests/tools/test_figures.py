@@ -6,10 +6,8 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from bsm.files.mesh import write_mesh
-from tests.bsm.test_libraries import painted
 from tests.shapes import torus
 
 ROOT = Path(__file__).parents[2]
@@ -67,17 +65,3 @@ def test_sequences(tmp_path):
     result = json.loads((tmp_path / "a.json").read_text())["swelling"]
     assert [point["ours"]["kg"] <= point["draco"]["kg"] for point in result["at_draco"]] == [True, True]
     assert result["goal"]["kg"] <= 0.15
-
-
-@pytest.mark.slow
-def test_assets_are_drawn(tmp_path):
-    pytest.importorskip("matplotlib")
-    write_mesh(tmp_path / "spot_uv.obj", painted())
-    done = tool("assets", tmp_path, "-o", tmp_path / "assets.png")
-    assert done.returncode == 0, done.stderr
-    from PIL import Image
-
-    picture = np.asarray(Image.open(tmp_path / "assets.png").convert("RGB")).reshape(-1, 3)
-    assert (picture.std(axis=1) > 20).mean() > 0.05, "something is drawn in colour"
-    done = tool("assets", tmp_path / "nowhere")
-    assert done.returncode == 2 and "none of Duck.glb" in done.stderr

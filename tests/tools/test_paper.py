@@ -14,14 +14,11 @@ import pytest
 from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.metrics import face_normals
 from bsm.files.mesh import write_mesh
-from tools.paper import published
-from tools.paper.coherence import errors, left_out, smallest_on_diagonal
-from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
-from tools.paper.exhibits import EXHIBITS, make_exhibits
-from tools.paper.report import report, summary
-from tools.paper.scoreboard import Score, scores
-from tools.paper.shapes import ball, box, swaying
-from tools.paper.study import FULL, QUICK, Study
+from tools.measure.paper import published
+from tools.measure.paper.command import EXHIBITS, make_exhibits
+from tools.measure.paper.report import Cell, Claim, Column, Exhibit, Picture, Score, Table, report, scores, summary
+from tools.measure.paper.segments import errors, left_out, smallest_on_diagonal
+from tools.measure.paper.study import FULL, QUICK, Study, ball, box, swaying
 
 ROOT = Path(__file__).parents[2]
 
@@ -87,7 +84,7 @@ def quick(tmp_path_factory) -> tuple[str, dict]:
     """A quick report, and the data it printed."""
     path = tmp_path_factory.mktemp("paper") / "report.html"
     ran = subprocess.run(
-        [sys.executable, "-m", "tools.paper", "-o", str(path), "--quick", "--json"],
+        [sys.executable, "-m", "tools.measure", "paper", "-o", str(path), "--quick", "--json"],
         capture_output=True,
         text=True,
         timeout=300,
@@ -169,7 +166,7 @@ def test_what_is_refused(tmp_path, capsys):
         (["--meshes", str(tmp_path / "nowhere")], "has no folder static/"),
         (["--only", "nothing"], "nothing"),
     ):
-        command = [sys.executable, "-m", "tools.paper", "-o", str(tmp_path / "r.html"), "--quick", *words]
+        command = [sys.executable, "-m", "tools.measure", "paper", "-o", str(tmp_path / "r.html"), "--quick", *words]
         done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
         assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
     with pytest.raises(OptionError):

@@ -13,7 +13,7 @@ fields      colours and fields that change in moving meshes, against zstd and Dr
 denoise     the scoreboard of denoising; `tables` writes it into docs/measured.md
 figures     the tables of docs/measured.md
 house       how large the repository is, beside its limits
-assets      a picture of whole assets before and after
+paper       every table and figure of the paper, as a report
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ COMMANDS = {
     "sequences": "sequences:main",
     "fields": "fields:main",
     "denoise": "denoise:main",
-    "tables": "tables:main",
-    "figures": "figures.command:main",
+    "tables": "denoise:write_tables",
+    "figures": "figures:main",
     "speed": "speed:main",
     "house": "house:main",
-    "assets": "figures.assets:main",
+    "paper": "paper.command:main",
 }
 """The function that does what a word asks for, and its module."""
 

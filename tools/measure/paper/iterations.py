@@ -20,11 +20,11 @@ from bsm.codec.geometry.metrics import decibel
 from bsm.codec.signal.chain import Chain
 from bsm.codec.signal.predict import unheld
 from tools.measure.blocks import RowOrder, in_bisection_order, in_breadth_first_order
-from tools.paper.exhibit import Cell, Column, Exhibit, Table
-from tools.paper.pictures import portrait
-from tools.paper.published import POWERS, TIMES
-from tools.paper.segments import blocks_of, parts_of
-from tools.paper.study import ROLES, Model, Study
+from tools.measure.paper.pictures import portrait
+from tools.measure.paper.published import POWERS, TIMES
+from tools.measure.paper.report import Cell, Column, Exhibit, Table
+from tools.measure.paper.segments import blocks_of, parts_of
+from tools.measure.paper.study import ROLES, Model, Study
 
 SEGMENTS = {"armadillo": 20, "hand": 800}
 """The Armadillo's are the paper's; those of the Hand make n_d 470, of which the paper's c = 47 is a tenth."""

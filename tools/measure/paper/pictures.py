@@ -1,4 +1,4 @@
-"""Pictures as bytes: renderings as PNG, diagrams as SVG."""
+"""Pictures as bytes, renderings as PNG and diagrams as SVG."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ import numpy.typing as npt
 from bsm.codec.arrays import Faces, Positions
 from bsm.evaluation.plots import import_matplotlib
 from bsm.evaluation.render import bounds_of, render
-from tools.paper.exhibit import Picture
-from tools.paper.study import Model
+from tools.measure.paper.report import Picture
+from tools.measure.paper.study import Model
 
 Colors = npt.NDArray[np.float64]
 _GOLDEN = 0.618034

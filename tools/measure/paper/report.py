@@ -1,14 +1,170 @@
-"""The report: one HTML file with everything in it, made from exhibits and nothing else."""
+"""What a report is made of, tables and pictures with each number beside the paper's; how much came out; its HTML."""
 
 from __future__ import annotations
 
 import base64
 import html
 import json
+from dataclasses import asdict, dataclass
 from typing import Any
 
-from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
-from tools.paper.scoreboard import scores
+
+@dataclass(frozen=True)
+class Column:
+    """A quantity of a table."""
+
+    name: str
+    digits: int
+    tolerance: float | None = None
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One number: ours, and the paper's where it prints one."""
+
+    ours: float | None
+    paper: float | None = None
+    why: str = ""
+
+    @property
+    def deviation(self) -> float | None:
+        """Ours over the paper's, less one; of numbers in decibels and the like as well."""
+        if self.ours is None or not self.paper:
+            return None
+        return (self.ours - self.paper) / abs(self.paper)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of numbers."""
+
+    title: str
+    stub: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[str, tuple[Cell, ...]], ...]
+
+    def differs(self, column: Column, cell: Cell) -> bool:
+        """Whether a number disagrees with the paper's."""
+        off = cell.deviation
+        return off is not None and column.tolerance is not None and abs(off) > column.tolerance
+
+    def compared(self) -> tuple[int, int]:
+        """How many numbers stand beside one of the paper, and how many of these agree."""
+        pairs = [
+            self.differs(column, cell)
+            for _, cells in self.rows
+            for column, cell in zip(self.columns, cells, strict=True)
+            if cell.deviation is not None and column.tolerance is not None
+        ]
+        return len(pairs), pairs.count(False)
+
+    def as_json(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return {
+            "title": self.title,
+            "columns": [column.name for column in self.columns],
+            "rows": [
+                {
+                    "label": label,
+                    "cells": [
+                        {
+                            "ours": cell.ours,
+                            "paper": cell.paper,
+                            "note": (cell.why or column.why) if self.differs(column, cell) else None,
+                        }
+                        for column, cell in zip(self.columns, cells, strict=True)
+                    ],
+                }
+                for label, cells in self.rows
+            ],
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A picture in a file format of the web."""
+
+    caption: str
+    media: str
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Claim:
+    """Something that the paper says in words, and whether it came out here."""
+
+    says: str
+    holds: bool
+    found: str
+
+
+@dataclass(frozen=True, eq=False)
+class Exhibit:
+    """A table or figure of the paper, made again."""
+
+    title: str
+    place: str
+    tables: tuple[Table, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+    remarks: tuple[str, ...] = ()
+    claims: tuple[Claim, ...] = ()
+
+    def compared(self) -> tuple[int, int]:
+        """How many numbers of all tables stand beside one of the paper, and how many of these agree."""
+        counts = [table.compared() for table in self.tables]
+        return sum(count[0] for count in counts), sum(count[1] for count in counts)
+
+    def as_json(self) -> dict[str, Any]:
+        """Everything but the pictures, ready for JSON."""
+        return {
+            "title": self.title,
+            "place": self.place,
+            "tables": [table.as_json() for table in self.tables],
+            "pictures": [picture.caption for picture in self.pictures],
+            "remarks": list(self.remarks),
+            "claims": [asdict(claim) for claim in self.claims],
+        }
+
+
+@dataclass(frozen=True)
+class Score:
+    """A line of the scoreboard."""
+
+    name: str
+    numbers: int
+    agreeing: int
+    claims: int
+    holding: int
+
+    @property
+    def words(self) -> str:
+        """The line in words."""
+        said = []
+        if self.numbers:
+            said.append(f"{self.agreeing} of {self.numbers} numbers agree with the paper's")
+        if self.claims:
+            said.append(f"{self.holding} of {self.claims} claims hold")
+        return ", ".join(said) or "no numbers in the paper"
+
+
+def scores(exhibits: dict[str, Exhibit]) -> tuple[Score, ...]:
+    """A line for each exhibit, and the sum of all as the last one."""
+    lines = [
+        Score(key, *exhibit.compared(), len(exhibit.claims), sum(claim.holds for claim in exhibit.claims))
+        for key, exhibit in exhibits.items()
+    ]
+    return (
+        *lines,
+        Score(
+            "in all",
+            sum(line.numbers for line in lines),
+            sum(line.agreeing for line in lines),
+            sum(line.claims for line in lines),
+            sum(line.holding for line in lines),
+        ),
+    )
+
 
 PAPER = "Block-Based Spectral Processing of Static and Dynamic 3D Meshes using Orthogonal Iterations"
 _GENERATED = "A generated mesh stands in for the paper's, so the numbers need not agree."

@@ -17,9 +17,9 @@ from tools.measure.blocks import (
     quartiles,
     spread,
 )
-from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Table
-from tools.paper.pictures import drawn
-from tools.paper.study import Study
+from tools.measure.paper.pictures import drawn
+from tools.measure.paper.report import Cell, Claim, Column, Exhibit, Table
+from tools.measure.paper.study import Study
 
 SEGMENTS = 70
 KEEP = 0.10

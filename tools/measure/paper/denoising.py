@@ -16,11 +16,11 @@ from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
 from bsm.evaluation.curve import Spectral, paper_options
-from tools.paper.exhibit import Cell, Claim, Column, Exhibit, Picture, Table
-from tools.paper.iterations import SEGMENTS
-from tools.paper.pictures import diagram, normal_colors, portrait
-from tools.paper.segments import blocks_of, parts_of
-from tools.paper.study import Model, Study
+from tools.measure.paper.iterations import SEGMENTS
+from tools.measure.paper.pictures import diagram, normal_colors, portrait
+from tools.measure.paper.report import Cell, Claim, Column, Exhibit, Picture, Table
+from tools.measure.paper.segments import blocks_of, parts_of
+from tools.measure.paper.study import Model, Study
 
 COUNTS = (1, 2, 5, 20)
 IN_FIGURE = ("bilateral", "non-iterative", "fast-effective", "bilateral-normal", "guided")

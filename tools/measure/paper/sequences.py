@@ -18,10 +18,10 @@ from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.metrics import theta
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.codec.signal.predict import unheld
-from tools.paper.exhibit import Cell, Column, Exhibit, Table
-from tools.paper.iterations import fastest
-from tools.paper.pictures import portrait
-from tools.paper.study import Study
+from tools.measure.paper.iterations import fastest
+from tools.measure.paper.pictures import portrait
+from tools.measure.paper.report import Cell, Column, Exhibit, Table
+from tools.measure.paper.study import Study
 
 SIGMA = 0.2
 SHOWN = 3

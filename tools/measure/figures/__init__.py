@@ -1,1 +1,0 @@
-"""The tables of figures that the README shows, measured again."""
