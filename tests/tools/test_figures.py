@@ -1,27 +1,12 @@
 """The tools that measure the README's figures: what they print, and how they fail."""
 
 import json
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 
 from bsm.files.mesh import write_mesh
 from tests.shapes import torus
-
-ROOT = Path(__file__).parents[2]
-
-
-def tool(name, *arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "tools.measure", name, *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        cwd=ROOT,
-        check=False,
-    )
+from tests.tools.running import tool
 
 
 def test_boundary(tmp_path):
@@ -65,3 +50,8 @@ def test_sequences(tmp_path):
     result = json.loads((tmp_path / "a.json").read_text())["swelling"]
     assert [point["ours"]["kg"] <= point["draco"]["kg"] for point in result["at_draco"]] == [True, True]
     assert result["goal"]["kg"] <= 0.15
+
+
+def test_an_unknown_measurement_is_answered_with_the_known_ones():
+    done = tool("nothing")
+    assert done.returncode == 2 and "house" in done.stdout

@@ -3,10 +3,7 @@
 import base64
 import json
 import re
-import subprocess
-import sys
 from html.parser import HTMLParser
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,13 +11,12 @@ import pytest
 from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.metrics import face_normals
 from bsm.files.mesh import write_mesh
+from tests.tools.running import tool
 from tools.measure.paper import published
 from tools.measure.paper.command import EXHIBITS, make_exhibits
 from tools.measure.paper.report import Cell, Claim, Column, Exhibit, Picture, Score, Table, report, scores, summary
 from tools.measure.paper.segments import errors, left_out, smallest_on_diagonal
 from tools.measure.paper.study import FULL, QUICK, Study, ball, box, swaying
-
-ROOT = Path(__file__).parents[2]
 
 # What the paper has: exhibits, the least number of tables, and of pictures in a quick run.
 EXPECTED = {
@@ -83,14 +79,7 @@ class Outline(HTMLParser):
 def quick(tmp_path_factory) -> tuple[str, dict]:
     """A quick report, and the data it printed."""
     path = tmp_path_factory.mktemp("paper") / "report.html"
-    ran = subprocess.run(
-        [sys.executable, "-m", "tools.measure", "paper", "-o", str(path), "--quick", "--json"],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        cwd=ROOT,
-        check=False,
-    )
+    ran = tool("paper", "-o", path, "--quick", "--json")
     assert ran.returncode == 0, ran.stderr
     assert "generated" in ran.stderr
     return path.read_text(), json.loads(ran.stdout)
@@ -109,6 +98,7 @@ def test_every_table_and_figure_is_there(quick):
     assert outline.links <= outline.ids
 
 
+@pytest.mark.slow
 def test_the_scoreboard_counts_numbers_and_claims(quick):
     text, data = quick
     assert 'id="scoreboard"' in text
@@ -142,6 +132,7 @@ def test_the_largest_mesh_plays_the_hand(tmp_path):
     assert Study(tmp_path, QUICK, str).model("hand").size == 900
 
 
+@pytest.mark.slow
 def test_every_number_of_the_paper_stands_beside_ours_and_differences_are_explained(quick):
     text, data = quick
     cells = [cell for e in data.values() for t in e["tables"] for row in t["rows"] for cell in row["cells"]]
@@ -161,13 +152,12 @@ def test_a_full_run_has_all_the_papers_numbers():
         assert len(QUICK.some(values)) < len(list(values))
 
 
-def test_what_is_refused(tmp_path, capsys):
+def test_what_is_refused(tmp_path):
     for words, said in (
         (["--meshes", str(tmp_path / "nowhere")], "has no folder static/"),
         (["--only", "nothing"], "nothing"),
     ):
-        command = [sys.executable, "-m", "tools.measure", "paper", "-o", str(tmp_path / "r.html"), "--quick", *words]
-        done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
+        done = tool("paper", "-o", tmp_path / "r.html", "--quick", *words)
         assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
     with pytest.raises(OptionError):
         make_exhibits(Study(None, QUICK, lambda text: None), ["best"])
