@@ -15,13 +15,10 @@ extern "C" {
 #include "codec/blocks/partition.h"
 #include "codec/denoise/learnt/descriptors.h"
 #include "codec/denoise/noise/estimate.h"
-#include "codec/denoise/filters/fast_effective.h"
 #include "codec/denoise/filters/guidance.h"
 #include "codec/denoise/filters/kernel.h"
-#include "codec/denoise/filters/non_iterative.h"
 #include "codec/denoise/filters/reach.h"
 #include "codec/denoise/filters/topology.h"
-#include "codec/denoise/filters/vertex_bilateral.h"
 #include "codec/denoise/filters/vertex_update.h"
 #include "codec/geometry/closeness.h"
 #include "codec/geometry/graph.h"
@@ -98,8 +95,6 @@ NB_MODULE(_kernels, m) {
     m.def("add_copies", &add_copies, "sums"_a, "total"_a, "vertices"_a, "positions"_a, "weights"_a, Unlocked());
     m.def("collect_edges", &collect_edges, "faces"_a, "offsets"_a, "filled"_a, "ends"_a, Unlocked());
     m.def("minus_mean", &minus_mean, "values"_a, "starts"_a, "members"_a, "rest"_a, Unlocked());
-    m.def("average_alike", &average_alike, "normals"_a, "starts"_a, "members"_a, "threshold"_a, "averaged"_a,
-          Unlocked());
     m.def("patch_scores", &patch_scores, "normals"_a, "areas"_a, "starts"_a, "members"_a, "steps"_a,
           "inner_starts"_a, "inner"_a, "scores"_a, "means"_a, Unlocked());
     m.def("most_consistent", &most_consistent, "scores"_a, "means"_a, "starts"_a, "members"_a, "guide"_a,
@@ -108,19 +103,12 @@ NB_MODULE(_kernels, m) {
           "sigma_s"_a, "sigma_r"_a, "filtered"_a, Unlocked());
     m.def("describe_faces", &describe_faces, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "smooth"_a, "axes"_a,
           "starts"_a, "near"_a, "distance"_a, "begin"_a, "described"_a, "frames"_a, Unlocked());
-    m.def("mollify", &mollify, "positions"_a, "centroids"_a, "areas"_a, "starts"_a, "near"_a, "width"_a, "moved"_a,
-          Unlocked());
-    m.def("predict_from_planes", &predict_from_planes, "positions"_a, "centroids"_a, "areas"_a, "normals"_a,
-          "starts"_a, "near"_a, "spatial"_a, "influence"_a, "moved"_a, Unlocked());
     m.def("reach", &reach, "centres"_a, "seed_starts"_a, "seeds"_a, "points"_a, "starts"_a, "members"_a, "radii"_a,
           "begin"_a, "seen"_a, "reached_starts"_a, "reached"_a, Unlocked());
     m.def("face_patches", &face_patches, "faces"_a, "around_starts"_a, "around"_a, "crowd"_a, "seen"_a, "starts"_a,
           "members"_a, Unlocked());
     m.def("inner_pairs", &inner_pairs, "starts"_a, "members"_a, "pairs"_a, "first"_a, "own"_a, "inside"_a,
           "inner_starts"_a, "inner"_a, Unlocked());
-    m.def("shortest_edges", &shortest_edges, "positions"_a, "starts"_a, "members"_a, "lengths"_a, Unlocked());
-    m.def("filter_heights", &filter_heights, "positions"_a, "normals"_a, "widths"_a, "starts"_a, "near"_a, "moved"_a,
-          Unlocked());
     m.def("face_geometry", &face_geometry, "positions"_a, "faces"_a, "centroids"_a, "areas"_a, "normals"_a,
           Unlocked());
     m.def("pair_distances", &pair_distances, "values"_a, "pairs"_a, "distances"_a, Unlocked());

@@ -16,13 +16,13 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
 from tests.bsm.test_libraries import painted
 from tests.plugins import declare_entry_points
+from tools.noise import gaussian_along_normals
 
 ROOT = Path(__file__).parents[1]
 PAGES = tuple(

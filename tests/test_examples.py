@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.evaluation.sample import knot
+from tools.noise import gaussian_along_normals
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"

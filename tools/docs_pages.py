@@ -108,9 +108,9 @@ def pictures(folder: Path) -> list[Path]:
 def _denoised() -> bytes:
     """A noisy sample beside what denoising makes of it."""
     import bsm
-    from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
     from bsm.evaluation.render import bounds_of, render
     from bsm.evaluation.sample import knot
+    from tools.noise import gaussian_along_normals
 
     sample = knot(8000)
     noisy = gaussian_along_normals(sample.positions, sample.faces, 0.3, 0)

@@ -25,15 +25,15 @@ from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, follo
 from bsm.codec.denoise.learnt.cascade import VERTEX_ITERATIONS, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles, descriptions, mirrored
 from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, sigmoid, write_networks
-from bsm.codec.denoise.noise.gaussian import (
+from bsm.files.mesh import read_mesh
+from tools.made_shapes import made_shape
+from tools.noise import (
     correlated_along_normals,
     gaussian_along_normals,
     gaussian_isotropic,
     impulsive,
     uniform_along_normals,
 )
-from bsm.files.mesh import read_mesh
-from tools.made_shapes import made_shape
 
 TRAINING_MESHES = ("dragon_437645", "horse_48485", "cgal_elephant_with_holes")
 CROPS, CROP = 12, 6000

@@ -22,7 +22,6 @@ COMMANDS = {
     "view": "show streams in a browser as they arrive",
     "glb": "compress the geometry of glTF scenes that stay scenes",
     "denoise": "remove noise from meshes and sequences",
-    "noise": "add noise to a mesh",
     "demo": "compress a sample and show what became of it",
     "curve": "measure rate against error and draw it",
     "bench": "measure speed against exact solvers and Draco",

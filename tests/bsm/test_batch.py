@@ -15,12 +15,12 @@ import pytest
 
 from bsm.bitstream.errors import OptionError
 from bsm.cli import main
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.jobs.run import plan
 from tests.bsm import program
+from tools.noise import gaussian_along_normals
 
 ROOT = program.ROOT
 SMALL = ["--set", "block-size=150", "--set", "step=0.004", "--threads", "1"]
@@ -144,7 +144,7 @@ def test_no_input_is_replaced_even_by_force(output, meshes, tmp_path):
     (tmp_path / "a.npz").write_bytes(mesh)
     (tmp_path / "link.npz").symlink_to("a.npz")
     os.link(tmp_path / "a.npz", tmp_path / "hard.npz")
-    for words in (["encode"], ["denoise"], ["noise", "--sigma", "0.1"]):
+    for words in (["encode"], ["denoise"]):
         done = bsm(*words, "-f", tmp_path / "a.npz", "-o", tmp_path / output)
         assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert (tmp_path / "a.npz").read_bytes() == mesh

@@ -51,7 +51,9 @@ def test_keywords_are_put_on_top_of_a_preset():
     assert (options.step, options.block_size, options.keep_order) == (0.5, 300, True)
     assert options.power == PRESETS["fine"].power
     assert encode_options(doi=[1, 2]).doi == (1.0, 2.0)
-    assert denoise_options(fine="l0", iterations=3) == DenoiseOptions(fine="l0", iterations=3)
+    assert denoise_options(fine="bilateral-normal", iterations=3) == DenoiseOptions(
+        fine="bilateral-normal", iterations=3
+    )
 
 
 @pytest.mark.parametrize(("keyword", "kind"), TARGETS.items())

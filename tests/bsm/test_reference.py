@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.evaluation.sample import knot
 from tests.bsm.test_libraries import painted
 from tools.docs_pages import MODULES, reference
+from tools.noise import gaussian_along_normals
 
 NAMES = [name for name in bsm.__all__ if inspect.isfunction(getattr(bsm, name)) or inspect.isclass(getattr(bsm, name))]
 VALUES = {"__version__", "END_OF_STREAM", "NEED_DATA", "PRESETS"}

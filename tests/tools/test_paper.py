@@ -32,7 +32,7 @@ EXPECTED = {
     "rates": (1, 1),
     "dynamic": (1, 1),
     "coarse-to-fine": (1, 6),
-    "companions": (1, 15),
+    "companions": (1, 7),
     "hand": (1, 4),
     "times": (2, 0),
     "powers": (2, 3),

@@ -6,8 +6,8 @@ import pytest
 from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.denoise.filters.vertex_update import face_geometry
 from bsm.codec.denoise.learnt.descriptors import BASE
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from tools.made_shapes import made_shape, mesh_of
+from tools.noise import gaussian_along_normals
 from tools.train_denoiser import Example, described, train
 
 

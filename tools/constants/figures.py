@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 from bsm.codec.denoise import denoise_automatically
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.metrics import theta
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
@@ -17,6 +16,7 @@ from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.files.formats.npz import read_arrays
 from tools.measure.presets import joined
+from tools.noise import gaussian_along_normals
 
 Point = tuple[float, float]
 STEPS = (0.0028, 0.004, 0.0057)

@@ -31,7 +31,12 @@ from bsm.codec.denoise.automatic import denoise_automatically
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.filters.guided import guided_results
 from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.noise.gaussian import (
+from bsm.codec.denoise.recipe import Recipe, Treatments
+from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
+from bsm.files.formats.npz import read_arrays
+from bsm.files.mesh import read_mesh
+from tools.made_shapes import made_shape
+from tools.noise import (
     correlated_along_normals,
     gaussian_along_axis,
     gaussian_along_normals,
@@ -43,11 +48,6 @@ from bsm.codec.denoise.noise.gaussian import (
     rounded,
     uniform_along_normals,
 )
-from bsm.codec.denoise.recipe import Recipe, Treatments
-from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
-from bsm.files.formats.npz import read_arrays
-from bsm.files.mesh import read_mesh
-from tools.made_shapes import made_shape
 
 Kind = Callable[[Positions, Faces, float], Positions]
 SEED = 11

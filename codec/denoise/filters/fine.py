@@ -7,11 +7,7 @@ from typing import Protocol
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.filters.bilateral_normal import bilateral_normal_filtering
-from bsm.codec.denoise.filters.fast_effective import fast_effective_denoising
 from bsm.codec.denoise.filters.guided import guided_normal_filtering
-from bsm.codec.denoise.filters.l0 import l0_minimisation
-from bsm.codec.denoise.filters.non_iterative import non_iterative_smoothing
-from bsm.codec.denoise.filters.vertex_bilateral import bilateral_mesh_denoising
 
 
 class FineStep(Protocol):
@@ -22,11 +18,7 @@ class FineStep(Protocol):
 
 FINE_STEPS: dict[str, FineStep] = {
     "guided": guided_normal_filtering,
-    "bilateral": bilateral_mesh_denoising,
-    "non-iterative": non_iterative_smoothing,
-    "fast-effective": fast_effective_denoising,
     "bilateral-normal": bilateral_normal_filtering,
-    "l0": l0_minimisation,
 }
 
 

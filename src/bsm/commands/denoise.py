@@ -38,7 +38,7 @@ from bsm.jobs.task import Facts, Task
 if TYPE_CHECKING:
     from bsm.codec.denoise import AutomaticChoice, DenoiseOptions
 
-FINE = ("guided", "bilateral", "non-iterative", "fast-effective", "bilateral-normal", "l0")
+FINE = ("guided", "bilateral-normal")
 HAND_OVERS = ("positions", "heights", "normals", "none")
 GOALS = ("shading", "shape")
 STREAM = "bsm"

@@ -8,9 +8,9 @@ from bsm.codec.denoise.automatic import CANDIDATES, denoise_automatically
 from bsm.codec.denoise.filters.guided import guided_normal_filtering
 from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.denoise.noise.estimate import add_noise, estimate_noise
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals, gaussian_isotropic
 from bsm.codec.geometry.metrics import mean_edge_length, rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
+from tools.noise import gaussian_along_normals, gaussian_isotropic
 
 
 @pytest.mark.parametrize("sigma", [0.1, 0.2, 0.6])

@@ -10,11 +10,11 @@ from bsm.codec.denoise.coarse import RULES, CoarseFilter
 from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.denoise.filters.vertex_update import face_geometry, vertex_normals
 from bsm.codec.denoise.handover import HAND_OVERS, hand_over
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import theta
 from bsm.codec.signal.chain import ChainRules
 from tests.codec.denoise.denoise_shapes import Partners, cube, sphere
+from tools.noise import gaussian_along_normals
 
 
 def dense_laplacian(faces: np.ndarray, n: int) -> np.ndarray:

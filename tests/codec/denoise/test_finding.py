@@ -7,7 +7,15 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.gaussian import (
+from bsm.codec.denoise.noise.outliers import find_outliers
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.ripples import find_ripples
+from bsm.codec.denoise.noise.rounding import find_grid
+from bsm.codec.denoise.noise.search import find_noise
+from bsm.codec.denoise.safety import judge, keep_good, restraint
+from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
+from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
+from tools.noise import (
     correlated_along_normals,
     gaussian_along_axis,
     gaussian_along_normals,
@@ -18,14 +26,6 @@ from bsm.codec.denoise.noise.gaussian import (
     rounded,
     uniform_along_normals,
 )
-from bsm.codec.denoise.noise.outliers import find_outliers
-from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.noise.ripples import find_ripples
-from bsm.codec.denoise.noise.rounding import find_grid
-from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.safety import judge, keep_good, restraint
-from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
-from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 
 KINDS = {
     "white": gaussian_along_normals,

@@ -8,9 +8,9 @@ from bsm.codec.denoise.filters.guided import GuidedFilter, guided_normal_filteri
 from bsm.codec.denoise.filters.kernel import filter_normals
 from bsm.codec.denoise.filters.topology import Topology
 from bsm.codec.denoise.filters.vertex_update import face_geometry
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid
+from tools.noise import gaussian_along_normals
 
 
 def noisy_cube() -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -11,12 +11,12 @@ from bsm.codec.denoise.filters.vertex_update import face_geometry
 from bsm.codec.denoise.learnt.cascade import Learner, Learnt, joined, learnt, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
 from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, write_networks
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.patient import Patient
 from bsm.codec.denoise.rehearsal import LEARNT_SHARES
 from bsm.codec.geometry.metrics import rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
+from tools.noise import gaussian_along_normals
 
 TURN = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
 TURN *= np.sign(np.linalg.det(TURN))

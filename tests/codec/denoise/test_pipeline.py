@@ -7,10 +7,10 @@ from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.denoise import DenoiseOptions, coarse_frames, denoise, denoise_automatically, denoise_frames
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.filters.guided import guided_normal_filtering
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import sphere
+from tools.noise import gaussian_along_normals
 
 CLEAN, FACES = sphere(14)
 NOISY = gaussian_along_normals(CLEAN, FACES, 0.25, seed=2)

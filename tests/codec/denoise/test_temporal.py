@@ -5,10 +5,10 @@ import pytest
 
 from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.denoise.frames import OVERLAP, WINDOW
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter, noise_deviation, shrunk
 from bsm.codec.geometry.metrics import mean_edge_length, theta
 from tests.codec.denoise.denoise_shapes import sphere
+from tools.noise import gaussian_along_normals
 
 CLEAN, FACES = sphere(14)
 EDGE = mean_edge_length(CLEAN, FACES)

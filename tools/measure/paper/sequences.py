@@ -13,7 +13,6 @@ from bsm.codec.blocks.overlap import block_size, grow_blocks
 from bsm.codec.blocks.partition import metis_partition
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, OVERLAP, RULES, CoarseFilter
 from bsm.codec.denoise.frames import GROUP, Frames, filter_frames
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.metrics import theta
 from bsm.codec.signal.chain import Chain, ChainRules
@@ -22,6 +21,7 @@ from tools.measure.paper.iterations import fastest
 from tools.measure.paper.pictures import portrait
 from tools.measure.paper.report import Cell, Column, Exhibit, Table
 from tools.measure.paper.study import Study
+from tools.noise import gaussian_along_normals
 
 SIGMA = 0.2
 SHOWN = 3

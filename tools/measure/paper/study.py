@@ -13,13 +13,13 @@ from scipy.spatial import ConvexHull
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.noise.gaussian import gaussian_along_normals
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.evaluation.render import DEFAULT_VIEW, view_matrix
 from bsm.evaluation.sample import knot
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import format_of_name, read_mesh
+from tools.noise import gaussian_along_normals
 
 Item = TypeVar("Item")
 

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import OptionError
-from bsm.codec.denoise.noise.gaussian import (
+from bsm.codec.geometry.incidence import mesh_edges
+from bsm.codec.geometry.metrics import mean_edge_length
+from tests.codec.denoise.denoise_shapes import sphere
+from tools.noise import (
     correlated_along_normals,
     gaussian_along_axis,
     gaussian_along_normals,
@@ -13,9 +16,6 @@ from bsm.codec.denoise.noise.gaussian import (
     impulsive,
     uniform_along_normals,
 )
-from bsm.codec.geometry.incidence import mesh_edges
-from bsm.codec.geometry.metrics import mean_edge_length
-from tests.codec.denoise.denoise_shapes import sphere
 
 POSITIONS, FACES = sphere(24)
 EDGE = mean_edge_length(POSITIONS, FACES)
