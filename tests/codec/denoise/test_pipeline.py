@@ -29,7 +29,7 @@ def test_without_hand_over_it_is_the_fine_step_alone() -> None:
 
 
 def test_without_iterations_it_is_the_coarse_step_alone() -> None:
-    options = DenoiseOptions(hand_over="positions", fine="bilateral", iterations=0, keep=0.2, block_size=200)
+    options = DenoiseOptions(hand_over="positions", fine="guided", iterations=0, keep=0.2, block_size=200)
     result = denoise(TriangleMesh(NOISY, FACES), options, force=True)
     assert result.positions == pytest.approx(CoarseFilter(FACES, len(NOISY), 0.2, 200)(NOISY, 0.2))
 
