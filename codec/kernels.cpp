@@ -13,13 +13,7 @@ extern "C" {
 #include "codec/blocks/blend.h"
 #include "codec/blocks/overlap.h"
 #include "codec/blocks/partition.h"
-#include "codec/denoise/learnt/descriptors.h"
-#include "codec/denoise/noise/estimate.h"
-#include "codec/denoise/filters/guidance.h"
-#include "codec/denoise/filters/kernel.h"
-#include "codec/denoise/filters/reach.h"
-#include "codec/denoise/filters/topology.h"
-#include "codec/denoise/filters/vertex_update.h"
+#include "codec/denoise/denoise.h"
 #include "codec/geometry/closeness.h"
 #include "codec/geometry/graph.h"
 #include "codec/geometry/incidence.h"
@@ -103,8 +97,8 @@ NB_MODULE(_kernels, m) {
           "sigma_s"_a, "sigma_r"_a, "filtered"_a, Unlocked());
     m.def("describe_faces", &describe_faces, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "smooth"_a, "axes"_a,
           "starts"_a, "near"_a, "distance"_a, "begin"_a, "described"_a, "frames"_a, Unlocked());
-    m.def("reach", &reach, "centres"_a, "seed_starts"_a, "seeds"_a, "points"_a, "starts"_a, "members"_a, "radii"_a,
-          "begin"_a, "seen"_a, "reached_starts"_a, "reached"_a, Unlocked());
+    m.def("reach", &reach, "points"_a, "starts"_a, "members"_a, "radius"_a, "begin"_a, "seen"_a, "reached_starts"_a,
+          "reached"_a, Unlocked());
     m.def("face_patches", &face_patches, "faces"_a, "around_starts"_a, "around"_a, "crowd"_a, "seen"_a, "starts"_a,
           "members"_a, Unlocked());
     m.def("inner_pairs", &inner_pairs, "starts"_a, "members"_a, "pairs"_a, "first"_a, "own"_a, "inside"_a,

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.filters.vertex_update import Floats
+from bsm.codec.denoise.surface import Floats
 from bsm.codec.geometry.incidence import vertex_neighbours
 
 Field = Callable[[Floats], Floats]

@@ -12,8 +12,8 @@ import numpy as np
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, vertex_normals
-from bsm.codec.geometry.incidence import vertex_faces, vertex_neighbours
+from bsm.codec.denoise.surface import Floats, Topology, surface_normals
+from bsm.codec.geometry.incidence import vertex_neighbours
 from bsm.codec.geometry.metrics import mean_edge_length
 
 
@@ -121,7 +121,7 @@ def _refuse_fraction(fraction: float) -> None:
 
 
 def _directions(positions: Positions, faces: Faces) -> Floats:
-    return vertex_normals(face_geometry(positions, faces).normals, vertex_faces(faces, len(positions)))
+    return surface_normals(positions, Topology(faces, len(positions)))
 
 
 def _length(positions: Positions, faces: Faces, sigma: float) -> float:

@@ -20,11 +20,10 @@ from pathlib import Path
 import numpy as np
 
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, follow_normals
 from bsm.codec.denoise.learnt.cascade import VERTEX_ITERATIONS, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles, descriptions, mirrored
 from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, sigmoid, write_networks
+from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals
 from bsm.files.mesh import read_mesh
 from tools.made_shapes import made_shape
 from tools.noise import (

@@ -10,12 +10,10 @@ except ImportError:
 
 from bsm.codec.denoise.automatic import AutomaticChoice, denoise_automatically
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.filters.fine import FINE_STEPS
-from bsm.codec.denoise.frames import FrameDenoiser, coarse_frames
-from bsm.codec.denoise.handover import HAND_OVERS
+from bsm.codec.denoise.frames import FrameDenoiser, coarse_frames, denoise, denoise_frames
+from bsm.codec.denoise.normals import FINE_STEPS
 from bsm.codec.denoise.options import DenoiseOptions
-from bsm.codec.denoise.pipeline import denoise, denoise_frames
-from bsm.codec.denoise.recipe import Recipe, Step
+from bsm.codec.denoise.recipe import HAND_OVERS, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS
 
 __all__ = [

@@ -5,21 +5,45 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.blocks.partition import metis_partition
 from bsm.codec.choices import named
 from bsm.codec.denoise.learnt.cascade import joined
-from bsm.codec.denoise.noise.estimate import NoiseLevel
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
 from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.patient import Patient
-from bsm.codec.denoise.recipe import Recipe, Step
-from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Rehearsal, Told, silent
+from bsm.codec.denoise.noise.synthesis import NoiseLevel
+from bsm.codec.denoise.recipe import Patient, Recipe, Step
+from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Progress, Rehearsal, silent
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
-from bsm.codec.denoise.sample import sample
+from bsm.codec.denoise.surface import Floats
+from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.welding import weld
+
+WHOLE = 8000
+PIECE = 2000
+PIECES = 3
+
+
+def sample(faces: Faces, levels: Floats) -> tuple[npt.NDArray[np.int64], Faces]:
+    """Vertices of the sample, ascending, and its faces in their numbers; all of a mesh that is not large."""
+    n = len(levels)
+    if n <= WHOLE:
+        return np.arange(n), faces
+    labels = metis_partition(graph_of_faces(faces, n), round(n / PIECE)).labels
+    means = np.bincount(labels, levels) / np.bincount(labels)
+    # Equal means keep the order of the parts, which lie all over the surface.
+    order = np.argsort(means, kind="stable")
+    order = order[means[order] > 0.5 * means.max()]
+    chosen = order[np.linspace(0, len(order) - 1, min(PIECES, len(order)) + 2).astype(np.int64)[1:-1]]
+    inside = np.isin(labels, chosen)
+    members = np.flatnonzero(inside)
+    number = np.cumsum(inside) - 1
+    return members, number[faces[inside[faces].all(axis=1)]].astype(np.int32)
+
 
 BASE = Recipe("normals", 0.2, "patches", 0.35)
 CANDIDATES = (
@@ -78,7 +102,9 @@ class AutomaticChoice:
         if self.steps or not (count or lengths):
             return choice
         alone = f"{count} vertices that stood out by themselves"
-        return replace(choice, kind="ripples" if lengths else "outliers", reason=ripples.said if lengths else alone)
+        return replace(
+            choice, kind="ripples" if lengths else "outliers", reason=ripples.description if lengths else alone
+        )
 
 
 def denoise_automatically(
@@ -88,10 +114,7 @@ def denoise_automatically(
     given = np.array(positions, dtype=np.float64)
     welded, faces, index = weld(given, faces)
     patient = Patient(faces, len(welded))
-    outliers = find_outliers(welded, patient.probe)
-    calmed = outliers.put_back(welded)
-    ripples = find_ripples(calmed, patient.probe)
-    calmed = ripples.put_back(calmed)
+    calmed, outliers, ripples = calm(welded, patient)
     finding = find_noise(calmed, patient.probe)
     choice = choose(calmed, finding, patient, goal).after(outliers, ripples)
     result, verdict = treat(choice, calmed, finding, patient)
@@ -102,8 +125,16 @@ def denoise_automatically(
     return np.where(moved[:, None], result[index], given), choice
 
 
+def calm(positions: Positions, patient: Patient) -> tuple[Positions, Outliers, Ripples]:
+    """The positions, shape (n, 3), with outliers and ripples put back, and both."""
+    outliers = find_outliers(positions, patient.probe)
+    positions = outliers.put_back(positions)
+    ripples = find_ripples(positions, patient.probe)
+    return ripples.put_back(positions), outliers, ripples
+
+
 def choose(
-    positions: Positions, finding: Finding, patient: Patient, goal: str = "shading", told: Told = silent
+    positions: Positions, finding: Finding, patient: Patient, goal: str = "shading", progress: Progress = silent
 ) -> AutomaticChoice:
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
@@ -113,7 +144,7 @@ def choose(
     if len(members) < patient.topology.n:
         positions, patient = positions[members], Patient(part, len(members))
     patient.expect(LARGEST_KEEP)
-    rehearsal = Rehearsal(positions, finding.on(members), patient, BASE, named("goal", GOALS, goal), told)
+    rehearsal = Rehearsal(positions, finding.on(members), patient, BASE, named("goal", GOALS, goal), progress)
     candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (CANDIDATES, HERALDS))
     # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
     # with. A third round would believe its own mistakes.
@@ -149,9 +180,10 @@ def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: 
     if not choice.steps:
         return noisy, Verdict(np.ones(len(noisy), dtype=np.bool_), 0.0, 0.0, "")
     patient.expect(max(step.recipe.keep for step in choice.steps))
-    result, verdict = _judged(patient.treatments(noisy).mean(choice.steps), noisy, finding, patient)
+    treatments = patient.treatments(noisy)
+    result, verdict = _judged(treatments.mean(choice.steps), noisy, finding, patient)
     if choice.learnt > 0.0:
-        mean = joined(result, patient.learner(noisy), choice.learnt, patient.topology)
+        mean = joined(result, treatments.learnt, choice.learnt, patient.topology)
         other, judgement = _judged(mean, noisy, finding, patient)
         # Made shapes have less detail than real ones: where the networks move more than the recipes, they take it away.
         if judgement.movement < verdict.movement + LEARNT_MORE:

@@ -1,4 +1,4 @@
-"""Sequences (section 7.3 of the paper): settings and dictionaries once, then any number of frames, a few at a time."""
+"""The whole of denoising, of a mesh or a sequence (section 7.3 of the paper): choice and dictionaries once."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.automatic import AutomaticChoice, choose, treat
+from bsm.codec.denoise.automatic import AutomaticChoice, calm, choose, treat
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
-from bsm.codec.denoise.filters.fine import fine_step
-from bsm.codec.denoise.handover import hand_over
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
+from bsm.codec.denoise.normals import fine_step
 from bsm.codec.denoise.options import DenoiseOptions
-from bsm.codec.denoise.patient import Patient
-from bsm.codec.denoise.rehearsal import Told, silent
+from bsm.codec.denoise.recipe import Patient, hand_over
+from bsm.codec.denoise.rehearsal import Progress, silent
 from bsm.codec.denoise.safety import judge, keep_good
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import weld
 from bsm.codec.threads import ordered_map
 
@@ -39,6 +39,7 @@ OVERLAP = 8
 """Frames over which one window fades into the next."""
 UNSTEADY = 0.03
 """Noise that changes from frame to frame, in mean edges along the normals, from which on it is removed."""
+CHANGING = "noise that changes with the frames"
 
 
 class FrameDenoiser:
@@ -53,7 +54,7 @@ class FrameDenoiser:
         goal: str = "shading",
         strength: float = 1.0,
         force: bool = False,
-        told: Told = silent,
+        progress: Progress = silent,
     ) -> None:
         if not 0.0 <= strength <= 1.0:
             raise OptionError(f"the strength must be from 0 to 1, not {strength}")
@@ -66,13 +67,13 @@ class FrameDenoiser:
         self._members = np.unique(self._index, return_index=True)[1]
         self._patient = Patient(faces, len(welded))
         self._options, self._goal, self._strength, self._force = options, goal, strength, force
-        self._told = told
+        self._progress = progress
         self.choice: AutomaticChoice | None = None
 
     def __call__(self, frames: Iterable[Positions]) -> Iterator[Positions]:
         """Denoise frame after frame, holding only so many of them at any time."""
         checked = map(self._checked, frames)
-        results = self._automatic(checked) if self._options is None else self._as_told(checked, self._options)
+        results = self._automatic(checked) if self._options is None else self._by_options(checked, self._options)
         for given, result in results:
             moved = (result != given[self._members]).any(axis=1)[self._index]
             displaced = given + (result - given[self._members])[self._index]
@@ -98,22 +99,19 @@ class FrameDenoiser:
         for group, remaining in self._steadied(frames):
             if found is None:
                 begun = group[0][1]
-                self._told("finding noise")
+                self._progress("finding noise")
                 if remaining is None:
-                    outliers = find_outliers(begun, self._patient.probe)
-                    begun = outliers.put_back(begun)
-                    ripples = find_ripples(begun, self._patient.probe)
-                    begun = ripples.put_back(begun)
+                    begun, outliers, ripples = calm(begun, self._patient)
                 found = find_noise(begun, self._patient.probe)
-                if remaining is not None:
-                    found = _what_is_left(found, remaining, len(begun))
+                if remaining is not None and remaining >= UNSTEADY * found.edge:
+                    found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
                 goal = "both" if remaining is not None and self._goal == "shading" else self._goal
-                self.choice = choose(begun, found, self._patient, goal, self._told)
-                self._told("filtering")
+                self.choice = choose(begun, found, self._patient, goal, self._progress)
+                self._progress("filtering")
                 if remaining is None:
                     self.choice = self.choice.after(outliers, ripples)
                 elif not self.choice.steps:
-                    self.choice = replace(self.choice, kind="unsteady", reason="noise that changes with the frames")
+                    self.choice = replace(self.choice, kind="unsteady", reason=CHANGING)
             yield from ordered_map(finish, group, None)
 
     def _steadied(self, frames: Iterator[Positions]) -> Iterator[tuple[list[Pair], float | None]]:
@@ -151,21 +149,18 @@ class FrameDenoiser:
                 return
             tail, fresh = results[ready:], OVERLAP
 
-    def _as_told(self, frames: Iterator[Positions], options: DenoiseOptions) -> Iterator[Pair]:
+    def _by_options(self, frames: Iterator[Positions], options: DenoiseOptions) -> Iterator[Pair]:
         """Given frames, and welded results that pass the gates."""
         topology = self._patient.topology
         start, step = hand_over(options.hand_over), fine_step(options.fine)
+        iterations = {} if options.iterations is None else {"iterations": options.iterations}
         coarse = None
         if options.hand_over != "none":
             coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size)
 
         def finish(task: tuple[int, Positions, Positions, Positions]) -> Pair:
             number, given, noisy, smooth = task
-            result = start(noisy, smooth, topology)
-            if options.iterations is None:
-                result = step(result, topology.faces)
-            else:
-                result = step(result, topology.faces, options.iterations)
+            result = step(start(noisy, smooth, topology), topology.faces, **iterations)
             if self._force:
                 return given, result
             verdict = judge(noisy, result, find_noise(noisy, self._patient.probe), self._patient.probe)
@@ -192,12 +187,6 @@ class FrameDenoiser:
         return np.ascontiguousarray(frame, dtype=np.float64)
 
 
-def _what_is_left(found: Finding, level: float, n: int) -> Finding:
-    if level < UNSTEADY * found.edge:
-        return found
-    return Finding("unsteady", level, np.full(n, level), found.edge, "noise that changes with the frames")
-
-
 def filter_frames(coarse: CoarseFilter, frames: Frames, keep: float) -> Frames:
     """The coarse step for frames of shape (T, n, 3): one matrix product per block for all of them."""
     count, n, _ = frames.shape
@@ -208,3 +197,37 @@ def filter_frames(coarse: CoarseFilter, frames: Frames, keep: float) -> Frames:
 def coarse_frames(frames: Frames, faces: Faces, keep: float = KEEP, block_size: int = BLOCK_SIZE) -> Frames:
     """The coarse step alone, for frames of shape (T, n, 3)."""
     return filter_frames(CoarseFilter(faces, frames.shape[1], keep, block_size), frames, keep)
+
+
+def denoise(
+    mesh: TriangleMesh,
+    options: DenoiseOptions | None = None,
+    *,
+    goal: str = "shading",
+    strength: float = 1.0,
+    force: bool = False,
+    progress: Progress = silent,
+) -> TriangleMesh:
+    """Remove noise from the positions of a mesh; the faces stay."""
+    denoiser = FrameDenoiser(
+        mesh.positions, mesh.faces, options, goal=goal, strength=strength, force=force, progress=progress
+    )
+    (positions,) = denoiser([mesh.positions])
+    return mesh.moved(positions)[0]
+
+
+def denoise_frames(
+    frames: Frames,
+    faces: Faces,
+    options: DenoiseOptions | None = None,
+    *,
+    goal: str = "shading",
+    strength: float = 1.0,
+    force: bool = False,
+) -> Frames:
+    """Remove noise from every frame of a sequence that shares its faces (section 7.3 of the paper)."""
+    frames = np.ascontiguousarray(frames, dtype=np.float64)
+    if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
+        raise MeshError(f"frames must have shape (T, n, 3) with at least one frame, not {frames.shape}")
+    denoiser = FrameDenoiser(frames[0], faces, options, goal=goal, strength=strength, force=force)
+    return np.stack(list(denoiser(frames)))

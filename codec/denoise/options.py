@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.public import public
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP
-from bsm.codec.denoise.filters.fine import fine_step
-from bsm.codec.denoise.handover import hand_over
+from bsm.codec.denoise.normals import fine_step
+from bsm.codec.denoise.recipe import hand_over
 
 
 @public

@@ -1,4 +1,4 @@
-"""A way of denoising that can be run on any mesh: a hand-over, then iterations of a guided filter."""
+"""Recipes, which can be run on any mesh: what the coarse mesh hands over, then iterations of a filter of normals."""
 
 from __future__ import annotations
 
@@ -8,16 +8,60 @@ from itertools import islice
 
 import numpy as np
 
-from bsm.codec.arrays import Positions
+from bsm.bitstream.once import cached_property
+from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
-from bsm.codec.denoise.filters.bilateral_normal import filtered_normals
-from bsm.codec.denoise.filters.guidance import patch_guidance
-from bsm.codec.denoise.filters.guided import Guide, GuidedFilter, own_normals
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.handover import hand_over
+from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.normals import Guide, GuidedFilter, filtered_normals, own_normals, patch_guidance
+from bsm.codec.denoise.surface import Topology, face_geometry, surface_normals
+from bsm.codec.geometry.metrics import mean_edge_length
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 LOCAL = "local"
+SIGMA_R = 0.3
+"""Width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle (tools.constants)."""
+BLOCK_SIZE = 500
+"""About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle (tools.constants)."""
+
+HandOver = Callable[[Positions, Positions, Topology], Positions]
+"""From noisy and coarse positions, both (n, 3), to those from which the fine step starts (a new array)."""
+
+
+def coarse_positions(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
+    """The paper's: the fine step sees the coarse mesh alone, shape (n, 3)."""
+    return np.array(coarse)
+
+
+def coarse_heights(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
+    """Move the noisy vertices, shape (n, 3), along the normals of the coarse mesh, shape (n, 3), as far as that is."""
+    normals = surface_normals(coarse, topology)
+    return np.asarray(noisy + np.einsum("ij,ij->i", coarse - noisy, normals)[:, None] * normals)
+
+
+def coarse_normals(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
+    """Keep the noisy positions, shape (n, 3), after one joint bilateral pass that the coarse mesh's normals guide."""
+    guide = face_geometry(coarse, topology.faces).normals
+    return GuidedFilter(noisy, topology).step(noisy, lambda *_: guide, SIGMA_R)
+
+
+def noisy_positions(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
+    """No coarse step: the fine step sees the noisy mesh, shape (n, 3)."""
+    return np.array(noisy)
+
+
+HAND_OVERS: dict[str, HandOver] = {
+    "positions": coarse_positions,
+    "heights": coarse_heights,
+    "normals": coarse_normals,
+    "none": noisy_positions,
+}
+
+
+def hand_over(name: str) -> HandOver:
+    """The hand-over called `name`; `OptionError` if there is none."""
+    return named("hand-over", HAND_OVERS, name)
 
 
 @dataclass(frozen=True)
@@ -61,14 +105,20 @@ class Treatments:
             start = self._starts[where] = GuidedFilter(positions, self._topology)
         if recipe.guide == LOCAL:
             return filtered_normals(start.positions, self._topology, recipe.sigma_r)
-        return _guided(start, named("guide", GUIDES, recipe.guide), recipe.sigma_r)
+        return start.iterates(named("guide", GUIDES, recipe.guide), recipe.sigma_r)
 
-    def mean(self, steps: tuple[Step, ...]) -> Positions:
-        """The mean of what the steps make, shape (n, 3); any number of threads may ask."""
+    @cached_property
+    def learnt(self) -> Learnt:
+        """What the networks make of the mesh."""
+        return learnt(self.noisy, self._topology)
+
+    def mean(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
+        """The mean of what the steps make, shape (n, 3), with `share` of the learnt normals; any thread may ask."""
         for step in steps:
             if step not in self._results:
                 self._results[step] = next(islice(self.iterates(step.recipe), step.iterations, None))
-        return blend([self._results[step] for step in steps])
+        result = blend([self._results[step] for step in steps])
+        return joined(result, self.learnt, share, self._topology) if share > 0.0 else result
 
 
 def blend(results: list[Positions]) -> Positions:
@@ -77,8 +127,39 @@ def blend(results: list[Positions]) -> Positions:
     return mean
 
 
-def _guided(start: GuidedFilter, guide: Guide, sigma_r: float) -> Iterator[Positions]:
-    positions = start.positions
-    while True:
-        yield positions
-        positions = start.step(positions, guide, sigma_r)
+class Patient:
+    """A mesh that is welded, or a part of one."""
+
+    def __init__(self, faces: Faces, n: int) -> None:
+        self.topology = Topology(faces, n)
+        self.probe = Probe(self.topology)
+        self._last: Treatments | None = None
+        self._coarse: CoarseFilter | None = None
+        self._keep = 0.0
+
+    def expect(self, keep: float) -> None:
+        """Be ready for coarse meshes of up to that fraction of the frequencies."""
+        if self._coarse is None or self._keep < keep:
+            self._keep = keep
+            self._coarse = CoarseFilter(self.topology.faces, self.topology.n, keep, BLOCK_SIZE)
+
+    def smooth(self, positions: Positions, keep: float) -> Positions:
+        """The coarse mesh, shape (n, 3), as `positions` are."""
+        self.expect(keep)
+        assert self._coarse is not None
+        return self._coarse(positions, keep)
+
+    def edge(self, positions: Positions) -> float:
+        """Mean edge length of `positions`, shape (n, 3)."""
+        return mean_edge_length(positions, self.topology.faces)
+
+    def treated(self, positions: Positions) -> Treatments:
+        """What recipes make of `positions`, shape (n, 3)."""
+        return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology)
+
+    def treatments(self, positions: Positions) -> Treatments:
+        """What `treated` makes of `positions`, shape (n, 3), kept until others are asked for; by any thread."""
+        last = self._last
+        if last is None or last.noisy is not positions:
+            self._last = last = self.treated(positions)
+        return last

@@ -17,12 +17,10 @@ from itertools import islice
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.learnt.cascade import joined, learnt
-from bsm.codec.denoise.noise.estimate import NoiseLevel, estimate_noise
+from bsm.codec.denoise.learnt.cascade import joined
 from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.synthesis import Synthesis
-from bsm.codec.denoise.patient import Patient
-from bsm.codec.denoise.recipe import Recipe, Step, blend
+from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
+from bsm.codec.denoise.recipe import Patient, Recipe, Step, blend
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.codec.threads import ordered_map
 
@@ -42,7 +40,7 @@ MIRRORED = ("impulses",)
 """Kinds of which too little is known to draw such noise anew: it is taken as it was found."""
 
 Goal = Callable[[Reference, Positions], float]
-Told = Callable[[str], None]
+Progress = Callable[[str], None]
 
 
 def silent(stage: str) -> None:
@@ -69,17 +67,8 @@ GOALS: dict[str, Goal] = {"shading": shading, "shape": shape, "both": both}
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
-    """The best that a recipe does in a rehearsal."""
-
-    step: Step
-    error: float
-    result: Positions
-
-
-@dataclass(frozen=True, eq=False)
-class Winner:
-    """The steps whose mean did best in a rehearsal, its error, and what it made of the noisy mesh there."""
+class Outcome:
+    """Steps, the error of their mean in a rehearsal, and what it made of the noisy mesh there."""
 
     steps: tuple[Step, ...]
     error: float
@@ -90,15 +79,9 @@ class Rehearsal:
     """A mesh, a guess at it without noise, and the guess with noise again."""
 
     def __init__(
-        self,
-        noisy: Positions,
-        finding: Finding,
-        patient: Patient,
-        base: Recipe,
-        goal: Goal,
-        told: Told = silent,
+        self, noisy: Positions, finding: Finding, patient: Patient, base: Recipe, goal: Goal, progress: Progress
     ) -> None:
-        self._patient, self._topology, self._goal, self._told = patient, patient.topology, goal, told
+        self._patient, self._topology, self._goal, self._progress = patient, patient.topology, goal, progress
         self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
         self.level = estimate_noise(noisy, patient.smooth(noisy, base.keep), patient.topology)
         guesses = patient.treatments(noisy).iterates(base)
@@ -109,7 +92,7 @@ class Rehearsal:
             done = given
             self.rounds += 1
             self._rehearse(guess, self._synthesis.draw(guess, SEED))
-            wanted = self.attempt(base).step.iterations
+            wanted = self.attempt(base).steps[0].iterations
             if wanted <= 1.5 * given + 0.5:
                 break
             given = wanted
@@ -118,26 +101,23 @@ class Rehearsal:
     def rehearse(self, guess: Positions) -> None:
         """Make another guess, shape (n, 3), noisy, with other noise."""
         self.rounds += 1
-        mirrored = self._finding.kind in MIRRORED
-        self._rehearse(
-            guess, 2.0 * guess - self._given if mirrored else self._synthesis.draw(guess, SEED + self.rounds)
-        )
+        if self._finding.kind in MIRRORED:
+            self._rehearse(guess, 2.0 * guess - self._given)
+        else:
+            self._rehearse(guess, self._synthesis.draw(guess, SEED + self.rounds))
 
     def perform(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
         """The steps' result, shape (n, 3), on the mesh that is rehearsed for, with `share` of the learnt normals."""
-        result = self._patient.treatments(self._given).mean(steps)
-        if share > 0.0:
-            result = joined(result, self._patient.learner(self._given), share, self._topology)
-        return self._within(result, self._given)
+        return self._within(self._patient.treatments(self._given).mean(steps, share), self._given)
 
     def changed(self, steps: tuple[Step, ...], share: float) -> float:
         """How far the result is from the mesh that is rehearsed for, in the unit of the errors."""
         return self._goal(Reference(self._given, self._topology.faces), self.perform(steps, share))
 
-    def weigh(self, winner: Winner) -> tuple[float, float]:
+    def weigh(self, winner: Outcome) -> tuple[float, float]:
         """The share of the learnt normals in the mean with the winner's, and the error of that over the winner's."""
-        other = learnt(self.noisy, self._topology)
-        means = (joined(winner.result, other, share, self._topology) for share in LEARNT_SHARES)
+        learnt = self._treatments.learnt
+        means = (joined(winner.result, learnt, share, self._topology) for share in LEARNT_SHARES)
         errors = np.array([self._goal(self.truth, self._within(mean, self.noisy)) for mean in means])
         best = int(np.flatnonzero(errors <= GAIN * errors.min())[-1])
         return LEARNT_SHARES[best], float(errors[best]) / (winner.error or 1.0)
@@ -152,42 +132,39 @@ class Rehearsal:
         """The error of doing nothing."""
         return self._goal(self.truth, self.noisy)
 
-    def attempt(self, recipe: Recipe) -> Trial:
+    def attempt(self, recipe: Recipe) -> Outcome:
         """Iterate until nothing has improved for a while."""
-        best = Trial(Step(recipe, 0), np.inf, self.noisy)
+        best = Outcome((Step(recipe, 0),), np.inf, self.noisy)
         run = self._treatments.iterates(recipe)
         for count, positions in enumerate(islice(run, MOST_ITERATIONS + 1)):
             result = self._within(positions, self.noisy)
             error = self._goal(self.truth, result)
             if error < best.error:
-                best = Trial(Step(recipe, count), error, result)
-            elif count >= best.step.iterations + PATIENCE:
+                best = Outcome((Step(recipe, count),), error, result)
+            elif count >= best.steps[0].iterations + PATIENCE:
                 break
         return best
 
-    def compete(self, recipes: tuple[Recipe, ...], members: int = MOST_MEMBERS) -> Winner:
+    def compete(self, recipes: tuple[Recipe, ...], members: int = MOST_MEMBERS) -> Outcome:
         """The steps whose mean is best, found greedily."""
-        trials = []
-        for number, trial in enumerate(ordered_map(self.attempt, recipes, None), start=1):
-            self._told(f"rehearsing {number} of {len(recipes)}")
-            trials.append(trial)
-        trials.sort(key=lambda trial: trial.error)
-        chosen, error = [trials[0]], trials[0].error
+        alone = []
+        for number, outcome in enumerate(ordered_map(self.attempt, recipes, None), start=1):
+            self._progress(f"rehearsing {number} of {len(recipes)}")
+            alone.append(outcome)
+        alone.sort(key=lambda outcome: outcome.error)
+        chosen, error = [alone[0]], alone[0].error
         while len(chosen) < members:
-            errors = [self._goal(self.truth, blend([member.result for member in (*chosen, trial)])) for trial in trials]
+            errors = [self._goal(self.truth, blend([member.result for member in (*chosen, one)])) for one in alone]
             best = int(np.argmin(errors))
             if errors[best] > GAIN * error:
                 break
-            chosen.append(trials[best])
+            chosen.append(alone[best])
             error = errors[best]
-        steps = tuple(trial.step for trial in chosen)
-        result = blend([trial.result for trial in chosen])
-        return Winner(steps[:1] if len(set(steps)) == 1 else steps, error, result)
+        steps = tuple(outcome.steps[0] for outcome in chosen)
+        result = blend([outcome.result for outcome in chosen])
+        return Outcome(steps[:1] if len(set(steps)) == 1 else steps, error, result)
 
     def _within(self, positions: Positions, otherwise: Positions) -> Positions:
         if self._finding.grid is not None:
             positions = self._finding.grid.within_cells(otherwise, positions)
         return positions if self._touched.all() else np.where(self._touched[:, None], positions, otherwise)
-
-
-__all__ = ["GOALS", "Goal", "NoiseLevel", "Rehearsal", "Trial"]

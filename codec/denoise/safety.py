@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.filters.topology import Mask
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.surface import Mask
 
 MOST = 1.25
 """Movement along the normals over noise, from which on more has gone than noise."""

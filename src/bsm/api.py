@@ -539,7 +539,7 @@ def denoise(
 
     chosen = _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options)
     with watched("denoising") as progress:
-        return denoise_mesh(as_mesh(mesh), chosen, goal=goal, strength=strength, force=force, told=progress.stage)
+        return denoise_mesh(as_mesh(mesh), chosen, goal=goal, strength=strength, force=force, progress=progress.stage)
 
 
 def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:

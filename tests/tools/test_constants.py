@@ -27,16 +27,16 @@ def test_a_changed_constant_is_seen_by_importers_and_defaults():
 import sys
 from tools.constants.changed import change
 change(*sys.argv[1:3], 2.0)
-from bsm.codec.denoise.filters import guided
+from bsm.codec.denoise import normals
 from bsm.codec.static.choice import plan
-print(guided.SIGMA_R, guided.GuidedFilter.step.__defaults__[1], plan.STIFFNESS)
+print(normals.SIGMA_R, normals.GuidedFilter.step.__defaults__[1], plan.STIFFNESS)
 """
 
     def said(*constant):
         command = [sys.executable, "-c", script, *constant]
         return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
 
-    assert said("bsm.codec.denoise.filters.guided", "SIGMA_R").stdout.split() == ["0.7", "0.7", "8.0"]
+    assert said("bsm.codec.denoise.normals", "SIGMA_R").stdout.split() == ["0.7", "0.7", "8.0"]
     assert said("bsm.codec.static.rules", "STIFFNESS").stdout.split() == ["0.35", "0.35", "16.0"]
     assert "has no constant MISSING" in said("bsm.codec.static.rules", "MISSING").stderr
 

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.filters.vertex_update import face_geometry
 from bsm.codec.denoise.learnt.descriptors import BASE
+from bsm.codec.denoise.surface import Topology, face_geometry
 from tools.made_shapes import made_shape, mesh_of
 from tools.noise import gaussian_along_normals
 from tools.train_denoiser import Example, described, train

@@ -29,9 +29,9 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import FrameDenoiser
 from bsm.codec.denoise.automatic import denoise_automatically
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.filters.guided import guided_results
-from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.normals import GuidedFilter
 from bsm.codec.denoise.recipe import Recipe, Treatments
+from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import read_mesh
@@ -389,8 +389,8 @@ def automatic_table(folder: Path) -> dict[str, list[float]]:
         topology = Topology(faces, len(noisy))
         reference = Reference(clean, faces)
         coarse = CoarseFilter(faces, len(noisy))(noisy)
-        alone = [reference.theta(positions) for positions in guided_results(noisy, topology, 40)]
-        after = [reference.theta(positions) for positions in guided_results(coarse, topology, 40)]
+        alone = [reference.theta(positions) for positions in islice(GuidedFilter(noisy, topology).iterates(), 41)]
+        after = [reference.theta(positions) for positions in islice(GuidedFilter(coarse, topology).iterates(), 41)]
         start = time.perf_counter()
         denoised, choice = denoise_automatically(noisy, faces)
         seconds = time.perf_counter() - start

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.filters.vertex_update import Floats, face_geometry, follow_normals
 from bsm.codec.denoise.learnt.descriptors import descriptions, mirrored
 from bsm.codec.denoise.learnt.network import Network, read_networks
+from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals
 
 VERTEX_ITERATIONS = 15
 IMAGES = ((False, False), (True, True))
@@ -45,22 +44,6 @@ def learnt(positions: Positions, topology: Topology) -> Learnt:
         normals = regressed_normals(positions, topology, network)
         positions = follow_normals(positions, topology, normals, VERTEX_ITERATIONS)
     return Learnt(positions, normals)
-
-
-class Learner:
-    """`learnt` for the meshes of one connectivity, which remembers the last one that it was asked for."""
-
-    def __init__(self, topology: Topology) -> None:
-        self._topology = topology
-        self._last: tuple[Positions, Learnt] | None = None
-
-    def __call__(self, positions: Positions) -> Learnt:
-        """What the networks make of positions, which nobody may change in place; any number of threads may ask."""
-        last = self._last
-        if last is None or last[0] is not positions:
-            last = (positions, learnt(positions, self._topology))
-            self._last = last
-        return last[1]
 
 
 def joined(positions: Positions, other: Learnt, share: float, topology: Topology) -> Positions:

@@ -2,9 +2,8 @@
  * and heights go about it on two circles. */
 #include <math.h>
 
-#include "codec/denoise/filters/exponential.h"
-#include "codec/denoise/filters/vectors3.h"
-#include "codec/denoise/learnt/descriptors.h"
+#include "codec/denoise/denoise.h"
+#include "codec/denoise/vectors.h"
 
 enum { RANGES = 4, SCALES = 2, SECTORS = 8, RINGS = 2, FILTERED = SCALES * (2 * RANGES + 1), LIKE = SCALES * 2 * RANGES };
 enum { DESCRIBED = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + LIKE + SCALES + 1 };

@@ -9,11 +9,15 @@ import numpy.typing as npt
 
 from bsm.codec import _kernels
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.filters.guidance import patch_guidance
-from bsm.codec.denoise.filters.kernel import filter_normals
-from bsm.codec.denoise.filters.reach import reach, themselves
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.filters.vertex_update import FaceGeometry, Floats, face_geometry, mean_centroid_distance
+from bsm.codec.denoise.normals import filter_normals, patch_guidance
+from bsm.codec.denoise.surface import (
+    FaceGeometry,
+    Floats,
+    Topology,
+    face_geometry,
+    mean_centroid_distance,
+    reach,
+)
 from bsm.codec.geometry.incidence import Rows
 
 Singles = npt.NDArray[np.float32]
@@ -40,8 +44,7 @@ def descriptions(positions: Positions, topology: Topology, batch: int = BATCH) -
         return
     geometry = face_geometry(positions, topology.faces)
     distance = mean_centroid_distance(geometry.centroids, topology.pairs)
-    itself = themselves(len(geometry.areas))
-    near = reach(geometry.centroids, itself, geometry.centroids, topology.patches, RADIUS * distance)
+    near = reach(geometry.centroids, topology.patches, RADIUS * distance)
     guide = patch_guidance(geometry, topology)
     smooth, axes = (filter_normals(geometry, geometry.normals, near, scale * distance, np.inf) for scale in (1.0, 2.0))
     repeated = [_repeated(geometry, topology.patches, distance, *setting) for setting in REPEATED]

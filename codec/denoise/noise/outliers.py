@@ -14,8 +14,8 @@ import numpy as np
 from scipy.sparse import linalg
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.filters.vertex_update import Floats
 from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.surface import Floats
 from bsm.codec.geometry.incidence import Rows
 from bsm.codec.geometry.metrics import mean_edge_length
 

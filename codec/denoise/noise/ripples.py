@@ -15,8 +15,8 @@ import numpy as np
 from scipy import fft
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.filters.vertex_update import Floats
 from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
+from bsm.codec.denoise.surface import Floats
 from bsm.codec.geometry.metrics import mean_edge_length
 
 LENGTHS = (2.8, 10.0)
@@ -55,7 +55,7 @@ class Ripples:
     displacements: Floats
 
     @property
-    def said(self) -> str:
+    def description(self) -> str:
         """A few words on the waves."""
         lengths = ", ".join(f"{length:.1f}" for length in self.lengths)
         return f"waves of {lengths} mean edges across the whole mesh, {self.level:.2f} edges high"

@@ -187,7 +187,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
             goal=args.goal,
             strength=args.strength,
             force=args.force,
-            told=progress.stage,
+            progress=progress.stage,
         )
         (positions,) = denoiser([mesh.positions])
     unit = denoise_report.unit_of(mesh.metadata)

@@ -7,9 +7,8 @@ import pytest
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.denoise.coarse import RULES, CoarseFilter
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.filters.vertex_update import face_geometry, vertex_normals
-from bsm.codec.denoise.handover import HAND_OVERS, hand_over
+from bsm.codec.denoise.recipe import HAND_OVERS, hand_over
+from bsm.codec.denoise.surface import Topology, face_geometry, vertex_normals
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import theta
 from bsm.codec.signal.chain import ChainRules

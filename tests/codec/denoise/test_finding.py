@@ -5,14 +5,13 @@ import pytest
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import denoise_automatically
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.finding import Finding, find_grid
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.ripples import find_ripples
-from bsm.codec.denoise.noise.rounding import find_grid
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.safety import judge, keep_good, restraint
+from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.metrics import Reference, mean_edge_length, theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 from tools.noise import (

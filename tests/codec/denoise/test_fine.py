@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import OptionError
-from bsm.codec.denoise.filters.bilateral_normal import bilateral_normal_filtering
-from bsm.codec.denoise.filters.fine import FINE_STEPS, FineStep, fine_step
+from bsm.codec.denoise.normals import FINE_STEPS, FineStep, bilateral_normal_filtering, fine_step
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
 from tools.noise import gaussian_along_normals

@@ -3,11 +3,8 @@
 import numpy as np
 import pytest
 
-from bsm.codec.denoise.filters.guidance import patch_guidance
-from bsm.codec.denoise.filters.guided import GuidedFilter, guided_normal_filtering, own_normals
-from bsm.codec.denoise.filters.kernel import filter_normals
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.filters.vertex_update import face_geometry
+from bsm.codec.denoise.normals import GuidedFilter, filter_normals, guided_normal_filtering, own_normals, patch_guidance
+from bsm.codec.denoise.surface import Topology, face_geometry
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import Partners, cube, grid
 from tools.noise import gaussian_along_normals

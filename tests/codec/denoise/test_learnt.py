@@ -5,15 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.denoise import automatic, rehearsal
-from bsm.codec.denoise.filters.topology import Topology
-from bsm.codec.denoise.filters.vertex_update import face_geometry
-from bsm.codec.denoise.learnt.cascade import Learner, Learnt, joined, learnt, regressed_normals
+from bsm.codec.denoise import automatic, recipe
+from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
 from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, write_networks
 from bsm.codec.denoise.noise.search import find_noise
-from bsm.codec.denoise.patient import Patient
+from bsm.codec.denoise.recipe import Patient
 from bsm.codec.denoise.rehearsal import LEARNT_SHARES
+from bsm.codec.denoise.surface import Topology, face_geometry
 from bsm.codec.geometry.metrics import rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tools.noise import gaussian_along_normals
@@ -130,15 +129,15 @@ def test_the_choice_says_how_much_of_it_is_learnt(monkeypatch: pytest.MonkeyPatc
     finding = find_noise(noisy, patient.probe)
     for known, share in ((clean, LEARNT_SHARES[-1]), (noisy, 0.0)):
         normals = face_geometry(known, faces).normals
-        monkeypatch.setattr(rehearsal, "learnt", lambda *_: Learnt(known, normals))  # noqa: B023
+        monkeypatch.setattr(recipe, "learnt", lambda *_: Learnt(known, normals))  # noqa: B023
         assert automatic.choose(noisy, finding, patient).learnt == share
 
 
-def test_a_learner_remembers_one_mesh_alone() -> None:
+def test_treatments_are_kept_for_one_mesh_alone() -> None:
     _, noisy, faces = noisy_sphere(8)
-    learner = Learner(Topology(faces, len(noisy)))
-    first = learner(noisy)
-    assert learner(noisy) is first
-    other = learner(2.0 * noisy)
-    assert other is not first and learner(noisy) is not first
-    assert (learner(noisy).positions == first.positions).all()
+    patient = Patient(faces, len(noisy))
+    first = patient.treatments(noisy)
+    assert patient.treatments(noisy) is first and first.learnt is first.learnt
+    other = patient.treatments(2.0 * noisy)
+    assert other is not first and patient.treatments(noisy) is not first
+    assert (patient.treatments(noisy).learnt.positions == first.learnt.positions).all()

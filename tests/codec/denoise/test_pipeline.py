@@ -6,7 +6,7 @@ import pytest
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.denoise import DenoiseOptions, coarse_frames, denoise, denoise_automatically, denoise_frames
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.filters.guided import guided_normal_filtering
+from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import theta
 from tests.codec.denoise.denoise_shapes import sphere

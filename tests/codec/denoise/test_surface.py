@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from bsm.codec.denoise.filters.reach import reach, themselves
-from bsm.codec.denoise.filters.topology import Topology, without_first
-from bsm.codec.denoise.filters.vertex_update import (
+from bsm.codec.denoise.surface import (
+    Topology,
     face_geometry,
     follow_normals,
     mean_centroid_distance,
+    reach,
     vertex_normals,
+    without_first,
 )
 from bsm.codec.geometry.incidence import Rows, vertex_neighbours
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
@@ -67,20 +68,10 @@ def test_reach_stays_in_the_ball_and_on_the_surface() -> None:
     flat, faces = grid(6)
     positions = np.concatenate([flat, flat + np.array([0, 0, 0.1])])
     both = np.concatenate([faces, faces + len(flat)])
-    near = reach(positions, themselves(len(positions)), positions, vertex_neighbours(both, len(positions)), 2.0)
+    near = reach(positions, vertex_neighbours(both, len(positions)), 2.0)
     centre = 24
     expected = np.flatnonzero(np.linalg.norm(flat - flat[centre], axis=1) <= 2.0)
     assert sorted(row(near, centre)) == expected.tolist()
-
-
-def test_reach_takes_a_radius_for_each_centre() -> None:
-    positions, faces = grid(4)
-    neighbours = vertex_neighbours(faces, len(positions))
-    radii = np.zeros(len(positions))
-    radii[12] = 1.0
-    near = reach(positions, themselves(len(positions)), positions, neighbours, radii)
-    assert row(near, 0) == [0]
-    assert len(row(near, 12)) == 5
 
 
 def test_vertex_normals_of_a_sphere_point_outwards() -> None:

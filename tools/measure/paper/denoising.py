@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,8 @@ import numpy as np
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise import FINE_STEPS, denoise_automatically
 from bsm.codec.denoise.coarse import RULES, CoarseFilter
-from bsm.codec.denoise.filters.guided import guided_normal_filtering, guided_results
-from bsm.codec.denoise.filters.topology import Topology
+from bsm.codec.denoise.normals import GuidedFilter, guided_normal_filtering
+from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
 from bsm.evaluation.curve import Spectral, paper_options
@@ -82,7 +83,10 @@ def coarse_to_fine(study: Study) -> Exhibit:
         denoised, _ = denoise_automatically(model.noisy, model.faces)
         automatic = reference.theta(denoised)
         for way, start in (("alone", model.noisy), ("coarse first", coarse)):
-            angles = [reference.theta(positions) for positions in guided_results(start, topology, COUNTS[-1])]
+            angles = [
+                reference.theta(positions)
+                for positions in islice(GuidedFilter(start, topology).iterates(), COUNTS[-1] + 1)
+            ]
             curves[f"{name}, {way}"] = angles
             cells = [Cell(angles[count]) for count in COUNTS]
             rows.append((f"{name}, {way}", (*cells, Cell(min(angles)), Cell(automatic))))

@@ -15,7 +15,7 @@ from bsm.codec.blocks.blend import degree_weights
 from bsm.codec.blocks.overlap import Blocks, block_size, grow_blocks
 from bsm.codec.blocks.partition import Partition, metis_partition
 from bsm.codec.denoise.coarse import OVERLAP, RULES, CoarseFilter
-from bsm.codec.denoise.filters.guided import guided_normal_filtering
+from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import face_normals
 from tools.measure.paper.pictures import error_colors, heat, part_colors, portrait

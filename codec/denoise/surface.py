@@ -1,17 +1,19 @@
-"""Who is near whom on a surface, as far as the faces alone say it."""
+"""Who is near whom on a surface, the geometry of its faces, and vertices that follow given normals."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Indices
+from bsm.codec.arrays import Faces, Indices, Positions
 from bsm.codec.geometry.incidence import Rows, vertex_faces, vertex_neighbours
 
+Floats = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 CROWD = 32
@@ -95,3 +97,68 @@ def without_first(rows: Rows) -> Rows:
     kept = np.ones(len(rows.members), dtype=np.bool_)
     kept[rows.starts[:-1]] = False
     return Rows(rows.starts - np.arange(len(rows.starts)), rows.members[kept])
+
+
+def reach(points: Positions, adjacent: Rows, radius: float) -> Rows:
+    """Points that are reached from each point over adjacent ones, all of them within a radius of it."""
+    count = len(points)
+    starts, seen, reached = np.zeros(count + 1, np.int64), np.full(count, -1, np.int32), np.empty(33 * count, np.int32)
+    done = 0
+    while (done := _kernels.reach(points, *adjacent, radius, done, seen, starts, reached)) < count:
+        # A row has at most as many members as there are points; with room for one, the kernel goes on.
+        reached = np.concatenate([reached, np.empty(len(reached) + count, np.int32)])
+    return Rows(starts, reached[: starts[count]].copy())
+
+
+class FaceGeometry(NamedTuple):
+    """Centroids (m, 3), areas (m,) and unit normals (m, 3) of the faces; a face without area has normal zero."""
+
+    centroids: Floats
+    areas: Floats
+    normals: Floats
+
+
+def face_geometry(positions: Positions, faces: Faces) -> FaceGeometry:
+    """Centroids, areas and unit normals of `faces`, shape (m, 3), on `positions`, shape (n, 3)."""
+    m = len(faces)
+    geometry = FaceGeometry(np.empty((m, 3)), np.empty(m), np.empty((m, 3)))
+    _kernels.face_geometry(
+        np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), *geometry
+    )
+    return geometry
+
+
+def vertex_normals(normals: Floats, around: Rows) -> Floats:
+    """Unit vertex normals, shape (n, 3): the plain mean of the normals, shape (m, 3), of the faces around."""
+    averaged = np.empty((len(around.starts) - 1, 3))
+    _kernels.vertex_normals(normals, around.starts, around.members, averaged)
+    return averaged
+
+
+def surface_normals(positions: Positions, topology: Topology) -> Floats:
+    """Unit vertex normals of `positions`, shape (n, 3)."""
+    return vertex_normals(face_geometry(positions, topology.faces).normals, topology.around)
+
+
+def pair_distances(values: Floats, pairs: Indices) -> Floats:
+    """How far the rows of `values`, shape (m, 3), that each of `pairs`, shape (e, 2), names are from each other."""
+    distances = np.empty(len(pairs))
+    _kernels.pair_distances(values, pairs, distances)
+    return distances
+
+
+def mean_centroid_distance(centroids: Floats, pairs: Indices) -> float:
+    """Mean distance between the centroids, shape (m, 3), of faces that share an edge, `pairs`, shape (e, 2)."""
+    if len(pairs) == 0:
+        return 1.0
+    return float(pair_distances(centroids, pairs).mean()) or 1.0
+
+
+def follow_normals(
+    positions: Positions, topology: Topology, normals: Floats, iterations: int, free: Mask | None = None
+) -> Positions:
+    """Move the vertices until the faces agree with given normals (Sun et al. 2007; equations 12 and 13 of the paper)"""
+    moved, offsets = np.array(positions, dtype=np.float64), np.empty(len(topology.faces))
+    movable = np.ones(len(positions), np.uint8) if free is None else free.astype(np.uint8)
+    _kernels.follow_normals(moved, topology.faces, *topology.around, normals, iterations, movable, offsets)
+    return moved

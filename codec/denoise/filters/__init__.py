@@ -1,1 +1,0 @@
-"""Fine filters: surfaces that follow filtered normals, and relatives."""

@@ -1,0 +1,176 @@
+/* Who is near whom on a surface, the geometry of its faces, and vertices that follow normals. */
+#include "codec/denoise/denoise.h"
+#include "codec/denoise/vectors.h"
+
+/* First place in an ascending row that is not below `value`. */
+static int64_t place_of(const int32_t *row, int64_t size, int32_t value) {
+    int64_t low = 0, high = size;
+    while (low < high) {
+        int64_t middle = (low + high) / 2;
+        if (row[middle] < value) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/* Each face with the faces that share a vertex with it, itself first; in a fan of more than 2 `crowd` faces only the
+ * `crowd` before and behind. Returns the number of members; `seen` is scratch, one entry a face. */
+int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen, Longs starts,
+                     Ints members) {
+    int64_t end = 0;
+    for (int64_t f = 0; f < faces.rows; f++) seen.data[f] = -1;
+    starts.data[0] = 0;
+    for (int64_t f = 0; f < faces.rows; f++) {
+        seen.data[f] = (int32_t)f;
+        members.data[end++] = (int32_t)f;
+        for (int corner = 0; corner < 3; corner++) {
+            int32_t v = faces.data[3 * f + corner];
+            int64_t first = around_starts.data[v], last = around_starts.data[v + 1];
+            if (last - first > 2 * crowd) {
+                int64_t place = first + place_of(around.data + first, last - first, (int32_t)f);
+                first = largest(first, place - crowd);
+                last = least(last, place + crowd + 1);
+            }
+            for (int64_t k = first; k < last; k++) {
+                int32_t g = around.data[k];
+                if (seen.data[g] != f) {
+                    seen.data[g] = (int32_t)f;
+                    members.data[end++] = g;
+                }
+            }
+        }
+        starts.data[f + 1] = end;
+    }
+    return end;
+}
+
+/* For each patch, the rows of `pairs` of which both faces lie in it. Returns how many there are, and lists as many as
+ * `inner` has room for. `first`, `own`, `inside` are scratch: one entry a face and one more, a pair, a face. */
+int64_t inner_pairs(ConstLongs starts, ConstInts members, ConstInts2 pairs, Longs first, Ints own, Ints inside,
+                    Longs inner_starts, Ints inner) {
+    int64_t m = starts.size - 1, end = 0;
+    for (int64_t f = 0; f <= m; f++) first.data[f] = 0;
+    for (int64_t p = 0; p < pairs.rows; p++) first.data[pairs.data[2 * p]]++;
+    int64_t before = 0;
+    for (int64_t f = 0; f <= m; f++) {
+        int64_t count = first.data[f];
+        first.data[f] = before;
+        before += count;
+    }
+    for (int64_t p = 0; p < pairs.rows; p++) own.data[first.data[pairs.data[2 * p]]++] = (int32_t)p;
+    for (int64_t f = m; f > 0; f--) first.data[f] = first.data[f - 1];
+    first.data[0] = 0;
+    for (int64_t f = 0; f < m; f++) inside.data[f] = -1;
+    inner_starts.data[0] = 0;
+    for (int64_t f = 0; f < m; f++) {
+        for (int64_t k = starts.data[f]; k < starts.data[f + 1]; k++) inside.data[members.data[k]] = (int32_t)f;
+        for (int64_t k = starts.data[f]; k < starts.data[f + 1]; k++) {
+            int32_t g = members.data[k];
+            for (int64_t q = first.data[g]; q < first.data[g + 1]; q++) {
+                if (inside.data[pairs.data[2 * (int64_t)own.data[q] + 1]] != f) continue;
+                if (end < inner.size) inner.data[end] = own.data[q];
+                end++;
+            }
+        }
+        inner_starts.data[f + 1] = end;
+    }
+    return end;
+}
+
+/* Breadth-first from each point over adjacent points within the radius of it, point `begin` on. Returns the point before
+ * which it stopped because a row of it might not fit into `reached`. `seen`, one entry a point, holds -1 when the first
+ * point is asked for. */
+int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t begin, Ints seen,
+              Longs reached_starts, Ints reached) {
+    int64_t end = begin > 0 ? reached_starts.data[begin] : 0;
+    reached_starts.data[0] = 0;
+    for (int64_t i = begin; i < points.rows; i++) {
+        if (end + points.rows > reached.size) return i;
+        Vector3 centre = row_of(points.data, i);
+        int64_t head = end;
+        reached.data[end++] = seen.data[i] = (int32_t)i;
+        while (head < end) {
+            int32_t g = reached.data[head++];
+            for (int64_t k = starts.data[g]; k < starts.data[g + 1]; k++) {
+                int32_t p = members.data[k];
+                if (seen.data[p] == i) continue;
+                seen.data[p] = (int32_t)i;
+                Vector3 apart = less(row_of(points.data, p), centre);
+                if (dot(apart, apart) <= radius * radius) reached.data[end++] = p;
+            }
+        }
+        reached_starts.data[i + 1] = end;
+    }
+    return points.rows;
+}
+
+void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids, Doubles areas, Doubles2 normals) {
+    for (int64_t f = 0; f < faces.rows; f++) {
+        const int32_t *face = faces.data + 3 * f;
+        Vector3 a = row_of(positions.data, face[0]), b = row_of(positions.data, face[1]);
+        Vector3 c = row_of(positions.data, face[2]), normal = cross(less(b, a), less(c, a));
+        areas.data[f] = 0.5 * length_of(normal);
+        put_row(normals.data, f, direction(normal, (Vector3){0.0, 0.0, 0.0}));
+        put_row(centroids.data, f, (Vector3){(a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0, (a.z + b.z + c.z) / 3.0});
+    }
+}
+
+/* Distance between the two rows of `values` that each pair names. */
+void pair_distances(ConstDoubles2 values, ConstInts2 pairs, Doubles distances) {
+    for (int64_t p = 0; p < distances.size; p++) {
+        const int32_t *pair = pairs.data + 2 * p;
+        distances.data[p] = length_of(less(row_of(values.data, pair[0]), row_of(values.data, pair[1])));
+    }
+}
+
+/* The plain mean of the normals of the faces around each vertex, of length one; zero where they cancel. */
+void vertex_normals(ConstDoubles2 normals, ConstLongs starts, ConstInts around, Doubles2 averaged) {
+    for (int64_t v = 0; v < starts.size - 1; v++) {
+        Vector3 sum = {0.0, 0.0, 0.0};
+        for (int64_t k = starts.data[v]; k < starts.data[v + 1]; k++)
+            sum = plus_scaled(sum, 1.0, row_of(normals.data, around.data[k]));
+        put_row(averaged.data, v, direction(sum, (Vector3){0.0, 0.0, 0.0}));
+    }
+}
+
+/* Every iteration moves each free vertex by the mean of its offsets from the planes through its faces' centroids with
+ * the given normals, in place and in turn. `offsets` is scratch, one entry a face. */
+void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, ConstDoubles2 normals,
+                    int64_t iterations, ConstBytes free, Doubles offsets) {
+    for (int64_t iteration = 0; iteration < iterations; iteration++) {
+        for (int64_t f = 0; f < faces.rows; f++) {
+            const int32_t *face = faces.data + 3 * f;
+            Vector3 a = row_of(positions.data, face[0]), b = row_of(positions.data, face[1]);
+            Vector3 c = row_of(positions.data, face[2]);
+            Vector3 sum = {a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
+            offsets.data[f] = dot(row_of(normals.data, f), sum) / 3.0;
+        }
+        for (int64_t v = 0; v < positions.rows; v++) {
+            int64_t first = starts.data[v], last = starts.data[v + 1];
+            if (first == last || !free.data[v]) continue;
+            Vector3 place = row_of(positions.data, v), sum = {0.0, 0.0, 0.0};
+            for (int64_t k = first; k < last; k++) {
+                Vector3 normal = row_of(normals.data, around.data[k]);
+                sum = plus_scaled(sum, offsets.data[around.data[k]] - dot(normal, place), normal);
+            }
+            put_row(positions.data, v, plus_scaled(place, 1.0 / (double)(last - first), sum));
+        }
+    }
+}
+
+/* The random-walk Laplacian: every vertex less the mean of its neighbours; zero where it has none. */
+void minus_mean(ConstDoubles2 values, ConstLongs starts, ConstInts members, Doubles2 rest) {
+    int64_t width = values.columns;
+    for (int64_t v = 0; v < values.rows; v++) {
+        int64_t first = starts.data[v], last = starts.data[v + 1];
+        for (int64_t axis = 0; axis < width; axis++) {
+            double total = 0.0;
+            for (int64_t k = first; k < last; k++) total += values.data[width * members.data[k] + axis];
+            rest.data[width * v + axis] =
+                first == last ? 0.0 : values.data[width * v + axis] - total / (double)(last - first);
+        }
+    }
+}
