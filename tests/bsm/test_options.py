@@ -13,7 +13,7 @@ from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
-from bsm.commands.encode_options import BOUND_FLAGS, TARGET_FLAGS
+from bsm.commands import encode_options as flags
 from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
 
 
@@ -63,8 +63,8 @@ def test_targets(keyword, kind):
 
 
 def test_the_command_line_has_the_same_targets():
-    assert {name.replace("-", "_"): kind for name, kind, _, _ in TARGET_FLAGS} == TARGETS
-    assert tuple(name.replace("-", "_") for name, _, _ in BOUND_FLAGS) == BOUNDS
+    assert [one.field for one in flags.TARGETS] == list(TARGETS)
+    assert [one.field for one in flags.BOUNDS] == list(BOUNDS)
 
 
 def test_sequences():

@@ -1,27 +1,56 @@
-"""bsm compare: how far one mesh is from another of the same faces."""
+"""bsm compare: how far one mesh or sequence is from another of the same faces."""
 
 from __future__ import annotations
 
 import argparse
-from dataclasses import asdict
+import io
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import asdict, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bsm.bitstream.errors import MeshError
-from bsm.codec.arrays import Positions
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import MeshError, OptionError
+from bsm.codec.arrays import Faces, Order, Positions
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.denoise_report import length, unit_of
-from bsm.commands.limits import add_limits_flag, limits_of
-from bsm.commands.reader import add_reader_flag
-from bsm.console import Console, finite, print_json, printable
+from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
+from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.about import about
-from bsm.files.mesh import read_mesh
+from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.motion.folder import names_many
+from bsm.files.motion.frames import Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
-from bsm.files.permutation import read_permutation
+from bsm.files.permutation import in_order_of, read_permutation
 from bsm.files.pipes import read_chunks
+from bsm.files.sequence import open_sequence
+from bsm.files.sequence_stream import (
+    Pieces,
+    SequenceStream,
+    all_frames,
+    numbered,
+    numbers_of,
+    peek_header,
+    pieces_of,
+)
 from bsm.files.stream import decode_whole, is_stream
+from bsm.loops import Loops
 
 if TYPE_CHECKING:
     from bsm.codec.look.measure import Look
+
+
+COLORED = ("ply", "obj", "glb")
+"""Formats that hold colours of vertices."""
+SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
+"""Colours from no distance to the largest one that is shown, evenly: after ColorBrewer's RdYlBu."""
+SHOWN = 99.0
+"""Percentile of the distances that has the last colour: single vertices shall not make all others blue."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -59,9 +88,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> None:
     """Compare two meshes."""
-    from bsm.commands.sequence_compare import compare_if_sequences
-
-    if compare_if_sequences(args, console):
+    if _compare_sequences(args, console):
         return
     with console.progress("reading") as progress:
         original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
@@ -100,9 +127,7 @@ def _compared(
     if paired.joined:
         console.note("vertices at one position are compared as one")
     if args.map:
-        from bsm.commands.distance_map import write_map
-
-        write_map(args.map, paired.original, paired.positions, overwrite=args.force)
+        _write_map(args.map, paired.original, paired.positions, overwrite=args.force)
     result = asdict(compare_meshes(original, decoded, paired))
     attributes = {name: errors and _known(errors) for name, errors in result.pop("attributes").items()}
     if args.surface:
@@ -174,3 +199,162 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
     for note in source.notes:
         console.note(f"{path}: {note}")
     return source.mesh.without_isolated_vertices()[0]
+
+
+def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
+    """Compare two sequences; False if neither is one."""
+    paths, changing = (args.original, args.decoded), Wanted(runs=True)
+    with console.progress("reading", "frames") as progress:
+        sides = [_load_sequence(path, args, changing if names_many(path) else None) for path in paths]
+        if sides == [None, None]:
+            return False
+        # An animated glTF is a sequence where the other one is.
+        sides = [_load_sequence(path, args, changing) if side is None else side for path, side in zip(paths, sides)]
+        original, decoded = sides
+        if original is None or decoded is None:
+            one, other = reversed(paths) if original is None else paths
+            raise MeshError(f"{one} is a sequence and {other} one mesh")
+        if args.map:
+            raise OptionError("--map shows one mesh; of sequences, --picture draws the errors of each frame")
+        progress.stage("comparing")
+        text = _compared_sequences(args, original, decoded, progress)
+    print(text)
+    return True
+
+
+def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> Pieces | None:
+    """The frames and faces of a file, folder or stream; None if it is a mesh."""
+    with about(path):
+        if Path(path).is_file() and is_stream(path):
+            header, chunks = peek_header(read_chunks(path))
+            if header is None or not header.gop_frames:
+                return None
+            return all_frames(SequenceStream(chunks, limits=limits_of(args.limits)))
+        source = open_sequence(path, reader=args.reader, wanted=wanted)
+        if source is None:
+            return None
+        if source.meshes is None:
+            return [(np.array(list(source.frames)), source.faces)]
+        return pieces_of((mesh.positions, mesh.faces) for mesh in source.meshes)
+
+
+def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pieces, progress: Progress) -> str:
+    """How far one sequence is from the other, as it is printed."""
+    counts = [[len(frames) for frames, _ in side] for side in (original, decoded)]
+    if sum(counts[0]) != sum(counts[1]):
+        raise MeshError(f"{args.original} has {sum(counts[0])} frames and {args.decoded} {sum(counts[1])}")
+    if counts[0] != counts[1]:
+        starts = [np.cumsum(side)[:-1].tolist() or "none" for side in counts]
+        raise MeshError(
+            f"the faces of {args.original} change at frames {starts[0]} and of {args.decoded} at {starts[1]}"
+        )
+    if args.permutation and len(original) > 1:
+        raise OptionError("--permutation is the order of one mesh, and the faces change")
+    order = read_permutation(args.permutation) if args.permutation else None
+    runs = [_in_one_order(one, two, order) for one, two in zip(original, decoded, strict=True)]
+    result = asdict(compare_runs(runs))
+    if args.look:
+        progress.stage("looking at all frames")
+        result.update(_looks(runs, progress))
+        progress.stage("comparing")
+    if Path(args.decoded).is_file() and is_stream(args.decoded):
+        samples = sum(frames[..., 0].size for frames, _ in decoded)
+        result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
+    of_frames = [found for one, two, _ in runs for found in _of_frames(one, two)]
+    if args.picture:
+        from bsm.evaluation.plots import frame_errors
+
+        refuse_to_overwrite(args.picture, args.force)
+        picture = frame_errors(of_frames, Path(args.decoded).name)
+        with open_output(args.picture, overwrite=args.force) as file:
+            file.write(picture)
+    loops = Loops()
+    for frame in runs[0][0] if len(runs) == 1 else ():
+        loops.take(frame)
+    repeats = loops.said()
+    if args.json:
+        numbers = {name: finite(value) for name, value in result.items()}
+        return as_json({**numbers, "frames": of_frames, "loops": list(repeats)})
+    worst = max(range(len(of_frames)), key=lambda number: of_frames[number]["max_error_relative"])
+    lines = [f"{name:<19}{value:.6g}" for name, value in result.items()]
+    lines.append(f"worst frame        {worst} ({of_frames[worst]['max_error_relative']:.6g})")
+    return "\n".join([*lines, *repeats])
+
+
+def _in_one_order(
+    original: tuple[Positions, Faces], decoded: tuple[Positions, Faces], order: Order | None
+) -> tuple[Positions, Positions, Faces]:
+    """The frames of both in one order of vertices, and their faces."""
+    (first, faces), (second, other_faces) = original, decoded
+    mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
+    other, other_kept = TriangleMesh(second[0], other_faces).without_isolated_vertices()
+    rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
+    return first[:, kept], second[:, other_kept[rows]], mesh.faces
+
+
+def _of_frames(one: Positions, two: Positions) -> list[dict[str, float]]:
+    """The errors of each frame, in diagonals of the first."""
+    diagonal = float(np.linalg.norm(np.ptp(one[0], axis=0))) or 1.0
+    distances = np.linalg.norm(one - two, axis=2) / diagonal
+    rms, farthest = np.sqrt(np.square(distances).mean(axis=1)), distances.max(axis=1)
+    return [{"rms_relative": float(a), "max_error_relative": float(b)} for a, b in zip(rms, farthest, strict=True)]
+
+
+def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
+    """How frames look, the worst and the mean of those of which something is seen; see `codec.look`."""
+    from bsm.codec.look.measure import Looker
+
+    found = []
+    pairs = [(one, other, faces) for first, second, faces in runs for one, other in zip(first, second, strict=True)]
+    for number, (one, other, faces) in enumerate(pairs):
+        progress(number, len(pairs))
+        with suppress(MeshError):
+            found.append(Looker(TriangleMesh(one, faces)).look(other))
+    if not found:
+        raise MeshError("the sequence cannot be looked at: its faces have no area in any frame")
+    return {
+        "look_worst": max(look.moving for look in found),
+        "look_mean": float(np.mean([look.moving for look in found])),
+        "dissimilarity_worst": max(look.dissimilarity for look in found),
+    }
+
+
+def _write_map(path: str, original: TriangleMesh, positions: Positions, *, overwrite: bool) -> None:
+    """Write the original with the distance of each vertex from `positions`, shape (n, 3), as colours."""
+    kind = "png" if Path(path).suffix.lower() == ".png" else format_of_name(path)
+    if kind not in ("png", *COLORED):
+        raise OptionError(f"{path}: a map of distances is a picture (.png) or a mesh (.{', .'.join(COLORED)})")
+    refuse_to_overwrite(path, overwrite)
+    distances = np.linalg.norm(positions - original.positions, axis=1)
+    top = float(np.percentile(distances, SHOWN)) or float(distances.max(initial=0.0)) or 1.0
+    if kind == "png":
+        picture = _picture(original, distances / top)
+        with open_output(path, overwrite=overwrite) as file:
+            file.write(picture)
+        return
+    shown = (Attribute("color", _colors(distances / top), "vertex", "color"), Attribute("distance", distances))
+    mesh = replace(original.bare, attributes=shown)
+    save_written(path, written_mesh(mesh, kind, path), overwrite=overwrite)
+
+
+def _colors(shares: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
+    """Colours of numbers from 0 to 1, shape (n,), as uint8 of shape (n, 3); larger ones have the last."""
+    places = np.linspace(0.0, 1.0, len(SCALE))
+    channels = [np.interp(shares, places, SCALE[:, channel]) for channel in range(3)]
+    return np.rint(np.stack(channels, axis=1)).astype(np.uint8)
+
+
+def _picture(mesh: TriangleMesh, shares: npt.NDArray[np.float64]) -> bytes:
+    """A PNG of the mesh from the front and the back."""
+    from bsm.evaluation.plots import import_matplotlib
+    from bsm.evaluation.render import DEFAULT_VIEW, render
+
+    import_matplotlib()
+    from matplotlib.image import imsave
+
+    faces = _colors(shares)[mesh.faces].mean(axis=1) / 255.0
+    behind = DEFAULT_VIEW * np.array([[-1.0], [1.0], [-1.0]])
+    sides = [render(mesh.positions, mesh.faces, view=view, colors=faces) for view in (DEFAULT_VIEW, behind)]
+    file = io.BytesIO()
+    imsave(file, np.hstack(sides), format="png")
+    return file.getvalue()

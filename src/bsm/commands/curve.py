@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bsm.bitstream.errors import OptionError
+import numpy as np
+
+from bsm.bitstream.errors import DependencyError, OptionError
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console, print_json
 from bsm.files.mesh import read_mesh
+from bsm.files.sequence import open_sequence
 
 if TYPE_CHECKING:
     from bsm.evaluation.curve import Curve
@@ -39,11 +43,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> None:
     """Run, write, read again, compare and draw."""
-    from bsm.commands.sequence_curve import run_sequence
     from bsm.evaluation.curve import read_results, run_curve, write_result
+    from bsm.evaluation.plots import draw_all
 
     folder = Path(args.output)
-    sequences = [path for path in args.meshes if run_sequence(path, folder, console)]
+    sequences = [path for path in args.meshes if _run_sequence(path, folder, console)]
     meshes = [path for path in args.meshes if path not in sequences]
     if sequences and not meshes:
         return
@@ -61,7 +65,25 @@ def run(args: argparse.Namespace, console: Console) -> None:
         print_json({"comparisons": comparisons})
     else:
         print(_tables(results, comparisons))
-    _draw(results, folder, console)
+    _tell_pictures(lambda: draw_all(results, folder), console)
+
+
+def _run_sequence(path: str, folder: Path, console: Console) -> bool:
+    """Measure and draw a sequence; False if `path` is a mesh."""
+    source = open_sequence(path)
+    if source is None:
+        return False
+    from bsm.evaluation.sequences import draw_lines, measure_lines, table_of, write_lines
+
+    frames = np.array(list(source.frames))
+    mesh, kept = TriangleMesh(frames[0], source.faces).without_isolated_vertices()
+    with console.progress(Path(path).stem) as progress:
+        result = measure_lines(frames[:, kept], mesh.faces, Path(path).stem, progress)
+    written = write_lines(result, folder)
+    console.note(str(written))
+    print(table_of(result))
+    _tell_pictures(lambda: draw_lines(written), console)
+    return True
 
 
 def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
@@ -131,12 +153,9 @@ def _tables(results: Sequence[dict[str, Any]], comparisons: Sequence[dict[str, A
     return f"{measured}\n\nAgainst Draco, whole files:\n\n{compared}"
 
 
-def _draw(results: Sequence[dict[str, Any]], folder: Path, console: Console) -> None:
-    from bsm.bitstream.errors import DependencyError
-    from bsm.evaluation.plots import draw_all
-
+def _tell_pictures(draw: Callable[[], Iterable[Path]], console: Console) -> None:
     try:
-        for path in draw_all(results, folder):
+        for path in draw():
             console.note(str(path))
     except DependencyError as missing:
         console.note(f"no pictures: {missing}")

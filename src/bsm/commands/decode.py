@@ -1,28 +1,48 @@
-"""bsm decode: streams to mesh files."""
+"""bsm decode: streams to mesh files and sequences."""
 
 from __future__ import annotations
 
 import argparse
+import sys
 import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain, islice
 from pathlib import Path
 
+import numpy as np
+import numpy.typing as npt
+
 from bsm.bitstream.errors import OptionError
-from bsm.commands import sequence_decode
-from bsm.commands.decode_job import DecodeJob
-from bsm.commands.inputs import add_inputs, asked, run_of
-from bsm.commands.limits import add_limits_flag, limits_of
+from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
 from bsm.console import Console
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
-from bsm.files.naming import output_inside, refuse_terminal
+from bsm.files.motion.frames import Shared
+from bsm.files.naming import default_output, output_inside, refuse_terminal
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
 from bsm.files.pipes import read_chunks
-from bsm.files.sequence import SEQUENCE_FORMATS
-from bsm.files.sequence_stream import peek_header
+from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
+from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of, peek_header, said_of_runs
 from bsm.files.state import size_of
 from bsm.files.stream import decode_blocks, decode_what_is_left, decode_whole
 from bsm.jobs.run import anywhere, came_to, plan, run_jobs
-from bsm.jobs.task import Facts
+from bsm.jobs.task import Facts, Task
+
+
+@dataclass(frozen=True, kw_only=True)
+class DecodeJob(Task):
+    """What `bsm decode` is asked for."""
+
+    given: str | None = None
+    many: bool = False
+    format: str | None = None
+    blocks: int | None = None
+    layers: int | None = None
+    permutation: str | None = None
+    tolerant: bool = False
+    limits: str = "default"
+    frames: str | None = None
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,7 +67,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="go on behind damage; what is lost, blocks or frames, is named and left out",
     )
     add_limits_flag(parser)
-    sequence_decode.add_flags(parser)
+    group = parser.add_argument_group("sequences")
+    group.add_argument("--frames", metavar="A:B", help="frames A to B - 1 only; what they do not need is not decoded")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -73,8 +94,9 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     """Decode one stream and say what came out."""
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
-        return sequence_decode.decode_sequence(args, console, chunks)
-    sequence_decode.refuse_flags(args)
+        return _decode_sequence(args, console, chunks)
+    if args.frames is not None:
+        raise OptionError("--frames is for sequences, and this is one mesh")
     output = args.output
     if Path(output).is_dir():
         output = output_inside(output, args.input, f".{args.format or 'ply'}")
@@ -120,3 +142,90 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         "seconds": seconds,
         "left_out": list(left_out),
     }
+
+
+def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:
+    """Decode one sequence; every frame is written as soon as it is known."""
+    if args.blocks is not None:
+        raise OptionError("--blocks is for meshes, and this is a sequence")
+    output = _sequence_output(args)
+    kind = sequence_kind(output, args.format)
+    refuse_to_overwrite(output, args.may_replace(output))
+    begin = time.perf_counter()
+    first, last = _range(args.frames)
+    stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args.limits))
+    header, frames = stream.header, stream.changing_frames()
+    ahead = list(islice(frames, 1))  # whose faces are those that are written first
+    faces = stream.faces
+    last = min(last, header.frames or last)
+    expected = max(last - first, 0) if header.frames and not args.tolerant else 0
+    order: npt.NDArray[np.int64] | slice = slice(None)
+    if args.permutation:
+        mesh = reorder(numbered(faces, int(faces.max()) + 1), read_permutation(args.permutation))
+        order, faces = numbers_of(mesh.positions), mesh.faces
+    shared = Shared(
+        lambda: () if args.permutation else stream.attributes,
+        lambda: {} if args.permutation else stream.metadata,
+    )
+    count = vertices = 0
+    with (
+        sequence_writer(
+            output,
+            kind,
+            faces,
+            expected,
+            overwrite=args.may_replace(output),
+            shared=shared,
+        ) as write,
+        console.progress("decoding", "frames") as progress,
+    ):
+        present = stream.faces
+        for number, frame in chain(ahead, frames):
+            if number >= last:
+                break
+            if stream.faces is present:
+                write(frame[order])
+            elif args.permutation:
+                raise OptionError(f"--permutation is the order of one mesh, and the faces change at frame {number}")
+            else:
+                present = stream.faces
+                write(frame, present)
+            vertices = vertices or len(frame)
+            count += 1
+            if expected:
+                progress(count, expected)
+        if count == 0:
+            raise OptionError("the stream has none of these frames")
+    lost = [one.name for one in stream.attributes] if args.permutation else shared.left_out
+    if lost:
+        because = " with --permutation" if args.permutation else ""
+        console.note(f"{args.input}: left out: {', '.join(lost)}, which {kind} does not hold{because}")
+    seconds = time.perf_counter() - begin
+    facts = {"frames": count, "vertices": vertices, "faces": header.faces}
+    if stream.run_starts:
+        console.note(f"{args.input}: {said_of_runs(stream.run_starts)}")
+    console.note(
+        f"{args.input} -> {output}: {count} frames of {vertices} vertices, {header.faces} faces, {seconds:.2f} s"
+    )
+    sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
+    return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}
+
+
+def _sequence_output(args: DecodeJob) -> str:
+    """Where a sequence goes: an npz, or a folder for frames of a format of meshes, if nothing else was said."""
+    suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
+    if args.given is None:
+        return default_output(args.input, suffix)
+    return output_inside(args.given, args.input, suffix) if args.many else str(args.output)
+
+
+def _range(text: str | None) -> tuple[int, int]:
+    """First frame, and the one behind the last."""
+    first, colon, last = (text or ":").partition(":")
+    try:
+        chosen = int(first or 0), int(last or sys.maxsize)
+    except ValueError:
+        chosen = -1, -1
+    if not colon or not 0 <= chosen[0] < chosen[1]:
+        raise OptionError(f"--frames {text}: write A:B with 0 <= A < B, or leave one of them out")
+    return chosen

@@ -11,7 +11,7 @@ import numpy as np
 
 from bsm.bitstream.errors import DependencyError
 from bsm.bitstream.extras import how_to_install
-from bsm.commands.encode_options import add_preset_flags, wishes_of
+from bsm.commands.encode_options import add_preset_flags, options_of
 from bsm.console import Console, print_json
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.options import encode_options
@@ -51,7 +51,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     console.note(f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays")
 
     begin = time.perf_counter()
-    encoder = Encoder(sample, encode_options(**wishes_of(args)))
+    encoder = Encoder(sample, encode_options(**options_of(args)))
     with console.progress("encoding") as progress:
         stream = b"".join(encoder.chunks(progress))
     encoding = time.perf_counter() - begin

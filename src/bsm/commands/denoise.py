@@ -14,8 +14,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.commands import denoise_report
-from bsm.commands.inputs import add_inputs, asked, run_of
-from bsm.commands.reader import add_reader_flag
+from bsm.commands.flags import add_inputs, add_reader_flag, asked, run_of
 from bsm.console import Console, Progress
 from bsm.files.formats.written import Written
 from bsm.files.mesh import (

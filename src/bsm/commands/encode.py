@@ -7,10 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.encode_options import add_encode_flags, wishes_of
-from bsm.commands.inputs import add_inputs, asked, run_of
-from bsm.commands.reader import add_reader_flag
-from bsm.commands.sequence_options import add_sequence_flags, sequence_wishes
+from bsm.commands.encode_options import add_encode_flags, options_of
+from bsm.commands.flags import add_inputs, add_reader_flag, asked, run_of
 from bsm.console import Console
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
@@ -50,7 +48,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_reader_flag(parser)
     add_encode_flags(parser)
-    add_sequence_flags(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -74,7 +71,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
     refuse_terminal(jobs[0].output)
-    many, options = run_of(args), {**wishes_of(args), **sequence_wishes(args)}
+    many, options = run_of(args), options_of(args)
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
     more = {"output": "", "metadata": _metadata(args), "options": options, "threads": threads, "members": members}
     more["format"] = _form(args)

@@ -1,4 +1,4 @@
-"""The options of `bsm encode` that are fields of `EncodeOptions`: one table, flags derived from the fields' names."""
+"""The options of `bsm encode`, of meshes and of sequences: tables of keywords of `bsm.options`."""
 
 from __future__ import annotations
 
@@ -11,33 +11,22 @@ from bsm.usage import suggestion
 
 
 @dataclass(frozen=True)
-class EncodeFlag:
-    """One field of `EncodeOptions` on the command line."""
-
-    field: str
-    type: Callable[[str], Any]
-    metavar: str
-    help: str
-
-    def add(self, group: argparse._ArgumentGroup) -> None:
-        """Add the flag; where it is not given the namespace has no such name, so `EncodeOptions` has the defaults."""
-        name = f"--{self.field.replace('_', '-')}"
-        if self.type is bool:
-            group.add_argument(name, action="store_true", default=argparse.SUPPRESS, help=self.help)
-        else:
-            group.add_argument(
-                name, type=self.type, metavar=self.metavar, default=argparse.SUPPRESS, help=self.help, dest=self.field
-            )
-
-
-@dataclass(frozen=True)
 class Setting:
-    """One field of `EncodeOptions` that has no flag of its own; parameters as those of `EncodeFlag`."""
+    """A keyword of `bsm.options` on the command line: `--field VALUE`, or `--set field=VALUE`."""
 
     field: str
     type: Callable[[str], Any]
     metavar: str
     help: str
+
+    def add(self, group: argparse._ActionsContainer) -> None:
+        """Add it as a flag; a namespace has no such name where it is not given: defaults stand elsewhere."""
+        how: dict[str, Any] = (
+            {"action": "store_true"} if self.type is bool else {"type": self.type, "metavar": self.metavar}
+        )
+        group.add_argument(
+            f"--{self.field.replace('_', '-')}", dest=self.field, default=argparse.SUPPRESS, help=self.help, **how
+        )
 
     def read(self, text: str) -> Any:
         """The value that a text stands for."""
@@ -65,7 +54,7 @@ def thresholds(text: str) -> tuple[float, float]:
     return low, high
 
 
-def setting(text: str) -> tuple[str, Any]:
+def named_setting(text: str) -> tuple[str, Any]:
     """NAME=VALUE as a field of `EncodeOptions` and its value."""
     name, _, value = text.partition("=")
     known = {one.field: one for one in SETTINGS}
@@ -90,11 +79,11 @@ def point(text: str) -> tuple[float, ...]:
 
 
 ENCODE_FLAGS = (
-    EncodeFlag("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
-    EncodeFlag("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
-    EncodeFlag("quick", bool, "", "only what is quick to decode: grids, by a small model, no blocks"),
-    EncodeFlag("keep_order", bool, "", "store the order of vertices and faces"),
-    EncodeFlag("threads", int, "N", "threads to use (default: one per core)"),
+    Setting("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
+    Setting("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
+    Setting("quick", bool, "", "only what is quick to decode: grids, by a small model, no blocks"),
+    Setting("keep_order", bool, "", "store the order of vertices and faces"),
+    Setting("threads", int, "N", "threads to use (default: one per core)"),
 )
 
 SETTINGS = (
@@ -133,24 +122,6 @@ PROMISES = (
 )
 """Of the presets; written out, since importing what they are takes time."""
 
-BOUND_FLAGS = (
-    ("look", "D", "distance from the original in pictures at most D: 1 looks the same, 3 is a preview"),
-    (
-        "max-error",
-        "REL",
-        "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own",
-    ),
-)
-"""Flag, metavar and help."""
-
-TARGET_FLAGS = (
-    ("nmsve-db", "nmsve_db", "X", "visual error, 10 log10 NMSVE, at most X"),
-    ("theta", "theta_deg", "DEG", "mean angle between the faces' normals before and after at most DEG"),
-    ("bpv", "bpv", "X", "at most X bits per vertex, the whole file counted"),
-    ("size", "size", "BYTES", "at most BYTES (20000, 20kB)"),
-)
-"""Flag, kind of target, metavar and help."""
-
 
 def number_or_length(text: str) -> float | str:
     """A number, or what has a unit behind it."""
@@ -168,24 +139,83 @@ def named_quality(text: str) -> tuple[str, str]:
     return name, quality
 
 
+BOUNDS = (
+    Setting(
+        "look",
+        number_or_length,
+        "D",
+        "distance from the original in pictures at most D: 1 looks the same, 3 is a preview",
+    ),
+    Setting(
+        "max_error",
+        number_or_length,
+        "REL",
+        "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own",
+    ),
+)
+TARGETS = (
+    Setting("nmsve_db", float, "X", "visual error, 10 log10 NMSVE, at most X"),
+    Setting("theta", float, "DEG", "mean angle between the faces' normals before and after at most DEG"),
+    Setting("bpv", float, "X", "at most X bits per vertex, the whole file counted"),
+    Setting("size", number_or_length, "BYTES", "at most BYTES (20000, 20kB)"),
+)
+OF_SEQUENCES = (
+    Setting("kg", float, "PERCENT", "Karni and Gotsman's error at most PERCENT"),
+    Setting("bpvf", float, "X", "at most X bits per vertex and frame, the whole file"),
+    Setting("gop", int, "N", "frames that are coded together, at most (default 256 to 512)"),
+    Setting(
+        "low_delay",
+        int,
+        "N",
+        "send N frames at a time as they come (8: a quarter smaller than 1); --gop: from key frame to key frame",
+    ),
+    Setting(
+        "frame_rate",
+        float,
+        "FPS",
+        "frames per second, for the metadata; where an animation is sampled (glTF, USD) the rate of that",
+    ),
+)
+
+
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
-    """Add presets, targets, and how meshes are coded."""
+    """Add presets, targets, how meshes are coded, and what only sequences have."""
     add_preset_flags(parser)
     add_coding_flags(parser)
     parser.add_argument("--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help="also list the settings")
+    group = parser.add_argument_group(
+        "sequences",
+        "a folder or pattern of meshes, several meshes with -o NAME.bsm, npz, PC2, MDD, USD, GLB with\n"
+        "--animation, or npy arrays on a pipe (the faces, then the positions of each frame)",
+    )
+    for setting in OF_SEQUENCES:
+        setting.add(group)
+    group.add_argument(
+        "--animation",
+        metavar="NAME",
+        help="of a GLB or glTF this animation, by name or number (0), and not the mesh alone",
+    )
+    group.add_argument(
+        "--mesh",
+        dest="cache_mesh",
+        metavar="FILE",
+        help="the mesh of a PC2 or MDD (default: of the same name beside it)",
+    )
+    group.add_argument(
+        "--frames", dest="piped_frames", action="store_true", help="a pipe holds frames, as --format npy"
+    )
 
 
 def add_preset_flags(parser: argparse.ArgumentParser) -> None:
     """Add presets and targets."""
-    wishes = parser.add_argument_group("what to reach", "checked on what the decoder will see; all that is given holds")
-    wishes.add_argument("--preset", choices=PRESETS, help=PROMISES)
-    for name, metavar, text in BOUND_FLAGS:
-        wishes.add_argument(f"--{name}", type=number_or_length, metavar=metavar, help=text)
-    targets = wishes.add_mutually_exclusive_group()
-    for name, kind, metavar, text in TARGET_FLAGS:
-        reads = number_or_length if kind == "size" else float
-        targets.add_argument(f"--{name}", dest=f"target_{kind}", type=reads, metavar=metavar, help=text)
-    wishes.add_argument(
+    group = parser.add_argument_group("what to reach", "checked on what the decoder will see; all that is given holds")
+    group.add_argument("--preset", choices=PRESETS, default=argparse.SUPPRESS, help=PROMISES)
+    for setting in BOUNDS:
+        setting.add(group)
+    targets = group.add_mutually_exclusive_group()
+    for setting in TARGETS:
+        setting.add(targets)
+    group.add_argument(
         "--lock-borders",
         nargs="?",
         const=True,
@@ -199,8 +229,8 @@ def add_preset_flags(parser: argparse.ArgumentParser) -> None:
 def add_coding_flags(parser: argparse.ArgumentParser) -> None:
     """Add all of `ENCODE_FLAGS`, what becomes of attributes, and the settings."""
     group = parser.add_argument_group("coding")
-    for flag in ENCODE_FLAGS:
-        flag.add(group)
+    for setting in ENCODE_FLAGS:
+        setting.add(group)
     group.add_argument(
         "--attribute",
         dest="attributes",
@@ -214,14 +244,17 @@ def add_coding_flags(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--set",
         action="append",
-        type=setting,
+        type=named_setting,
         metavar="NAME=VALUE",
         default=argparse.SUPPRESS,
         help="one of the settings that few need; --help-all lists them",
     )
 
 
-_NAMES = ("lock_borders", *(flag.field for flag in ENCODE_FLAGS))
+_KEYWORDS = (
+    *("preset", "lock_borders"),
+    *(setting.field for setting in (*BOUNDS, *TARGETS, *ENCODE_FLAGS, *OF_SEQUENCES)),
+)
 
 
 def settings_of(args: argparse.Namespace) -> dict[str, Any]:
@@ -229,11 +262,9 @@ def settings_of(args: argparse.Namespace) -> dict[str, Any]:
     return dict(getattr(args, "set", ()))
 
 
-def wishes_of(args: argparse.Namespace) -> dict[str, Any]:
-    """What the command line asks for, as keywords of `bsm.options.encode_options`: preset, options, and target."""
-    given = {name: getattr(args, name) for name in _NAMES if hasattr(args, name)}
-    if getattr(args, "attributes", None):
+def options_of(args: argparse.Namespace) -> dict[str, Any]:
+    """What the command line asks for, as keywords of `bsm.options`."""
+    given = {name: getattr(args, name) for name in _KEYWORDS if hasattr(args, name)}
+    if hasattr(args, "attributes"):
         given["attributes"] = dict(args.attributes)
-    values = {name.replace("-", "_"): getattr(args, f"target_{kind}") for name, kind, _, _ in TARGET_FLAGS}
-    values |= {"preset": args.preset, "look": args.look, "max_error": args.max_error}
-    return {**given, **settings_of(args), **{name: value for name, value in values.items() if value is not None}}
+    return {**given, **settings_of(args)}

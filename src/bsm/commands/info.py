@@ -10,8 +10,7 @@ from typing import Any
 
 from bsm.bitstream.container.wire import VERSION
 from bsm.bitstream.limits import Limits
-from bsm.commands.inputs import add_inputs, asked, run_of
-from bsm.commands.limits import add_limits_flag, limits_of
+from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
 from bsm.console import Console, printable
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence_stream import MOST_SAID, SequenceStream, said_of_runs

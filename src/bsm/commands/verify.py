@@ -6,8 +6,7 @@ import argparse
 from dataclasses import dataclass
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.inputs import add_inputs, asked, run_of
-from bsm.commands.limits import add_limits_flag, limits_of
+from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
 from bsm.console import Console
 from bsm.files.pipes import read_chunks
 from bsm.files.sequence_stream import decode_through

@@ -11,8 +11,7 @@ from threading import Thread
 from bsm.api import encode
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
-from bsm.commands.limits import add_limits_flag, limits_of
-from bsm.commands.reader import add_reader_flag
+from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.console import Console
 from bsm.files.about import about
 from bsm.files.mesh import read_mesh

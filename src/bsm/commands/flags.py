@@ -1,4 +1,4 @@
-"""Inputs and outputs of the commands that take any number of them."""
+"""Options that several commands take: inputs and outputs, limits, readers."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import argparse
 from dataclasses import fields
 from typing import Any, TypeVar
 
+from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.files.mesh import READERS
 from bsm.jobs.task import Run
 
 _Asked = TypeVar("_Asked")
@@ -40,3 +42,28 @@ def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:
     """What a command line asks for: the flags that are named as the fields of a dataclass."""
     given = {field.name: getattr(args, field.name) for field in fields(kind) if hasattr(args, field.name)}  # type: ignore[arg-type]
     return kind(**{**given, **more})
+
+
+def add_limits_flag(parser: argparse.ArgumentParser) -> None:
+    """Add it; `limits_of` says what was asked for."""
+    parser.add_argument(
+        "--limits",
+        choices=tuple(NAMED_LIMITS),
+        default="default",
+        help="what a stream may cost: service: at most 1 GiB and 10 s, for strangers' files of up to a million "
+        "vertices; wide: what one has made oneself (default: by its vertices and bytes)",
+    )
+
+
+def limits_of(name: str) -> Limits:
+    """The limits that the option names."""
+    return NAMED_LIMITS[name]()
+
+
+def add_reader_flag(parser: argparse.ArgumentParser) -> None:
+    """Add it; `args.reader` goes to `read_mesh` and `open_sequence`."""
+    parser.add_argument(
+        "--reader",
+        choices=READERS,
+        help="who reads mesh files (default: bsm for OBJ, OFF, PLY, STL, VTP and npz, trimesh for GLB, 3MF, DAE, ...)",
+    )
