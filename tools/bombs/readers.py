@@ -9,6 +9,7 @@ what decoding takes; whatever comes out must be a mesh or an error of ours.
 from __future__ import annotations
 
 import argparse
+import base64
 import gzip
 import io
 import json
@@ -59,6 +60,11 @@ class Sample:
     suffix: str
     data: bytes
     beside: tuple[tuple[str, bytes], ...] = ()
+
+
+Tree = dict[str, Any]
+Change = Callable[[Tree], None]
+DATA_URI = "data:application/octet-stream;base64,"
 
 
 @dataclass(frozen=True)
@@ -465,164 +471,122 @@ def _grown_caches(size: int) -> dict[str, Callable[[], Sample]]:
 
 
 def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
-    """What a tree can say many times of the same bytes."""
+    """What a tree can say many times of the same bytes; each of a mesh that stays, and of one that moves."""
+    floats, indices = {"componentType": 5126, "count": 3}, {"componentType": 5125, "count": 3, "type": "SCALAR"}
 
-    def still(change: Callable[[dict[str, Any]], None], more: bytes = b"") -> Sample:
-        points = np.zeros((3, 3), "<f4")
-        points[1, 0] = points[2, 1] = 1
-        binary = points.tobytes() + np.arange(3, dtype="<u4").tobytes() + more
-        tree: dict[str, Any] = {
+    def tree(more: bytes, until: float | None) -> tuple[Tree, bytes]:
+        binary = np.eye(3, dtype="<f4").tobytes() + np.arange(3, dtype="<u4").tobytes() + more
+        keys = np.array([0, until or 0, 0, 0, 0, 1, 0, 0], "<f4").tobytes()
+        found: Tree = {
             "asset": {"version": "2.0"},
-            "scene": 0,
             "scenes": [{"nodes": [0]}],
             "nodes": [{"mesh": 0}],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-            "accessors": [
-                {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
-                {"bufferView": 1, "componentType": 5125, "count": 3, "type": "SCALAR"},
-            ],
+            "accessors": [{"bufferView": 0, **floats, "type": "VEC3"}, {"bufferView": 1, **indices}],
             "bufferViews": [
                 {"buffer": 0, "byteLength": 36},
                 {"buffer": 0, "byteOffset": 36, "byteLength": 12 + len(more)},
             ],
             "buffers": [{"byteLength": len(binary)}],
         }
-        change(tree)
-        return Sample("glb", _as_glb(tree, binary))
-
-    def moving(change: Callable[[dict[str, Any]], None], more: bytes = b"", until: float = 1.0) -> Sample:
-        def moved(tree: dict[str, Any]) -> None:
-            keys = np.array([0, until], "<f4").tobytes() + np.array([[0, 0, 0], [1, 0, 0]], "<f4").tobytes()
-            tree["bufferViews"] += [{"buffer": 1, "byteLength": len(keys)}]
-            tree["buffers"] += [{"byteLength": len(keys), "uri": _data_uri(keys)}]
-            view = len(tree["bufferViews"]) - 1
-            tree["accessors"] += [
-                {"bufferView": view, "componentType": 5126, "count": 2, "type": "SCALAR"},
-                {"bufferView": view, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"},
+        if until is not None:
+            found["bufferViews"].append({"buffer": 1, "byteLength": len(keys)})
+            found["buffers"].append({"byteLength": len(keys), "uri": DATA_URI + base64.b64encode(keys).decode()})
+            found["accessors"] += [
+                {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                {"bufferView": 2, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"},
             ]
-            tree["animations"] = [
-                {
-                    "samplers": [{"input": 2, "output": 3}],
-                    "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
-                }
-            ]
-            change(tree)
+            channel = {"sampler": 0, "target": {"node": 0, "path": "translation"}}
+            found["animations"] = [{"samplers": [{"input": 2, "output": 3}], "channels": [channel]}]
+        return found, binary
 
-        return still(moved, more)
+    def nothing(place: int, count: int) -> Change:
+        """An accessor without a view: all of it is zeros."""
+        return lambda t: t["accessors"].__setitem__(
+            place,
+            {key: value for key, value in t["accessors"][place].items() if key != "bufferView"} | {"count": count},
+        )
 
-    def nothing(count: int, what: int) -> Callable[[dict[str, Any]], None]:
-        def change(tree: dict[str, Any]) -> None:
-            del tree["accessors"][what]["bufferView"]
-            tree["accessors"][what]["count"] = count
+    def nodes(t: Tree, found: list[dict[str, Any]]) -> None:
+        t["nodes"], t["scenes"] = found, [{"nodes": list(range(len(found)))}]
+
+    def shared(meshes: int, count: int, primitives: int) -> Change:
+        def change(t: Tree) -> None:
+            t["accessors"][1]["count"] = 3 + size // 8  # so many indices, in a file of about this size
+            t["meshes"] = [{"primitives": t["meshes"][0]["primitives"] * primitives}] * meshes
+            nodes(t, [{"mesh": number % meshes} for number in range(count)])
 
         return change
 
-    def shared(meshes: int, nodes: int, primitives: int) -> Callable[[dict[str, Any]], None]:
-        def change(tree: dict[str, Any]) -> None:
-            tree["accessors"][1]["count"] = 3 + size // 8  # so many indices, in a file of about this size
-            tree["meshes"] = [{"primitives": tree["meshes"][0]["primitives"] * primitives}] * meshes
-            tree["nodes"] = [{"mesh": number % meshes} for number in range(nodes)]
-            tree["scenes"] = [{"nodes": list(range(nodes))}]
+    def chained(t: Tree) -> None:
+        t["nodes"] = [{"children": [number + 1]} for number in range(size // 40)] + [{"mesh": 0}]
 
-        return change
+    def skinned(t: Tree) -> None:
+        nodes(t, [{"mesh": 0, "skin": 0}] * (size // 60))
+        t["skins"] = [{"joints": list(range(size // 60))}]
+        first = len(t["accessors"])
+        t["meshes"][0]["primitives"][0]["attributes"] |= {"JOINTS_0": first, "WEIGHTS_0": first + 1}
+        t["accessors"] += [{**indices, "componentType": 5123, "type": "VEC4"}, {**floats, "type": "VEC4"}]
 
-    def chained(tree: dict[str, Any]) -> None:
-        count = size // 40
-        tree["nodes"] = [{"children": [number + 1]} for number in range(count)] + [{"mesh": 0}]
-
-    def skinned(tree: dict[str, Any]) -> None:
-        count = size // 60
-        tree["nodes"] = [{"mesh": 0, "skin": 0} for _ in range(count)]
-        tree["skins"] = [{"joints": list(range(count))}]
-        tree["scenes"] = [{"nodes": list(range(count))}]
-        tree["meshes"][0]["primitives"][0]["attributes"] |= {"JOINTS_0": 4, "WEIGHTS_0": 5}
-        tree["accessors"] += [
-            {"componentType": 5123, "count": 3, "type": "VEC4"},
-            {"componentType": 5126, "count": 3, "type": "VEC4"},
-        ]
-
-    def channels(tree: dict[str, Any]) -> None:
+    def channels(t: Tree, samplers: bool = False) -> None:
         count = size // 120
-        keys = size // 16
-        tree["nodes"] = [{"mesh": 0} for _ in range(count)]
-        tree["scenes"] = [{"nodes": list(range(count))}]
+        nodes(t, [{"mesh": 0}] * count)
         for number, kind in ((2, "SCALAR"), (3, "VEC3")):
-            tree["accessors"][number] = {"componentType": 5126, "count": keys, "type": kind}
-        tree["animations"][0]["channels"] = [
-            {"sampler": 0, "target": {"node": node, "path": "translation"}} for node in range(count)
-        ]
-
-    def samplers(tree: dict[str, Any]) -> None:
-        channels(tree)
-        animation = tree["animations"][0]
-        animation["samplers"] = [{"input": 2, "output": 3}] * len(animation["channels"])
-        for number, channel in enumerate(animation["channels"]):
-            channel["sampler"] = number
-
-    def targets(tree: dict[str, Any]) -> None:
-        count = size // 24
-        tree["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}] * count
-        tree["meshes"][0]["weights"] = [1] * count
-
-    def nodes(tree: dict[str, Any]) -> None:
-        tree["nodes"] = [{"mesh": 0}] + [{}] * (size // 8)
-        tree["scenes"] = [{"nodes": list(range(len(tree["nodes"])))}]
-
-    def materials(tree: dict[str, Any]) -> None:
-        count = size // 120
-        tree["materials"] = [{"name": str(number)} for number in range(count)]
-        one = tree["meshes"][0]["primitives"][0]
-        tree["meshes"][0]["primitives"] = [one | {"material": number} for number in range(count)]
-
-    def sparse(tree: dict[str, Any]) -> None:
-        nothing(1 << 24, 0)(tree)
-        tree["accessors"][0]["sparse"] = {
-            "count": 1,
-            "indices": {"bufferView": 1, "componentType": 5125},
-            "values": {"bufferView": 0},
+            t["accessors"][number] = {"componentType": 5126, "count": size // 16, "type": kind}
+        t["animations"][0] = {
+            "samplers": [{"input": 2, "output": 3}] * (count if samplers else 1),
+            "channels": [
+                {"sampler": node if samplers else 0, "target": {"node": node, "path": "translation"}}
+                for node in range(count)
+            ],
         }
 
-    def attributes(tree: dict[str, Any]) -> None:
-        tree["meshes"][0]["primitives"][0]["attributes"] |= {f"_A{number}": 0 for number in range(size // 12)}
+    def targets(t: Tree) -> None:
+        t["meshes"][0]["weights"] = [1] * (size // 24)
+        t["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}] * (size // 24)
 
-    more = bytes(size // 2)
-    still_ones: dict[str, Callable[[], Sample]] = {
-        "points of no bytes": partial(still, nothing(1 << 26, 0)),
-        "indices of no bytes": partial(still, nothing(3 << 24, 1)),
-        "meshes": partial(still, shared(size // 400, size // 400, 1), more),
-        "nodes": partial(still, shared(1, size // 100, 1), more),
-        "primitives": partial(still, shared(1, 1, size // 400), more),
-        "a chain of nodes": partial(still, chained),
-        "nodes of nothing": partial(still, nodes),
-        "materials": partial(still, materials),
-        "sparse": partial(still, sparse),
-        "attributes": partial(still, attributes),
-        "nested": lambda: Sample("gltf", b'{"asset":{"version":"2.0"},"a":' + b"[" * size),
-        "targets": partial(still, targets),
+    def materials(t: Tree) -> None:
+        (one,) = t["meshes"][0]["primitives"]
+        t["materials"] = [{"name": str(number)} for number in range(size // 120)]
+        t["meshes"][0]["primitives"] = [one | {"material": number} for number in range(size // 120)]
+
+    def sparse(t: Tree) -> None:
+        nothing(0, 1 << 24)(t)
+        places = {"indices": {"bufferView": 1, "componentType": 5125}, "values": {"bufferView": 0}}
+        t["accessors"][0]["sparse"] = {"count": 1, **places}
+
+    def attributes(t: Tree) -> None:
+        t["meshes"][0]["primitives"][0]["attributes"] |= {f"_A{number}": 0 for number in range(size // 12)}
+
+    def empty(t: Tree) -> None:
+        nodes(t, [{"mesh": 0}] + [{}] * (size // 8))
+
+    def made(change: Change, more: int, until: float | None) -> Sample:
+        found, binary = tree(bytes(more), until)
+        change(found)
+        return Sample("glb", _as_glb(found, binary))
+
+    both: dict[str, tuple[Change, int]] = {
+        "points of no bytes": (nothing(0, 1 << 26), 0),
+        "indices of no bytes": (nothing(1, 3 << 24), 0),
+        "nodes": (shared(1, size // 100, 1), size // 2),
+        "primitives": (shared(1, 1, size // 400), size // 2),
+        "a chain of nodes": (chained, 0),
+        "nodes of nothing": (empty, 0),
+        "attributes": (attributes, 0),
+        "targets": (targets, 0),
+        "skins": (skinned, 0),
     }
-    moving_ones: dict[str, Callable[[], Sample]] = {
-        **{what: partial(moving, change) for what, change in (("skins", skinned), ("targets", targets))},
-        "curves of no bytes": partial(moving, channels),
-        "samplers": partial(moving, samplers),
-        "points of no bytes": partial(moving, nothing(1 << 24, 0)),
-        "indices of no bytes": partial(moving, nothing(3 << 24, 1)),
-        "nodes": partial(moving, shared(1, size // 100, 1), more),
-        "primitives": partial(moving, shared(1, 1, size // 400), more),
-        "a chain of nodes": partial(moving, chained),
-        "long": partial(moving, nodes, b"", 30_000.0),
-        "long, with targets": partial(moving, targets, b"", 30_000.0),
-        "attributes": partial(moving, attributes),
+    still = {
+        "meshes": (shared(size // 400, size // 400, 1), size // 2),
+        "materials": (materials, 0),
+        "sparse": (sparse, 0),
     }
-    return {
-        **{f"glb, {name}": make for name, make in still_ones.items()},
-        **{f"moving glb, {name}": make for name, make in moving_ones.items()},
-    }
-
-
-def _data_uri(data: bytes) -> str:
-    import base64
-
-    return "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    moving = {"curves of no bytes": (channels, 0), "samplers": (partial(channels, samplers=True), 0)}
+    found = {f"glb, {name}": partial(made, *how, None) for name, how in {**both, **still}.items()}
+    found |= {f"moving glb, {name}": partial(made, *how, 1.0) for name, how in {**both, **moving}.items()}
+    found |= {f"long glb, {name}": partial(made, *both[name], 30_000.0) for name in ("nodes of nothing", "targets")}
+    return found | {"glb, nested": lambda: Sample("gltf", b'{"asset":{"version":"2.0"},"a":' + b"[" * size)}
 
 
 def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
@@ -633,39 +597,25 @@ def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
     def stage(inside: bytes) -> Sample:
         return Sample("usda", head + b'def Mesh "a"\n{\n' + inside + tail)
 
-    def prims() -> Sample:
-        one = mesh + points + b"}\n"
-        return Sample("usda", head + b"".join(b'def Mesh "a%d" {\n' % n + one for n in range(size // len(one))))
+    def many(head: bytes, one: bytes, count: int, tail: bytes = b"") -> Sample:
+        return Sample(
+            "usda", b"#usda 1.0\n" + head + b"".join(one.replace(b"#", b"%d" % n) for n in range(count)) + tail
+        )
 
+    subset = (
+        b'def Material "m#" {}\ndef GeomSubset "s#" { uniform token elementType = "face"\n'
+        b"int[] indices = [0]\nrel material:binding = </a/m#> }\n"
+    )
+    begun, samples = b'def Mesh "a"\n{\n' + mesh, b"point3f[] points.timeSamples = {\n"
+    referred = b'def "p" { def Mesh "a" {\n' + mesh + points + b"} }\n"
     return {
         "usd, faces": lambda: stage(b"int[] faceVertexCounts = [" + b"0," * (size // 2) + b"0]\n" + points),
         "usd, points": lambda: stage(mesh + b"point3f[] points = [" + b"(0,0,0)," * (size // 8) + b"(0,0,0)]\n"),
-        "usd, samples": lambda: stage(
-            mesh
-            + b"point3f[] points.timeSamples = {\n"
-            + b"".join(b"%d: [(0,0,0),(1,0,0),(0,1,0)],\n" % n for n in range(size // 36))
-            + b"}\n"
-        ),
-        "usd, prims": prims,
-        "usd, subsets": lambda: stage(
-            mesh
-            + points
-            + b"".join(
-                b'def Material "m%d" {}\ndef GeomSubset "s%d" { uniform token elementType = "face"\n'
-                b"int[] indices = [0]\nrel material:binding = </a/m%d> }\n" % (number, number, number)
-                for number in range(size // 120)
-            )
-        ),
+        "usd, samples": lambda: many(begun + samples, b"#: [(0,0,0),(1,0,0),(0,1,0)],\n", size // 36, b"}\n" + tail),
+        "usd, prims": lambda: many(b"", b'def Mesh "a#" {\n' + mesh + points + b"}\n", size // 150),
+        "usd, subsets": lambda: many(begun + points, subset, size // 120, tail),
         "usd, nested": lambda: Sample("usda", head + b'def "a" {\n' * (size // 10) + b"}\n" * (size // 10)),
-        "usd, instances": lambda: Sample(
-            "usda",
-            head
-            + b'def "p" { def Mesh "a" {\n'
-            + mesh
-            + points
-            + b"} }\n"
-            + b"".join(b'def "b%d" (references = </p>) {}\n' % number for number in range(size // 36)),
-        ),
+        "usd, instances": lambda: many(referred, b'def "b#" (references = </p>) {}\n', size // 36),
     }
 
 
