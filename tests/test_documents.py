@@ -32,7 +32,7 @@ PAGES = tuple(
 )
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "src/bsm/SERVICE.md", *PAGES)
 PROGRAMS = r"(?:bsm|python3?|pytest|mkdocs|ruff|\.ci/run|\.venv|eval|cat)"
-BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.fuzz|tools\.proof|tools\.bombs"
+BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.attack"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
 HELP_ONLY = r"tools\.release|s3://|bsm view|tools\.blender|tools\.charges|tools\.vectors|tools\.train_coefficients"
@@ -194,7 +194,7 @@ def test_commands(name, command, folder):
     if re.search(BY_CI, command):
         pytest.skip("run by CI itself")
     if re.search(f"{NEEDS_FOLDER}|{HELP_ONLY}", command) or re.fullmatch(r"bsm [a-z]+", command):
-        program = re.match(r"bsm \w+|python -m tools\.measure \w+|python -m [\w.]+", command).group()
+        program = re.match(r"bsm \w+|python -m tools\.(?:measure|attack) \w+|python -m [\w.]+", command).group()
         done = run(folder, f"{program} --help")
         passed(done)
         for option in re.findall(r" (--[a-z-]+|-[a-z])\b", command[len(program) :]):
@@ -222,7 +222,7 @@ def test_commands_on_real_meshes(name, command, folder, meshes):
 def test_something_is_found():
     assert len(BLOCKS) >= 5 and len(COMMANDS) >= 15
     assert sum(is_python(block) for _, block in BLOCKS) >= 1
-    assert any("tools.fuzz" in command for _, command in COMMANDS)
+    assert any("tools.attack fuzz" in command for _, command in COMMANDS)
 
 
 # ------------------------------------------------------------------------------------------------- what is said exists

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from bsm.console import Console
 from bsm.exits import behind, exit_of, is_expected, tell
@@ -20,3 +21,14 @@ def run_command(parser: argparse.ArgumentParser, work: Callable[[argparse.Namesp
             raise
         tell(error)
         sys.exit(exit_of(error).code)
+
+
+def dispatch(package: str, commands: Mapping[str, str], words: str | None) -> None:
+    """Do what the first argument asks for by one of `commands`, each a module and a function; or print `words`."""
+    what = sys.argv[1] if len(sys.argv) > 1 else "--help"
+    if what not in commands:
+        print(words)
+        sys.exit(0 if what in ("-h", "--help") else 2)
+    sys.argv[:2] = [f"python -m {package} {what}"]
+    module, function = commands[what].split(":")
+    sys.exit(getattr(importlib.import_module(f"{package}.{module}"), function)())

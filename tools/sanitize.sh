@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Build the kernels with AddressSanitizer and UndefinedBehaviorSanitizer (GCC), and run them over all vectors, mutations
 # of them and bad meshes. Whatever they find ends the run with a report and exit code 1.
-#     tools/sanitize.sh [PYTHON] [OPTIONS of python -m tools.fuzz.sweep ...]
+#     tools/sanitize.sh [PYTHON] [OPTIONS of python -m tools.attack sweep ...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 python=${1:-python3}
@@ -14,4 +14,4 @@ checking_copy sanitized -DBSM_SANITIZE=ON
 # libstdc++ as well: the sanitizer looks for its throw before Python has loaded it.
 export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so)"
 export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 PYTHONMALLOC=malloc
-"$python" -m tools.fuzz.sweep "$@"
+"$python" -m tools.attack.sweep "$@"

@@ -1,4 +1,4 @@
-"""A few bombs that are quickly made; `python -m tools.bombs` measures all of them."""
+"""A few bombs that are quickly made; `python -m tools.attack bombs` measures all of them."""
 
 import subprocess
 import sys
@@ -9,8 +9,8 @@ import pytest
 from bsm.bitstream.errors import CorruptError, LimitError
 from bsm.bitstream.limits import Limits
 from bsm.codec.static.decoder import Decoder
-from tools.bombs.measure import decode_all, taken_by
-from tools.bombs.streams import BOMBS
+from tools.attack.measure import decode_all, taken_by
+from tools.attack.streams import BOMBS
 
 REFUSED = {
     "members-illegal": (CorruptError, "overlap too much"),
@@ -86,7 +86,7 @@ def test_the_measure_sees_what_a_stream_takes(how, tmp_path):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
 def test_the_command_ends_with_a_verdict():
-    command = [sys.executable, "-m", "tools.bombs", "members-illegal", "--how", "whole"]
+    command = [sys.executable, "-m", "tools.attack", "bombs", "members-illegal", "--how", "whole"]
     done = subprocess.run(command, capture_output=True, text=True, cwd=Path(__file__).parents[2], timeout=120)
     assert done.returncode == 0, done.stderr
     assert "holds" in done.stdout

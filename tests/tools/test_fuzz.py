@@ -11,8 +11,8 @@ from bsm.bitstream.errors import BsmError, CorruptError, FormatError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.static.decoder import Decoder
 from bsm.files.mesh import format_mesh, read_mesh
-from tools.fuzz.mutate import mutate_stream
-from tools.fuzz.targets import TARGETS, Finding, run, seeds
+from tools.attack.mutate import mutate_stream
+from tools.attack.targets import TARGETS, Finding, run, seeds
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import patch
 from tools.vectors.store import FOLDER

@@ -10,11 +10,11 @@ from bsm.bitstream.container.wire import FrameType
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
+from tools.attack.decoding import whole
+from tools.attack.inputs import random_mesh
+from tools.attack.shard import reference
+from tools.attack.tally import Tally
 from tools.gridded import gridded, lightened, random_grid
-from tools.proof.decoding import whole
-from tools.proof.inputs import random_mesh
-from tools.proof.shard import reference
-from tools.proof.tally import Tally
 from tools.surgery import first_entries, frames_of, stream_of
 from tools.vectors.meshes import torus
 

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import BsmError, CorruptError, TruncatedError
-from tools.proof import shard as proof
-from tools.proof.__main__ import Part, cuts, plan, run, table
-from tools.proof.decoding import is_sequence, piecewise, whole
-from tools.proof.encodes import store, stored
-from tools.proof.inputs import mutant, random_stream, vector_seeds
-from tools.proof.places import ROOT, environments, processors
-from tools.proof.shard import SUITES, Shard
-from tools.proof.tally import Tally
+from tools.attack import shard as proof
+from tools.attack.decoding import is_sequence, piecewise, whole
+from tools.attack.encodes import store, stored
+from tools.attack.inputs import mutant, random_stream, vector_seeds
+from tools.attack.places import ROOT, environments, processors
+from tools.attack.proof import Part, cuts, plan, run, table
+from tools.attack.shard import SUITES, Shard
+from tools.attack.tally import Tally
 from tools.vectors.store import FOLDER, distance, is_full, scale_of
 
 CHAIN = (FOLDER / "good-chain.bsm").read_bytes()
@@ -123,7 +123,7 @@ def test_a_wrong_decoder_is_found(shard, monkeypatch):
 
 @pytest.mark.parametrize(("suite", "size"), [("vectors", 40), ("mutants", 60), ("browser", 60), ("differential", 20)])
 def test_shards_find_nothing_and_are_the_same_again(suite, size, tmp_path):
-    command = [sys.executable, "-m", "tools.proof.shard", suite, "0", str(size), "--seed", "s"]
+    command = [sys.executable, "-m", "tools.attack.shard", suite, "0", str(size), "--seed", "s"]
     seen = []
     for _ in range(2):
         done = subprocess.run(
@@ -144,7 +144,7 @@ def test_streams_follow_from_their_seed():
 def test_places_are_there(tmp_path):
     assert len({place.name for place in environments()}) == len(environments()) > 25
     assert len(processors(short=True)) <= min(2, len(processors()))
-    done = environments()[0].run("tools.proof.encodes", "1", "1", str(tmp_path))
+    done = environments()[0].run("tools.attack.encodes", "1", "1", str(tmp_path))
     assert done.returncode == 2 and "--streams" in done.stderr
 
 

@@ -8,9 +8,9 @@ import pytest
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.wire import FrameType
 from bsm.codec.static.decoder import decode
-from tools.proof.decoding import whole
-from tools.proof.shard import reference, steady
-from tools.proof.tally import Tally
+from tools.attack.decoding import whole
+from tools.attack.shard import reference, steady
+from tools.attack.tally import Tally
 from tools.sections import random_sections
 from tools.surgery import first_entries, frames_of, stream_of
 from tools.vectors.good_sections import small_sections, uneven

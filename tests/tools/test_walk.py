@@ -1,4 +1,4 @@
-"""A part of the walk over all frames and fields; `python -m tools.bombs.walk --web` is the whole."""
+"""A part of the walk over all frames and fields; `python -m tools.attack walk --web` is the whole."""
 
 import shutil
 import sys
@@ -10,8 +10,8 @@ from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.header import HEADER_FIELDS, fields_of
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import Limits
-from tools.bombs.measure import decode_all
-from tools.bombs.walk import bases, cases, problem_of, web_problems
+from tools.attack.measure import decode_all
+from tools.attack.walk import bases, cases, problem_of, web_problems
 
 LAW = (Path(__file__).parents[2] / "spec" / "charges.md").read_text()
 CASES = {case.name: case for case in cases(20_000)}

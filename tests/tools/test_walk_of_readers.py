@@ -1,4 +1,4 @@
-"""A part of the walk over all readers of files; `python -m tools.bombs.readers` is the whole."""
+"""A part of the walk over all readers of files; `python -m tools.attack readers` is the whole."""
 
 import os
 import sys
@@ -8,8 +8,8 @@ import pytest
 from bsm.bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
-from tools.bombs.measure import Taken
-from tools.bombs.readers import Case, Sample, grown, numbers, problems, read_all, samples, warm_up
+from tools.attack.measure import Taken
+from tools.attack.readers import Case, Sample, grown, numbers, problems, read_all, samples, warm_up
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
 
@@ -50,7 +50,9 @@ def test_the_walk_finds_what_is_beyond_the_bounds(monkeypatch):
         (os.abort, "died"),
     ):
         with monkeypatch.context() as patch:
-            patch.setattr("tools.bombs.readers.read_all", lambda path, limits, fault=fault: (fault(), Taken("read"))[1])
+            patch.setattr(
+                "tools.attack.readers.read_all", lambda path, limits, fault=fault: (fault(), Taken("read"))[1]
+            )
             found = list(problems(cases, "default"))
         assert len(found) == 2 and all(said in problem for problem in found)
 

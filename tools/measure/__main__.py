@@ -18,8 +18,7 @@ paper       every table and figure of the paper, as a report
 
 from __future__ import annotations
 
-import importlib
-import sys
+from tools.command import dispatch
 
 COMMANDS = {
     "look": "look:main",
@@ -43,13 +42,7 @@ COMMANDS = {
 
 def main() -> None:
     """Run one measurement, as a command of its own."""
-    what = sys.argv[1] if len(sys.argv) > 1 else "--help"
-    if what not in COMMANDS:
-        print(__doc__)
-        sys.exit(0 if what in ("-h", "--help") else 2)
-    sys.argv[:2] = [f"python -m tools.measure {what}"]
-    module, function = COMMANDS[what].split(":")
-    sys.exit(getattr(importlib.import_module(f"tools.measure.{module}"), function)())
+    dispatch("tools.measure", COMMANDS, __doc__)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from bsm.bitstream.container.wire import FrameType, write_frame, write_preamble,
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from tools.bombs.streams import one_block
+from tools.attack.streams import one_block
 from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.good import BASE
 from tools.vectors.meshes import patch, shuffled, together, torus

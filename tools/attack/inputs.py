@@ -17,8 +17,8 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
-from tools.fuzz.mutate import mutate_stream
-from tools.fuzz.sweep import mutate
+from tools.attack.mutate import mutate_stream
+from tools.attack.sweep import mutate
 from tools.gridded import random_grid
 from tools.sections import random_sections
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle

@@ -15,7 +15,7 @@ from bsm.codec.sequence.decoder import SequenceDecoder
 from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, LossEvent, RefinementEvent
-from tools.proof.tally import Decoded, Outcome
+from tools.attack.tally import Decoded, Outcome
 from tools.surgery import first_entries
 from tools.vectors.store import Arrays, arrays_of, arrays_of_frames
 

@@ -1,4 +1,4 @@
-"""`python -m tools.bombs`: decode every bomb in a process of its own, and hold what it took against the bounds.
+"""`python -m tools.attack bombs`: decode every bomb in a process of its own, and hold what it took against the bounds.
 
 Exit code 1 if one takes more than it may: by default 64 MiB and 1 s, 1 KiB and 40 microseconds for each vertex and 64
 bytes and 20 microseconds for each byte; with `--limits service` 1 GiB and 10 s. The bounds of the
@@ -13,15 +13,15 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
-from tools.bombs.measure import HOWS, Taken, bounds, browser_bounds, taken_by
-from tools.bombs.streams import BOMBS
+from tools.attack.measure import HOWS, Taken, bounds, browser_bounds, taken_by
+from tools.attack.streams import BOMBS
 
 COLUMNS = "{:16} {:8} {:>9} {:>9} {:>8} of {:>8} MiB {:>7} of {:>7} s  {:7} {}"
 
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.bombs", description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"bombs, or streams (.bsm); all: {', '.join(BOMBS)}")
     parser.add_argument("--limits", choices=("default", "service"), default="default")
     parser.add_argument(

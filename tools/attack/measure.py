@@ -47,7 +47,7 @@ class Taken:
 
 def taken_by(path: Path, how: str, limits: str) -> Taken:
     """What a stream takes, in a process of its own; "browser": by the decoder for browsers, with its own limits."""
-    command = [sys.executable, "-m", "tools.bombs.measure", str(path), how, limits]
+    command = [sys.executable, "-m", "tools.attack.measure", str(path), how, limits]
     if how == "browser":
         command = ["node", "--expose-gc", str(WEB), str(path)]
     try:

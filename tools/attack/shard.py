@@ -1,4 +1,4 @@
-"""One shard of a suite in a process of its own: `python -m tools.proof.shard SUITE NUMBER SIZE --seed S`.
+"""One shard of a suite in a process of its own: `python -m tools.attack.shard SUITE NUMBER SIZE --seed S`.
 
 Prints what it saw as a line of JSON. Everything follows from the arguments, so a shard that crashes can be run again:
 with `--careful` each input is written to the folder of findings before it is tried.
@@ -29,14 +29,14 @@ import numpy as np
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError, NumericError
 from bsm.steadiness import check_steadiness
-from tools.bombs import readers as of_files
-from tools.bombs.walk import bases, cases, problem_of
-from tools.fuzz.targets import LIMITS
-from tools.proof.decoding import piecewise, whole
-from tools.proof.encodes import random_streams, stored
-from tools.proof.inputs import mutant, random_stream, unencoded_stream, vector_seeds
-from tools.proof.places import Place, environments, processors
-from tools.proof.tally import Outcome, Tally
+from tools.attack import readers as of_files
+from tools.attack.decoding import piecewise, whole
+from tools.attack.encodes import random_streams, stored
+from tools.attack.inputs import mutant, random_stream, unencoded_stream, vector_seeds
+from tools.attack.places import Place, environments, processors
+from tools.attack.tally import Outcome, Tally
+from tools.attack.targets import LIMITS
+from tools.attack.walk import bases, cases, problem_of
 from tools.vectors.__main__ import try_product
 from tools.vectors.store import read_manifest
 from tools.web_constants import limits_there
@@ -190,7 +190,7 @@ def _elsewhere(shard: Shard, size: int, places: tuple[Place, ...]) -> None:
         streams = _streams(shard, seed, size, Path(folder))
         for number, place in enumerate(places):
             there = Path(folder) / str(number)
-            done = place.run("tools.proof.encodes", seed, str(size), str(there), "--streams", folder)
+            done = place.run("tools.attack.encodes", seed, str(size), str(there), "--streams", folder)
             if done.returncode:
                 shard.tally.escapes += 1
                 shard.tally.findings.append(f"{place.name}, seed {seed}: code {done.returncode}, {done.stderr[-600:]}")
@@ -227,7 +227,7 @@ def _streams(shard: Shard, seed: str, size: int, folder: Path) -> dict[int, byte
 
 
 def _stored(path: Path) -> Outcome:
-    """What `tools.proof.encodes` found."""
+    """What `tools.attack.encodes` found."""
     if (refused := path.with_suffix(".txt")).is_file():
         name, problem = refused.read_text().split(" ", 1)
         kind: type[BsmError] = getattr(errors, name)
@@ -326,7 +326,7 @@ SUITES: dict[str, Callable[[Shard, int, int], None]] = {
 
 def main() -> None:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.proof.shard", description=(__doc__ or "").split("\n")[0])
+    parser = argparse.ArgumentParser(prog="python -m tools.attack.shard", description=(__doc__ or "").split("\n")[0])
     parser.add_argument("suite", choices=SUITES)
     parser.add_argument("number", type=int)
     parser.add_argument("size", type=int)

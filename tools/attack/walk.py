@@ -1,6 +1,6 @@
 """Every frame type and every field, each as large as its bytes allow; what decoding takes is held against the law.
 
-`python -m tools.bombs.walk` walks all of it, with `--web` in the decoder for browsers, too. The list of what there is
+`python -m tools.attack walk` walks all of it, with `--web` in the decoder for browsers, too. The list of what there is
 to make large is that of the code: a field that is new is walked without a word here.
 """
 
@@ -24,7 +24,7 @@ from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
 from bsm.bitstream.container.maps import MAX_ENTRIES, write_map
 from bsm.bitstream.container.wire import SKIPPABLE_TYPES, FrameType, write_varint
 from bsm.bitstream.limits import NAMED_LIMITS
-from tools.bombs.measure import WEB, Taken, bounds, browser_bounds, decode_all, forget_peak, resident, seconds_of_cpu
+from tools.attack.measure import WEB, Taken, bounds, browser_bounds, decode_all, forget_peak, resident, seconds_of_cpu
 from tools.surgery import Frames, frames_of, stream_of, with_declaration, with_header
 
 VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
@@ -220,7 +220,7 @@ def web_problems(streams: dict[str, bytes]) -> list[str]:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.bombs.walk", description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--bytes", type=int, default=1 << 20, help="of a case (default: %(default)s)")
     parser.add_argument("--web", action="store_true", help="by the decoder for browsers, too")
     args = parser.parse_args()

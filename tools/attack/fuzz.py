@@ -1,10 +1,17 @@
-"""`python -m tools.fuzz --seconds N`: attack every target for its share of N seconds; exit code 1 if one falls."""
+"""Coverage-guided fuzzing with atheris: `python -m tools.attack fuzz --seconds N`; exit code 1 if a target falls.
+
+Compiled kernels are instrumented, too: libFuzzer follows their coverage, and AddressSanitizer and traps turn a read or
+write outside an array, and undefined behaviour, into a finding. `python -m tools.attack.fuzz TARGET [options]` is one
+target in one process, with options of libFuzzer.
+"""
 
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 import re
+import resource
 import shlex
 import shutil
 import subprocess
@@ -12,10 +19,13 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from types import FunctionType, ModuleType
 
 import atheris
 
-from tools.fuzz.targets import SLOW, TARGETS, VECTORS, seeds
+from tools.attack.mutate import mutate_stream
+from tools.attack.targets import SLOW, TARGETS, VECTORS, WHOLE_STREAMS, Finding, Target, run, seeds
+from tools.copies import refuse_other_kernels
 
 ROOT = Path(__file__).parents[2]
 FUZZED = ROOT / "build" / "fuzzed"
@@ -40,7 +50,7 @@ class Outcome:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.fuzz", description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=120.0, help="for all targets together (default: %(default)s)")
     parser.add_argument(
         "--targets", nargs="+", choices=TARGETS, default=list(TARGETS), metavar="NAME", help=", ".join(TARGETS)
@@ -78,7 +88,7 @@ def attack(name: str, seconds: float, corpus: Path, sources: Path) -> Outcome:
         (kept / f"seed-{number:03}").write_bytes(data)
     before = set(findings.iterdir())
     command = [
-        *(sys.executable, "-m", "tools.fuzz.worker", name, str(kept)),
+        *(sys.executable, "-m", "tools.attack.fuzz", name, str(kept)),
         *(f"-max_total_time={max(1, round(seconds))}", f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEMORY_MIB}"),
         # These are by the clock, which a busy machine stretches; workers count processor time.
         f"-report_slow_units={HANG_SECONDS}",
@@ -127,5 +137,74 @@ def environment() -> dict[str, str]:
     }
 
 
+SLOWEST = 3.0
+"""That one execution may take; instrumented kernels are about three times slower than others."""
+SMALL = 1 << 16
+GUIDING = ("bsm.bitstream.", "bsm.codec.", "bsm.files.")
+"""Whose functions' coverage guides the fuzzer, beside that of the kernels."""
+MEMORY = 256 << 20
+"""Bytes that one execution may add to the highest memory use so far."""
+
+
+def work() -> None:
+    """Fuzz until libFuzzer's options say stop; the process ends inside."""
+    refuse_other_kernels()
+    name = sys.argv[1]
+    target = TARGETS[name]
+    for data in seeds(name, VECTORS):  # loads what is imported late
+        run(target, data)
+    instrument()
+
+    def one(data: bytes) -> None:
+        before = _peak()
+        seconds = _seconds(target, data)
+        if _peak() - before > MEMORY:
+            raise Finding(f"{(_peak() - before) >> 20} MiB for {len(data)} bytes")
+        # What had to be loaded on the way is not slow the second time.
+        if seconds > SLOWEST and len(data) < SMALL and (seconds := _seconds(target, data)) > SLOWEST:
+            raise Finding(f"{seconds:.1f} s for {len(data)} bytes")
+
+    def mutate(data: bytes, max_size: int, seed: int) -> bytes:
+        return mutate_stream(data, max_size, seed, atheris.Mutate)
+
+    options = {"custom_mutator": mutate} if name in WHOLE_STREAMS else {}
+    atheris.Setup([sys.argv[0], *sys.argv[2:]], one, **options)
+    atheris.Fuzz()
+
+
+def instrument() -> None:
+    """Follow the coverage of every Python function of the decoders; the kernels report theirs themselves."""
+    logging.disable(logging.WARNING)
+    followed = sum(
+        _instrument_module(module) for name, module in sorted(sys.modules.items()) if name.startswith(GUIDING)
+    )
+    if not followed:
+        raise SystemExit(f"no function of {', '.join(GUIDING)} is followed: nothing would guide the fuzzer but kernels")
+
+
+def _instrument_module(module: ModuleType) -> int:
+    """Follow the functions of a module, and say how many there are."""
+    followed = 0
+    for item in vars(module).values():
+        members = vars(item).values() if isinstance(item, type) else [item]
+        for function in members:
+            plain = function.fget if isinstance(function, property) else getattr(function, "__func__", function)
+            if isinstance(plain, FunctionType) and plain.__module__ == module.__name__:
+                atheris.instrument_func(plain)
+                followed += 1
+    return followed
+
+
+def _seconds(target: Target, data: bytes) -> float:
+    """Processor time of all threads."""
+    begin = time.process_time()
+    run(target, data)
+    return time.process_time() - begin
+
+
+def _peak() -> int:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    work()

@@ -1,4 +1,4 @@
-"""`python -m tools.fuzz.sweep --seconds N`: every target on its seeds and mutations; encoders on bad meshes.
+"""`python -m tools.attack sweep --seconds N`: every target on its seeds and mutations; encoders on bad meshes.
 
 Always the same inputs in the same order, without coverage and without atheris: for builds of the kernels that check
 themselves, see `tools/sanitize.sh`. What goes wrong there ends the process with a report.
@@ -26,16 +26,16 @@ from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.files.mesh import read_mesh
+from tools.attack.mutate import mutate_stream
+from tools.attack.targets import TARGETS, VECTORS, WHOLE_STREAMS, Finding, run, seeds
 from tools.copies import refuse_other_kernels
-from tools.fuzz.mutate import mutate_stream
-from tools.fuzz.targets import TARGETS, VECTORS, WHOLE_STREAMS, Finding, run, seeds
 
 Ints = npt.NDArray[np.int32]
 
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.fuzz.sweep", description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--seconds", type=float, default=60.0, help="for all targets together (default: %(default)s)")
     parser.add_argument("--targets", nargs="+", choices=TARGETS, default=list(TARGETS), metavar="NAME")
     parser.add_argument("--meshes", type=Path, help="a folder of bad meshes, to be encoded and decoded again")

@@ -1,6 +1,6 @@
 """Every reader of mesh files and sequences, with every count and length made as large as its type and its file allow.
 
-`python -m tools.bombs.readers` walks all of it. Numbers are not listed by hand: in a text each number in turn, in a
+`python -m tools.attack readers` walks all of it. Numbers are not listed by hand: in a text each number in turn, in a
 binary file each byte, two, four and eight bytes from each offset become as large as they can be. Beside that stand
 files that are sound, and large in one place for their bytes. What reading takes is held against the same bounds as
 what decoding takes; whatever comes out must be a mesh or an error of ours.
@@ -38,7 +38,7 @@ from bsm.files.formats.npy import write_npy
 from bsm.files.mesh import format_mesh, read_mesh
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer
-from tools.bombs.measure import Taken, bounds, forget_peak, resident, seconds_of_cpu
+from tools.attack.measure import Taken, bounds, forget_peak, resident, seconds_of_cpu
 from tools.vectors.meshes import torus
 
 HUGE_WORDS = (b"2147483647", b"999999999999999999", b"9" * 400, b"-1", b"1e300")
@@ -577,12 +577,15 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
         "targets": (targets, 0),
         "skins": (skinned, 0),
     }
-    still = {
+    still: dict[str, tuple[Change, int]] = {
         "meshes": (shared(size // 400, size // 400, 1), size // 2),
         "materials": (materials, 0),
         "sparse": (sparse, 0),
     }
-    moving = {"curves of no bytes": (channels, 0), "samplers": (partial(channels, samplers=True), 0)}
+    moving: dict[str, tuple[Change, int]] = {
+        "curves of no bytes": (channels, 0),
+        "samplers": (partial(channels, samplers=True), 0),
+    }
     found = {f"glb, {name}": partial(made, *how, None) for name, how in {**both, **still}.items()}
     found |= {f"moving glb, {name}": partial(made, *how, 1.0) for name, how in {**both, **moving}.items()}
     found |= {f"long glb, {name}": partial(made, *both[name], 30_000.0) for name in ("nodes of nothing", "targets")}
@@ -741,7 +744,7 @@ def warm_up() -> None:
 
 def main() -> int:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.bombs.readers", description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--bytes", type=int, default=1 << 20, help="of a file that is grown (default: %(default)s)")
     parser.add_argument("--every", type=int, default=1, metavar="N", help="of the numbers take one in N")
     parser.add_argument("--only", default="", metavar="TEXT", help="cases whose name begins so")

@@ -1,8 +1,8 @@
 """Hold the decoders against each other and against everything that can be thrown at them; exit code 1 on any finding.
 
-    python -m tools.proof              the whole proof: a million mutants, three thousand streams on every processor
-    python -m tools.proof --short      a minute of it, for every change
-    python -m tools.proof --mutants 10000000 --only mutants
+    python -m tools.attack proof              the whole proof: a million mutants, three thousand streams everywhere
+    python -m tools.attack proof --short      a minute of it, for every change
+    python -m tools.attack proof --mutants 10000000 --only mutants
 
 | suite | what it does |
 |---|---|
@@ -15,14 +15,13 @@
 | readers | every reader of files with every number as large as it can be: memory and time are within the law, too |
 | walk | every frame type and field as large as its bytes allow: memory and time are within the law |
 
-Work is cut into shards, each a process of its own that follows from the seed alone. What is done is kept under
-`.cache/proof`, so that the same command goes on where it was stopped; streams that led to findings are kept there, too.
+Work is cut into shards, each a process of its own that follows from the seed alone. Streams that led to findings are
+kept under `.cache/proof`.
 """
 
 from __future__ import annotations
 
 import argparse
-import hashlib
 import json
 import os
 import subprocess
@@ -30,11 +29,11 @@ import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
-from tools.proof.places import ROOT, build_processors, environments
-from tools.proof.tally import Tally
+from tools.attack.places import ROOT, build_processors, environments
+from tools.attack.tally import Tally
 
 SHARD_SECONDS = 1800
 MUTANTS, DIFFERENTIAL, ENCODES, SURROUNDINGS = 4000, 1000, 50, 12
@@ -43,19 +42,6 @@ WALKS = 8
 """Shards of the walk, which together do all of it."""
 READERS = 8
 """Shards of the walk over readers."""
-WATCHED = (
-    "bitstream",
-    "codec",
-    "src/bsm/files",
-    "tools/bombs",
-    "tools/proof",
-    "tools/fuzz",
-    "tools/vectors",
-    "tools/web",
-    "spec",
-)
-KINDS = (".py", ".c", ".h", ".cpp", ".hpp", ".js", ".wasm", ".bsm", ".npz", ".bin")
-"""Where, and in files of which kinds, a change makes everything unproven again."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +61,7 @@ class Part:
 def main() -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(
-        prog="python -m tools.proof", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        prog="python -m tools.attack proof", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--short", action="store_true", help="a minute of everything, on two processors")
     parser.add_argument("--mutants", type=int, default=1_000_000, metavar="N")
@@ -90,13 +76,13 @@ def main() -> int:
     if args.short:
         args.mutants, args.differential, args.encodes = min(args.mutants, 20_000), min(args.differential, 2_000), 100
     parts = [part for part in plan(args) if not args.only or part.suite in args.only]
-    folder = args.folder.resolve() / f"{args.seed}-{digest()}{'-short' if args.short else ''}"
-    print(f"seed {args.seed}, {len(parts)} shards, kept in {folder}", flush=True)
+    findings = args.folder.resolve() / args.seed
+    print(f"seed {args.seed}, {len(parts)} shards, findings are kept in {findings}", flush=True)
     if any(part.suite == "encodes" for part in parts):
         build_processors(args.short)
     tallies: dict[str, Tally] = {part.suite: Tally() for part in parts}
     with ThreadPoolExecutor(args.jobs) as pool:
-        waiting = {pool.submit(outcome, part, args, folder): part for part in parts}
+        waiting = {pool.submit(run, part, args, findings): part for part in parts}
         for done in as_completed(waiting):
             tally = done.result()
             tallies[waiting[done].suite].add(tally)
@@ -130,21 +116,10 @@ def cuts(count: int, size: int) -> Iterator[tuple[int, int]]:
         yield number, min(size, count - first)
 
 
-def outcome(part: Part, args: argparse.Namespace, folder: Path) -> Tally:
-    """What a shard saw, now or before."""
-    kept = folder / f"{part.name}.json"
-    if kept.is_file():
-        return Tally(**json.loads(kept.read_text()))
-    tally = run(part, args, folder / "findings")
-    folder.mkdir(parents=True, exist_ok=True)
-    kept.write_text(json.dumps(asdict(tally)))
-    return tally
-
-
 def run(part: Part, args: argparse.Namespace, findings: Path) -> Tally:
     """Run a shard; one that dies is run again, with every input written down before it is tried."""
     command = [
-        *(sys.executable, "-X", "faulthandler", "-m", "tools.proof.shard", part.suite),
+        *(sys.executable, "-X", "faulthandler", "-m", "tools.attack.shard", part.suite),
         *(str(part.number), str(part.size), "--seed", args.seed, *(["--short"] if args.short else [])),
         *("--findings", str(findings)),
     ]
@@ -158,27 +133,6 @@ def run(part: Part, args: argparse.Namespace, findings: Path) -> Tally:
     except subprocess.TimeoutExpired:
         problem = f"did not end within {SHARD_SECONDS} s"
     return Tally(escapes=1, findings=[problem])
-
-
-def digest() -> str:
-    """A digest of all sources that the proof is about."""
-    total = hashlib.sha256()
-    for name in WATCHED:
-        for path in sorted((ROOT / name).rglob("*")):
-            if path.is_file() and path.suffix in (
-                ".py",
-                ".c",
-                ".h",
-                ".cpp",
-                ".hpp",
-                ".bsm",
-                ".npz",
-                ".bin",
-                ".js",
-                ".wasm",
-            ):
-                total.update(str(path.relative_to(ROOT)).encode() + path.read_bytes())
-    return total.hexdigest()[:12]
 
 
 def table(tallies: dict[str, Tally]) -> Iterator[str]:

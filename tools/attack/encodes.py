@@ -1,4 +1,4 @@
-"""Random streams on this processor: `python -m tools.proof.encodes SEED COUNT FOLDER [--streams OTHER]`.
+"""Random streams on this processor: `python -m tools.attack.encodes SEED COUNT FOLDER [--streams OTHER]`.
 
 Writes each stream and what it decodes to into FOLDER; decodes the streams in OTHER, which another processor has
 written, as well. Everything follows from SEED, so streams of two processors can be compared byte by byte.
@@ -15,10 +15,10 @@ from random import Random
 import numpy as np
 
 from bsm.bitstream.errors import BsmError
+from tools.attack.decoding import whole
+from tools.attack.inputs import random_stream
+from tools.attack.tally import Decoded
 from tools.copies import refuse_other_kernels
-from tools.proof.decoding import whole
-from tools.proof.inputs import random_stream
-from tools.proof.tally import Decoded
 
 
 def random_streams(seed: str, count: int) -> list[bytes | str]:
@@ -50,7 +50,7 @@ def stored(path: Path) -> Decoded:
 
 def main() -> None:
     """Run the command."""
-    parser = argparse.ArgumentParser(prog="python -m tools.proof.encodes", description=(__doc__ or "").split("\n")[0])
+    parser = argparse.ArgumentParser(prog="python -m tools.attack.encodes", description=(__doc__ or "").split("\n")[0])
     parser.add_argument("seed")
     parser.add_argument("count", type=int)
     parser.add_argument("folder", type=Path)

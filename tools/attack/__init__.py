@@ -1,0 +1,1 @@
+"""Everything that attacks decoders and readers: `python -m tools.attack`."""

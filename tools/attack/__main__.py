@@ -1,0 +1,19 @@
+"""Everything that attacks decoders and readers: `python -m tools.attack WHAT ...`, and `WHAT --help` for what it asks.
+
+fuzz     every decoder's function, guided by coverage
+sweep    the same inputs in the same order, without guidance: for kernels that check themselves (tools/sanitize.sh)
+bombs    streams that cost as much as they can, held against what they may take
+charges  how true the decoder's estimates of work are
+walk     every frame type and field as large as its bytes allow, held against the law
+readers  every reader of files, with every number as large as it can be, held against the law
+proof    vectors, mutants and random streams by all decoders, on all processors, in all environments
+"""
+
+from __future__ import annotations
+
+from tools.command import dispatch
+
+COMMANDS = {name: f"{name}:main" for name in ("fuzz", "sweep", "bombs", "charges", "walk", "readers", "proof")}
+
+if __name__ == "__main__":
+    dispatch("tools.attack", COMMANDS, __doc__)

@@ -1,1 +1,0 @@
-"""Streams of a few bytes that ask for much, and a command that measures what they get."""
