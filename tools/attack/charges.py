@@ -57,44 +57,15 @@ def _sequence(**options: Any) -> bytes:
     return encode_sequence([frame.positions for frame in frames], frames[0].faces, SequenceOptions(**options))
 
 
-COUNTED = [
-    "careful",
-    "copies",
-    "gop-300",
-    "gop-components",
-    "gop-keys",
-    "gop-next",
-    "gop-part",
-    "gop-still",
-    "grid",
-    "grid-chunks",
-    "hubs-small",
-    "layers",
-    "layers-chunks",
-    "light",
-    "light-chunks",
-    "light-hubs",
-    "members-all",
-    "mesh",
-    "mesh-blocks",
-    "moving",
-    "moving-frames",
-    "moving-keys",
-    "moving-most",
-    "moving-still",
-    "narrow-small",
-    "pieces",
-    "rings",
-    "rings-torus",
-    "scattered",
-    "sequence",
-    "sequence-again",
-    "sequence-small",
-    "svd-keys",
-    "tiny",
-    "values",
-    "wide-1024",
-]
+# fmt: off
+COUNTED = (
+    "careful", "copies", "gop-300", "gop-components", "gop-keys", "gop-next", "gop-part", "gop-still", "grid",
+    "grid-chunks", "hubs-small", "layers", "layers-chunks", "light", "light-chunks", "light-hubs", "members-all",
+    "mesh", "mesh-blocks", "moving", "moving-frames", "moving-keys", "moving-most", "moving-still", "narrow-small",
+    "pieces", "rings", "rings-torus", "scattered", "sequence", "sequence-again", "sequence-small", "svd-keys",
+    "tiny", "values", "wide-1024",
+)
+# fmt: on
 """Bombs that are decoded to some end."""
 
 KINDS: dict[str, Callable[[], bytes]] = {
