@@ -2,9 +2,9 @@
 
 Mathematics states prices, stages pay them: `Steps` is how a price travels.
 
-The numbers are those of one machine, an x86-64 server with AVX-512; `python -m tools.attack charges` says how true they are of
-another. What they are for is to refuse what would take much longer than it is worth, so that a factor of two is close
-enough; what counts is that nothing is left out.
+The numbers are those of one machine, an x86-64 server with AVX-512; `python -m tools.attack charges` says how true they
+are of another. What they are for is to refuse what would take much longer than it is worth, so that a factor of two is
+close enough; what counts is that nothing is left out.
 """
 
 from __future__ import annotations

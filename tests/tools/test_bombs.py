@@ -35,7 +35,10 @@ REFUSED = {
 """How, and what the message is about."""
 
 
-@pytest.mark.parametrize("name", REFUSED)
+LONG = ("moving-most", "seams-many", "nested-attribute")
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow) if n in LONG else n for n in REFUSED])
 def test_what_asks_for_too_much_is_refused(name):
     error, about = REFUSED[name]
     taken = decode_all(BOMBS[name].make(), "events", Limits())

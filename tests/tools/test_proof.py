@@ -117,10 +117,11 @@ def test_a_wrong_decoder_is_found(shard, monkeypatch):
 
     monkeypatch.setattr(proof, "whole", wrong)
     monkeypatch.setattr(proof, "steady", lambda stream: True)
-    SUITES["differential"](shard, 0, 40)
+    SUITES["differential"](shard, 0, 10)
     assert shard.tally.differing == shard.tally.decoded > 0 and "off by" in shard.tally.findings[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("suite", "size"), [("vectors", 40), ("mutants", 60), ("browser", 60), ("differential", 20)])
 def test_shards_find_nothing_and_are_the_same_again(suite, size, tmp_path):
     command = [sys.executable, "-m", "tools.attack.shard", suite, "0", str(size), "--seed", "s"]

@@ -47,6 +47,7 @@ def test_what_is_as_large_as_its_bytes_allow_stays_within_the_law():
     assert not {name: problem for name, problem in found.items() if problem}
 
 
+@pytest.mark.slow
 @linux
 @pytest.mark.skipif(shutil.which("node") is None, reason="there is no node")
 def test_the_decoder_for_browsers_stays_within_it_too():
