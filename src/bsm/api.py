@@ -550,7 +550,7 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     original, decoded : mesh, pair of arrays, path, or stream
         As `encode` takes a mesh, or `decode` a stream. Vertices that no face uses are left out; where only that makes
         the meshes comparable, vertices at one position are one.
-    order : int array, optional
+    order : int array, shape (n,), optional
         Vertex j of `decoded` is vertex order[j] of `original`: `Encoder.vertex_order`. Without it the order may be the
         same, or the decoder's.
 

@@ -162,7 +162,7 @@ def damaged(payload: bytes, data: st.DataObject) -> bytes:
     return bytes(changed)
 
 
-@settings(max_examples=400)
+@settings(max_examples=150)
 @given(st.one_of(HOLEY, SOUPS.map(lambda soup: compact(np.array(soup)))), st.data())
 def test_damaged_connectivity(mesh: tuple[Faces, int], data: st.DataObject) -> None:
     faces, vertices = mesh
