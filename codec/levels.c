@@ -1,10 +1,7 @@
 /* Which of the compiled levels of a kernel runs: the best that the processor has. */
 #ifdef KERNEL_LEVELS
 
-#include "codec/basis/completion.h"
-#include "codec/basis/cosines.h"
-#include "codec/basis/orthogonal_iteration.h"
-#include "codec/basis/solver/solver.h"
+#include "codec/basis/basis.h"
 #include "codec/sequence/shown.h"
 #include "codec/signal/transform.h"
 

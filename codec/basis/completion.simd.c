@@ -4,9 +4,7 @@
  * is orthogonal and takes E to -U; so its columns from h on are at right angles to U. A has a symmetric part that is not
  * indefinite, which is why it is factorised without exchanges.
  */
-#include "codec/basis/completion.h"
-
-#include "codec/basis/solver/vectors.h"
+#include "codec/basis/vectors.h"
 
 /* A^T = L R, of a multiple of ROWS rows, with the identity behind those that there are; the rows of a panel; and as many
  * rows of U + E as are taken at a time. */

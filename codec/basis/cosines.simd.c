@@ -1,8 +1,6 @@
 /* Cosine columns, cos(pi j (2 r + 1) / (2 n)) (specification, M 8.2): the same to the last bit on every machine, which
  * libraries are not. */
-#include "codec/basis/cosines.h"
-
-#include "codec/basis/solver/vectors.h"
+#include "codec/basis/vectors.h"
 
 #define PI 3.141592653589793
 

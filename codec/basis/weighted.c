@@ -1,5 +1,5 @@
 /* Edges weighted by cotangents (Pinkall and Polthier 1993; specification, S 3.1), and parts that hang on others (S 3.2). */
-#include "codec/basis/weighted.h"
+#include "codec/basis/basis.h"
 
 /* Index of the first entry that is not below `value`, in an ascending list from `low` to before `high`. */
 static int64_t lower_bound(const int32_t *list, int64_t low, int64_t high, int32_t value) {

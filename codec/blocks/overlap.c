@@ -1,8 +1,6 @@
 /* Overlapping blocks in a chain, and the graph of one of them in row order (specification, M 5 and M 6). */
-#include "codec/blocks/overlap.h"
-#include "codec/blocks/bisection.h"
-#include "codec/geometry/graph.h"
-#include "codec/geometry/sort.h"
+#include "codec/blocks/blocks.h"
+#include "codec/geometry/geometry.h"
 
 static const uint32_t FREE = 0xFFFFFFFFu;
 
@@ -205,4 +203,17 @@ int64_t chain_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, C
             edges.data[p] += offsets.data[members.data[i] + 1] - offsets.data[members.data[i]];
     }
     return count;
+}
+
+/* Weighted sums over the copies of each vertex (paper, Algorithm 3; specification, M 12). */
+
+/* Add one copy of each of `vertices`, all below `total.size`. */
+void add_copies(Doubles2 sums, Doubles total, ConstInts vertices, ConstDoubles2 positions, ConstDoubles weights) {
+    int64_t count = least(vertices.size, least(positions.rows, weights.size));
+    for (int64_t r = 0; r < count; r++) {
+        int64_t v = vertices.data[r];
+        double weight = weights.data[r];
+        total.data[v] += weight;
+        for (int d = 0; d < 3; d++) sums.data[3 * v + d] += weight * positions.data[3 * r + d];
+    }
 }

@@ -1,5 +1,204 @@
+/* Recursive bisection of a graph (specification, M 3): `codec/blocks/partition.py` says what it is for.
+ *
+ * A segment lies between a low and a high end. Its vertices are sorted by distance to the low end minus distance to the
+ * high end, and cut in two; each half keeps one end and the distances to it. */
+#include "codec/blocks/blocks.h"
+
+enum { LEAF = 8, DEPTH = 64 };
+
+typedef struct {
+    const int32_t *offsets, *neighbours;
+    uint32_t *colours;
+    int32_t *distances[2]; /* to the low and to the high end of the segment that a vertex is in */
+    uint32_t *queue, *keys, *buckets;
+} Work;
+
+typedef struct {
+    int64_t first, last, part, parts;
+    int kept;
+} Segment;
+
+/* Breadth-first distances from `start` within a segment; `queue` gets its vertices in the order of discovery.
+ *
+ * The vertices of a segment share a colour, which the sweep raises by one. Where it comes to an end before all are
+ * found, it goes on, one step farther away, from the last vertex of the segment that is still missing. */
+static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t start, int32_t *distance) {
+    uint32_t *colours = work->colours, *queue = work->queue;
+    const int32_t *offsets = work->offsets, *neighbours = work->neighbours;
+    uint32_t colour = colours[start];
+    colours[start] = colour + 1;
+    queue[0] = start;
+    int64_t head = 0, tail = 1, missing = size;
+    for (int32_t level = 0;; level++) {
+        int64_t end = tail;
+        while (head < end) {
+            uint32_t v = queue[head++];
+            distance[v] = level;
+            const int32_t *last = neighbours + offsets[v + 1];
+            for (const int32_t *next = neighbours + offsets[v]; next < last; next++) {
+                /* Without a branch, which the processor could not predict: what is not new is overwritten. */
+                uint32_t w = (uint32_t)*next, seen = colours[w];
+                uint64_t fresh = seen == colour;
+                colours[w] = seen + (uint32_t)fresh;
+                queue[tail] = w;
+                tail += (int64_t)fresh;
+            }
+        }
+        if (tail == end) {
+            if (tail == size) return;
+            do missing--;
+            while (colours[segment[missing]] != colour);
+            queue[tail++] = segment[missing];
+            colours[segment[missing]]++;
+        }
+    }
+}
+
+/* Sort a segment by distance to its low end minus distance to its high end, ties by place in `queue`: a counting sort,
+ * in one pass unless there are far more values than vertices. */
+static void sort_segment(Work *work, uint32_t *segment, int64_t size) {
+    const int32_t *low = work->distances[0], *high = work->distances[1];
+    uint32_t *source = work->queue, *target = segment, *keys = work->keys, *buckets = work->buckets;
+    int32_t least = INT32_MAX, most = INT32_MIN;
+    for (int64_t i = 0; i < size; i++) {
+        uint32_t v = source[i];
+        int32_t difference = low[v] - high[v];
+        least = difference < least ? difference : least;
+        most = difference > most ? difference : most;
+        keys[v] = (uint32_t)difference;
+    }
+    uint32_t span = (uint32_t)(most - least), bits = 1;
+    while (span >> bits > 0 && (size << 2) >> bits > 0) bits++;
+    uint32_t mask = (1u << bits) - 1;
+    for (uint32_t shift = 0;;) {
+        for (int64_t k = 0; k < (int64_t)mask + 2; k++) buckets[k] = 0;
+        for (int64_t i = 0; i < size; i++) buckets[(((keys[source[i]] - (uint32_t)least) >> shift) & mask) + 1]++;
+        for (int64_t k = 0; k < (int64_t)mask; k++) buckets[k + 1] += buckets[k];
+        for (int64_t i = 0; i < size; i++) {
+            uint32_t v = source[i];
+            target[buckets[((keys[v] - (uint32_t)least) >> shift) & mask]++] = v;
+        }
+        uint32_t *swapped = source;
+        source = target;
+        target = swapped;
+        shift += bits;
+        if (shift >= 32 || span >> shift == 0) break;
+    }
+    if (source != segment)
+        for (int64_t i = 0; i < size; i++) segment[i] = source[i];
+}
+
+static bool open_work(Work *work, ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch) {
+    int64_t size = offsets.size - 1;
+    if (size < 0 || bounds.size < 2 || order.size < size || scratch.size < bisection_scratch(size)) return false;
+    if (neighbours.size < offsets.data[size]) return false;
+    uint32_t *room = scratch.data;
+    *work = (Work){.offsets = offsets.data, .neighbours = neighbours.data, .colours = room};
+    work->distances[0] = (int32_t *)(room + size);
+    work->distances[1] = (int32_t *)(room + 2 * size);
+    work->queue = room + 3 * size;
+    work->keys = room + 4 * size + 1;
+    work->buckets = room + 5 * size + 1;
+    return true;
+}
+
+/* All vertices as one segment. */
+static Segment begin(Work *work, uint32_t *segments, int64_t size, Ints bounds) {
+    int64_t parts = bounds.size - 1;
+    for (int64_t v = 0; v < size; v++) {
+        segments[v] = (uint32_t)v;
+        work->colours[v] = 0;
+    }
+    for (int64_t p = 0; p < parts; p++) bounds.data[p] = 0;
+    bounds.data[parts] = (int32_t)size;
+    /* The low end of the whole is the vertex that a sweep from vertex 0 reaches last. */
+    if (size > LEAF) {
+        sweep(work, segments, size, 0, work->distances[1]);
+        sweep(work, segments, size, work->queue[size - 1], work->distances[0]);
+    }
+    return (Segment){0, size, 0, parts, 0};
+}
+
+static Segment lower(Segment s, int64_t cut) { return (Segment){s.first, cut, s.part, s.parts / 2, 0}; }
+
+static Segment upper(Segment s, int64_t cut) {
+    return (Segment){cut, s.last, s.part + s.parts / 2, s.parts - s.parts / 2, 1};
+}
+
+/* Cut a segment of several parts in two, of `colour` and of the one after the next; returns where. */
+static int64_t cut_segment(Work *work, uint32_t *segments, Segment s, uint32_t colour) {
+    uint32_t *segment = segments + s.first;
+    int64_t count = s.last - s.first;
+    if (count > LEAF) {
+        const int32_t *distance = work->distances[s.kept];
+        uint32_t far = segment[0];
+        for (int64_t i = 0; i < count; i++)
+            if (distance[segment[i]] > distance[far]) far = segment[i];
+        sweep(work, segment, count, far, work->distances[1 - s.kept]);
+        sort_segment(work, segment, count);
+    }
+    int64_t cut = s.first + count * (s.parts / 2) / s.parts;
+    for (int64_t i = s.first; i < cut; i++) work->colours[segments[i]] = colour;
+    for (int64_t i = cut; i < s.last; i++) work->colours[segments[i]] = colour + 2;
+    return cut;
+}
+
+/* Cut a segment into its parts, with colours from `colour` on. */
+static void cut_on(Work *work, uint32_t *segments, Segment whole, uint32_t colour, Ints bounds) {
+    Segment stack[DEPTH];
+    stack[0] = whole;
+    for (int depth = 1; depth > 0;) {
+        Segment s = stack[--depth];
+        if (s.parts == 1) continue;
+        int64_t cut = cut_segment(work, segments, s, colour);
+        bounds.data[s.part + s.parts / 2] = (int32_t)cut;
+        stack[depth++] = upper(s, cut);
+        stack[depth++] = lower(s, cut);
+        colour += 4;
+    }
+}
+
+enum { FIRST_COLOUR = 6 };
+
+/* Cut a graph into `bounds.size - 1` parts: part p is `order[bounds[p]:bounds[p + 1]]`. */
+bool bisect(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch) {
+    Work work;
+    if (!open_work(&work, offsets, neighbours, order, bounds, scratch)) return false;
+    uint32_t *segments = (uint32_t *)order.data;
+    cut_on(&work, segments, begin(&work, segments, offsets.size - 1, bounds), FIRST_COLOUR, bounds);
+    return true;
+}
+
+/* The first cut of `bisect`, after which `bisect_half` can go on with both halves at once: one with `scratch`, the other
+ * one with `second`. */
+bool bisect_once(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch, Words second) {
+    Work work, other;
+    if (!open_work(&work, offsets, neighbours, order, bounds, scratch) ||
+        !open_work(&other, offsets, neighbours, order, bounds, second) || bounds.size < 3)
+        return false;
+    int64_t size = offsets.size - 1;
+    uint32_t *segments = (uint32_t *)order.data;
+    Segment whole = begin(&work, segments, size, bounds);
+    bounds.data[whole.parts / 2] = (int32_t)cut_segment(&work, segments, whole, FIRST_COLOUR);
+    for (int64_t v = 0; v < size; v++) {
+        other.colours[v] = work.colours[v];
+        for (int end = 0; end < 2; end++) other.distances[end][v] = work.distances[end][v];
+    }
+    return true;
+}
+
+/* Half 0 or 1 of what `bisect_once` has cut. */
+bool bisect_half(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, int64_t half, Words scratch) {
+    Work work;
+    if (!open_work(&work, offsets, neighbours, order, bounds, scratch) || bounds.size < 3) return false;
+    Segment whole = {0, offsets.size - 1, 0, bounds.size - 1, 0};
+    int64_t cut = bounds.data[whole.parts / 2];
+    if (cut < 0 || cut > whole.last) return false;
+    cut_on(&work, (uint32_t *)order.data, half ? upper(whole, cut) : lower(whole, cut), FIRST_COLOUR + 4, bounds);
+    return true;
+}
+
 /* The derived partition: boundary vertices move to where most of their neighbours are (specification, M 4). */
-#include "codec/blocks/partition.h"
 
 static int32_t better_part(ConstInts offsets, ConstInts neighbours, const int32_t *labels, const int64_t *sizes,
                            const int32_t *votes, int64_t room, int64_t v) {

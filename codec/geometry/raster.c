@@ -1,5 +1,5 @@
 /* Which face each pixel of a picture shows: a depth buffer. */
-#include "codec/geometry/raster.h"
+#include "codec/geometry/geometry.h"
 
 INLINE double smallest3(double a, double b, double c) {
     double s = a < b ? a : b;

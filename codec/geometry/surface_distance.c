@@ -1,5 +1,5 @@
 /* Exact distances from points to the nearest of many triangles, by a tree of bounding boxes. */
-#include "codec/geometry/surface_distance.h"
+#include "codec/geometry/geometry.h"
 
 enum { LEAF = 4, DEPTH = 128 };
 

@@ -2,7 +2,7 @@
  * numbers. */
 #include "codec/sequence/shown.h"
 
-#include "codec/basis/solver/vectors.h"
+#include "codec/basis/vectors.h"
 
 /* Some vertices from v on, and some coordinates side by side, of which the first is in `column` of the weights. */
 INLINE void show_vertices(const int rows, const int vectors, ConstDoubles2 field, int64_t first, ConstDoubles2 weights,

@@ -2,7 +2,7 @@
  * continues the known (M 7.4), sums in the order of rows. */
 #include "codec/signal/predict.h"
 
-#include "codec/geometry/graph.h"
+#include "codec/geometry/geometry.h"
 
 static void hang(Doubles springs, Doubles2 pulls, int64_t row, double stiffness, const double *sum, double weight) {
     springs.data[row] += stiffness;

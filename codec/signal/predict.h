@@ -1,7 +1,7 @@
 #ifndef BSM_PREDICT_H
 #define BSM_PREDICT_H
 
-#include "codec/basis/solver/solver.h"
+#include "codec/basis/basis.h"
 
 void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
                  ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls);

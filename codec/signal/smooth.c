@@ -1,7 +1,7 @@
 /* A polynomial of K = I - D^-1 A on positions (specification, M 12.2): sums over neighbours in ascending order. */
 #include "codec/signal/smooth.h"
 
-#include "codec/geometry/graph.h"
+#include "codec/geometry/geometry.h"
 
 /* A position, and the number behind it. */
 typedef double Four __attribute__((vector_size(32)));

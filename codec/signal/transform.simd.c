@@ -5,7 +5,7 @@
  */
 #include "codec/signal/transform.h"
 
-#include "codec/basis/solver/vectors.h"
+#include "codec/basis/vectors.h"
 
 /* A vector from the end of an array, the lanes behind which are zero. */
 INLINE Vector load_last(const double *from, int64_t left) {

@@ -1,10 +1,9 @@
 /* Which rows of a block are eliminated when: nested dissection along its bisection, and what each front leads to.
  *
- * A. George, "Nested dissection of a regular finite element mesh", 1973; fronts.py says what a front is.
+ * A. George, "Nested dissection of a regular finite element mesh", 1973; laplacian.py says what a front is.
  */
-#include "codec/basis/solver/front.h"
-#include "codec/geometry/graph.h"
-#include "codec/geometry/sort.h"
+#include "codec/basis/vectors.h"
+#include "codec/geometry/geometry.h"
 
 #define NONE UINT32_MAX
 

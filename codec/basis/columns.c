@@ -1,5 +1,20 @@
+/* Columns that need no vectors: hash columns to start from, and Onorm by reflections. */
+#include "codec/basis/basis.h"
+
+/* Hash columns (specification, M 8.6): fixed pseudo-random numbers in [-1, 1), the same on every machine. */
+
+/* Overwrite each entry by the splitmix64 of row * 2^32 + column. */
+KERNEL void hash_columns(Doubles2 columns) {
+    for (int64_t r = 0; r < columns.rows; r++)
+        for (int64_t j = 0; j < columns.columns; j++) {
+            uint64_t z = (((uint64_t)r << 32) + (uint64_t)j + 1) * 0x9E3779B97F4A7C15u;
+            z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+            z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+            columns.data[r * columns.columns + j] = (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
+        }
+}
+
 /* Onorm by Householder reflections: for columns too close to dependent for Cholesky QR. */
-#include "codec/basis/solver/householder.h"
 
 /* x and y of `size` entries, `apart` doubles from one to the next: the sum of their products. */
 static double product(const double *x, const double *y, int64_t size, int64_t apart) {
