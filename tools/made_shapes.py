@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import Floats
-from bsm.codec.geometry.incidence import vertex_neighbours
+from bsm.codec.geometry.graph import vertex_neighbours
 
 Field = Callable[[Floats], Floats]
 """From places, shape (..., 3), to values that are negative inside, and about a distance."""

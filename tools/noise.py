@@ -13,7 +13,7 @@ import numpy as np
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import Floats, Topology, surface_normals
-from bsm.codec.geometry.incidence import vertex_neighbours
+from bsm.codec.geometry.graph import vertex_neighbours
 from bsm.codec.geometry.metrics import mean_edge_length
 
 

@@ -19,31 +19,22 @@ INLINE bool fits_factor(const Fronts *fronts, int64_t n, Doubles values, Doubles
            values.size >= (int64_t)fronts->places.data[count] + 7;
 }
 
-int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, Ints cuts, Words rows, Words firsts);
-int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, ConstWords firsts, double most_work,
-                     Words scratch, Words steps, Words owners, Words starts, Words borders, Words places);
 int64_t find_fronts(ConstInts offsets, ConstInts neighbours, int64_t leaf, double most_work, Words scratch, Words rows,
                     Words steps, Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums);
 void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
                       Words column, Doubles scratch, Doubles values, Doubles inverse);
 void LEVEL(solve_columns)(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 columns, int64_t power,
                    Doubles scratch, Doubles2 solution);
-
 int64_t LEVEL(iteration_space)(int64_t n, int64_t c);
 double LEVEL(iterate)(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 start, int64_t power, int64_t iterations,
                double once, Doubles scratch, Doubles2 subspace);
 double LEVEL(cholesky_onorm)(ConstDoubles2 columns, double once, Doubles scratch, Doubles2 subspace);
-
 int64_t LEVEL(completion_space)(int64_t h);
 int64_t LEVEL(complete_columns)(ConstDoubles2 first, double least_pivot, Doubles scratch, Doubles2 whole);
-
 void LEVEL(cosines)(int64_t first, Doubles table, Doubles2 columns);
 void LEVEL(resize_columns)(ConstDoubles2 previous, Doubles table, Doubles2 columns);
-
 void hash_columns(Doubles2 columns);
-
 void householder(Doubles2 work, Doubles scratch, Doubles2 q);
-
 void cotangents(ConstInts offsets, ConstInts neighbours, ConstInts2 faces, ConstDoubles2 positions, double flatness,
                 double smallness, Doubles weights);
 int64_t hold(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstInts rank, ConstInts vertices,

@@ -13,7 +13,7 @@ from collections.abc import Callable, Generator
 from typing import TypeAlias
 
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.solver.fronts import Fronts
+from bsm.codec.basis.laplacian import Fronts
 
 ONCE = 5.0
 """Of each number of a dictionary, however often it is iterated."""

@@ -9,7 +9,7 @@
 
 /* Elimination order of a graph whose rows are in bisection order: `rows` and, at the end of `firsts`, the first step of
  * each front. Returns the number of fronts; `cuts`, one entry a row, is scratch, `firsts` has room for one more. */
-int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, Ints cuts, Words rows, Words firsts) {
+static int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, Ints cuts, Words rows, Words firsts) {
     int64_t n = offsets.size - 1;
     /* The widest cut between a row and its farthest later neighbour has the row in its separator. */
     for (int64_t r = 0; r < n; r++) {
@@ -64,7 +64,7 @@ INLINE int64_t enter(uint32_t step, uint32_t t, int64_t end, uint32_t *mark, uin
  * Returns the size of `borders`; -1 if there is no room for them; -2 if a factorisation takes more operations than
  * `most_work`. `scratch` has room for n + 2 t, `starts` and `places` for t + 1.
  */
-int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, ConstWords firsts, double most_work,
+static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, ConstWords firsts, double most_work,
                      Words scratch, Words steps, Words owners, Words starts, Words borders, Words places) {
     int64_t n = rows.size, count = firsts.size - 1;
     /* Fronts whose borders begin in the same front, as linked lists. */

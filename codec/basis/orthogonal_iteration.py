@@ -26,7 +26,7 @@ from bsm.codec.basis.cost import (
 from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
 
 ONCE, TWICE = 1e-5, 1e-13
-"""Independence (`factorize_gram` of solver/cholesky_qr.simd.c) of the columns of a panel from which Cholesky QR is
+"""Independence (`factorize_gram` of the kernel) of the columns of a panel from which Cholesky QR is
 orthogonal to 1e-11 after one pass; and of all columns, from which the whole is to 1e-9. Beyond that, Onorm after every
 solution."""
 

@@ -135,12 +135,6 @@ INLINE Panel panel_at(const Panels *panels, int64_t b) {
     return (Panel){panels->data + b * panels->rows * LANES, b * LANES, least(LANES, panels->columns - b * LANES)};
 }
 
-/* Where row k of column j is. */
-INLINE double *panel_entry(const Panels *panels, int64_t k, int64_t j) {
-    Panel panel = panel_at(panels, j / LANES);
-    return panel.data + k * panel.apart + j % LANES;
-}
-
 /* Rows of panels for n rows: a multiple of four, and one at least beyond the last. */
 INLINE int64_t padded_rows(int64_t n) { return (n / 4 + 1) * 4; }
 

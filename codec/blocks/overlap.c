@@ -6,7 +6,7 @@ static const uint32_t FREE = 0xFFFFFFFFu;
 
 /* Breadth-first from each part, neighbours in ascending order, until `size` vertices are found; vertices with more than
  * `size` neighbours are left out. Returns the number of members. `seen` is scratch, one entry a vertex. */
-int64_t grow_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts chain,
+static int64_t grow_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts chain,
                     int64_t size, Ints seen, Longs starts, Ints members) {
     int64_t count = 0;
     for (int64_t v = 0; v < seen.size; v++) seen.data[v] = -1;
@@ -105,7 +105,7 @@ int64_t order_block(ConstInts offsets, ConstInts neighbours, ConstInts rows, Int
  *
  * `starts`, `ends`, `edges`: the graph of the parts in compressed rows, with the number of edges between them. The rest
  * is scratch, one entry a part; `seen` holds the first entry of each row when it comes. */
-bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Longs shared, Longs seen, Ints trail,
+static bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Longs shared, Longs seen, Ints trail,
                  Bytes visited, Ints chain) {
     int64_t parts = chain.size, length = 0, lowest = 0;
     if (starts.size != parts + 1 || shared.size < parts || seen.size < parts || trail.size < parts ||

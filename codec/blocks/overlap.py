@@ -1,4 +1,4 @@
-"""Overlapping blocks of equal size, in a chain (paper, sections 4, 6.1 and 6.3).
+"""Overlapping blocks of equal size, in a chain, and the blend of copies of a vertex (paper, sections 4, 6.1, 6.3).
 
 Each part of the partition is grown by breadth-first rings into its neighbours until it holds n_d vertices; the blocks
 are visited along a chain in which each lies beside its predecessor where the mesh allows it; and the rows of each
@@ -13,7 +13,7 @@ import numpy as np
 
 from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
-from bsm.codec.arrays import Indices, Order
+from bsm.codec.arrays import Indices, Mask, Matrix, Order
 from bsm.codec.blocks.partition import Partition
 from bsm.codec.geometry.graph import Graph
 
@@ -122,3 +122,41 @@ def _ordered(graph: Graph, rows: Indices) -> Block:
         if ends <= room:
             return Block(vertices, offsets, neighbours[:ends].copy())
         room = ends
+
+
+class Blend:
+    """Weighted sums over the copies of each of n vertices."""
+
+    def __init__(self, vertices: int) -> None:
+        # Zeros cost memory only where they are touched.
+        self.sums: Matrix = np.zeros((vertices, 3))
+        self.weights: Matrix = np.zeros(vertices)
+
+    def grow(self, vertices: int) -> Blend:
+        """Make room for vertices that have become known, so that there are so many; returns the same blend."""
+        more = vertices - len(self.weights)
+        if more:
+            self.sums = np.concatenate([self.sums, np.zeros((more, 3))])
+            self.weights = np.concatenate([self.weights, np.zeros(more)])
+        return self
+
+    def add(self, vertices: Indices, positions: Matrix, weights: Matrix) -> None:
+        """Add one copy of each vertex in `vertices`, shape (n_i,), at `positions`, shape (n_i, 3)."""
+        _kernels.add_copies(self.sums, self.weights, vertices, positions, weights)
+
+    def known(self, vertices: Indices) -> Mask:
+        """Which of `vertices`, shape (k,), have a copy that counts; shape (k,)."""
+        return self.weights[vertices] > 0
+
+    def all_positions(self) -> Matrix:
+        """Weighted averages of all vertices, all of them known, shape (n, 3)."""
+        return self.sums / self.weights[:, None]
+
+    def positions(self, vertices: Indices) -> Matrix:
+        """Weighted averages for `vertices`, all of them known, shape (len(vertices), 3)."""
+        return self.sums[vertices] / self.weights[vertices][:, None]
+
+
+def degree_weights(degrees: Indices) -> Matrix:
+    """Weight of each row, shape (n_i,): its neighbours inside the block; a row without any counts as one."""
+    return np.maximum(degrees, 1).astype(np.float64)

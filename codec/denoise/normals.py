@@ -22,7 +22,7 @@ from bsm.codec.denoise.surface import (
     reach,
     without_first,
 )
-from bsm.codec.geometry.incidence import Rows
+from bsm.codec.geometry.graph import Rows
 
 
 def filter_normals(geometry: FaceGeometry, guide: Floats, near: Rows, sigma_s: float, sigma_r: float) -> Floats:

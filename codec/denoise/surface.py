@@ -11,7 +11,7 @@ import numpy.typing as npt
 from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Positions
-from bsm.codec.geometry.incidence import Rows, vertex_faces, vertex_neighbours
+from bsm.codec.geometry.graph import Rows, vertex_faces, vertex_neighbours
 
 Floats = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]

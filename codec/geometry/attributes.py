@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, MeshError
 from bsm.bitstream.public import public
-from bsm.codec.arrays import Indices, Order
+from bsm.codec.arrays import Faces, Indices, Matrix, Order
 
 Domain = Literal["vertex", "corner", "face"]
 Semantic = Literal["generic", "color", "normal", "texcoord"]
@@ -153,3 +153,45 @@ def has(attributes: Iterable[Attribute], one: Attribute) -> bool:
 
 def _rows(attribute: Attribute) -> Indices:
     return np.empty(0, np.int32) if attribute.indices is None else attribute.indices
+
+
+@dataclass(frozen=True)
+class AttributeComparison:
+    """An attribute, before and after."""
+
+    max_error: float
+    mean_error: float
+    range: float
+    max_angle_deg: float | None = None
+    mean_angle_deg: float | None = None
+
+
+def at_corners(attribute: Attribute, faces: Faces) -> npt.NDArray[Any]:
+    """The value of each corner of each face, shape (m, 3, c)."""
+    if attribute.domain == "face":
+        return np.repeat(attribute.values[:, None], 3, axis=1)
+    found: npt.NDArray[Any] = attribute.values[faces if attribute.indices is None else attribute.indices]
+    return found
+
+
+def compare_values(original: npt.NDArray[Any], decoded: npt.NDArray[Any], *, normals: bool) -> AttributeComparison:
+    """Compare values of corresponding corners, shapes (..., c); `normals`: by their angles as well."""
+    before, after = (values.reshape(-1, values.shape[-1]).astype(np.float64) for values in (original, decoded))
+    error = np.abs(after - before)
+    spread = float(np.ptp(before))
+    if not normals:
+        return AttributeComparison(float(error.max()), float(error.mean()), spread)
+    angles = _angles(before, after)
+    mean_angle = float(angles.mean()) if len(angles) else 0.0
+    return AttributeComparison(
+        float(error.max()), float(error.mean()), spread, float(angles.max(initial=0.0)), mean_angle
+    )
+
+
+def _angles(before: Matrix, after: Matrix) -> Matrix:
+    """Between vectors, in degrees; by half angles, which keeps small ones exact."""
+    lengths = [np.linalg.norm(vectors, axis=1, keepdims=True) for vectors in (before, after)]
+    known = ((lengths[0] > 0) & (lengths[1] > 0))[:, 0]
+    a, b = before[known] / lengths[0][known], after[known] / lengths[1][known]
+    angles: Matrix = np.degrees(2 * np.arctan2(np.linalg.norm(a - b, axis=1), np.linalg.norm(a + b, axis=1)))
+    return angles

@@ -12,22 +12,17 @@ INLINE bool fits_graph(ConstInts offsets, ConstInts neighbours) {
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends);
 int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Ints waiting, Ints sizes);
 int64_t reaches_all(ConstInts offsets, ConstInts neighbours, Ints scratch);
-
 void vertex_faces(ConstInts2 faces, Longs starts, Ints members);
-
 void face_normals(ConstDoubles2 positions, ConstInts2 faces, Doubles2 normals);
 void crosses_around(ConstDoubles2 positions, ConstInts2 faces, Doubles2 crosses, Doubles lengths);
 void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result);
-
 double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
                       double lost);
 double farthest_apart(ConstDoubles2 original, ConstDoubles2 decoded);
-
 int64_t build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Longs scratch, Doubles2 low,
                    Doubles2 high, Longs first, Longs count);
 void nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
                        ConstLongs first, ConstLongs count, Doubles distances);
-
 void nearest_faces(ConstDoubles2 corners, Ints2 owner, Doubles2 depth);
 
 /* Sort values that nearly always come nearly sorted: by insertion, and by a heap once that has moved too many of them,

@@ -1,4 +1,4 @@
-"""The graph of a mesh: its vertices, and an edge wherever two of them share a face.
+"""The graph of a mesh: its vertices, and an edge wherever two of them share a face; and who touches whom there.
 
 Everything that encoder and decoder derive from connectivity starts here. Rows are stored compressed (CSR) and
 sorted, so that every rule built on "the first neighbour" is the same on both sides.
@@ -7,11 +7,12 @@ sorted, so that every rule built on "the first neighbour" is the same on both si
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Indices
+from bsm.codec.arrays import Faces, Indices, Order
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,3 +53,31 @@ def component_sizes(graph: Graph) -> Indices:
 def is_connected(graph: Graph) -> bool:
     """Whether there is a way between any two vertices."""
     return bool(_kernels.reaches_all(graph.offsets, graph.neighbours, np.empty(2 * graph.size + 1, np.int32)))
+
+
+class Rows(NamedTuple):
+    """Compressed rows: those of i are ``members[starts[i]:starts[i + 1]]``, ascending and without repetition."""
+
+    starts: Order
+    members: Indices
+
+
+def vertex_faces(faces: Faces, n: int) -> Rows:
+    """Faces around each vertex; a face that names a vertex twice is listed once."""
+    starts, members = np.empty(n + 1, np.int64), np.empty(faces.size, np.int32)
+    _kernels.vertex_faces(np.ascontiguousarray(faces, np.int32), starts, members)
+    return Rows(starts, members[: starts[n]])
+
+
+def vertex_neighbours(faces: Faces, n: int) -> Rows:
+    """Vertices that share an edge with each vertex, itself excluded."""
+    graph = graph_of_faces(faces, n)
+    return Rows(graph.offsets.astype(np.int64), graph.neighbours)
+
+
+def mesh_edges(faces: Faces, n: int) -> Indices:
+    """Undirected edges, each once, as rows (a, b) with a < b, ascending; shape (e, 2)."""
+    starts, members = vertex_neighbours(faces, n)
+    first = np.repeat(np.arange(n, dtype=np.int32), np.diff(starts))
+    once = first < members
+    return np.stack([first[once], members[once]], axis=1)

@@ -13,9 +13,8 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, MeshError
 from bsm.bitstream.public import public
-from bsm.codec.arrays import Faces, Order, Positions
+from bsm.codec.arrays import Faces, Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.box import extent_of
 
 Metadata = Mapping[str, str | int | float | bytes]
 """Whatever an author wants to say of a mesh."""
@@ -148,3 +147,15 @@ def _as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> n
         return np.array(values, dtype=kind)
     except (TypeError, ValueError) as error:
         raise MeshError(f"{name} is not an array of numbers: {error}") from error
+
+
+def box_around(points: Positions) -> tuple[Matrix, Matrix]:
+    """Lowest and highest corner of the box around at least one point, shape (n, d); each has shape (d,)."""
+    axes = points.T  # three long loops are faster than n short ones
+    return np.array([axis.min() for axis in axes]), np.array([axis.max() for axis in axes])
+
+
+def extent_of(points: Positions) -> Matrix:
+    """Lengths of the sides of that box, shape (d,)."""
+    low, high = box_around(points)
+    return np.asarray(high - low)

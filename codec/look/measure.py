@@ -11,9 +11,8 @@ import numpy as np
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Mask, Matrix, Positions
-from bsm.codec.geometry.attribute_errors import at_corners
-from bsm.codec.geometry.box import box_around
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.attributes import at_corners
+from bsm.codec.geometry.mesh import TriangleMesh, box_around
 from bsm.codec.look.pictures import (
     BACKGROUND,
     SQUARE,

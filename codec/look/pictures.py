@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Matrix, Positions
-from bsm.codec.geometry.incidence import Rows, vertex_faces
+from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.welding import weld
 
 Picture = npt.NDArray[np.float32]

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from bsm.codec.arrays import Faces, Matrix, Positions
-from bsm.codec.geometry.box import box_around
+from bsm.codec.geometry.mesh import box_around
 
 TOWARDS = (
     *((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)),

@@ -12,8 +12,7 @@ import numpy as np
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.basis.cost import Price, Steps, factor_cost, settle
-from bsm.codec.basis.laplacian import Factor
-from bsm.codec.basis.solver.fronts import Fronts
+from bsm.codec.basis.laplacian import Factor, Fronts
 from bsm.codec.basis.weighted import Held, cotangent_weights, hold
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal.chain import ChainRules, key_steps

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError, CorruptError
-from bsm.codec.blocks.blend import Blend
+from bsm.codec.blocks.overlap import Blend
 from bsm.codec.sequence.course import Course, DecoderRequest
 from bsm.codec.sequence.events import Item
 from bsm.codec.sequence.gop_decoding import Gops

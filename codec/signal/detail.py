@@ -17,7 +17,7 @@ import numpy.typing as npt
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order
 from bsm.codec.blocks.overlap import Block
-from bsm.codec.geometry.incidence import vertex_faces
+from bsm.codec.geometry.graph import vertex_faces
 
 Number = TypeVar("Number", bound=np.generic)
 

@@ -18,8 +18,7 @@ from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factor_room, factorize, solving_space
-from bsm.codec.blocks.blend import Blend, degree_weights
-from bsm.codec.blocks.overlap import Block
+from bsm.codec.blocks.overlap import Blend, Block, degree_weights
 from bsm.codec.geometry.graph import Graph
 
 

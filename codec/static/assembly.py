@@ -10,8 +10,7 @@ import numpy as np
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Mask, Matrix, Order
 from bsm.codec.basis.cost import Spend, free
-from bsm.codec.blocks.blend import Blend
-from bsm.codec.blocks.overlap import Blocks
+from bsm.codec.blocks.overlap import Blend, Blocks
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.smooth import DEGREE, LocalFilter, Rings, smooth
 from bsm.codec.static.attributes.solid import Solid

@@ -9,8 +9,7 @@ import numpy as np
 from bsm.bitstream.errors import NumericError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix, Positions
-from bsm.codec.geometry.box import box_around
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh, box_around
 
 
 @dataclass(frozen=True)

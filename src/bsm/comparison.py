@@ -10,7 +10,7 @@ import numpy as np
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Positions
-from bsm.codec.geometry.attribute_errors import AttributeComparison, at_corners, compare_values
+from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, compare
 from bsm.codec.static.joining import join

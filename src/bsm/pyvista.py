@@ -15,7 +15,7 @@ from bsm.api import decode, save
 from bsm.bitstream.errors import DependencyError, OptionError
 from bsm.bitstream.extras import how_to_install
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.geometry.welding import split_by_attributes
 from bsm.meshes import as_mesh
 
 __all__ = ["SequenceReader", "from_pyvista", "read", "to_pyvista", "write"]

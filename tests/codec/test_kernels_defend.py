@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from bsm.codec import _kernels
+from bsm.codec.basis import laplacian
 from bsm.codec.basis.laplacian import laplacian_of
 from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.codec.basis.solver import fronts
 from bsm.codec.blocks import overlap
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry import graph
@@ -17,7 +17,7 @@ from tests.bitstream.test_kernels_defend import copied, shortened
 from tests.shapes import torus
 
 STAGES = {
-    "find_fronts": fronts,
+    "find_fronts": laplacian,
     "chain_blocks": overlap,
     "reaches_all": graph,
     "suspend": predict,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import OptionError
-from bsm.codec.geometry.incidence import mesh_edges
+from bsm.codec.geometry.graph import mesh_edges
 from bsm.codec.geometry.metrics import mean_edge_length
 from tests.codec.denoise.denoise_shapes import sphere
 from tools.noise import (

@@ -20,8 +20,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec.geometry.attribute_errors import at_corners, compare_values
-from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.attributes import Attribute, at_corners, compare_values
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode

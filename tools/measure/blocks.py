@@ -17,8 +17,7 @@ from scipy.sparse import csr_matrix
 
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.basis.laplacian import Laplacian, laplacian_of
-from bsm.codec.blocks.blend import Blend, degree_weights
-from bsm.codec.blocks.overlap import Block, Blocks, block_size, grow_blocks
+from bsm.codec.blocks.overlap import Blend, Block, Blocks, block_size, degree_weights, grow_blocks
 from bsm.codec.blocks.partition import Partition, derive_partition
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh

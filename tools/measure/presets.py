@@ -27,9 +27,8 @@ import numpy as np
 
 from bsm.bitstream.errors import BsmError, MeshError
 from bsm.codec.arrays import Positions
-from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import theta
+from bsm.codec.geometry.metrics import Original, theta
 from bsm.codec.geometry.surface_distance import surface_distance
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode

@@ -13,7 +13,7 @@ from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.fields.levels import LevelsEncoder
 from bsm.codec.geometry.attributes import Attribute, Domain
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.static.attributes.encoding import ranges
 from bsm.codec.static.choice.spectral import Spectral

@@ -18,7 +18,7 @@ from bsm.codec.denoise.surface import (
     mean_centroid_distance,
     reach,
 )
-from bsm.codec.geometry.incidence import Rows
+from bsm.codec.geometry.graph import Rows
 
 Singles = npt.NDArray[np.float32]
 

@@ -16,7 +16,7 @@ from scipy.sparse import linalg
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Floats
-from bsm.codec.geometry.incidence import Rows
+from bsm.codec.geometry.graph import Rows
 from bsm.codec.geometry.metrics import mean_edge_length
 
 CLEAR = 0.7

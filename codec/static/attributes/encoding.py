@@ -26,7 +26,7 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Order
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.geometry.splitting import row_numbers
+from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.static.attributes.levels import KINDS, Words, quantized
 from bsm.codec.static.attributes.pieces import PieceEncoder, leans, to_pieces
 from bsm.codec.static.attributes.quality import Quality

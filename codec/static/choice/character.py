@@ -7,8 +7,8 @@ import numpy as np
 from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Matrix
-from bsm.codec.geometry.box import box_around
-from bsm.codec.geometry.closeness import LOST, Original
+from bsm.codec.geometry.mesh import box_around
+from bsm.codec.geometry.metrics import LOST, Original
 
 MOST_FLAPS = 1 << 11
 """Second differences that entropy is measured on."""

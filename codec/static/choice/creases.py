@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Matrix, Positions
-from bsm.codec.geometry.incidence import vertex_faces
+from bsm.codec.geometry.graph import vertex_faces
 from bsm.codec.look.pictures import CREASE, MOST_AROUND
 
 WITHIN = 8.0

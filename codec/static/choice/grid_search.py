@@ -11,7 +11,7 @@ import numpy as np
 
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels
-from bsm.codec.geometry.box import extent_of
+from bsm.codec.geometry.mesh import extent_of
 from bsm.codec.static.choice.borders import ROUND, Borders
 from bsm.codec.static.choice.judge import Judge
 from bsm.codec.static.choice.lattices import Shaped

@@ -11,9 +11,8 @@ import numpy as np
 from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Mask, Matrix
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Reference
+from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.look.measure import Looker
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.choice.borders import Borders

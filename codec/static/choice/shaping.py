@@ -14,9 +14,8 @@ import numpy as np
 from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Levels, Matrix, Positions
-from bsm.codec.geometry.closeness import Original
-from bsm.codec.geometry.graph import Graph
-from bsm.codec.geometry.incidence import vertex_faces
+from bsm.codec.geometry.graph import Graph, vertex_faces
+from bsm.codec.geometry.metrics import Original
 from bsm.codec.static.choice.character import Character
 
 PULL = 0.8

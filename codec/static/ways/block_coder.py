@@ -13,7 +13,7 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.cost import Price, Spend, free, settle
 from bsm.codec.basis.dynamic_size import DynamicSize
-from bsm.codec.blocks.blend import degree_weights
+from bsm.codec.blocks.overlap import degree_weights
 from bsm.codec.signal.chain import Chain
 from bsm.codec.signal.predict import Surroundings
 from bsm.codec.static.assembly import DecodedBlock

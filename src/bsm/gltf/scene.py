@@ -9,7 +9,7 @@ import numpy as np
 
 from bsm.bitstream.errors import FormatError, LimitError
 from bsm.bitstream.limits import Limits
-from bsm.codec.geometry.splitting import row_numbers
+from bsm.codec.geometry.welding import row_numbers
 from bsm.files.formats.columns import Column, color_column, meaning_of
 from bsm.files.rows import Doubles, Ints
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Array, Document, Tree

@@ -18,7 +18,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
-from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.materials import (
     GLTF_TEXTURES,
     Material,

@@ -12,7 +12,7 @@ from bsm.codec.denoise.surface import (
     vertex_normals,
     without_first,
 )
-from bsm.codec.geometry.incidence import Rows, vertex_neighbours
+from bsm.codec.geometry.graph import Rows, vertex_neighbours
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 
 

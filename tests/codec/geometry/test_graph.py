@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.codec.blocks.bisection import WORTH_A_THREAD, bisect
+from bsm.codec.blocks.partition import WORTH_A_THREAD, bisect
 from bsm.codec.geometry.graph import component_sizes, graph_of_faces, is_connected
 from tests.shapes import grid_faces
 

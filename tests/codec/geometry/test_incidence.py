@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.codec.geometry.incidence import mesh_edges, vertex_faces, vertex_neighbours
+from bsm.codec.geometry.graph import mesh_edges, vertex_faces, vertex_neighbours
 
 triangles = st.lists(st.tuples(*[st.integers(0, 8)] * 3), min_size=1, max_size=20)
 

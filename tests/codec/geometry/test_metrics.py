@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import MeshError
-from bsm.codec.geometry.incidence import vertex_neighbours
+from bsm.codec.geometry.graph import vertex_neighbours
 from bsm.codec.geometry.metrics import (
     Reference,
     compare,

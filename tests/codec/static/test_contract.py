@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.errors import MeshError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Original
 from bsm.codec.look.measure import Looker, look
 from bsm.codec.static.choice.fulfilment import Fulfilment
 from bsm.codec.static.contract import Contract

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from bsm.codec import _kernels
-from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.geometry.incidence import vertex_faces
+from bsm.codec.geometry.graph import graph_of_faces, vertex_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Looker
 from bsm.codec.look.pictures import CREASE

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm.codec.geometry.closeness import Original
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Original
 from bsm.codec.static.choice.character import Character
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.contract import Contract

@@ -13,8 +13,7 @@ from threadpoolctl import threadpool_limits
 
 from bsm.codec.arrays import Positions
 from bsm.codec.basis.laplacian import dense_laplacian
-from bsm.codec.blocks.blend import Blend, degree_weights
-from bsm.codec.blocks.overlap import Blocks
+from bsm.codec.blocks.overlap import Blend, Blocks, degree_weights
 from bsm.codec.denoise.coarse import KEEP, RULES, CoarseFilter
 from bsm.codec.geometry.metrics import decibel
 from bsm.codec.signal.chain import Chain

@@ -11,8 +11,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Positions
 from bsm.codec.basis.laplacian import dense_laplacian
-from bsm.codec.blocks.blend import degree_weights
-from bsm.codec.blocks.overlap import Blocks, block_size, grow_blocks
+from bsm.codec.blocks.overlap import Blocks, block_size, degree_weights, grow_blocks
 from bsm.codec.blocks.partition import Partition, metis_partition
 from bsm.codec.denoise.coarse import OVERLAP, RULES, CoarseFilter
 from bsm.codec.denoise.normals import guided_normal_filtering

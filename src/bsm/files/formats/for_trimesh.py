@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.columns import Array
 from bsm.files.formats.materials import (
     GLTF_TEXTURES,

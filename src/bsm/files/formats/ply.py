@@ -12,7 +12,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.columns import Array, Column, color_column, unused_name
 from bsm.files.formats.ply_header import IMAGE, Element, parse_header
 from bsm.files.formats.ply_tables import Table, tables_of

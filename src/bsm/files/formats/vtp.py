@@ -21,7 +21,7 @@ from bsm.bitstream.errors import CorruptError, FormatError, MeshError, Truncated
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.columns import Array, Column, named_column
 from bsm.files.formats.polygons import Polygons
 from bsm.files.formats.written import Written, first

@@ -12,7 +12,7 @@ from bsm.bitstream.container.reader import Reader, read_packets
 from bsm.bitstream.errors import BsmError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.splitting import split_by_attributes
+from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.events import AttributeEvent, EndEvent, LossEvent

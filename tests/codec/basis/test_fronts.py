@@ -5,9 +5,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from bsm.bitstream.errors import LimitError
-from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of, solve
+from bsm.codec.basis.laplacian import LEAF, WORK, dense_laplacian, factorize, find_fronts, laplacian_of, solve
 from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.codec.basis.solver.fronts import LEAF, WORK, find_fronts
 from bsm.codec.blocks.overlap import Block, grow_blocks
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
@@ -97,7 +96,7 @@ def test_a_graph_without_small_separators_is_refused_before_work_begins():
 
 
 def test_the_largest_blocks_of_surfaces_are_far_from_refused(monkeypatch):
-    monkeypatch.setattr("bsm.codec.basis.solver.fronts.WORK", WORK // 8)
+    monkeypatch.setattr("bsm.codec.basis.laplacian.WORK", WORK // 8)
     block = whole(torus(100, 80).faces, 8000)
     assert factorize(laplacian_of(block), 0.1).inverse.shape == (8000,)
 

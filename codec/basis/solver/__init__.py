@@ -1,1 +1,0 @@
-"""Sparse factorisation of a block and solutions for many columns at once."""
