@@ -4,26 +4,36 @@
     curl --data-binary @bunny.ply http://127.0.0.1:8000/encode?preset=fine -o bunny.bsm
     curl --data-binary @bunny.bsm http://127.0.0.1:8000/decode -o bunny.ply
 
-Uploads are bounded, reading and decoding keep to `Limits.service()`, and a pool of processes does the work, each
-request in so much time. The standard library alone serves; put a proper server in front of it on the open web.
+Reading and decoding keep to `Limits.service()`, in processes: one that takes too long is killed, one that dies is
+replaced. Uploads, their time, connections and what waits are bounded. Answers name the class of an error.
+The standard library alone serves; put a proper server in front of it on the open web.
 """
 
 from __future__ import annotations
 
 import argparse
 import multiprocessing
+import re
+import signal
+import socket
+import sys
 import tempfile
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures import TimeoutError as TooLong
+from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from multiprocessing.connection import Connection
 from pathlib import Path
+from queue import Empty, Queue
+from threading import BoundedSemaphore, Timer
 from urllib.parse import parse_qs, urlsplit
 
 import bsm
 
 MOST_BYTES = 64 << 20
-MOST_SECONDS = 60.0
+MOST_CONNECTIONS = 16
+"""At a time, each with an upload in memory; more are sent away."""
 PRESETS = ("small", "balanced", "fine", "near-lossless")
+SPAWN = multiprocessing.get_context("spawn")
+Answer = tuple[int, "str | bytes"]
 
 
 def encode(data: bytes, preset: str) -> bytes:
@@ -41,38 +51,180 @@ def decode(data: bytes, _: str) -> bytes:
         return path.read_bytes()
 
 
+WORK = {"/encode": encode, "/decode": decode}
+
+
+def answer_to(path: str, data: bytes, preset: str) -> Answer:
+    """Status and body: a sentence that begins with the class of the error where there is one."""
+    try:
+        return 200, WORK[path](data, preset)
+    except bsm.BsmError as error:
+        # What failed is the upload; the names of files here are nobody's business.
+        sentence = re.sub(r"(?<![^\s'\"(])/\S+", "(a file)", str(error))
+        return 413 if isinstance(error, bsm.LimitError) else 422, f"{type(error).__name__}: {sentence}"
+    except Exception as error:
+        return 413 if isinstance(error, MemoryError) else 500, type(error).__name__
+
+
+def work_for(pipe: Connection) -> None:
+    """What a process does: one request after the other."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    bsm.encode(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), threads=1)  # loads what it needs before it is needed
+    pipe.send("ready")
+    with suppress(EOFError):
+        while True:
+            pipe.send(answer_to(*pipe.recv()))
+
+
+class Worker:
+    """A process for one request at a time, and another one once it hangs or dies."""
+
+    def __init__(self) -> None:
+        self.begin()
+
+    def begin(self) -> None:
+        """Start a process."""
+        self.pipe, far = SPAWN.Pipe()
+        self.process = SPAWN.Process(target=work_for, args=(far,), daemon=True)
+        self.process.start()
+        far.close()
+        self.ready = False
+
+    def wait(self) -> None:
+        """Wait until the process is ready."""
+        if not self.ready:
+            self.pipe.recv()
+            self.ready = True
+
+    def replace(self) -> None:
+        """Kill the process, and start another one."""
+        self.process.kill()
+        self.process.join()
+        self.pipe.close()
+        self.begin()
+
+    def do(self, request: tuple[str, bytes, str], seconds: float) -> Answer:
+        """What comes of a request; one whose process dies is tried once more, since others may have killed that."""
+        for _ in range(2):
+            try:
+                self.wait()
+                self.pipe.send(request)
+                if self.pipe.poll(seconds):
+                    answer: Answer = self.pipe.recv()
+                    return answer
+            except (EOFError, OSError):
+                self.replace()
+            else:
+                self.replace()
+                return 503, f"TimeoutError: this takes more than {seconds:g} s"
+        return 503, "MemoryError: the processes that worked on this have died"
+
+
+class Server(ThreadingHTTPServer):
+    """Threads that read and answer, and the workers."""
+
+    daemon_threads = True
+
+    def __init__(self, address: tuple[str, int], jobs: int, seconds: float) -> None:
+        self.seconds = seconds
+        self.connections = BoundedSemaphore(MOST_CONNECTIONS)
+        self.busy = BoundedSemaphore(jobs)
+        self.workers: Queue[Worker] = Queue()
+        for worker in [Worker() for _ in range(jobs + 1)]:  # one is ready while another one begins
+            worker.wait()
+            self.workers.put(worker)
+        super().__init__(address, Handler)
+
+    def process_request(self, request: socket.socket, client_address: tuple[str, int]) -> None:
+        """Begin a thread, or send away."""
+        if self.connections.acquire(blocking=False):
+            super().process_request(request, client_address)
+        else:
+            with suppress(OSError):
+                request.settimeout(1.0)
+                request.sendall(b"HTTP/1.0 503 Service Unavailable\r\n\r\ntoo many connections\n")
+            self.shutdown_request(request)
+
+    def process_request_thread(self, request: socket.socket, client_address: tuple[str, int]) -> None:
+        """Serve one connection."""
+        try:
+            super().process_request_thread(request, client_address)
+        finally:
+            self.connections.release()
+
+    def work(self, request: tuple[str, bytes, str]) -> Answer:
+        """Let a worker do it, as soon as one is free."""
+        if not self.busy.acquire(timeout=self.seconds):
+            return 503, f"all workers have been busy for {self.seconds:g} s"
+        try:
+            worker = self.workers.get(timeout=self.seconds)
+            try:
+                return worker.do(request, self.seconds)
+            finally:
+                self.workers.put(worker)
+        except Empty:
+            return 503, "no worker is ready"
+        finally:
+            self.busy.release()
+
+
 class Handler(BaseHTTPRequestHandler):
     """Answers POST /encode?preset=NAME and POST /decode."""
 
-    pool: ProcessPoolExecutor
+    server: Server
+
+    def setup(self) -> None:
+        """From now on there is so much time for head and body together, however slowly they come."""
+        self.timeout = self.server.seconds
+        super().setup()
+        self.patience = Timer(self.server.seconds, self.stop_reading)
+        self.patience.daemon = True
+        self.patience.start()
+
+    def stop_reading(self) -> None:
+        """Let what is being read end here."""
+        with suppress(OSError):
+            self.connection.shutdown(socket.SHUT_RD)
+
+    def handle(self) -> None:
+        """Serve one request; clients come and go."""
+        with suppress(OSError):
+            super().handle()
+
+    def finish(self) -> None:
+        """Let go of everything."""
+        self.patience.cancel()
+        with suppress(OSError):
+            super().finish()
 
     def do_POST(self) -> None:
         """Take one upload."""
-        url = urlsplit(self.path)
-        work = {"/encode": encode, "/decode": decode}.get(url.path)
-        preset = parse_qs(url.query).get("preset", ["balanced"])[0]
-        length = self.headers.get("Content-Length", "")
-        if work is None or preset not in PRESETS:
-            return self.answer(404, "POST /encode?preset=NAME or /decode")
-        if not length.isdecimal():
-            return self.answer(411, "say how long the upload is")
-        if int(length) > MOST_BYTES:
-            return self.answer(413, f"at most {MOST_BYTES} bytes")
-        data = self.rfile.read(int(length))
         try:
-            self.answer(200, self.pool.submit(work, data, preset).result(MOST_SECONDS))
-        except bsm.LimitError as error:
-            self.answer(413, str(error))
-        except bsm.BsmError as error:
-            self.answer(422, str(error))
-        except TooLong:
-            self.answer(503, f"this takes more than {MOST_SECONDS:.0f} s")
+            url = urlsplit(self.path)
+            preset = parse_qs(url.query).get("preset", ["balanced"])[0]
+        except ValueError:
+            return self.answer(400, "this is no address")
+        lengths = self.headers.get_all("Content-Length", [])
+        if url.path not in WORK or preset not in PRESETS:
+            return self.answer(404, "POST /encode?preset=NAME or /decode")
+        if not lengths:
+            return self.answer(411, "say how long the upload is")
+        if len(lengths) > 1 or not re.fullmatch("[0-9]{1,15}", lengths[0]):
+            return self.answer(400, "Content-Length is a number of bytes")
+        if int(lengths[0]) > MOST_BYTES:
+            return self.answer(413, f"at most {MOST_BYTES} bytes")
+        data = self.rfile.read(int(lengths[0]))
+        self.patience.cancel()
+        if len(data) < int(lengths[0]):
+            return self.answer(408, f"the upload did not come within {self.server.seconds:g} s")
+        return self.answer(*self.server.work((url.path, data, preset)))
 
     def answer(self, status: int, body: str | bytes) -> None:
         """Send a stream or mesh, or a sentence."""
         content = body if isinstance(body, bytes) else f"{body}\n".encode()
         self.send_response(status)
         self.send_header("Content-Type", "application/octet-stream" if isinstance(body, bytes) else "text/plain")
+        self.send_header("X-Content-Type-Options", "nosniff")
         self.send_header("Content-Length", str(len(content)))
         self.end_headers()
         self.wfile.write(content)
@@ -83,10 +235,12 @@ def main() -> None:
     parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--port", type=int, default=8000, help="0: any that is free")
     parser.add_argument("--jobs", type=int, default=2, help="requests that are worked on at a time")
+    parser.add_argument("--seconds", type=float, default=60.0, help="for an upload to come, and for the work on it")
     args = parser.parse_args()
-    with ProcessPoolExecutor(args.jobs, multiprocessing.get_context("spawn")) as Handler.pool:
-        server = ThreadingHTTPServer((args.host, args.port), Handler)
-        print(f"http://{args.host}:{server.server_address[1]}", flush=True)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit())
+    server = Server((args.host, args.port), args.jobs, args.seconds)
+    print(f"http://{args.host}:{server.server_address[1]}", flush=True)
+    with suppress(KeyboardInterrupt):
         server.serve_forever()
 
 

@@ -2,11 +2,15 @@
 
 import os
 import re
+import signal
+import socket
 import subprocess
 import sys
+import time
 import urllib.error
 import urllib.request
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
@@ -75,13 +79,13 @@ def test_a_corpus_behind_urls(capsys, monkeypatch):
     memory = fsspec.filesystem("memory")
     for number in range(3):
         with memory.open(f"/raw/{number}.off", "wb") as file:
-            file.write(off(knot(300 + 50 * number)))
+            file.write(off(knot(150 + 50 * number)))
     monkeypatch.setattr(sys, "argv", ["corpus.py", "memory://raw/*.off", "memory://bsm/"])
     with pytest.raises(SystemExit) as ended:
         runpy.run_path(str(EXAMPLES / "corpus.py"), run_name="__main__")
     assert ended.value.code == 0 and "3 of 3 meshes" in capsys.readouterr().out
     with memory.open("/bsm/1.bsm") as file:
-        assert len(bsm.decode(file.read()).positions) == len(knot(350).positions)
+        assert len(bsm.decode(file.read()).positions) == len(knot(200).positions)
 
 
 def off(mesh):
@@ -91,14 +95,27 @@ def off(mesh):
     return "\n".join(lines).encode()
 
 
-@pytest.fixture
-def service():
-    command = [sys.executable, EXAMPLES / "service.py", "--port", "0", "--jobs", "1"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT) as running:
+SECONDS = 10.0
+SOON = 30.0
+"""Seconds; two on a machine that has nothing else to do."""
+
+
+@pytest.fixture(scope="module")
+def server():
+    """A service with one worker and one that stands by, which gives a request ten seconds."""
+    command = [sys.executable, EXAMPLES / "service.py", "--port", "0", "--jobs", "1", "--seconds", str(SECONDS)]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=ENVIRONMENT
+    ) as running:
         try:
-            yield running.stdout.readline().strip()
+            yield running, running.stdout.readline().strip()
         finally:
             running.terminate()
+
+
+@pytest.fixture
+def service(server):
+    return server[1]
 
 
 def post(url, data):
@@ -109,14 +126,81 @@ def post(url, data):
         return error.code, error.read()
 
 
+def send(url, text, more=False):
+    """What is answered to these very bytes; with `more` the connection, which stays open."""
+    connection = socket.create_connection((urlsplit(url).hostname, urlsplit(url).port), timeout=60)
+    connection.sendall(text)
+    if more:
+        return connection
+    with connection, connection.makefile("rb") as file:
+        return int(file.readline().split()[1])
+
+
+def workers_of(process):
+    """The processes that do the work."""
+    found = Path(f"/proc/{process.pid}/task").glob("*/children")
+    children = [int(word) for path in found for word in path.read_text().split()]
+    return [pid for pid in children if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()]
+
+
+def answered_in(service):
+    begin = time.monotonic()
+    assert post(f"{service}/encode?preset=small", off(knot(200)))[0] == 200
+    return time.monotonic() - begin
+
+
 def test_a_service_that_takes_uploads(service):
-    mesh = knot(500)
+    mesh = knot(300)
     status, stream = post(f"{service}/encode?preset=small", off(mesh))
     assert status == 200 and bsm.compare(mesh, stream).max_error_relative < 0.05
     status, ply = post(f"{service}/decode", stream)
     assert status == 200 and ply.startswith(b"ply")
-    assert post(f"{service}/encode", b"this is no mesh")[0] == 422
-    assert post(f"{service}/decode", stream[: len(stream) // 2])[0] == 422
+    status, said = post(f"{service}/encode", b"this is no mesh")
+    assert status == 422 and said.startswith(b"FormatError: ")
+    status, said = post(f"{service}/decode", stream[: len(stream) // 2])
+    assert status == 422 and said.startswith(b"TruncatedError: ") and b"/" not in said
     assert post(f"{service}/other", b"")[0] == 404
     many = off(bsm.TriangleMesh(np.zeros((3, 3)), [[0, 1, 2]])).replace(b"3 1 0", b"99999999999 1 0")
     assert post(f"{service}/encode", many)[0] in (413, 422)
+
+
+@pytest.mark.parametrize(
+    ("lines", "status"),
+    [
+        (b"POST /encode HTTP/1.0", 411),
+        *(
+            (b"POST /encode HTTP/1.0\r\nContent-Length: " + length, 400)
+            for length in (b"9" * 5000, b"-1", b"+5", b"0x5", b"5, 5", b"5\r\nContent-Length: 6", b"\xb2")
+        ),
+        (b"POST /encode HTTP/1.0\r\nContent-Length: 99999999999", 413),
+        (b"POST http://[/ HTTP/1.0\r\nContent-Length: 5", 400),
+    ],
+)
+def test_a_service_takes_no_odd_heads(service, lines, status):
+    assert send(service, lines + b"\r\n\r\n") == status
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="workers are looked for as on Linux")
+def test_a_service_goes_on_whatever_hangs_dies_or_never_comes(server):
+    process, service = server
+    for pid in workers_of(process):
+        os.kill(pid, signal.SIGSTOP)
+    status, said = post(f"{service}/encode", off(knot(200)))
+    assert status == 503 and said.startswith(b"TimeoutError: ")
+    for pid in workers_of(process):
+        os.kill(pid, signal.SIGKILL)
+    waits = [answered_in(service), answered_in(service)]
+    head = b"POST /encode HTTP/1.0\r\nContent-Length: 1000\r\n\r\n"
+    silent = [send(service, words, more=True) for words in (head, head + b"OFF", b"POST /enc")]
+    waits.append(answered_in(service))
+    assert max(waits) < SOON, waits
+    for connection, said in zip(silent, (b" 408 ", b" 408 ", b"")):
+        with connection, connection.makefile("rb") as file:
+            assert said in file.read(), "it is let go of"
+    assert answered_in(service) < SOON
+    crowd = [send(service, b"POST", more=True) for _ in range(40)]
+    answers = [connection.makefile("rb").readline() for connection in crowd[20:]]
+    assert all(b" 503 " in answer for answer in answers)
+    for connection in crowd:
+        connection.close()

@@ -1,12 +1,16 @@
 """bsm view: the page with streams in it, and the server that has them beside it."""
 
 import base64
+import hashlib
 import json
 import os
 import re
 import shutil
+import socket
 import subprocess
 import sys
+import threading
+import time
 import urllib.error
 import urllib.request
 from dataclasses import astuple
@@ -17,10 +21,12 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm.bitstream.container.wire import MAGIC
 from bsm.cli import main
 from bsm.evaluation.draco import encode_draco
 from bsm.viewer.content import DRACO_LEVEL, compared
 from bsm.viewer.growing import Growing, written_to
+from bsm.viewer.page import PageServer
 from tests.bitstream.streams import frame_ends
 from tests.shapes import torus
 
@@ -100,7 +106,13 @@ def test_server_has_the_page_and_its_streams():
         try:
             assert server.stdout
             address = server.stdout.readline().strip()
-            entries = listed(urllib.request.urlopen(address).read().decode())
+            answer = urllib.request.urlopen(address)
+            page = answer.read().decode()
+            script = page.rpartition('<script type="module">')[2].rpartition("</script>")[0]
+            digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+            assert f"'sha256-{digest}'" in answer.headers["Content-Security-Policy"]
+            assert answer.headers["X-Frame-Options"] == "DENY"
+            entries = listed(page)
             assert [entry["name"] for entry in entries] == ["good-chain.bsm", "good-chain.bsm (2)"]
             assert urllib.request.urlopen(address + entries[1]["url"].lstrip("/")).read() == stream.read_bytes()
             with pytest.raises(urllib.error.HTTPError, match="404"):
@@ -135,7 +147,7 @@ def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
     half, few = np.unique(kept, return_inverse=True)
     small, few = positions[:, half], few.reshape(-1, 3).astype(np.int32)
     meshes = [bsm.TriangleMesh(p.astype(float), f) for ps, f in ((positions, faces), (small, few)) for p in ps]
-    whole = bsm.encode_frames(meshes, frame_rate=12)
+    whole = bsm.encode_frames(meshes, frame_rate=12, step=0.002)
     growing = Growing("halves.bsm")
     growing.take(whole[:-1])
     late = growing.chunks()
@@ -148,8 +160,30 @@ def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
     assert b"frame_rate" in head
 
 
+def test_pages_that_have_gone_are_let_go_of(monkeypatch):
+    monkeypatch.setattr("bsm.viewer.growing._PATIENCE", 0.05)
+    growing = Growing("sway.bsm")
+    growing.take(MAGIC)
+    with PageServer([growing]) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        before = threading.active_count()
+        pages = [socket.create_connection(server.server_address) for _ in range(5)]
+        for page in pages:
+            page.sendall(f"GET /0 HTTP/1.0\r\nHost: {server.host}\r\n\r\n".encode())
+            assert page.recv(15) == b"HTTP/1.0 200 OK"
+        assert threading.active_count() == before + 5
+        for page in pages[1:]:
+            page.close()
+        end = time.monotonic() + 30
+        while threading.active_count() > before + 1 and time.monotonic() < end:
+            time.sleep(0.05)
+        assert threading.active_count() == before + 1, "one is still there"
+        pages[0].close()
+        server.shutdown()
+
+
 def test_what_is_damaged_is_sent_from_its_beginning():
-    whole = bytearray(bsm.encode_sequence(*moving(18), gop=6))
+    whole = bytearray(bsm.encode_sequence(*moving(18), gop=6, step=0.002))
     place = frame_ends(bytes(whole))[-3]
     whole[place : place + 5] = b"\xff" * 5  # a tag that none can be
     growing = Growing("sway.bsm")

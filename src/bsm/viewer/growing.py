@@ -17,6 +17,8 @@ from bsm.bitstream.errors import BsmError, CorruptError
 _CHUNK = 1 << 18
 _PAUSE = 0.05
 """Seconds between looks at a file that has not grown."""
+_PATIENCE = 1.0
+"""Seconds between looks whether a page is still there."""
 
 
 class Growing:
@@ -62,7 +64,8 @@ class Growing:
             return self._data.startswith(MAGIC[: len(self._data)])
 
     def chunks(self) -> Iterator[bytes]:
-        """What a page is sent: of what has come as much as it needs, then what comes, to the end."""
+        """What a page is sent: of what has come as much as it needs, then what comes, to the end; nothing now and
+        then while nothing comes, so that whoever sends it on can look whether the page is still there."""
         with self._change:
             at = 0
             if self._entry is not None and not self._over:
@@ -72,11 +75,11 @@ class Growing:
             yield first
         while True:
             with self._change:
-                while not self._over and len(self._data) == at:
-                    self._change.wait()
+                if not self._over and len(self._data) == at:
+                    self._change.wait(_PATIENCE)
                 piece = bytes(self._data[at : at + _CHUNK])
-            if not piece:
-                return
+                if self._over and not piece:
+                    return
             at += len(piece)
             yield piece
 

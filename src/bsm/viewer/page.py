@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import json
+import select
+import socket
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import asdict
@@ -21,6 +24,10 @@ LOOPBACK = "127.0.0.1"
 _SLOT = '<script type="application/json" id="bsm-streams">'
 _SCRIPT = "<!-- script -->"
 _BYTES = "application/octet-stream"
+_POLICY = (
+    "default-src 'none'; script-src 'sha256-{}' 'wasm-unsafe-eval' blob:; worker-src blob:; connect-src 'self' data:; "
+    "style-src 'unsafe-inline'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
 
 Place = Callable[[str, bytes], dict[str, str]]
 
@@ -76,7 +83,10 @@ class PageServer(ThreadingHTTPServer):
                 entries.append({"name": content.name, "live": True} | place(path, content))
             else:
                 entries.append(_listed(content, path, place))
-        self.content["/"] = ("text/html; charset=utf-8", _page(entries).encode())
+        page = _page(entries)
+        self.content["/"] = ("text/html; charset=utf-8", page.encode())
+        script = hashlib.sha256(page.rpartition('<script type="module">')[2].rpartition("</script>")[0].encode())
+        self.policy = _POLICY.format(base64.b64encode(script.digest()).decode())
 
     @property
     def host(self) -> str:
@@ -99,12 +109,20 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_response(HTTPStatus.OK)
             self.send_header("Content-Type", kind)
             self.send_header("X-Content-Type-Options", "nosniff")
+            self.send_header("X-Frame-Options", "DENY")
+            self.send_header("Content-Security-Policy", self.server.policy)
             if isinstance(data, bytes):
                 self.send_header("Content-Length", str(len(data)))
             self.end_headers()
             with suppress(ConnectionError):  # the page is closed
                 for piece in [data] if isinstance(data, bytes) else data.chunks():
+                    if not piece and self._is_alone():
+                        return
                     self.wfile.write(piece)
+
+    def _is_alone(self) -> bool:
+        """Whether the page has gone; it says nothing more while it is there."""
+        return bool(select.select([self.connection], [], [], 0)[0]) and not self.connection.recv(1, socket.MSG_PEEK)
 
     def log_message(self, format: str, *args: object) -> None:
         """Say nothing of requests."""
