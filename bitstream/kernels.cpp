@@ -32,7 +32,6 @@ BSM_STRUCT(Guide, Surface, Bytes, Ints, Ints, Ints, Ints)
 BSM_STRUCT(Conquest, Front, Longs2, Ints2, Longs)
 BSM_STRUCT(Seams, Ints, Ints, Ints, Ints, Ints)
 BSM_STRUCT(Past, Ints2, Ints2, Ints2, Longs)
-BSM_STRUCT(CoefficientModel, Bank, Bank, Past, ConstInts2, Longs, int64_t)
 BSM_STRUCT(Corners, ConstInts2, Ints, Ints, Ints, Ints)
 BSM_STRUCT(ValueModel, Words, Words, Ints2, Ints2)
 BSM_STRUCT(Grid, ConstInts, ConstInts, Ints2, Ints2, Longs2, Longs2, Longs2)
@@ -73,10 +72,7 @@ NB_MODULE(_kernels, m) {
     m.def("points_of_levels", &points_of_levels, "levels"_a, "points"_a, Unlocked());
     m.def("look_at_block", checked<look_at_block>, "past"_a, "levels"_a, "inputs"_a, Unlocked());
     m.def("bin_of_expectation", checked<bin_of_expectation>, "weights"_a, "inputs"_a);
-    m.def("code_rows", checked<code_rows>, "coder"_a, "bank"_a, "missing"_a, "width"_a, "rows"_a);
     m.def("code_block", checked<code_block>, "coder"_a, "bank"_a, "past"_a, "expectations"_a, "levels"_a, Unlocked());
-    m.def("code_layers", checked<code_layers>, "coder"_a, "model"_a, "levels"_a, "over"_a, "rows"_a, "above"_a,
-        Unlocked());
     m.def("search_levels", checked<search_levels>, "bank"_a, "past"_a, "expectations"_a, "targets"_a, "price"_a,
         "costs"_a, "ways"_a, "origins"_a, "levels"_a, "kept"_a, Unlocked());
     m.def("code_matrix", checked<code_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "lead"_a, "stair"_a, "turn"_a,
@@ -85,7 +81,6 @@ NB_MODULE(_kernels, m) {
         "few"_a, "slow"_a, "costs"_a, "prices"_a, Unlocked());
 
     m.def("link_corners", checked<link_corners>, "corners"_a, "scratch"_a, Unlocked());
-    m.def("keep_borders", checked<keep_borders>, "corners"_a, Unlocked());
     m.def("order_vertices", checked<order_vertices>, "corners"_a, "order"_a, "scratch"_a, Unlocked());
     m.def("code_grid", checked<code_grid>, "coder"_a, "model"_a, "corners"_a, "grid"_a, "first"_a, "count"_a,
         Unlocked());

@@ -12,7 +12,6 @@ extern "C" {
 #include "codec/sequence/row_prediction.h"
 #include "codec/sequence/row_search.h"
 #include "codec/sequence/shown.h"
-#include "codec/signal/detail.h"
 #include "codec/signal/frames.h"
 #include "codec/signal/place.h"
 #include "codec/signal/predict.h"
@@ -122,11 +121,6 @@ NB_MODULE(_kernels, m) {
           "scratch"_a, "continued"_a, Unlocked());
     m.def("suspend", checked<&suspend>, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a, "springs"_a,
           "pulls"_a, "shift"_a, "scratch"_a, "values"_a, "inverse"_a, "continued"_a, Unlocked());
-    m.def("block_normals", &block_normals, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a, "positions"_a,
-          "softness"_a, "least_length"_a, "normals"_a, Unlocked());
-    m.def("raise_block", checked<&raise_block>, "faces"_a, "starts"_a, "members"_a, "vertices"_a, "place"_a,
-          "softness"_a, "least_length"_a, "subspace"_a, "levels"_a, "count"_a, "half_step"_a, "scratch"_a, "positions"_a,
-          Unlocked());
     m.def("place_block", checked<&place_block>, "prediction"_a, "subspace"_a, "levels"_a, "half_step"_a, "scratch"_a,
           "positions"_a, Unlocked());
     m.def("apply_powers", &apply_powers, "offsets"_a, "neighbours"_a, "terms"_a, "degree"_a, Unlocked());

@@ -204,57 +204,23 @@ LOOP, VALENCE, DUMMY, NUMBERED, BACKWARD, SKIPPED, COUNTS = 0, 28, 56, 84, 85, 1
 
 def decode_connectivity(payload: bytes, vertices: int, faces: int, most: int = 1 << 24) -> list[Face]:
     """4: `faces` triangles of `vertices` vertices; `most` is the limit for vertices."""
-    return Connectivity(vertices, faces, [], most).decode(payload)[0]
-
-
-class Connectivity:
-    """4: the surface, piece by piece; `ends` are the faces that there are behind each section but the last (4.5)."""
-
-    def __init__(self, vertices: int, faces: int, ends: Sequence[int], most: int = 1 << 24) -> None:
-        self.vertices, self.face_count, self.ends, self.most = vertices, faces, list(ends), most
-        self.pieces: list[bytes] = []
-        self.conquest: Conquest
-
-    def decode(self, piece: bytes) -> tuple[list[Face], int]:
-        """The faces of this section and of those before it, and how many vertices there are behind it."""
-        if self.pieces:
-            self.decoder.payload += piece
-        else:
-            self.begin(piece)
-        self.pieces.append(piece)
-        if len(self.pieces) > len(self.ends):
-            return self.end(), self.vertices
-        faces = self.conquest.run(self.ends[len(self.pieces) - 1])
-        if self.decoder.taken != len(self.decoder.payload):  # 4.5
-            self.decoder.fail("a section does not end where its piece ends")
-        return list(faces), self.conquest.fans
-
-    def begin(self, piece: bytes) -> None:
-        """4.2, 4.3, 4.6."""
-        self.decoder, rare = RangeDecoder(piece), Model(inputs=1)
-        degenerate, lonely, surplus, dummies = (read_unsigned(self.decoder, rare, (0,), 2, COUNTS) for _ in range(4))
-        proper, regular = self.face_count - degenerate, self.vertices - lonely
-        fans = regular + surplus
-        if proper < 0 or regular < 0 or lonely > 3 * degenerate or fans > 3 * proper or dummies > 3 * proper:  # 4.3
-            self.decoder.fail("the counts contradict each other")
-        if fans + dummies > self.most:  # 4.3
-            raise LimitError(f"{fans + dummies} vertices are over the limit")
-        if self.ends and (surplus > 0 or self.ends[-1] >= proper):  # 4.6
-            self.decoder.fail("the surface does not fall into these sections")
-        self.degenerate, self.regular, self.surplus = degenerate, regular, surplus
-        self.conquest = Conquest(self.decoder, rare, self.vertices, proper, fans, dummies)
-
-    def end(self) -> list[Face]:
-        """4.4."""
-        result = self.conquest.finish()
-        if self.surplus > 0:
-            vertex_of = read_seams(self.decoder, result, self.regular + self.surplus)
-            if max(vertex_of) + 1 != self.regular:  # 7.5
-                self.decoder.fail("the fans do not make as many vertices as the counts say")
-            result = [[vertex_of[fan] for fan in face] for face in result]
-        result += read_degenerate(self.decoder, self.degenerate, self.regular, self.vertices)
-        self.decoder.finish()
-        return result
+    decoder, rare = RangeDecoder(payload), Model(inputs=1)
+    degenerate, lonely, surplus, dummies = (read_unsigned(decoder, rare, (0,), 2, COUNTS) for _ in range(4))  # 4.2
+    proper, regular = faces - degenerate, vertices - lonely
+    fans = regular + surplus
+    if proper < 0 or regular < 0 or lonely > 3 * degenerate or fans > 3 * proper or dummies > 3 * proper:  # 4.3
+        decoder.fail("the counts contradict each other")
+    if fans + dummies > most:  # 4.3
+        raise LimitError(f"{fans + dummies} vertices are over the limit")
+    result = Conquest(decoder, rare, vertices, proper, fans, dummies).run()  # 4.4
+    if surplus > 0:
+        vertex_of = read_seams(decoder, result, fans)
+        if max(vertex_of) + 1 != regular:  # 7.5
+            decoder.fail("the fans do not make as many vertices as the counts say")
+        result = [[vertex_of[fan] for fan in face] for face in result]
+    result += read_degenerate(decoder, degenerate, regular, vertices)
+    decoder.finish()
+    return result
 
 
 @dataclass(eq=False)
@@ -298,10 +264,12 @@ class Conquest:
         self.stamps = 0
         self.queue: list[tuple[int, int, int]] = []  # bucket, stamp and number of nodes, some of them outdated
 
-    def run(self, end: int) -> list[Face]:
-        """6.1 up to the repetition that emits face `end` - 1 (4.5)."""
-        while len(self.faces) < end:
+    def run(self) -> list[Face]:
+        """6.1 to the end, and 6.12."""
+        while self.alive > 0 or len(self.faces) < self.face_count:
             self.repeat()
+        if self.fans < self.fan_count or self.dummies_left > 0:
+            self.decoder.fail("there are too few vertices")
         return self.faces
 
     def repeat(self) -> None:
@@ -315,14 +283,6 @@ class Conquest:
             self.close_node(f)
         else:
             self.pass_gate(f)
-
-    def finish(self) -> list[Face]:
-        """6.1 to the end, and 6.12."""
-        while self.alive > 0 or len(self.faces) < self.face_count:
-            self.repeat()
-        if self.fans < self.fan_count or self.dummies_left > 0:
-            self.decoder.fail("there are too few vertices")
-        return self.faces
 
     # The front
 

@@ -17,7 +17,7 @@ import math
 import struct
 import sys
 import zlib
-from itertools import accumulate, pairwise
+from itertools import pairwise
 from pathlib import Path
 
 import msgpack
@@ -35,13 +35,13 @@ from reference_attributes import (
     read_seams,
 )
 from reference_connectivity import (
-    Connectivity,
     CorruptError,
     LimitError,
     Model,
     RangeDecoder,
     TruncatedError,
     arrange,
+    decode_connectivity,
     decode_labels,
     neighbours_of,
     read_rotations,
@@ -185,35 +185,32 @@ FIELDS = {
     "blocks": (3, int, 0, COUNT, 0),
     "block_size": (4, int, 0, COUNT, 0),
     "coefficients": (5, int, 0, COUNT, 0),
-    "key_interval": (8, int, 0, COUNT, 0),
-    "power": (9, int, 1, 64, 3),
-    "iterations": (10, int, 1, 1024, 1),
-    "key_iterations": (11, int, 1, 1024, 4),
-    "shift": (12, float, 2.0**-30, 2.0**30, 0.0078125),
-    "coding": (14, "method", 0, 1, 1),
-    "bits": (15, int, 1, 32, 12),
-    "step": (16, float, 2.0**-40, 2.0**20, 2.0**-8),
-    "center": (17, (3, 3), -1e300, 1e300, [0.0, 0.0, 0.0]),
-    "scale": (18, float, 1e-300, 1e300, 1.0),
-    "stiffness": (19, float, 0.0, 65536.0, 8.0),
-    "smoothing": (20, float, 0.0, 1e6, 0.0),
-    "frames": (21, int, 0, COUNT, 0),
-    "gop_frames": (23, int, 0, COUNT, 0),
-    "detail_step": (25, float, 0.0, 2.0**20, 0.0),
-    "details": (26, int, 0, COUNT, 0),
-    "coarser": (27, int, 0, 30, 0),
-    "grid": (28, [0, 3], 0, 2**20 - 1, []),  # a list: of ints
-    "lattice": (29, [0, 2], 1, COUNT, []),
-    "refinements": (30, (0, 8), 0.0, 64.0, []),
-    "key_seed": (31, "method", 0, 1, 0),
-    "borders": (32, "method", 0, 1, 0),
-    "attributes": (33, int, 0, 255, 0),
-    "corner": (40, [0, 3], -(2**31), COUNT, []),
-    "sections": (41, [0, 14], 1, COUNT, []),
-    "light": (42, "method", 0, 2, 0),
-    "run": (43, int, 0, COUNT, 0),
-    "again": (44, int, 0, COUNT, 0),
+    "key_interval": (6, int, 0, COUNT, 0),
+    "step": (7, float, 2.0**-40, 2.0**20, 2.0**-8),
+    "center": (8, (3, 3), -1e300, 1e300, [0.0, 0.0, 0.0]),
+    "scale": (9, float, 1e-300, 1e300, 1.0),
+    "smoothing": (10, float, 0.0, 1e6, 0.0),
+    "refinement": (11, (0, 2), 0.0, 64.0, []),  # a tuple: of floats
+    "attributes": (12, int, 0, 255, 0),
+    "grid": (13, [0, 3], 0, 2**20 - 1, []),  # a list: of ints
+    "lattice": (14, [0, 2], 1, COUNT, []),
+    "corner": (15, [0, 3], -(2**31), COUNT, []),
+    "light": (16, "method", 0, 2, 0),
+    "sequence": (17, [0, 2], 0, COUNT, []),
+    "run": (18, [0, 2], 0, COUNT, []),
+    "paper": (19, (0, 8), 0.0, 2.0**30, []),
 }
+PAPER = {  # F 4: name: (low, high, what holds where there is no `paper`)
+    "bits": (0, 32, 0),
+    "coarser": (0, 30, 0),
+    "exact": (0, 1, 0),
+    "power": (1, 64, 3),
+    "iterations": (1, 1024, 1),
+    "key_iterations": (1, 1024, 2),
+    "shift": (2.0**-30, 2.0**30, 2.0**-7),
+    "springs": (0, 1, 1),
+}
+STIFFNESS = 8.0  # M 7.3
 
 
 def parse_fields(payload, fields):
@@ -223,11 +220,9 @@ def parse_fields(payload, fields):
     for key, value in entries:  # F 4.8: what is unsupported comes first
         require(type(key) is int, "a key is not an integer")
         method = key in names and fields[names[key]][1] == "method"
-        if (key < 64 and key not in names) or (method and type(value) is int and fields[names[key]][3] < value <= 255):
+        if key not in names or (method and type(value) is int and fields[names[key]][3] < value <= 255):
             raise UnsupportedError(f"key {key} = {value}")
     for key, value in entries:
-        if key >= 64:
-            continue  # F 4.2
         name = names[key]
         _, kind, low, high, default = fields[name]
         if type(kind) in (tuple, list):  # F 4.4
@@ -254,9 +249,10 @@ def parse_header(payload):
     """F 4."""
     require(len(payload) <= 65536, "a header of too many bytes")  # F 4.9
     header = h = parse_fields(payload, FIELDS)
+    unfold(h)
     require(h["vertices"] <= 3 * h["faces"], "more vertices than corners")  # F 4.6
+    others = {name for name in FIELDS if h[name] != FIELDS[name][4]}
     if h["grid"]:
-        others = {name for name in FIELDS if h[name] != FIELDS[name][4]}
         allowed = {"vertices", "faces", "center", "scale", "grid", "lattice", "attributes", "corner", "light"}
         require(others <= allowed, "a grid, and something else")
         require(len(h["grid"]) == 3, "a grid of other than three axes")
@@ -265,33 +261,22 @@ def parse_header(payload):
         require(len(h["corner"]) in (0, 3), "a corner is not three numbers")
         require(not h["corner"] or h["center"] == [0, 0, 0], "a corner and a center")
         require(not h["lattice"] or max(h["grid"]) <= h["lattice"][1] <= h["lattice"][0], "a lattice that is none")
-    elif h["again"]:
-        others = {name for name in FIELDS if h[name] != FIELDS[name][4]}
-        require(others <= {"vertices", "faces", "frames", "gop_frames", "run", "again"}, "a mesh again, and another")
-        require(h["again"] <= h["run"] and h["gop_frames"] > 0, "the mesh of a run that has not been")
+    elif h["again"] is not None:
+        require(others <= {"vertices", "faces", "sequence", "run"}, "a mesh again, and another")
     else:
         require(not h["lattice"] and not h["corner"], "a lattice or a corner without a grid")
         require(not h["light"], "light values without a grid")
         require(h["blocks"] and h["block_size"] and h["coefficients"], "no blocks, and no grid")
+        require(h["blocks"] * h["block_size"] >= h["vertices"], "blocks too small")
     require(h["blocks"] <= h["vertices"], "more blocks than vertices")
     require(h["block_size"] <= h["vertices"], "blocks larger than the mesh")
-    require(h["grid"] or h["again"] or h["blocks"] * h["block_size"] >= h["vertices"], "blocks too small")
     require(h["blocks"] * h["block_size"] <= 16 * h["vertices"] + 65536, "blocks overlap too much")
     require(h["coefficients"] <= h["block_size"], "more coefficients than rows")
-    require(h["details"] <= h["block_size"], "more details than rows")
-    require((h["details"] > 0) == (h["detail_step"] > 0), "details without a step, or a step without details")
-    require((h["frames"] == 0 and h["run"] == 0) or h["gop_frames"] > 0, "frames without GOPs")
-    steps, ratios = h["refinements"][::2], h["refinements"][1::2]
-    require(len(steps) == len(ratios), "refinements are not pairs")
-    require(all(2.0**-40 <= step <= 1 for step in steps), "a step of a refinement is out of range")
-    require(all(ratio == 0 or ratio >= 1 / 16 for ratio in ratios), "a ratio of a refinement is out of range")
-    require(not h["refinements"] or not h["gop_frames"], "refinements of a sequence")
-    require(h["refinements"] or not h["borders"], "borders without refinements")
-    faces, blocks = h["sections"][::2], h["sections"][1::2]
-    require(len(faces) == len(blocks), "sections are not pairs")
-    require(not faces or sum(faces) < h["faces"], "sections of more faces than there are")
-    require(not blocks or sum(blocks) < h["blocks"], "sections of more blocks than there are")
-    require(not h["sections"] or not h["gop_frames"], "sections of a sequence")
+    if h["refinement"]:
+        require(len(h["refinement"]) == 2, "a refinement is not two numbers")
+        require(2.0**-40 <= h["refinement"][0] <= 1, "the step of a refinement is out of range")
+        require(h["refinement"][1] >= 1 / 16, "the ratio of a refinement is out of range")
+        require(not h["sequence"], "a refinement of a sequence")
     for name, most in (  # F 4.7
         ("vertices", MOST_VERTICES),
         ("faces", MOST_FACES),
@@ -304,6 +289,24 @@ def parse_header(payload):
     ):
         require_limit(h[name], most, name)
     return header
+
+
+def unfold(h):
+    """F 4.6: what the lists of a header say, by name."""
+    require(len(h["sequence"]) in (0, 2), "a sequence is not two numbers")
+    h["frames"], h["gop_frames"] = h["sequence"] or (0, 0)
+    require(not h["sequence"] or h["gop_frames"] > 0, "GOPs of no frames")
+    require(h["sequence"] or not h["run"], "a run of a static mesh")
+    h["number"], h["again"] = ([*h["run"], None] if len(h["run"]) < 2 else h["run"]) if h["run"] else (0, None)
+    require(h["run"] != [0], "run 0 is stored")
+    require(h["again"] is None or h["again"] < h["number"], "the mesh of a run that has not been")
+    require(len(h["paper"]) in (0, 8), "paper is not eight numbers")
+    for (name, (low, high, default)), value in zip(PAPER.items(), h["paper"] or [None] * 8):
+        value = default if value is None else value
+        require(low <= value <= high and (name == "shift" or value == int(value)), f"{name} is out of range")
+        h[name] = value if name == "shift" else int(value)
+    stored = h["paper"] and all(h[name] == default for name, (_, _, default) in PAPER.items())
+    require(not stored, "paper is stored although it is the law's")
 
 
 class Packets(dict):
@@ -348,7 +351,7 @@ def read_frames(stream, runs):
             require(kind == HEADER, "the first frame must be HEADER")  # F 3.7
         if 8 <= kind <= 11:
             continue  # F 3.5
-        if header and ((kind == GRID and not header["grid"]) or (kind == REFINEMENT and not header["refinements"])):
+        if header and ((kind == GRID and not header["grid"]) or (kind == REFINEMENT and not header["refinement"])):
             raise UnsupportedError(f"frame type {kind}")  # F 3.6
         if header and kind in (ATTRIBUTE, VALUES) and not header["attributes"]:
             raise UnsupportedError(f"frame type {kind}")  # F 3.6
@@ -373,14 +376,10 @@ def read_frames(stream, runs):
             index, at = payload_varint(payload, 0)
             parsed = (index, payload[at:])
         elif kind in (GRID, REFINEMENT):  # F 5.6, F 5.7
-            layer, at = payload_varint(payload, 0) if kind == REFINEMENT else (0, 0)
-            first, at = payload_varint(payload, at)
+            first, at = payload_varint(payload, 0)
             count, at = payload_varint(payload, at)
-            parsed = (layer, first, count, payload[at:])
-            before = packets[kind][-1] if packets[kind] else (0, 0, 0)
-            following = before[1] + before[2] if before[0] == layer else 0
-            require(layer >= before[0], "layers must ascend")
-            require(kind == GRID or layer < len(header["refinements"]) // 2, "a layer that is not announced")
+            parsed = (first, count, payload[at:])
+            following = sum(packet[1] for packet in packets[kind])
             require(first == following and 0 < count <= header["vertices"] - first, "wrong vertices")  # F 3.11, F 3.12
         elif kind == ATTRIBUTE:
             parsed = parse_attribute(payload, packets, header)
@@ -395,20 +394,17 @@ def read_frames(stream, runs):
         if header and kind == HEADER:  # S 9
             require(packets[GOP], "a HEADER may not come here")
             require(parsed["gop_frames"] > 0, "a static mesh behind a sequence")
-            require(parsed["run"] == header["run"] + 1, "runs are numbered in their order")
+            require(parsed["number"] == header["number"] + 1, "runs are numbered in their order")
             require(parsed["frames"] == header["frames"], "another number of frames")
             check_values(packets, header)
             packets = Packets({kind: [] for kind in KNOWN})
             runs.append(packets)
             last = None
         elif kind == HEADER:
-            require(parsed["run"] == 0, "the stream begins within a sequence")
-        if header and header["again"] and not packets[GOP] and kind != HEADER:
+            require(parsed["number"] == 0, "the stream begins within a sequence")
+        if header and header["again"] is not None and not packets[GOP] and kind != HEADER:
             require(kind == GOP, "a run that has a mesh again is GOPs")
         legal = kind == HEADER if last is None else place > last or (place == last and kind in several)
-        if header and header["sections"] and kind != HEADER:
-            check_section(kind, parsed if kind != END else None, packets, header)
-            legal |= kind == CONNECTIVITY
         require(last != 5 or kind in (END, VALUES) or packets.get(kind), f"frame type {kind} may not come here")
         if header and header["grid"]:
             require(
@@ -424,42 +420,21 @@ def read_frames(stream, runs):
         if kind == GOP:
             require(header["gop_frames"] > 0, "a GOP in a static stream")  # F 5.4
             require(header["frames"] == 0 or parsed[0] < header["frames"], "GOP index too large")
-        last = order[BLOCK] if kind == HEADER and parsed["again"] else place
-        complete = header and len(packets[CONNECTIVITY]) == len(section_ends(header, 0))
-        if complete and kind != HEADER and kind in (BLOCK, GOP, GRID, VALUES, END):
+        last = order[BLOCK] if kind == HEADER and parsed["again"] is not None else place
+        if header and kind in (BLOCK, GOP, GRID, VALUES, END):
             require(len(packets[ATTRIBUTE]) == header["attributes"], "attributes are missing")  # F 3.13
         if kind == HEADER:
             header = parsed
             order[VALUES] = 4.5 if header["gop_frames"] else 5.5  # F 3.14
             packets[HEADER].append(header)
         elif kind == END:  # F 5.5
-            covered = sum(packet[2] for packet in packets[GRID])
+            covered = sum(packet[1] for packet in packets[GRID])
             require(not header["grid"] or covered == header["vertices"], "positions are missing")  # F 3.11
             check_values(packets, header)
             require(count == number, "END counts other frames")
             require(int.from_bytes(payload[at:], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
         else:
             packets[kind].append(parsed)
-
-
-def section_ends(header, entry):
-    """F 3.16: how many faces (0) or blocks (1) there are behind each section."""
-    return [*accumulate(header["sections"][entry::2]), header["blocks" if entry else "faces"]]
-
-
-def check_section(kind, parsed, packets, header):
-    """F 3.16: what may come where there are sections."""
-    require(kind not in (PARTITION, ORDER, GOP), f"frame type {kind} where there are sections")
-    begun, ends = len(packets[CONNECTIVITY]), section_ends(header, 1)
-    if kind == CONNECTIVITY:
-        require(begun < len(ends), "more sections than were announced")
-        last = packets[BLOCK][-1][0] + 1 if packets[BLOCK] else 0
-        require(last == (ends[begun - 1] if begun else 0), "a section before the one before it is complete")
-    elif kind == BLOCK:
-        require(begun, "a block before CONNECTIVITY")
-        require(([0, *ends])[begun - 1] <= parsed[0] < ends[begun - 1], "a block of another section")
-    else:
-        require(begun == len(ends), f"frame type {kind} before the last section")
 
 
 def declaration_of(payload):
@@ -642,11 +617,11 @@ class Known:
         self.weights[block.vertices] += weights
 
 
-def surroundings(graph, block, known, stiffness):
+def surroundings(graph, block, known):
     """M 7.3: springs and pulls of each row."""
     springs, pulls, inside = np.zeros(block.size), np.zeros((block.size, 3)), set(block.vertices)
     for r, v in enumerate(block.vertices):
-        hooks = [(v, stiffness)] + [(w, 1.0) for w in graph[v] if w not in inside]
+        hooks = [(v, STIFFNESS)] + [(w, 1.0) for w in graph[v] if w not in inside]
         for w, k in hooks:
             if known.weights[w] > 0:
                 springs[r] += k
@@ -708,7 +683,7 @@ def exact_basis(laplacian, columns, springs):
 def key_dictionary(header, laplacian, columns, springs):
     """M 8: of a block that follows none."""
     first = min(columns, iterated(header, len(laplacian)))
-    if header["key_seed"] == 1:
+    if header["exact"] == 1:
         return completed(exact_basis(laplacian, first, springs), columns)
     start = cosine_columns(len(laplacian), 0, first) if connected(laplacian) else noisy_columns(len(laplacian), first)
     diagonal = springs + header["shift"]
@@ -760,18 +735,17 @@ def hash_columns(rows, columns):
 # ---------------------------------------------------------------- M 9: coefficients
 
 EXPERIENCE = Path(__file__).parent / "priors.bin"
-EXPERIENCE_SHA256 = "b83638c890a01953e9da4b4dc4889f4f77a6d48759ff986e09e37dfa1e6fbb46"
+EXPERIENCE_SHA256 = "2a093067f31fc03a6ec865ebc6193347d2b21ff18e6f4903e80cfc3af97c39d0"
 NEIGHBOURS, BINS, NODES, EXPECTATIONS = 20, 48, 38, 3
 
 
 class Experience:
-    """M 9.1: the learnt numbers, those for `part` 0 (x, y and z) or 1 (details)."""
+    """M 9.1: the learnt numbers."""
 
-    def __init__(self, part):
+    def __init__(self):
         data = EXPERIENCE.read_bytes()
         if hashlib.sha256(data).hexdigest() != EXPERIENCE_SHA256:
             raise SystemExit(f"{EXPERIENCE} is not the file of the specification")
-        data = data[len(data) // 2 * part : len(data) // 2 * (part + 1)]
         numbers = np.frombuffer(data, "<u2").astype(int)
         first = EXPECTATIONS * 6 * NEIGHBOURS
         second = first + 2 * NODES * EXPECTATIONS
@@ -798,10 +772,10 @@ class Grids:
 
 
 class CoefficientModel:
-    """M 9: one for each chain, and another for its details."""
+    """M 9: one for each chain."""
 
-    def __init__(self, width, part):
-        self.experience = Experience(part)
+    def __init__(self, width):
+        self.experience = Experience()
         self.model = [Model(EXPECTATIONS, 400, 4) for _ in range(2)]  # M 9.2: the first block, and later ones
         self.model[1].slots = self.model[0].slots
         for number, stored in enumerate(self.experience.slots):
@@ -810,17 +784,8 @@ class CoefficientModel:
         for number, row in enumerate(self.experience.mixing):
             for i, weight in enumerate(row):
                 self.model[number // NODES].weights[i, number % NODES] = weight << 4
-        self.counts, self.missing = Model(2, 60), 0
         self.width, self.blocks = width, 0
         self.now, self.before, self.usual = ([[0, 0, 0] for _ in range(width + 11)] for _ in range(3))  # M 9.3
-
-    def rows(self, decoder):
-        """M 9.8: the number of rows of a detail layer."""
-        context = 1 + min(self.missing.bit_length(), 15)
-        self.missing = read_unsigned(decoder, self.counts, [0, context], 8, 0)
-        if not self.missing <= self.width:
-            decoder.fail("more rows than there can be")
-        return self.width - self.missing
 
     def block(self, decoder, count):
         """M 9.4 to M 9.7: `count` rows in half steps."""
@@ -933,19 +898,6 @@ def unzipped(data, size):
 # ---------------------------------------------------------------- M 10, M 12, M 17: positions
 
 
-def normals_of(block, faces, positions):
-    """M 11.3."""
-    row, sums = {v: r for r, v in enumerate(block.vertices)}, np.zeros((block.size, 3))
-    for face in faces:
-        if all(v in row for v in face):
-            a, b, c = (row[v] for v in face)
-            normal = np.cross(positions[b] - positions[a], positions[c] - positions[a])
-            for r in {a, b, c}:
-                sums[r] += normal
-    squares = (sums**2).sum(axis=1)
-    return sums / np.sqrt(squares + 2.0**-20 * squares.mean() + 2.0**-66)[:, None]
-
-
 def smoothing_powers(amount):
     """M 12.3: coefficients of x^2 to x^5, by solving for the values at the four nodes."""
     nodes = np.array([0.4, 0.9, 1.4, 1.8])
@@ -981,7 +933,7 @@ class Allowance:
     def spend(self, header, rows, columns, follows):
         """Take note of a dictionary to come, on a surface."""
         power, iterations = header["power"], header["iterations" if follows else "key_iterations"]
-        if header["key_seed"] == 1 and not follows:
+        if header["exact"] == 1 and not follows:
             power, iterations = 2, 128
         h = min(columns, iterated(header, rows))
         whole, all_columns = -(-h // 8) * 8, -(-columns // 8) * 8
@@ -1000,33 +952,17 @@ def read_column(decoder, count):
 
 
 class Mesh:
-    """What a stream says beside its blocks: header, faces, graph, and the cores of the blocks of a section."""
+    """What a stream says beside its blocks: header, faces, graph, and the cores of the blocks."""
 
     def __init__(self, packets, allowance):
         self.header, self.packets = packets[HEADER][0], packets
         header = self.header
         self.allowance = allowance
-        self.ends = section_ends(header, 1)
-        self.connectivity = Connectivity(
-            header["vertices"], header["faces"], section_ends(header, 0)[:-1], MOST_VERTICES
-        )
-        self.section, self.begin, self.known = -1, 0, 0
-
-    def next_section(self):
-        """F 3.16: the faces of the next section, its vertices, from `begin` to `known`, and its graph (M 18.1)."""
-        self.section += 1
-        header, packets = self.header, self.packets
-        packets.require(len(packets[CONNECTIVITY]) > self.section, "there is no CONNECTIVITY")
-        begin = self.known
-        coded = packets[CONNECTIVITY][self.section]
-        self.faces, self.known = self.connectivity.decode(coded)
-        self.begin, self.allowance.vertices = begin, self.known
-        self.blocks = range(([0, *self.ends])[self.section], self.ends[self.section])
-        if header["sections"]:  # C 4.6
-            require(self.known - begin >= len(self.blocks), "a section with more blocks than vertices")
-            most = 16 * self.known + 65536
-            require(self.blocks.stop * header["block_size"] <= most, "blocks of a section overlap too much")
-        self.graph = neighbours_of(self.faces, self.known)
+        packets.require(packets[CONNECTIVITY], "there is no CONNECTIVITY")
+        vertices = header["vertices"]
+        self.faces = decode_connectivity(packets[CONNECTIVITY][0], vertices, header["faces"], MOST_VERTICES)
+        self.allowance.vertices = vertices
+        self.graph = neighbours_of(self.faces, vertices)
 
     def read_order(self):
         """PARTITION and ORDER, where all faces are known."""
@@ -1039,19 +975,13 @@ class Mesh:
         if packets[ORDER]:
             self.arrange(packets[ORDER][0])
 
-    def own_blocks(self):
-        """Those of the section that have come."""
-        return [block for block in self.packets[BLOCK] if block[0] in self.blocks]
-
-    def cut(self, labels):
-        """M 4, M 5.1, M 18.2, M 18.3: the cores of the section's blocks, in their order."""
-        own = [[w - self.begin for w in row if w >= self.begin] for row in self.graph[self.begin :]]
-        parts = len(self.blocks)
-        if labels is None:
-            labels = derive_labels(own, parts)
-        cores = [[self.begin + v for v, label in enumerate(labels) if label == part] for part in range(parts)]
+    def cut(self):
+        """M 4, M 5.1: the cores of the blocks, in their order."""
+        parts = self.header["blocks"]
+        labels = derive_labels(self.graph, parts) if self.labels is None else self.labels
+        cores = [[v for v, label in enumerate(labels) if label == part] for part in range(parts)]
         require(max(map(len, cores)) <= self.header["block_size"], "a part is larger than a block")  # M 5.2
-        self.cores = [cores[part] for part in chain_of(own, labels, parts)]
+        self.cores = [cores[part] for part in chain_of(self.graph, labels, parts)]
 
     def result(self, positions):
         """M 12.5: positions of n vertices in the unit of the mesh, each under its numbers."""
@@ -1125,7 +1055,7 @@ def decode_grid(mesh, grids):
     header = mesh.header
     if header["light"] == 2:
         exact = ExactReader(mesh.faces, header["vertices"], header)
-        for _, _, count, payload in grids:
+        for _, count, payload in grids:
             size, at = payload_varint(payload, 0)
             require(size <= len(payload) - at, "a frame ends inside its values")
             exact.read(payload[at : at + size], payload[at + size :], count)
@@ -1133,15 +1063,15 @@ def decode_grid(mesh, grids):
             raise NumericError("positions are not finite")  # V 16.4
         return np.array(exact.positions), exact.x
     reader = (LightReader if header["light"] else GridReader)(mesh.faces, header["vertices"], header["grid"])
-    for _, _, count, payload in grids:
+    for _, count, payload in grids:
         reader.read(payload, count)
     positions = [place(x, header) for x in reader.x]
     return np.array(positions), reader.x
 
 
 def refine(mesh, positions, refinements):
-    """M 17: base positions and what the layers add to them."""
-    given, count = mesh.header["refinements"], len(positions)
+    """M 17: base positions and what the layer adds to them."""
+    (step, ratio), count = mesh.header["refinement"], len(positions)
     sums = np.zeros((count, 3))
     for a, b, c in mesh.faces:  # M 17.1
         normal = np.cross(positions[b] - positions[a], positions[c] - positions[a])
@@ -1152,21 +1082,16 @@ def refine(mesh, positions, refinements):
     normals = tilted / np.sqrt((tilted**2).sum(axis=1) + 2.0**-200)[:, None]  # M 17.2
     along = np.maximum(1 + normals @ pole, 2.0**-20)
     frames = [normals, *(axis - (normals @ axis / along)[:, None] * (pole + normals) for axis in axes)]
-    refined = positions.copy()
-    for layer, (step, ratio) in enumerate(zip(given[::2], given[1::2])):  # M 17.3
-        last = layer == len(given) // 2 - 1
-        reader = LevelsReader(mesh.faces, count, 3 if ratio else 1, borders=last and mesh.header["borders"] == 1)
-        for number, _, size, payload in refinements:
-            if number == layer:
-                reader.read(payload, size)
-        levels = np.array(reader.x, float).reshape(count, reader.axes)
-        raised = (step * levels[:, 0])[:, None] * frames[0]
-        refined += raised
-        coded = sum(size for number, _, size, _ in refinements if number == layer)
-        if reader.axes == 3 and coded == count:  # M 17.5
-            wide = step * tangent_ratios(mesh.faces, positions + raised, ratio)
-            for j in (1, 2):
-                refined += (wide * levels[:, j])[:, None] * frames[j]
+    reader, coded = LevelsReader(mesh.faces, count), 0  # M 17.3
+    for _, size, payload in refinements:
+        reader.read(payload, size)
+        coded += size
+    levels = np.array(reader.x, float).reshape(count, 3)
+    refined = raised = positions + (step * levels[:, 0])[:, None] * frames[0]
+    if coded == count:  # M 17.5
+        wide = step * tangent_ratios(mesh.faces, raised, ratio)
+        for j in (1, 2):
+            refined = refined + (wide * levels[:, j])[:, None] * frames[j]
     return refined
 
 
@@ -1200,45 +1125,37 @@ class Chain:
 
     def __init__(self, mesh):
         self.mesh, header = mesh, mesh.header
-        self.model = CoefficientModel(header["coefficients"], 0)
-        self.details = CoefficientModel(-(-header["details"] // 3), 1)
+        self.model = CoefficientModel(header["coefficients"])
         self.known, self.subspace = Known(header["vertices"]), None
 
     def decode(self, block, width, payload):
         """Positions of the next block."""
         header = self.mesh.header
-        points, heights = self.points(width, payload)
-        heights = heights[: min(header["details"], block.size)]
+        points = self.points(width, payload)
         springs, pulls = np.zeros(block.size), np.zeros((block.size, 3))
-        if header["stiffness"]:
-            springs, pulls = surroundings(self.mesh.graph, block, self.known, header["stiffness"])
-        subspace = self.subspace = self.dictionary(block, max(width, len(heights)), springs)  # M 11.2
+        if header["springs"]:
+            springs, pulls = surroundings(self.mesh.graph, block, self.known)
+        subspace = self.subspace = self.dictionary(block, width, springs)
         positions = extend(block.laplacian, springs, pulls, header["shift"])  # M 10.2
         positions = positions + subspace[:, :width] @ (points * (header["step"] / 2))
-        if header["details"]:
-            height = subspace[:, : len(heights)] @ (heights * (header["detail_step"] / 2))
-            positions = positions + normals_of(block, self.mesh.faces, positions) * height[:, None]  # M 11.4
         if not np.isfinite(positions).all():
             raise NumericError("positions are not finite")
         self.known.add(block, positions, np.maximum(block.degrees, 1.0))
         return positions
 
     def points(self, width, payload):
-        """Those of x, y and z, and those of the details, in half steps."""
-        header, heights = self.mesh.header, []
-        if header["coding"] == 0:  # M 9.10
+        """M 9.10, M 9.11: in half steps."""
+        header = self.mesh.header
+        if header["bits"]:
             levels = np.array(unpack(payload, 3 * width, header["bits"])).reshape(width, 3) - (
                 1 << (header["bits"] - 1)
             )
             levels[0] <<= header["coarser"]
-            points = 2 * levels
-        else:
-            decoder = RangeDecoder(payload)
-            points = np.array(self.model.block(decoder, width))
-            if header["details"]:  # M 11.1
-                heights = [h for row in self.details.block(decoder, self.details.rows(decoder)) for h in row]
-            decoder.finish()
-        return points, np.array(heights)
+            return 2 * levels
+        decoder = RangeDecoder(payload)
+        points = np.array(self.model.block(decoder, width))
+        decoder.finish()
+        return points
 
     def dictionary(self, block, columns, springs):
         header = self.mesh.header
@@ -1256,23 +1173,23 @@ class Chain:
 
 
 def decode_blocks(mesh, blended):
-    """M 5 to M 12.1: the blocks of a section; their copies are added to `blended`, in BSM units."""
+    """M 5 to M 12.1: the blocks; their copies are added to `blended`, in BSM units."""
     header, packets = mesh.header, mesh.packets
-    blocks = mesh.own_blocks()
+    blocks = packets[BLOCK]
     if not (blocks or packets[GOP] or packets[REFINEMENT]):
         packets.require(False, "a block is missing")  # M 10.3
-    mesh.cut(mesh.labels if mesh.section == len(mesh.ends) - 1 else None)
+    mesh.cut()
     length = header["key_interval"] or header["blocks"]
     for expected, (index, width, payload) in enumerate(blocks):
-        require(index == mesh.blocks[expected], "a block is missing")  # M 10.3
-        if expected % length == 0:  # M 10.1, M 18.4
+        require(index == expected, "a block is missing")  # M 10.3
+        if expected % length == 0:  # M 10.1
             chain = Chain(mesh)
         core = mesh.cores[expected]
         block = Block(mesh.graph, grow(mesh.graph, core, header["block_size"]))
         require(1 <= width <= block.size, "a wrong number of coefficients")  # M 9.9
         positions = chain.decode(block, width, payload)
         blended.add(block, positions, np.maximum(block.degrees, 1.0))  # M 12.1
-    packets.require(len(blocks) == len(mesh.blocks), "a block is missing")  # M 10.3
+    packets.require(len(blocks) == header["blocks"], "a block is missing")  # M 10.3
 
 
 # ---------------------------------------------------------------- S: sequences
@@ -1288,7 +1205,7 @@ class Gop:
         require(len(data) >= 1, "a GOP without method")
         run, kind = divmod(data[0], 8)
         counted, self.method = divmod(kind, 4)
-        require(run == header["run"] % 32, "a GOP of another run")  # S 9.2
+        require(run == header["number"] % 32, "a GOP of another run")  # S 9.2
         longest = header["gop_frames"]
         self.frames, at = payload_varint(data, 1)
         require(1 <= self.frames <= longest, "a wrong number of frames")  # S 2.3
@@ -1812,17 +1729,12 @@ def faces_of(mesh):
 def decode_mesh(packets, allowance):
     """The mesh of a stream or of a run, its positions or those of the first frame, its places, and attributes."""
     header = packets[HEADER][0]
-    if header["gop_frames"] and (header["smoothing"] or header["details"]):
-        raise UnsupportedError("smoothing or details in a sequence")  # S 1.1
-    require_limit(header["details"], MOST_COLUMNS, "details")  # M 14.1
+    if header["sequence"] and header["smoothing"]:
+        raise UnsupportedError("smoothing in a sequence")  # S 1.1
     mesh, blended = Mesh(packets, allowance), Known(header["vertices"])
-    mesh.next_section()
-    while mesh.section < len(mesh.ends) - 1:
-        decode_blocks(mesh, blended)
-        mesh.next_section()
     mesh.read_order()
     attributes = declared_attributes(mesh, packets)
-    if not (mesh.own_blocks() or any(packets[kind] for kind in (GOP, GRID, REFINEMENT))):
+    if not any(packets[kind] for kind in (BLOCK, GOP, GRID, REFINEMENT)):
         packets.require(not packets.fault, "")
     for attribute in attributes:
         attribute.check_rows()
@@ -1836,7 +1748,7 @@ def decode_mesh(packets, allowance):
     if header["gop_frames"]:
         return mesh, positions, None, decode_attributes(mesh, packets, attributes, None, None)
     positions = smooth(mesh.graph, positions, header["smoothing"])
-    if header["refinements"]:
+    if header["refinement"]:
         positions = refine(mesh, positions, packets[REFINEMENT])
     arrays = decode_attributes(mesh, packets, attributes, positions, None)
     packets.require(not packets.fault, "")
@@ -1848,8 +1760,9 @@ def decode_sequence(runs):
     allowance, kept, frames, faces, table = Allowance(), {}, [], [], []
     for packets in runs:
         header = packets[HEADER][0]
-        number = header["again"] - 1 if header["again"] else header["run"]
-        if header["again"]:  # S 9.3
+        again = header["again"] is not None
+        number = header["again"] if again else header["number"]
+        if again:  # S 9.3
             require(number in kept, "the mesh of a run that is not kept")
             kept[number] = opened = kept.pop(number)
         else:

@@ -172,18 +172,6 @@ class Mesh:
                     promote(self.vertex[t], 1 if flap else 0)
         return order
 
-    def keep_borders(self) -> set[int]:
-        """V 11.7: the vertices that are passed over, which no other comes behind."""
-        kept = set()
-        for k in range(len(self.vertex)):
-            ends = {self.vertex[self.next(k)], self.vertex[self.previous(k)]}
-            if k not in self.opposite and len(ends) == 2:
-                kept |= ends
-        passed = set(range(self.vertices)) - kept
-        for v in passed:
-            self.rank[v] = self.vertices
-        return passed
-
     def degree(self, v: int) -> int:
         """deg(v)."""
         return len(self.corners[v])
@@ -667,24 +655,21 @@ def place(values: Triple, header: dict) -> list[float]:
 class LevelsReader(Field):
     """V 11."""
 
-    def __init__(self, faces: Iterable[Iterable[int]], vertices: int, axes: int, *, borders: bool = False) -> None:
+    def __init__(self, faces: Iterable[Iterable[int]], vertices: int) -> None:
         super().__init__(Mesh(faces, vertices, traverse=False))
-        self.passed = self.mesh.keep_borders() if borders else set()
-        self.models, self.axes = [MixedModel(5, rate=16) for _ in range(2)], axes
-        self.x = [[0] * axes for _ in range(vertices)]
-        self.gap = [[0] * axes for _ in range(vertices)]
-        self.ring = [[0] * axes for _ in range(vertices)]
+        self.models = [MixedModel(5, rate=16) for _ in range(2)]
+        self.x = [[0] * 3 for _ in range(vertices)]
+        self.gap = [[0] * 3 for _ in range(vertices)]
+        self.ring = [[0] * 3 for _ in range(vertices)]
         self.learners: dict[tuple[int, int], Learner] = {}
 
     def vertex(self, decoder: RangeDecoder, v: int) -> None:
-        """V 11.2, V 11.3, V 11.7."""
-        if v in self.passed:
-            return
+        """V 11.2, V 11.3."""
         near, flaps = self.mesh.neighbours(v), self.mesh.flaps(v)
         n = len(near)
         busy = rounded(sum(16 * abs(level) for u in near for level in self.x[u]), n) if near else 64
         own = 0
-        for j in range(self.axes):
+        for j in range(3):
             own = self.level(decoder, v, j, near, flaps, busy, own)
 
     def level(

@@ -45,7 +45,7 @@ FLOORS = {
     ),
     "bsm.codec.static": (
         ("work",),
-        ("coding", "contract", "draft", "events", "joining", "sections", "stages", "targets", "units"),
+        ("coding", "contract", "draft", "events", "joining", "stages", "targets", "units"),
         ("numbering", "preamble_encoding", "rules", "whole"),
         ("attributes",),
         ("assembly", "options"),

@@ -8,7 +8,7 @@ from typing import Any
 import msgpack
 
 from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, fields_of
+from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Paper, fields_of
 from bsm.bitstream.container.maps import parse_map, write_map
 from bsm.bitstream.container.wire import Cursor, FrameType, parse_frame, write_frame, write_preamble, write_varint
 from bsm.bitstream.errors import BsmError
@@ -36,14 +36,41 @@ def stream_of(frames: Frames) -> bytes:
     return body + write_frame(FrameType.END, write_varint(len(frames)) + zlib.crc32(body).to_bytes(4, "little"))
 
 
+PARTS = {"paper": tuple(fields_of(Paper)), "sequence": ("frames", "gop_frames")}
+"""Fields of the header that are lists of numbers with names of their own."""
+PLACES = {part: (name, place) for name, parts in PARTS.items() for place, part in enumerate(parts)}
+
+
 def header_frame(**values: Any) -> tuple[int, bytes]:
     """A header of any fields, by name, but for those that have their default; checked by nobody."""
-    entries = [
-        (HEADER_FIELDS[name].key, HEADER_FIELDS[name].normalise(value))
+    entries = {
+        HEADER_FIELDS[name].key: HEADER_FIELDS[name].normalise(value)
         for name, value in values.items()
-        if name not in HEADER_DEFAULTS or HEADER_DEFAULTS[name] != HEADER_FIELDS[name].normalise(value)
-    ]
-    return FrameType.HEADER, write_map(sorted(entries))
+        if name not in PLACES
+        and (name not in HEADER_DEFAULTS or HEADER_DEFAULTS[name] != HEADER_FIELDS[name].normalise(value))
+    }
+    _set_parts(entries, {name: value for name, value in values.items() if name in PLACES})
+    return FrameType.HEADER, write_map(sorted(entries.items()))
+
+
+def change_entries(entries: dict[int, Any], changes: dict[str, Any]) -> None:
+    """Change fields of a header by name, in place (None: not stored), those within `paper` and `sequence` as well."""
+    _set_parts(entries, {name: value for name, value in changes.items() if name in PLACES})
+    entries |= {HEADER_FIELDS[name].key: value for name, value in changes.items() if name not in PLACES}
+
+
+def _set_parts(entries: dict[int, Any], changes: dict[str, Any]) -> None:
+    for name, parts in PARTS.items():
+        changed = {place: changes[part] for place, part in enumerate(parts) if part in changes}
+        if changed:
+            key = HEADER_FIELDS[name].key
+            usual = [float(getattr(Paper(), part)) for part in parts] if name == "paper" else [0, 1]
+            numbers = list(entries.get(key, usual))
+            for place, value in changed.items():
+                numbers[place] = usual[place] if value is None else type(usual[place])(value)
+            entries[key] = None if name == "paper" and numbers == usual else numbers
+            if entries[key] is None:
+                del entries[key]
 
 
 def header_entries(payload: bytes) -> dict[int, Any]:
@@ -64,8 +91,7 @@ def with_header(stream: bytes, which: int = 0, /, **changes: Any) -> bytes:
     """The stream with other fields in the header of a run, by name (None: not stored), unchecked."""
     headers = [payload for kind, payload in frames_of(stream) if kind == FrameType.HEADER]
     entries = header_entries(headers[which])
-    for name, value in changes.items():
-        entries[HEADER_FIELDS[name].key] = value
+    change_entries(entries, changes)
     kept = sorted((key, value) for key, value in entries.items() if value is not None)
     return with_payload(stream, FrameType.HEADER, write_map(kept), which)
 

@@ -21,7 +21,6 @@ from scipy.optimize import minimize
 from bsm.bitstream.coefficients.adaptive import (
     CoefficientModel,
     decode_coefficients,
-    decode_layers,
     encode_coefficients,
 )
 from bsm.bitstream.coefficients.contexts import (
@@ -39,15 +38,13 @@ from bsm.bitstream.coefficients.priors import (
     NODES,
     SELECTORS,
     Experience,
-    detail_experience,
-    shipped_experiences,
+    shipped_experience,
 )
 from bsm.bitstream.coefficients.trellis import Levels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.reader import Reader, Signal
 from bsm.bitstream.entropy.range_coder import Bank, make_bank
-from bsm.codec.static.coding import detail_rows
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.rules import chain_rules
@@ -64,15 +61,11 @@ TRAINING_MESHES = (
     "trim_star",
 )
 SETTINGS = tuple(
-    EncodeOptions(step=step, block_size=size, key_interval=interval, detail=detail)
-    for size, interval, detail, steps in (
-        (500, 0, None, (0.0006, 0.001, 0.0014, 0.002, 0.0028, 0.004)),
-        (500, 16, None, (0.001, 0.0014, 0.002, 0.0028)),
-        (250, 0, None, (0.001, 0.002)),
-        (1000, 0, None, (0.001, 0.002)),
-        (500, 0, 0.0, (0.0025, 0.005)),
-        (500, 16, 0.0, (0.0004, 0.0018, 0.0035, 0.007)),
-        (1000, 0, 0.0, (0.0025, 0.005)),
+    EncodeOptions(step=step, block_size=size, key_interval=interval)
+    for size, interval, steps in (
+        (500, 0, (0.0025, 0.005)),
+        (500, 16, (0.0004, 0.0018, 0.0035, 0.007)),
+        (1000, 0, (0.0025, 0.005)),
     )
     for step in steps
 )
@@ -86,38 +79,22 @@ _EARLIER = np.arange(9, NEIGHBOURS)
 ChainLevels = list[Levels]
 
 
-def _chain_starts(header: Header) -> set[int]:
-    """Indices of the blocks that begin a chain."""
-    rules = chain_rules(header)
-    return {span.blocks.start + index for span in header.spans for index in rules.chain_starts(len(span.blocks))}
-
-
-def chains_of_stream(data: bytes) -> Iterator[tuple[ChainLevels, ChainLevels]]:
-    """Levels of a static stream and of its detail layer (empty if it has none), chain by chain."""
+def chains_of_stream(data: bytes) -> Iterator[ChainLevels]:
+    """Levels of a static stream, chain by chain."""
     reader = Reader()
     reader.receive_data(data)
     reader.receive_eof()
-    header: Header | None = None
-    coarse: ChainLevels = []
-    details: ChainLevels = []
+    chain: ChainLevels = []
     while not isinstance(packet := reader.next_packet(), Signal):
         if isinstance(packet, Header):
-            header, starts = packet, _chain_starts(packet)
+            header, starts = packet, chain_rules(packet).chain_starts(packet.blocks)
         elif isinstance(packet, packets.Block):
-            assert header is not None
             if packet.index in starts:
-                if coarse:
-                    yield coarse, details
-                coarse, details = [], []
-                model = CoefficientModel(header.coefficients)
-                over = CoefficientModel(detail_rows(header.details), detail_experience())
-            if header.details:
-                levels, above = decode_layers(model, over, packet.data, packet.coefficients)
-                details.append(above)
-            else:
-                levels = decode_coefficients(model, packet.data, packet.coefficients)
-            coarse.append(levels)
-    yield coarse, details
+                if chain:
+                    yield chain
+                chain, model = [], CoefficientModel(header.coefficients)
+            chain.append(decode_coefficients(model, packet.data, packet.coefficients))
+    yield chain
 
 
 def fit_expectations(chains: list[ChainLevels]) -> npt.NDArray[np.uint16]:
@@ -215,14 +192,10 @@ def main() -> None:
     arguments = parser.parse_args()
     meshes = [read_mesh(arguments.meshes / f"{name}.ply").mesh for name in TRAINING_MESHES]
     streams = (encode(mesh, options) for mesh in meshes for options in SETTINGS)
-    layers = zip(*(layers for stream in streams for layers in chains_of_stream(stream)))
-    learnt = b""
-    for chains, shipped in zip(layers, shipped_experiences()):
-        taught = [chain for chain in chains if any(map(len, chain))]
-        experience = rounded(learn(taught, fit_expectations(taught)))
-        print(f"{len(taught)} chains: {coded_size(taught, shipped)} -> {coded_size(taught, experience)} bytes")
-        learnt += experience.to_bytes()
-    arguments.output.write_bytes(learnt)
+    taught = [chain for stream in streams for chain in chains_of_stream(stream)]
+    shipped, experience = shipped_experience(), rounded(learn(taught, fit_expectations(taught)))
+    print(f"{len(taught)} chains: {coded_size(taught, shipped)} -> {coded_size(taught, experience)} bytes")
+    arguments.output.write_bytes(experience.to_bytes())
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.grammar import FOLLOWERS, FOLLOWERS_IN_SECTIONS
+from bsm.bitstream.container.grammar import FOLLOWERS
 from bsm.bitstream.container.header import Field, Header, defaults_of, fields_of
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
@@ -101,9 +101,6 @@ def source() -> str:
                     "FOLLOWERS",
                     FOLLOWERS,
                     "What may follow a frame of each type, METADATA and skippable ones left aside.",
-                ),
-                _followers(
-                    "FOLLOWERS_IN_SECTIONS", FOLLOWERS_IN_SECTIONS, "The same in meshes that come in sections (F 3.16)."
                 ),
                 _fields("HEADER_FIELDS", Header, "Fields of the header (F 4.4)."),
                 _fields("DECLARATION_FIELDS", Declaration, "Fields of what an attribute declares (D 1)."),

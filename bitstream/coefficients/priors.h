@@ -2,7 +2,7 @@
 #ifndef BSM_PRIORS_H
 #define BSM_PRIORS_H
 
-#define PRIORS_BYTES 24240
+#define PRIORS_BYTES 12120
 
 extern const unsigned char PRIORS[PRIORS_BYTES];
 

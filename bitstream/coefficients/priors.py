@@ -69,19 +69,7 @@ class Experience:
         return self.mixing.astype(np.int32) << 4
 
 
-def coordinate_experience() -> Experience:
-    """What is known of the coefficients of x, y and z; part of the format."""
-    return shipped_experiences()[0]
-
-
-def detail_experience() -> Experience:
-    """What is known of detail layers, whose successive frequencies stand in rows of three; part of the format."""
-    return shipped_experiences()[1]
-
-
 @cache
-def shipped_experiences() -> tuple[Experience, ...]:
-    """The experiences that are part of the format, one behind the other in their file."""
-    data = priors()
-    size = len(data) // 2
-    return Experience.from_bytes(data[:size]), Experience.from_bytes(data[size:])
+def shipped_experience() -> Experience:
+    """What is known of coefficients before any has come; part of the format."""
+    return Experience.from_bytes(priors())

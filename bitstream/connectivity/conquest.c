@@ -7,7 +7,7 @@
 
 #include "bitstream/connectivity/halfedges.h"
 
-enum { VERTICES, REAL, FACES, DUMMIES, TURNS, STEPS, START, LATEST, STOP, TALLIES };
+enum { VERTICES, REAL, FACES, DUMMIES, TURNS, STEPS, START, LATEST, TALLIES };
 enum {
     TURN_BYTES = 1024, /* more than one triangle can take */
     REACH = 4096,      /* a node further along the front than this is named by its number instead */
@@ -290,7 +290,6 @@ static int64_t take_turns(Walk *walk) {
     Polygons *front = &walk->front;
     int64_t *tallies = walk->tallies;
     while (front->heads[ALIVE] > 0 || tallies[FACES] < walk->face_room) {
-        if (tallies[STOP] > 0 && tallies[FACES] >= tallies[STOP]) return CONQUEST_PAUSED;
         if (front->heads[MADE] + 3 > front->capacity || !has_room(&walk->coder, TURN_BYTES)) return CONQUEST_NO_ROOM;
         if (--tallies[TURNS] < 0 || overran(&walk->coder)) return CONQUEST_NONSENSE;
         int32_t f = first_node(front);
@@ -300,7 +299,7 @@ static int64_t take_turns(Walk *walk) {
     return tallies[VERTICES] == walk->vertex_room ? CONQUEST_DONE : CONQUEST_NONSENSE;
 }
 
-/* Code the surface, from where the last call ran out of room or paused. */
+/* Code the surface, from where the last call ran out of room. */
 int64_t conquer(Coder coder, Models models, Guide guide, Conquest conquest) {
     Walk walk;
     if (!open_walk(&walk, coder, models, &guide, &conquest)) return MISUSED;

@@ -16,8 +16,7 @@ typedef struct {
 } Guide;
 
 /* What both sides know; tallies: vertices, real vertices and faces so far; dummies, triangles and steps along the front
- * still allowed; first face that the encoder may have left; label of the latest real vertex; faces behind which the walk
- * pauses, 0: none. */
+ * still allowed; first face that the encoder may have left; label of the latest real vertex. */
 typedef struct {
     Front front;
     Longs2 vertices;
@@ -25,8 +24,8 @@ typedef struct {
     Longs tallies;
 } Conquest;
 
-/* How a call ends; without room, make some and call again. A pause is there as long as its faces are (C 4.5). */
-enum { CONQUEST_DONE, CONQUEST_NONSENSE, CONQUEST_NO_ROOM, CONQUEST_PAUSED };
+/* How a call ends; without room, make some and call again. */
+enum { CONQUEST_DONE, CONQUEST_NONSENSE, CONQUEST_NO_ROOM };
 
 int64_t conquer(Coder coder, Models models, Guide guide, Conquest conquest);
 

@@ -15,10 +15,10 @@ from bsm.bitstream.entropy.range_coder import Coder
 
 Ints = npt.NDArray[np.int32]
 
-DONE, NONSENSE, NO_ROOM, PAUSED = range(4)
+DONE, NONSENSE, NO_ROOM = range(3)
 """How a call of `conquer` ends; without room, make some and call again."""
 
-_REAL, _DUMMIES, _TURNS, _STEPS, _STOP, _TALLIES = 1, 3, 4, 5, 8, 9
+_DUMMIES, _TURNS, _STEPS, _TALLIES = 3, 4, 5, 8
 
 TURN_BYTES = 1024
 """More than one triangle can take."""
@@ -78,16 +78,6 @@ def enlarge_conquest(conquest: Conquest) -> Conquest:
     return conquest._replace(front=enlarge_front(conquest.front))
 
 
-def pause_behind(conquest: Conquest, faces: int) -> None:
-    """Let the conquest pause once so many faces are emitted; 0: not at all."""
-    conquest.tallies[_STOP] = faces
-
-
-def fans_of(conquest: Conquest) -> int:
-    """Fans that a conquest has met so far."""
-    return int(conquest.tallies[_REAL])
-
-
 def conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest) -> int:
-    """Code the surface, from where the last call ran out of room or paused."""
+    """Code the surface, from where the last call ran out of room."""
     return _kernels.conquer(coder, models, guide, conquest)

@@ -1,15 +1,13 @@
 """Faces to bytes and back: any list of triangles, exactly, up to the numbering that the decoder chooses.
 
 A payload is one entropy-coded stream: four counts, then the conquest of the surface (cut where it is not an oriented
-manifold), then which of the cut surface's fans are the same vertex, then the faces that repeat a corner. It may come in
-pieces: a decoder knows the first faces when it has the first piece.
+manifold), then which of the cut surface's fans are the same vertex, then the faces that repeat a corner.
 
 The decoder's numbering is a fixed point: encoding decoded faces gives the same payload, and identity orders.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,24 +22,19 @@ from bsm.bitstream.connectivity.conquest import (
     Guide,
     conquer,
     enlarge_conquest,
-    fans_of,
     make_conquest,
     make_guide,
     no_guide,
-    pause_behind,
 )
 from bsm.bitstream.connectivity.halfedges import close_surface
 from bsm.bitstream.connectivity.seams import code_degenerate, code_seams
 from bsm.bitstream.connectivity.valence_model import RARE_HEADER, Models, code_rare, make_models
 from bsm.bitstream.entropy.range_coder import (
     Coder,
-    bytes_taken,
-    finish_piece,
     finish_reading,
     finish_writing,
     make_room,
     overran,
-    read_on,
     start_reading,
     start_writing,
 )
@@ -56,15 +49,6 @@ _FACE_MEMORY, _VERTEX_MEMORY, _FAN_MEMORY = 100, 400, 240
 _BYTES_PER_FAN = 32  # more than the vertex of a fan, or a corner of a degenerate face, can take
 
 
-@dataclass(frozen=True)
-class Cut:
-    """Where a payload can be cut."""
-
-    faces: int
-    vertices: int
-    size: int
-
-
 @dataclass(frozen=True, eq=False)
 class EncodedConnectivity:
     """What `encode_connectivity` returns."""
@@ -73,17 +57,9 @@ class EncodedConnectivity:
     vertex_order: Ints
     face_order: Ints
     faces: Ints
-    cuts: tuple[Cut, ...] = ()
-
-    def pieces(self, cuts: Sequence[Cut]) -> tuple[bytes, ...]:
-        """The payload, cut; one piece more than cuts."""
-        bounds = [0, *(cut.size for cut in cuts)]
-        # What an encoder saves at the end is zeros, which a reader has taken before it.
-        whole = self.payload.ljust(bounds[-1], b"\0")
-        return tuple(whole[first:last] for first, last in zip(bounds, [*bounds[1:], len(whole)], strict=True))
 
 
-def encode_connectivity(faces: npt.ArrayLike, vertex_count: int, cut_behind: Sequence[int] = ()) -> EncodedConnectivity:
+def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConnectivity:
     """Encode triangles."""
     given = _check_faces(faces, vertex_count)
     degenerate = (given[:, 0] == given[:, 1]) | (given[:, 1] == given[:, 2]) | (given[:, 2] == given[:, 0])
@@ -96,11 +72,6 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int, cut_behind: Seq
     for count in (len(improper), vertex_count - regular, fans - regular, loops):
         code_rare(coder, models, RARE_HEADER, count)
     guide, conquest = make_guide(surface, len(proper)), make_conquest(len(proper), fans, loops)
-    cuts: list[Cut] = []
-    for stop in cut_behind:
-        if fans == regular and stop < len(proper):
-            coder, conquest = _conquer(coder, models, guide, conquest, stop)
-            cuts.append(Cut(stop, fans_of(conquest), bytes_taken(coder)))
     coder, conquest = _conquer(coder, models, guide, conquest)
 
     coder = make_room(coder, _BYTES_PER_FAN * (fans + 3 * len(improper)))
@@ -119,83 +90,42 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int, cut_behind: Seq
         order,
         np.concatenate([proper[guide.faces], improper]).astype(np.int32),
         np.concatenate([vertices[conquest.faces], corners.reshape(-1, 3)]),
-        tuple(cuts),
     )
-
-
-@dataclass(frozen=True, eq=False)
-class Known:
-    """What is known of a mesh when some pieces of its connectivity have come."""
-
-    faces: Ints
-    vertices: int
-
-
-class ConnectivityDecoder:
-    """Decodes what `encode_connectivity` made, piece by piece."""
-
-    def __init__(
-        self, vertex_count: int, face_count: int, limits: Limits = DEFAULT_LIMITS, cuts: Sequence[int] = ()
-    ) -> None:
-        self._vertices, self._faces, self._limits, self._cuts = vertex_count, face_count, limits, tuple(cuts)
-        self._pieces = self._decode()
-        self._piece = b""
-
-    def take(self, piece: bytes) -> Known:
-        """Take the next piece, and say what is known then; the last one must make the mesh whole."""
-        self._piece = piece
-        return next(self._pieces)
-
-    def _decode(self) -> Iterator[Known]:
-        vertex_count, face_count, limits = self._vertices, self._faces, self._limits
-        limits.check("vertices", vertex_count)
-        limits.check("faces", face_count)
-        if not 0 < vertex_count <= 3 * face_count:
-            raise CorruptError(f"{face_count} triangles cannot have {vertex_count} vertices")
-        coder, models = start_reading(self._piece), make_models(vertex_count)
-        degenerate, lonely, surplus, loops = (code_rare(coder, models, RARE_HEADER, 0) for _ in range(4))
-        proper, regular = face_count - degenerate, vertex_count - lonely
-        fans = regular + surplus
-        if proper < 0 or regular < 0 or lonely > 3 * degenerate or fans > 3 * proper or loops > 3 * proper:
-            raise _nonsense(coder, "the counts at its start contradict each other")
-        limits.check("vertices", fans + loops)
-        if self._cuts and (surplus or self._cuts[-1] >= proper):
-            raise _nonsense(coder, "it cannot come in these pieces")
-        conquest = make_conquest(proper, fans, loops)
-        for cut in self._cuts:
-            limits.check_memory(_memory(cut, vertex_count, loops), vertex_count, len(coder.data))
-            coder, conquest = _conquer(coder, models, no_guide(), conquest, cut)
-            finish_piece(coder)
-            known = fans_of(conquest)
-            limits.check_memory(_memory(cut, known, 0), known, len(coder.data))
-            yield Known(conquest.faces[:cut], known)
-            coder = read_on(coder, self._piece)
-        limits.check_memory(_memory(face_count, vertex_count, surplus + loops), vertex_count, len(coder.data))
-        coder, conquest = _conquer(coder, models, no_guide(), conquest)
-        faces = conquest.faces
-        count = regular
-        if surplus > 0:
-            count, vertices = code_seams(coder, faces, np.full(fans, -1, np.int32))
-            faces = vertices[faces]
-        corners = np.empty(3 * degenerate, np.int32)
-        if count != regular or code_degenerate(coder, corners, regular) != vertex_count:
-            raise _nonsense(coder, f"it does not make {vertex_count} vertices")
-        finish_reading(coder)
-        yield Known(np.concatenate([faces, corners.reshape(-1, 3)]) if degenerate else faces, vertex_count)
 
 
 def decode_connectivity(payload: bytes, vertex_count: int, face_count: int, limits: Limits = DEFAULT_LIMITS) -> Ints:
     """Decode what `encode_connectivity` made of `face_count` triangles of `vertex_count` vertices."""
-    return ConnectivityDecoder(vertex_count, face_count, limits).take(payload).faces
+    limits.check("vertices", vertex_count)
+    limits.check("faces", face_count)
+    if not 0 < vertex_count <= 3 * face_count:
+        raise CorruptError(f"{face_count} triangles cannot have {vertex_count} vertices")
+    coder, models = start_reading(payload), make_models(vertex_count)
+    degenerate, lonely, surplus, loops = (code_rare(coder, models, RARE_HEADER, 0) for _ in range(4))
+    proper, regular = face_count - degenerate, vertex_count - lonely
+    fans = regular + surplus
+    if proper < 0 or regular < 0 or lonely > 3 * degenerate or fans > 3 * proper or loops > 3 * proper:
+        raise _nonsense(coder, "the counts at its start contradict each other")
+    limits.check("vertices", fans + loops)
+    limits.check_memory(_memory(face_count, vertex_count, surplus + loops), vertex_count, len(coder.data))
+    coder, conquest = _conquer(coder, models, no_guide(), make_conquest(proper, fans, loops))
+    faces = conquest.faces
+    count = regular
+    if surplus > 0:
+        count, vertices = code_seams(coder, faces, np.full(fans, -1, np.int32))
+        faces = vertices[faces]
+    corners = np.empty(3 * degenerate, np.int32)
+    if count != regular or code_degenerate(coder, corners, regular) != vertex_count:
+        raise _nonsense(coder, f"it does not make {vertex_count} vertices")
+    finish_reading(coder)
+    return np.concatenate([faces, corners.reshape(-1, 3)]) if degenerate else faces
 
 
 def _memory(faces: int, vertices: int, sewn: int) -> int:
     return _FACE_MEMORY * faces + _VERTEX_MEMORY * vertices + _FAN_MEMORY * sewn
 
 
-def _conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest, stop: int = 0) -> tuple[Coder, Conquest]:
+def _conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest) -> tuple[Coder, Conquest]:
     """Run the conquest, with more memory each time it asks; so memory follows the progress, not a claim."""
-    pause_behind(conquest, stop)
     while (end := conquer(coder, models, guide, conquest)) == NO_ROOM:
         coder, conquest = make_room(coder, TURN_BYTES + len(coder.data)), enlarge_conquest(conquest)
     if end == NONSENSE:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from bsm.bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
-from bsm.bitstream.container.header import Span
 from bsm.bitstream.container.layout import FRAME_TYPES
 from bsm.bitstream.container.packets import (
     Attribute,
     Block,
-    Connectivity,
     End,
     Gop,
     Grid,
@@ -45,26 +41,16 @@ FOLLOWERS: dict[FrameType | None, frozenset[FrameType]] = {
 A HEADER behind a GOP begins the next run of a sequence; if it has the mesh of an earlier one `again`, GOPs follow it.
 """
 
-_NOT_IN_SECTIONS = frozenset({FrameType.PARTITION, FrameType.ORDER, FrameType.GOP, FrameType.GRID})
-FOLLOWERS_IN_SECTIONS: dict[FrameType | None, frozenset[FrameType]] = {
-    frame_type: (followers | {FrameType.CONNECTIVITY} if frame_type is FrameType.BLOCK else followers)
-    - _NOT_IN_SECTIONS
-    for frame_type, followers in FOLLOWERS.items()
-}
-"""The same where the mesh comes in sections."""
 
-
-def _reachable(
-    followers: Mapping[FrameType | None, frozenset[FrameType]], start: FrameType | None
-) -> frozenset[FrameType]:
+def _reachable(start: FrameType | None) -> frozenset[FrameType]:
     """Everything that may come at any distance behind a frame of type `start`."""
     found: set[FrameType] = set()
-    pending = list(followers[start])
+    pending = list(FOLLOWERS[start])
     while pending:
         current = pending.pop()
         if current not in found:
             found.add(current)
-            pending.extend(followers[current])
+            pending.extend(FOLLOWERS[current])
     return frozenset(found)
 
 
@@ -74,7 +60,7 @@ def _not_ascending(index: int, following: int) -> str:
 
 ANNOUNCED: dict[int, str] = {
     FrameType.GRID: "grid",
-    FrameType.REFINEMENT: "refinements",
+    FrameType.REFINEMENT: "refinement",
     FrameType.ATTRIBUTE: "attributes",
     FrameType.VALUES: "attributes",
 }
@@ -89,17 +75,14 @@ class Grammar:
         self._joining = joining
         self._last: FrameType | None = None
         self._allowed = FOLLOWERS[None]
-        self._told: set[str] = set()  # names of metadata
+        self._named: set[str] = set()  # names of metadata
         self._next_frame = 0
         self._begin_mesh()
 
     def _begin_mesh(self) -> None:
         """Forget what belongs to the mesh of one run."""
-        self._spans: tuple[Span, ...] = ()
-        self._sections = 0  # of which CONNECTIVITY was there
         self._next_block = 0
         self._next_vertex = 0  # of the grid, or of the layer
-        self._layer = 0
         self._declared: dict[int, Declaration] = {}
         self._valued = 0  # the attribute that values have come for last
         self._next_value = 0
@@ -134,51 +117,39 @@ class Grammar:
         frame_type = FRAME_TYPES[type(packet)]
         if isinstance(packet, Header):
             self._begin_mesh()
-            self.header, self._spans = packet, packet.spans
-            self._sections = len(packet.spans) if packet.again else 0
-        if isinstance(packet, Connectivity):
-            self._sections += 1
+            self.header = packet
         if isinstance(packet, Block):
             self._next_block = packet.index + 1
         if isinstance(packet, Gop):
             self._next_frame = packet.index + 1
         if isinstance(packet, Grid | Refinement):
             self._next_vertex = packet.first + packet.count
-        if isinstance(packet, Refinement):
-            self._layer = packet.layer
         if isinstance(packet, Attribute):
             self._declared[packet.index] = packet.declaration
         if isinstance(packet, Values):
             self._valued, self._next_value = packet.attribute, packet.first + packet.count
         if isinstance(packet, Metadata):
-            self._told |= packet.entries.keys()
+            self._named |= packet.entries.keys()
         else:
             self._last = frame_type
-            begun = isinstance(packet, Header) and packet.again
-            self._allowed = frozenset({FrameType.GOP}) if begun else self._followers[frame_type]
+            begun = isinstance(packet, Header) and packet.again is not None
+            self._allowed = frozenset({FrameType.GOP}) if begun else FOLLOWERS[frame_type]
 
     def lose(self) -> None:
         """Take note that an unknown number of frames is missing here: everything that can come later may come now."""
-        self._allowed = _reachable(self._followers, self._last)
+        self._allowed = _reachable(self._last)
         self._lossy = True
-
-    @property
-    def _followers(self) -> Mapping[FrameType | None, frozenset[FrameType]]:
-        return FOLLOWERS_IN_SECTIONS if len(self._spans) > 1 else FOLLOWERS
 
     def _disagreement(self, packet: Packet) -> str | None:
         if self.header is None:
-            late = isinstance(packet, Header) and packet.run > 0 and not self._joining
+            late = isinstance(packet, Header) and packet.run_number > 0 and not self._joining
             return "the stream begins within a sequence; a tolerant decoder joins it there" if late else None
         if isinstance(packet, Header):
             return self._run_problem(self.header, packet)
-        if problem := self._section_problem(self.header, packet):
-            return problem
-        last = self._sections >= len(self._spans)
-        if last and isinstance(packet, Block | Gop | Grid | Values | End) and self._lacks_attributes(self.header):
+        if isinstance(packet, Block | Gop | Grid | Values | End) and self._lacks_attributes(self.header):
             return f"{len(self._declared)} of {self.header.attributes} attributes are declared"
         match packet:
-            case Metadata() if again := sorted(self._told & packet.entries.keys()):
+            case Metadata() if again := sorted(self._named & packet.entries.keys()):
                 return f"METADATA speaks of {again[0]!r} again"
             case Attribute():
                 return self._attribute_problem(self.header, packet)
@@ -188,10 +159,8 @@ class Grammar:
                 return self._block_disagreement(self.header, packet)
             case Gop():
                 return self._gop_disagreement(self.header, packet)
-            case Grid():
+            case Grid() | Refinement():
                 return self._chunk_disagreement(self.header, packet, self._next_vertex)
-            case Refinement():
-                return self._refinement_disagreement(self.header, packet)
             case Partition() if self.header.grid:
                 return "a PARTITION where there are no blocks"
             case End() if not self._lossy and (missing := self._missing_values()):
@@ -204,31 +173,12 @@ class Grammar:
         """What keeps a run from following another."""
         if not (before.gop_frames and header.gop_frames):
             return "a second HEADER of a static mesh"
-        if header.run <= before.run or (header.run > before.run + 1 and not self._lossy):
-            return f"run {header.run} where run {before.run + 1} must follow"
+        number, following = header.run_number, before.run_number + 1
+        if number < following or (number > following and not self._lossy):
+            return f"run {number} where run {following} must follow"
         if header.frames != before.frames:
             return f"a run of a sequence of {header.frames} frames in one of {before.frames}"
         return None if self._lossy else self._missing_values()
-
-    def _section_problem(self, header: Header, packet: Packet) -> str | None:
-        """What has no place in its section, or comes where one is not whole."""
-        begun, count = self._sections, len(self._spans)
-        blocks = self._spans[begun - 1].blocks if begun else range(0)
-        match packet:
-            case Connectivity() if begun == count:
-                return f"CONNECTIVITY for section {begun} of {count}"
-            case Connectivity() if self._next_block < blocks.stop and not self._lossy:
-                return (
-                    f"section {begun} begins behind {self._next_block} blocks, where there are {blocks.stop} before it"
-                )
-            case Block(index) if index < header.blocks and begun and self._is_misplaced(index, blocks):
-                return f"block {index} in section {begun - 1} of {count}, which has those from {blocks.start} on"
-            case Attribute() | Refinement() | Values() | End() if begun < count and not self._lossy:
-                return f"{FRAME_TYPES[type(packet)].name} may not come before section {begun} of {count}"
-        return None
-
-    def _is_misplaced(self, index: int, blocks: range) -> bool:
-        return index < blocks.start if self._lossy else index not in blocks
 
     def _lacks_attributes(self, header: Header) -> bool:
         return len(self._declared) < header.attributes and not self._lossy
@@ -289,15 +239,6 @@ class Grammar:
         if block.coefficients > header.coefficients:
             return f"{block.coefficients} coefficients where the header allows {header.coefficients}"
         return None
-
-    def _refinement_disagreement(self, header: Header, refinement: Refinement) -> str | None:
-        layers = len(header.refinements) // 2
-        if refinement.layer >= layers:
-            return f"layer {refinement.layer} of {layers}"
-        if refinement.layer < self._layer:
-            return f"layer {refinement.layer} comes behind layer {self._layer}; they must ascend"
-        following = self._next_vertex if refinement.layer == self._layer else 0
-        return self._chunk_disagreement(header, refinement, following)
 
     def _chunk_disagreement(self, header: Header, chunk: Grid | Refinement, following: int) -> str | None:
         if not self.announces(FRAME_TYPES[type(chunk)]):

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import operator
 from dataclasses import MISSING, dataclass, field, fields
-from itertools import accumulate, pairwise
 from typing import Any, TypeAlias, TypeVar
 
 from bsm.bitstream.errors import CorruptError, OptionError, UnsupportedError
 
-FIRST_IGNORABLE_KEY = 64
 COUNT = 2**31 - 1
 METHODS = 255
 Kind: TypeAlias = type[Any]
@@ -18,7 +16,6 @@ MOST_GRID = 2**20 - 1
 MOST_COPIES, FREE_COPIES = 16, 1 << 16
 """Rows of all blocks together, at most: so many for each vertex, and so many more."""
 MOST_ATTRIBUTES = 255
-MOST_SECTIONS = 8
 
 
 @dataclass(frozen=True)
@@ -98,23 +95,49 @@ def text(key: int, low: int, high: int) -> Any:
 
 @dataclass(frozen=True)
 class Layer:
-    """A layer of refinement: lengths in BSM units of a level along the normal, and times `ratio` along two tangents."""
+    """The layer of refinement: what a level moves along the normal, in BSM units, and times `ratio` along tangents."""
 
     step: float
     ratio: float
 
-    @property
-    def axes(self) -> int:
-        """Levels per vertex."""
-        return 3 if self.ratio else 1
+
+@dataclass(frozen=True, kw_only=True)
+class Paper:
+    """How blocks are coded as in the paper; the defaults are the constants of the law."""
+
+    bits: int = integer(0, 0, 32, default=0)
+    """Of a packed coefficient, q_c; 0: coefficients are adaptive."""
+    coarser: int = integer(1, 0, 30, default=0)
+    """Packed coefficients of the lowest frequency are in units of 2^coarser steps."""
+    exact: int = integer(2, 0, 1, default=0)
+    """1: a key block begins with the exact eigenbasis, and not with `key_iterations` from cosines."""
+    power: int = integer(3, 1, 64, default=3)
+    """The exponent z of one orthogonal iteration."""
+    iterations: int = integer(4, 1, 1024, default=1)
+    """Orthogonal iterations per block, t."""
+    key_iterations: int = integer(5, 1, 1024, default=2)
+    """Orthogonal iterations of a key block."""
+    shift: float = real(6, 2.0**-30, 2.0**30, default=2.0**-7)
+    """What is added to the Laplacian's diagonal, delta."""
+    springs: int = integer(7, 0, 1, default=1)
+    """1: a block hangs on springs, the prediction between blocks."""
+
+    def __post_init__(self) -> None:
+        normalise_fields(self, "paper")
+
+    def entry(self) -> tuple[float, ...]:
+        """What a header stores of it; empty: nothing, it is what the law says."""
+        return () if self == Paper() else tuple(float(getattr(self, name)) for name in fields_of(Paper))
 
 
-@dataclass(frozen=True)
-class Span:
-    """A section of a mesh: the numbers of the faces and of the blocks that come with it."""
-
-    faces: range
-    blocks: range
+def paper_of(entry: tuple[float, ...]) -> Paper:
+    """Twin of `Paper.entry`; raises `OptionError`."""
+    if not entry:
+        return Paper()
+    if not all(item.is_integer() for item in (*entry[:6], *entry[7:])):
+        raise OptionError(f"paper = {entry} has numbers that are not whole")
+    names = zip(fields_of(Paper).items(), entry, strict=True)
+    return Paper(**{name: declared.type(item) for (name, declared), item in names})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,81 +152,67 @@ class Header:
     """Vertices of the largest block, n_d."""
     coefficients: int = integer(5, 0, COUNT, default=0)
     """Columns of the largest dictionary: the largest c_i."""
-    key_interval: int = integer(8, 0, COUNT, default=0)
+    key_interval: int = integer(6, 0, COUNT, default=0)
     """Every so many blocks one does not depend on others; 0: only the first."""
-    power: int = integer(9, 1, 64, default=3)
-    """The exponent z of one orthogonal iteration."""
-    iterations: int = integer(10, 1, 1024, default=1)
-    """Orthogonal iterations per block, t."""
-    key_iterations: int = integer(11, 1, 1024, default=4)
-    """Orthogonal iterations of a key block."""
-    shift: float = real(12, 2.0**-30, 2.0**30, default=0.0078125)
-    """What is added to the Laplacian's diagonal, delta."""
-    coding: int = method(14, known=2, default=1)
-    """Coefficients: 0: packed and zstd; 1: adaptive."""
-    bits: int = integer(15, 1, 32, default=12)
-    """Bits of a packed coefficient, q_c."""
-    step: float = real(16, 2.0**-40, 2.0**20, default=2.0**-8)
+    step: float = real(7, 2.0**-40, 2.0**20, default=2.0**-8)
     """Quantisation step of a coefficient, in BSM units."""
-    center: tuple[float, ...] = reals(17, -1e300, 1e300, (3, 3), default=(0.0, 0.0, 0.0))
+    center: tuple[float, ...] = reals(8, -1e300, 1e300, (3, 3), default=(0.0, 0.0, 0.0))
     """The origin of BSM units, in the mesh's unit."""
-    scale: float = real(18, 1e-300, 1e300, default=1.0)
+    scale: float = real(9, 1e-300, 1e300, default=1.0)
     """One BSM unit in the mesh's unit: the diagonal of the bounding box."""
-    stiffness: float = real(19, 0.0, 65536.0, default=8.0)
-    """Of the springs on which a block hangs, the prediction between blocks; 0: there are none."""
-    smoothing: float = real(20, 0.0, 1e6, default=0.0)
+    smoothing: float = real(10, 0.0, 1e6, default=0.0)
     """Amount of smoothing after reconstruction, alpha."""
-    frames: int = integer(21, 0, COUNT, default=0)
-    """Frames of a sequence; 0: a static mesh, or a sequence whose end was not known when it began."""
-    gop_frames: int = integer(23, 0, COUNT, default=0)
-    """Frames of the longest GOP; 0: a static mesh."""
-    detail_step: float = real(25, 0.0, 2.0**20, default=0.0)
-    """Quantization step of the detail layer, in BSM units; 0: there is none."""
-    details: int = integer(26, 0, COUNT, default=0)
-    """Coefficients of the largest detail layer of a block."""
-    coarser: int = integer(27, 0, 30, default=0)
-    """Packed coefficients: those of the lowest frequency are in units of 2^coarser steps."""
-    grid: tuple[int, ...] = integers(28, 0, MOST_GRID, (0, 3), default=())
-    """Largest coded value of each axis of a grid; empty: there is none."""
-    lattice: tuple[int, ...] = integers(29, 1, 2**31 - 1, (0, 2), default=())
-    """(cells, points): the coded value k stands for k * cells / points, rounded; empty: for itself."""
-    refinements: tuple[float, ...] = reals(30, 0.0, 64.0, (0, 8), default=())
-    """Step and ratio of each layer of refinement, one pair after another; see `layers`."""
-    key_seed: int = method(31, known=2)
-    """Block without predecessor: 0: `key_iterations` from cosines; 1: exact eigenbasis."""
-    borders: int = method(32, known=2)
-    """1: in the last layer of refinement only vertices of borders have levels."""
-    attributes: int = integer(33, 0, MOST_ATTRIBUTES, default=0)
+    refinement: tuple[float, ...] = reals(11, 0.0, 64.0, (0, 2), default=())
+    """Step and ratio of the layer of refinement; empty: there is none; see `layer`."""
+    attributes: int = integer(12, 0, MOST_ATTRIBUTES, default=0)
     """How many attributes the mesh has."""
-    corner: tuple[int, ...] = integers(40, -(2**31), COUNT, (0, 3), default=())
+    grid: tuple[int, ...] = integers(13, 0, MOST_GRID, (0, 3), default=())
+    """Largest coded value of each axis of a grid; empty: there is none."""
+    lattice: tuple[int, ...] = integers(14, 1, 2**31 - 1, (0, 2), default=())
+    """(cells, points): the coded value k stands for k * cells / points, rounded; empty: for itself."""
+    corner: tuple[int, ...] = integers(15, -(2**31), COUNT, (0, 3), default=())
     """First cell of a grid on each axis, counted from the origin of the mesh's unit; empty: `center` says it."""
-    sections: tuple[int, ...] = integers(41, 1, COUNT, (0, 2 * (MOST_SECTIONS - 1)), default=())
-    """Faces and blocks of each section but the last, one pair after another; see `spans`."""
-    light: int = method(42, known=3)
+    light: int = method(16, known=3)
     """1: the values of a grid are quick to decode, and some more bytes; 2: floats in their cells follow the values."""
-    run: int = integer(43, 0, COUNT, default=0)
-    """Number of the run of a sequence that begins here."""
-    again: int = integer(44, 0, COUNT, default=0)
-    """0: the run brings a mesh of its own; k + 1: it has that of run k again."""
+    sequence: tuple[int, ...] = integers(17, 0, COUNT, (0, 2), default=())
+    """Frames (0: not known when the stream began) and those of the longest GOP; empty: a static mesh."""
+    run: tuple[int, ...] = integers(18, 0, COUNT, (0, 2), default=())
+    """Number of the run of a sequence that begins here, and the run whose mesh it has, if it brings none of its own."""
+    paper: tuple[float, ...] = reals(19, 0.0, 2.0**30, (0, 8), default=())
+    """See `Paper`; empty: what the law says."""
 
     def __post_init__(self) -> None:
         normalise_fields(self, "header")
         problem = contradiction(self)
         if problem:
             raise OptionError(f"header contradicts itself: {problem}")
+        if self.paper and paper_of(self.paper) == Paper():
+            raise OptionError("header field paper says what holds without it")
 
     @property
-    def layers(self) -> tuple[Layer, ...]:
-        """The layers of refinement."""
-        return tuple(map(Layer, self.refinements[::2], self.refinements[1::2]))
+    def layer(self) -> Layer | None:
+        """The layer of refinement."""
+        return Layer(*self.refinement) if len(self.refinement) == 2 else None
 
     @property
-    def spans(self) -> tuple[Span, ...]:
-        """The sections that the mesh comes in; one, unless `sections` says otherwise."""
-        faces = accumulate((*self.sections[::2], self.faces - sum(self.sections[::2])), initial=0)
-        blocks = accumulate((*self.sections[1::2], self.blocks - sum(self.sections[1::2])), initial=0)
-        pairs = zip(pairwise(faces), pairwise(blocks), strict=True)
-        return tuple(Span(range(*some), range(*others)) for some, others in pairs)
+    def frames(self) -> int:
+        """Frames of a sequence; 0: a static mesh, or a sequence whose end was not known when it began."""
+        return self.sequence[0] if self.sequence else 0
+
+    @property
+    def gop_frames(self) -> int:
+        """Frames of the longest GOP; 0: a static mesh."""
+        return self.sequence[1] if len(self.sequence) == 2 else 0
+
+    @property
+    def run_number(self) -> int:
+        """Number of the run of a sequence that begins here."""
+        return self.run[0] if self.run else 0
+
+    @property
+    def again(self) -> int | None:
+        """The run whose mesh this one has; None: it brings a mesh of its own."""
+        return self.run[1] if len(self.run) == 2 else None
 
 
 def fields_of(kind: Kind) -> dict[str, Field]:
@@ -236,18 +245,34 @@ def normalise_fields(record: Any, what: str) -> None:
 
 def contradiction(header: Header) -> str | None:
     """Which two fields of a header exclude each other, or None."""
-    rules = _grid_rules(header) if header.grid else _again_rules(header) if header.again else _block_rules(header)
-    return next((problem for problem, broken in rules.items() if broken), None)
+    own = (
+        _grid_rules(header)
+        if header.grid
+        else _again_rules(header)
+        if header.again is not None
+        else _block_rules(header)
+    )
+    return next((problem for problem, broken in (_common_rules(header) | own).items() if broken), None)
 
 
 EXACT = 2
 """`light`: floats in the cells of a grid follow its values."""
 
 
+def _common_rules(header: Header) -> dict[str, bool]:
+    return {
+        "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
+        "a sequence that is not frames and a length for GOPs": bool(header.sequence) and header.gop_frames == 0,
+        "a run of a static mesh": bool(header.run) and not header.sequence,
+        "a run that is stored although it is the first": header.run == (0,),
+        "the mesh of a run that has not been": header.again is not None and header.again >= header.run_number,
+        "a paper that is not eight numbers": len(header.paper) not in (0, 8),
+    }
+
+
 def _grid_rules(header: Header) -> dict[str, bool]:
     cells, points = header.lattice if len(header.lattice) == 2 else (0, 0)
     return {
-        "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
         "a grid of other than three axes": len(header.grid) != 3,
         "a lattice that is not cells and points": bool(header.lattice) and not points,
         "a lattice with fewer points than the grid has values": 0 < points < max(header.grid),
@@ -256,52 +281,38 @@ def _grid_rules(header: Header) -> dict[str, bool]:
         "a corner and a center": bool(header.corner) and any(header.center),
         "floats in the cells of a lattice, or of cells that are counted": header.light == EXACT
         and bool(header.lattice or header.corner),
-    } | {
-        f"a grid, and {name}": getattr(header, name) != default
-        for name, default in HEADER_DEFAULTS.items()
-        if name not in ("grid", "lattice", "center", "scale", "attributes", "corner", "light")
-    }
+    } | _others("a grid", header, ("grid", "lattice", "center", "scale", "attributes", "corner", "light"))
 
 
 def _again_rules(header: Header) -> dict[str, bool]:
+    return _others("the mesh of another run", header, ("sequence", "run"))
+
+
+def _others(what: str, header: Header, fitting: tuple[str, ...]) -> dict[str, bool]:
+    """Every field but those that fit must have its default."""
     return {
-        "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
-        "the mesh of a run that has not been": header.again > header.run,
-        "no length for GOPs": header.gop_frames == 0,
-    } | {
-        f"the mesh of another run, and {name}": getattr(header, name) != default
+        f"{what}, and {name}": getattr(header, name) != default
         for name, default in HEADER_DEFAULTS.items()
-        if name not in ("frames", "gop_frames", "run", "again")
+        if name not in fitting
     }
 
 
 def _block_rules(header: Header) -> dict[str, bool]:
+    layer = header.layer
     return {
         "neither blocks nor a grid": not (header.blocks and header.block_size and header.coefficients),
         "a lattice without a grid": bool(header.lattice),
         "a corner without a grid": bool(header.corner),
         "light values without a grid": bool(header.light),
-        "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
         "more blocks than vertices": header.blocks > header.vertices,
         "blocks larger than the mesh": header.block_size > header.vertices,
         "blocks too small to cover the mesh": header.blocks * header.block_size < header.vertices,
         "blocks that overlap too much": header.blocks * header.block_size > MOST_COPIES * header.vertices + FREE_COPIES,
         "more coefficients than a block has vertices": header.coefficients > header.block_size,
-        "more details than a block has vertices": header.details > header.block_size,
-        "details without a step, or a step without details": (header.details > 0) != (header.detail_step > 0),
-        "frames without a length for GOPs": header.frames > 0 and header.gop_frames == 0,
-        "a run of a static mesh": header.run > 0 and header.gop_frames == 0,
-        "refinements that are not pairs of step and ratio": len(header.refinements) % 2 == 1,
-        "a step of a refinement that is not in 2^-40..1": not all(2.0**-40 <= x.step <= 1 for x in header.layers),
-        "a ratio of a refinement that is neither 0 nor in 1/16..64": not all(
-            x.ratio == 0 or x.ratio >= 1 / 16 for x in header.layers
-        ),
-        "borders without refinements": bool(header.borders) and not header.refinements,
-        "sections that are not pairs of faces and blocks": len(header.sections) % 2 == 1,
-        "no faces for the last section": sum(header.sections[::2]) >= header.faces,
-        "no blocks for the last section": sum(header.sections[1::2]) >= header.blocks,
-        "sections of a sequence": bool(header.sections) and header.gop_frames > 0,
-        "refinements of a sequence": bool(header.refinements) and header.gop_frames > 0,
+        "a refinement that is not step and ratio": bool(header.refinement) and layer is None,
+        "a step of a refinement that is not in 2^-40..1": layer is not None and not 2.0**-40 <= layer.step <= 1,
+        "a ratio of a refinement that is not in 1/16..64": layer is not None and layer.ratio < 1 / 16,
+        "a refinement of a sequence": bool(header.refinement) and bool(header.sequence),
     }
 
 
@@ -327,14 +338,12 @@ def entries_of(record: Any) -> list[tuple[int, Any]]:
 
 
 def record_of(kind: type[Record], what: str, entries: list[tuple[Any, Any]]) -> Record:
-    """The record that `entries_of` came from; keys from 64 on are ignored."""
+    """The record that `entries_of` came from."""
     declarations, defaults = fields_of(kind), defaults_of(kind)
     names = {declared.key: name for name, declared in declarations.items()}
     _refuse_unknown(entries, names, declarations, what)
     values: dict[str, Any] = {}
     for key, value in entries:
-        if key >= FIRST_IGNORABLE_KEY:
-            continue
         name, declared = names[key], declarations[names[key]]
         if not declared.accepts(value):
             raise CorruptError(f"{what} field {name} has type {type(value).__name__}")
@@ -358,11 +367,7 @@ def _refuse_unknown(
         if type(key) is not int or key < 0:
             raise CorruptError(f"{what} key {key!r} is not an unsigned integer")
         if key not in names:
-            if key < FIRST_IGNORABLE_KEY:
-                raise UnsupportedError(
-                    f"{what} key {key} is unknown to this decoder, and the stream cannot do without it"
-                )
-            continue
+            raise UnsupportedError(f"{what} key {key} is unknown to this decoder")
         declared = declarations[names[key]]
         if declared.type is int and declared.accepts(value) and declared.high < value <= declared.reserved:
             raise UnsupportedError(f"{what} field {names[key]} names method {value}, unknown to this decoder")

@@ -123,15 +123,14 @@ def parse_grid(payload: bytes, limits: Limits) -> Grid:
 
 
 def write_refinement(refinement: Refinement) -> bytes:
-    """Varint layer, varint number of the first vertex, varint number of vertices, coded levels."""
-    numbers = (refinement.layer, refinement.first, refinement.count)
-    return b"".join(map(write_varint, numbers)) + refinement.data
+    """Varint number of the first vertex, varint number of vertices, coded levels."""
+    return write_varint(refinement.first) + write_varint(refinement.count) + refinement.data
 
 
 def parse_refinement(payload: bytes, limits: Limits) -> Refinement:
     """Inverse of `write_refinement`."""
     cursor = Cursor(payload)
-    return Refinement(cursor.varint(), cursor.varint(), cursor.varint(), cursor.rest())
+    return Refinement(cursor.varint(), cursor.varint(), cursor.rest())
 
 
 def write_attribute(attribute: Attribute) -> bytes:

@@ -29,7 +29,7 @@ class Metadata:
 
 @dataclass(frozen=True)
 class Connectivity:
-    """The coded faces, of one section or of all."""
+    """The coded faces."""
 
     data: bytes
 
@@ -76,9 +76,8 @@ class Grid:
 
 @dataclass(frozen=True)
 class Refinement:
-    """The coded levels of `count` vertices, from number `first` on, in a layer of refinement, counted from 0."""
+    """The coded levels of `count` vertices, from number `first` on, in the layer of refinement."""
 
-    layer: int
     first: int
     count: int
     data: bytes

@@ -79,7 +79,9 @@ class TolerantReader(Reader):
         return Grammar(joining=True)
 
     def _consume(self, frame: Frame, packet: Packet | None) -> None:
-        self._lossy = self._lossy or (self._grammar.header is None and isinstance(packet, Header) and packet.run > 0)
+        self._lossy = self._lossy or (
+            self._grammar.header is None and isinstance(packet, Header) and packet.run_number > 0
+        )
         super()._consume(frame, packet)
 
     def _check_end(self, end: End) -> None:

@@ -110,16 +110,6 @@ def start_reading(payload: bytes) -> Coder:
     return Coder(np.array([code, width, _AHEAD, 1, 0], np.int64), data)
 
 
-def read_on(coder: Coder, piece: bytes) -> Coder:
-    """Return a coder that continues `coder`, which reads, where one more piece of its payload has come."""
-    return Coder(coder.state, np.concatenate([coder.data, np.frombuffer(piece, np.uint8)]))
-
-
-def bytes_taken(coder: Coder) -> int:
-    """How many bytes of the payload a reader has taken when it knows what was coded so far (T)."""
-    return int(coder.state[_POSITION]) + (0 if is_reading(coder) else _AHEAD)
-
-
 def finish_writing(coder: Coder) -> bytes:
     """Return the payload: everything written, and the fewest bytes that still tell the last decision."""
     low, width, position = (int(x) for x in coder.state[:3])
@@ -137,29 +127,16 @@ def finish_writing(coder: Coder) -> bytes:
 
 def finish_reading(coder: Coder) -> None:
     """Check that a payload was read exactly to its end."""
-    taken, size = _taken_at_end(coder)
+    taken, size = int(coder.state[_POSITION]), len(coder.data)
+    if taken > size + _AHEAD:
+        raise TruncatedError(f"an entropy-coded payload of {size} bytes ends before its last symbol")
     if taken < size:
         raise CorruptError(f"{size - taken} bytes are left over after the last symbol of a payload")
 
 
-def finish_piece(coder: Coder) -> None:
-    """Check that what was read of a payload, of which more will come, is all that has come."""
-    taken, size = _taken_at_end(coder)
-    if taken != size:
-        raise CorruptError(f"the pieces of a payload so far have {size} bytes where {taken} belong")
-
-
-def _taken_at_end(coder: Coder) -> tuple[int, int]:
-    """What was read, and what there is."""
-    taken, size = bytes_taken(coder), len(coder.data)
-    if taken > size + _AHEAD:
-        raise TruncatedError(f"an entropy-coded payload of {size} bytes ends before its last symbol")
-    return taken, size
-
-
 def overran(coder: Coder) -> bool:
     """Whether more was read than any complete payload of this length can hold."""
-    return is_reading(coder) and bytes_taken(coder) > coder.data.size + _AHEAD
+    return is_reading(coder) and int(coder.state[_POSITION]) > coder.data.size + _AHEAD
 
 
 def code_bit(coder: Coder, probability: int, bit: int) -> int:

@@ -152,14 +152,3 @@ void gather_around(const Corners *c, int32_t v, Around *around) {
             around->flap[around->flaps++] = (Flap){ends[0], ends[1], vertex[beyond], beyond};
     }
 }
-
-/* Pass over all vertices but those of borders: of edges that a corner without a partner faces. */
-int64_t keep_borders(Corners c) {
-    if (!fits_corners(&c)) return MISUSED;
-    for (int64_t v = 0; v < c.rank.size; v++) c.rank.data[v] = PASSED_OVER;
-    for (int32_t k = 0; k < c.corners.size; k++) {
-        int32_t a = c.faces.data[next_corner(k)], b = c.faces.data[previous_corner(k)];
-        if (c.opposite.data[k] < 0 && a != b) c.rank.data[a] = a, c.rank.data[b] = b;
-    }
-    return 0;
-}

@@ -4,7 +4,7 @@
 
 #include "bitstream/kernel.h"
 
-enum { MOST_NEIGHBOURS = 16, MOST_FLAPS = 8, PASSED_OVER = INT32_MAX };
+enum { MOST_NEIGHBOURS = 16, MOST_FLAPS = 8 };
 
 /* Corner k is corner k % 3 of face k / 3. Made by link_corners and order_vertices, which check. */
 typedef struct {
@@ -12,7 +12,7 @@ typedef struct {
     Ints starts;      /* n + 1: where the corners of each vertex begin in `corners` */
     Ints corners;     /* 3 m, ascending at each vertex */
     Ints opposite;    /* 3 m: the corner that faces the same edge from the other side, or -1 */
-    Ints rank;        /* n: when each vertex is coded; PASSED_OVER: not at all */
+    Ints rank;        /* n: when each vertex is coded */
 } Corners;
 
 /* Two coded ends of an edge, and the coded vertex behind it as seen from the vertex to be coded. */
@@ -35,6 +35,5 @@ void gather_around(const Corners *corners, int32_t v, Around *around);
 
 int64_t link_corners(Corners corners, Ints scratch);
 int64_t order_vertices(Corners corners, Ints order, Ints2 scratch);
-int64_t keep_borders(Corners corners);
 
 #endif

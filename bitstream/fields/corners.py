@@ -13,7 +13,6 @@ from bsm.bitstream.errors import MeshError
 Ints = npt.NDArray[np.int32]
 
 MOST_FACES = (1 << 30) // 3
-PASSED_OVER = 2**31 - 1
 BYTES_PER_VERTEX = 24
 BYTES_PER_FACE = 48
 """Of memory, scratch included, for corners and order."""
@@ -47,12 +46,6 @@ def corners_of(faces: npt.ArrayLike, vertices: int) -> Corners:
     )
     _kernels.link_corners(corners, np.full(vertices + size, -1, np.int32))
     return corners
-
-
-def keep_borders(corners: Corners) -> npt.NDArray[np.bool_]:
-    """Let vertices of borders alone be coded: sets `corners.rank`, and returns which these are, shape (n,)."""
-    _kernels.keep_borders(corners)
-    return np.asarray(corners.rank != PASSED_OVER)
 
 
 def traverse(corners: Corners) -> Ints:

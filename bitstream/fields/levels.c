@@ -4,9 +4,9 @@
 #include "bitstream/fields/learner.h"
 
 enum {
-    MOST_AXES = 3,
+    AXES = 3,
     MOST_LEVEL = 1 << 20,
-    LEARNERS = 4 * MOST_AXES,
+    LEARNERS = 4 * AXES,
     TERMS = 6,
     INPUTS = 5,
     SPAN = 512,
@@ -50,7 +50,7 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
         int32_t u = r->neighbour[i];
         if (u > p->latest) p->latest = u;
         if (u < p->earliest) p->earliest = u;
-        for (int j = 0; j < l->levels.columns; j++) all += size_of(l->levels.data[l->levels.columns * u + j]);
+        for (int j = 0; j < AXES; j++) all += size_of(l->levels.data[(int64_t)AXES * u + j]);
     }
     p->busy = r->neighbours > 0 ? mean_of(all * FINE, r->neighbours) : 4 * FINE;
 }
@@ -87,7 +87,7 @@ INLINE int32_t near_to(int32_t x, int32_t centre) { return within((int64_t)x - c
 
 static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t v, int j, const Place *p, int32_t *own) {
     const Around *r = &p->around;
-    int64_t axes = l->levels.columns;
+    const int64_t axes = AXES;
     int32_t *x = l->levels.data + j, near = r->neighbours;
     int64_t sum = 0, size = 0, gaps = 0, errors = 0, means = 0, across = 0, tips = 0;
     for (int i = 0; i < near; i++) {
@@ -144,11 +144,10 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
 }
 
 static bool code_vertex(RangeCoder *coder, const Mixer *mixer, const Corners *corners, Levels *l, int32_t v) {
-    if (corners->rank.data[v] == PASSED_OVER) return true;
     Place p;
     survey(corners, l, v, &p);
     int32_t own = 0;
-    for (int j = 0; j < l->levels.columns; j++)
+    for (int j = 0; j < AXES; j++)
         if (!code_axis(coder, mixer, l, v, j, &p, &own)) return false;
     return true;
 }
@@ -156,7 +155,7 @@ static bool code_vertex(RangeCoder *coder, const Mixer *mixer, const Corners *co
 static bool alike(Ints2 a, Ints2 b) { return a.rows == b.rows && a.columns == b.columns; }
 
 static bool fits_levels(const Corners *corners, const Levels *l) {
-    return l->levels.rows == corners->rank.size && l->levels.columns >= 1 && l->levels.columns <= MOST_AXES
+    return l->levels.rows == corners->rank.size && l->levels.columns == AXES
         && alike(l->gaps, l->levels) && alike(l->means, l->levels) && l->learners.rows == LEARNERS
         && l->learners.columns == LEARNER_COLUMNS;
 }
@@ -170,7 +169,7 @@ int64_t code_levels(Coder given, Bank bank, Corners corners, Levels levels, int6
         || first < 0 || count < 0 || first > corners.rank.size - count)
         return MISUSED;
     int64_t done = 0;
-    while (done < count && has_room(&coder, MOST_AXES * LEVEL_BYTES) && !overran(&coder)
+    while (done < count && has_room(&coder, AXES * LEVEL_BYTES) && !overran(&coder)
         && code_vertex(&coder, &mixer, &corners, &levels, (int32_t)(first + done)))
         done++;
     close_coder(&coder, given);

@@ -5,7 +5,7 @@
 #include "bitstream/entropy/mixing.h"
 #include "bitstream/fields/corners.h"
 
-/* As Python keeps it; each n x axes but the last. */
+/* As Python keeps it; each n x 3 but the last. */
 typedef struct {
     Ints2 levels; /* at most 2^20 in magnitude */
     Ints2 gaps;   /* level less guess, in 1/16 */

@@ -9,15 +9,16 @@ import numpy.typing as npt
 
 from bsm.bitstream import _kernels
 from bsm.bitstream.entropy.range_coder import Coder, make_bank
-from bsm.bitstream.errors import MeshError, OptionError
+from bsm.bitstream.errors import MeshError
 from bsm.bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
-from bsm.bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of, keep_borders
+from bsm.bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of
 from bsm.bitstream.fields.model import TERMS, make_learners
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 
-LEGAL_AXES = (1, 3)
+AXES = 3
+"""Of a level: along the normal, and along two tangents."""
 MOST_LEVEL = 1 << 20
 
 _INPUTS, _CONTEXT_SIZE, _NODES, _SORTS = 5, 512, 32, 2
@@ -36,43 +37,39 @@ class _Levels(NamedTuple):
     learners: npt.NDArray[np.int64]
 
 
-def levels_charge(vertices: int, faces: int, axes: int) -> int:
+def levels_charge(vertices: int, faces: int) -> int:
     """Bytes of memory that coding levels takes at most; its work is linear in `vertices` + `faces`, 1 µs per level."""
-    return (BYTES_PER_VERTEX + 12 * axes) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 17)
+    return (BYTES_PER_VERTEX + 12 * AXES) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 17)
 
 
-def _levels_of(faces: npt.ArrayLike, vertices: int, axes: int, borders: bool) -> tuple[Field, npt.NDArray[np.bool_]]:
-    """What encoder and decoder share; and which vertices have levels."""
-    if axes not in LEGAL_AXES:
-        raise OptionError(f"a vertex has one level or three, not {axes}")
+def _levels_of(faces: npt.ArrayLike, vertices: int) -> Field:
+    """What encoder and decoder share."""
     corners = corners_of(faces, vertices)
-    coded = keep_borders(corners) if borders else np.ones(vertices, np.bool_)
     model = make_bank(_SLOTS, _SORTS * _NODES, _INPUTS, rate=_RATE)
+    shape = vertices, AXES
     levels = _Levels(
-        np.zeros((vertices, axes), np.int32),
-        np.zeros((vertices, axes), np.int32),
-        np.zeros((vertices, axes), np.int32),
+        np.zeros(shape, np.int32),
+        np.zeros(shape, np.int32),
+        np.zeros(shape, np.int32),
         make_learners(_start_of_learners()),
     )
 
     def code(coder: Coder, first: int, count: int) -> int:
         return _kernels.code_levels(coder, model, corners, levels, first, count)
 
-    return Field(code, np.arange(vertices, dtype=np.int32), levels.levels), coded
+    return Field(code, np.arange(vertices, dtype=np.int32), levels.levels)
 
 
 class LevelsEncoder(FieldEncoder):
     """Codes levels, vertices in the order of their numbers."""
 
-    def __init__(self, faces: npt.ArrayLike, levels: npt.ArrayLike, *, borders: bool = False) -> None:
+    def __init__(self, faces: npt.ArrayLike, levels: npt.ArrayLike) -> None:
         given = np.asarray(levels)
-        if given.ndim != 2 or given.dtype.kind not in "iu":
-            raise MeshError("levels must be integers of shape (n, 1) or (n, 3)")
-        field, coded = _levels_of(faces, given.shape[0], given.shape[1], borders)
+        if given.ndim != 2 or given.shape[1] != AXES or given.dtype.kind not in "iu":
+            raise MeshError("levels must be integers of shape (n, 3)")
         if ((given < -MOST_LEVEL) | (given > MOST_LEVEL)).any():
             raise MeshError(f"levels must be at most {MOST_LEVEL} in magnitude; choose a larger step")
-        if given[~coded].any():
-            raise MeshError("a vertex that is on no border has levels")
+        field = _levels_of(faces, given.shape[0])
         field.values[:] = given
         super().__init__(field)
 
@@ -80,17 +77,9 @@ class LevelsEncoder(FieldEncoder):
 class LevelsDecoder(FieldDecoder):
     """Twin of `LevelsEncoder`."""
 
-    def __init__(
-        self,
-        faces: npt.ArrayLike,
-        vertices: int,
-        axes: int,
-        limits: Limits = DEFAULT_LIMITS,
-        *,
-        borders: bool = False,
-    ) -> None:
-        limits.check("field_bytes", levels_charge(vertices, len(np.asarray(faces)), axes))
-        super().__init__(_levels_of(faces, vertices, axes, borders)[0])
+    def __init__(self, faces: npt.ArrayLike, vertices: int, limits: Limits = DEFAULT_LIMITS) -> None:
+        limits.check("field_bytes", levels_charge(vertices, len(np.asarray(faces))))
+        super().__init__(_levels_of(faces, vertices))
 
 
 def _start_of_learners() -> npt.NDArray[np.int64]:

@@ -132,14 +132,6 @@ class Blend:
         self.sums: Matrix = np.zeros((vertices, 3))
         self.weights: Matrix = np.zeros(vertices)
 
-    def grow(self, vertices: int) -> Blend:
-        """Make room for vertices that have become known, so that there are so many; returns the same blend."""
-        more = vertices - len(self.weights)
-        if more:
-            self.sums = np.concatenate([self.sums, np.zeros((more, 3))])
-            self.weights = np.concatenate([self.weights, np.zeros(more)])
-        return self
-
     def add(self, vertices: Indices, positions: Matrix, weights: Matrix) -> None:
         """Add one copy of each vertex in `vertices`, shape (n_i,), at `positions`, shape (n_i, 3)."""
         _kernels.add_copies(self.sums, self.weights, vertices, positions, weights)

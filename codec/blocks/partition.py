@@ -18,7 +18,7 @@ from bsm.bitstream.errors import DependencyError, OptionError
 from bsm.bitstream.extras import how_to_install
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices
-from bsm.codec.geometry.graph import Graph, graph_behind
+from bsm.codec.geometry.graph import Graph
 from bsm.codec.threads import available_threads, side_by_side
 
 WORTH_A_THREAD = 8192
@@ -50,7 +50,7 @@ REFINEMENT_PASSES = 2
 
 @dataclass(frozen=True, eq=False)
 class Partition:
-    """Disjoint, non-empty parts that cover a graph, or the last vertices of one: those of a section."""
+    """Disjoint, non-empty parts that cover a graph."""
 
     order: Indices
     bounds: Indices
@@ -78,14 +78,6 @@ def derive_partition(graph: Graph, parts: int, threads: int | None = 1) -> Parti
     sizes, votes = np.empty(parts, np.int64), np.empty(parts, np.int32)
     _kernels.refine_partition(graph.offsets, graph.neighbours, labels, REFINEMENT_PASSES, sizes, votes)
     return _grouped(labels)
-
-
-def derive_last_parts(graph: Graph, first: int, parts: int, threads: int | None = 1) -> Partition:
-    """`derive_partition` of the vertices from `first` on, with the edges between them alone."""
-    if not first:
-        return derive_partition(graph, parts, threads)
-    own = derive_partition(graph_behind(graph, first), parts, threads)
-    return Partition(own.order + np.int32(first), own.bounds, own.labels)
 
 
 def metis_partition(graph: Graph, parts: int) -> Partition:

@@ -35,14 +35,6 @@ def graph_of_faces(faces: Indices, size: int) -> Graph:
     return Graph(offsets, ends[:kept].copy())
 
 
-def graph_behind(graph: Graph, first: int) -> Graph:
-    """The graph of the vertices from `first` on alone, numbered from 0."""
-    start = graph.offsets[first]
-    kept = graph.neighbours[start:] >= first
-    before = np.concatenate([np.zeros(1, np.int32), np.cumsum(kept, dtype=np.int32)])
-    return Graph(before[graph.offsets[first:] - start], graph.neighbours[start:][kept] - np.int32(first))
-
-
 def component_sizes(graph: Graph) -> Indices:
     """Vertices of each connected component, shape (k,), in the order of their first vertices."""
     sizes, waiting = np.zeros(graph.size, np.int32), np.empty(graph.size, np.int32)

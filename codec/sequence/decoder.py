@@ -121,8 +121,8 @@ def check_header(header: Header, limits: Limits) -> None:
     """Raise what is wrong with the header of a sequence, or beyond `limits`, before anything is done for it."""
     if not header.gop_frames:
         raise FormatError("this is a static mesh and no sequence; decode it with bsm.decode or bsm.Decoder")
-    if header.smoothing or header.details:
-        raise UnsupportedError("smoothing and details of sequences are unknown to this decoder")
+    if header.smoothing:
+        raise UnsupportedError("smoothing of sequences is unknown to this decoder")
     chain_rules(header)
     limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
 

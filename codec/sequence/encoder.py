@@ -231,10 +231,8 @@ class SequenceEncoder:
             yield Header(
                 vertices=opening.header.vertices,
                 faces=opening.header.faces,
-                frames=self._count,
-                gop_frames=longest,
-                run=index,
-                again=opened.run + 1,
+                sequence=(self._count, longest),
+                run=(index, opened.run),
             )
         opening = coded.opening
         for track, mover in enumerate(movers, 1):
@@ -294,7 +292,7 @@ class SequenceEncoder:
         said = (one.said for one in carried if not one.declaration.moves)
         self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *said)))
         body = (*prepared.before_blocks, *(block.packet for block in opening.blocks))
-        draft = Draft(replace(opening.header, run=index), body, run.given.positions)
+        draft = Draft(replace(opening.header, run=(index,) if index else ()), body, run.given.positions)
         draft = with_attributes(draft, carried, {} if index else self._metadata)
         yield from (draft.header, *draft.body)
 

@@ -93,8 +93,8 @@ def open_sequence(
     if step < finest:
         raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
     width = max(1, round(options.keep * prepared.size))
-    scheme = Scheme(prepared.blocks[0], replace(FIRST_FRAME, whole=width), Adaptive(width, single(step)))
-    blocks = encode_blocks([scheme], prepared.positions, threads=options.threads, progress=progress)
+    scheme = Scheme(prepared.blocks, replace(FIRST_FRAME, whole=width), Adaptive(width, single(step)))
+    blocks = encode_blocks(scheme, prepared.positions, threads=options.threads, progress=progress)
     header = Header(
         vertices=prepared.graph.size,
         faces=len(prepared.mesh.faces),
@@ -102,8 +102,7 @@ def open_sequence(
         coefficients=width,
         center=prepared.units.center,
         scale=prepared.units.scale,
-        frames=frames,
-        gop_frames=options.together(prepared.graph.size),
+        sequence=(frames, options.together(prepared.graph.size)),
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))

@@ -58,7 +58,7 @@ class Gops:
         """Begin another run of this mesh."""
         own = self._structure.header
         if (header.vertices, header.faces) != (own.vertices, own.faces):
-            raise CorruptError(f"run {header.run} has another mesh than the run that it names")
+            raise CorruptError(f"run {header.run_number} has another mesh than the run that it names")
         self.header = header
         self._request.attributes[:] = self._attributes
         queue.append(HeaderEvent(header))
@@ -103,7 +103,7 @@ class Gops:
             raise CorruptError(f"frame {packet.index} comes again behind frame {self._course.next - 1}")
         widths = {one.number: one.width for one in self._moving}
         tolerant = self._request.tolerant
-        body = parse_gop_body(packet.data, header.gop_frames, header.run, widths, tolerant=tolerant)
+        body = parse_gop_body(packet.data, header.gop_frames, header.run_number, widths, tolerant=tolerant)
         limits.check("sequence_bytes", gop_memory(header.vertices, body))
         last = packet.index + body.frames - 1
         if 0 < header.frames <= last:

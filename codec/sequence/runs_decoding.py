@@ -65,14 +65,14 @@ class Runs:
         """The stage of a run that begins."""
         self._leave()
         self._course.announced = header.frames
-        self._mesh = header.again - 1 if header.again else header.run
-        if not header.again:
+        self._mesh = header.run_number if header.again is None else header.again
+        if header.again is None:
             self._shelf.make_room()
             self._request.attributes.clear()
             return HeaderStage(self._setup).accept(header, queue)
         gops = self._shelf.take(self._mesh)
         if gops is None:
-            raise CorruptError(f"run {header.run} has the mesh of run {self._mesh}, which is not there any more")
+            raise CorruptError(f"run {header.run_number} has the mesh of run {self._mesh}, which is not there any more")
         gops.resume(header, queue)
         return gops
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from bsm.codec.arrays import Matrix
@@ -23,13 +21,12 @@ FIRST_LOOK = 160
 class MeasuredSpectrum:
     """Root mean square coefficient at each frequency, measured from the low ones on as far as somebody asks."""
 
-    def __init__(self, sections: Sequence[Blocks], positions: Matrix, *, shift: float) -> None:
-        places = [(blocks, index) for blocks in sections for index in range(blocks.count)]
-        numbers = np.unique(np.linspace(0, len(places) - 1, SAMPLES + 2).astype(int)[1:-1])
-        self._samples = [blocks.block(index) for blocks, index in map(places.__getitem__, numbers)]
+    def __init__(self, blocks: Blocks, positions: Matrix, *, shift: float) -> None:
+        numbers = np.unique(np.linspace(0, blocks.count - 1, SAMPLES + 2).astype(int)[1:-1])
+        self._samples = [blocks.block(index) for index in numbers]
         self._positions = positions
         self._shift = shift
-        self._size = max(int(np.diff(blocks.starts).max()) for blocks in sections)
+        self._size = int(np.diff(blocks.starts).max())
         self._magnitudes = self._measure(min(FIRST_LOOK, self._size))
 
     def worthwhile_size(self, step: float, most: int | None = None) -> int:

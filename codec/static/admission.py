@@ -13,7 +13,7 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.basis.cost import Spend
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.ways.block_coder import FRAME, CodedBlock
-from bsm.codec.static.work import Allowance, MeshMemory, mesh_cost, partition_cost
+from bsm.codec.static.work import Allowance, mesh_cost, mesh_memory, partition_cost
 
 PATIENCE = 8.0
 """How many times longer an encoder may take over dictionaries than decoders may over the whole stream: what it tries is
@@ -35,19 +35,16 @@ def patience(limits: str, vertices: int) -> Spend:
 
 def admit(allowance: Allowance, prepared: Prepared, blocks: Sequence[CodedBlock]) -> None:
     """Spend what a decoder of these blocks will, but for what their bytes grant."""
-    memory, done, before = MeshMemory(allowance), 0, (0, 0)
+    vertices, faces, received = prepared.graph.size, len(prepared.mesh.faces), len(prepared.connectivity.data)
+    count = prepared.blocks.count
     allowance.spend(AROUND * reading_cost(AROUND_BYTES))
-    for area, piece, grown in zip(prepared.areas, prepared.pieces, prepared.blocks, strict=True):
-        vertices, count = area.graph.size, grown.count
-        memory.grow(vertices, len(area.faces), len(piece.data))
-        allowance.spend(reading_cost(len(piece.data) + FRAME))
-        allowance.spend(mesh_cost(vertices, len(area.faces), len(piece.data), before))
-        before = (vertices, len(area.faces))
-        allowance.spend(partition_cost(area.graph, area.first, count, count * min(prepared.size, vertices)))
-        own = blocks[done : done + count]
-        allowance.afford(max(block.memory for block in own))
-        allowance.spend(sum(block.work + reading_cost(len(block.packet.data) + FRAME) for block in own))
-        done += count
+    allowance.grant(vertices)
+    allowance.keep(mesh_memory(vertices, faces), received)
+    allowance.spend(reading_cost(received + FRAME))
+    allowance.spend(mesh_cost(vertices, faces, received))
+    allowance.spend(partition_cost(prepared.graph, count, count * min(prepared.size, vertices)))
+    allowance.afford(max(block.memory for block in blocks))
+    allowance.spend(sum(block.work + reading_cost(len(block.packet.data) + FRAME) for block in blocks))
 
 
 @contextmanager

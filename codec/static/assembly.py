@@ -40,17 +40,8 @@ def blended(size: int, blocks: Iterable[DecodedBlock]) -> Matrix:
     return blend.all_positions()
 
 
-@dataclass(frozen=True, eq=False)
-class Place:
-    """Which section an assembly is of: the number of its first block, what was before, and whether it is the last."""
-
-    first: int = 0
-    before: Assembly | None = None
-    last: bool = True
-
-
 class Assembly:
-    """Blends the blocks of one mesh, or of one section with all that came before it."""
+    """Blends the blocks of one mesh."""
 
     def __init__(
         self,
@@ -59,9 +50,7 @@ class Assembly:
         units: Units,
         numbering: Numbering,
         spend: Spend = free,
-        place: Place | None = None,
     ) -> None:
-        place = place or Place()
         graph = blocks.graph
         self._graph = graph
         self._blocks = blocks
@@ -69,35 +58,19 @@ class Assembly:
         self._units = units
         self._numbering = numbering
         self._spend = spend
-        self._place = place
-        self._caught_up = place.before is None
+        self._blend = Blend(graph.size)
         self._lost: list[int] = []
-
-    # Made when the first block is blended in: by then, the sections before are done.
-
-    @cached_property
-    def _blend(self) -> Blend:
-        before = self._place.before
-        return Blend(self._graph.size) if before is None else before._blend.grow(self._graph.size)
 
     # Made for who asks what each block changes.
 
     @cached_property
     def _missing(self) -> Order:
         """Copies of each vertex that have not come yet."""
-        missing = np.bincount(self._blocks.members, minlength=self._graph.size)
-        if self._place.before is not None:
-            before = self._place.before._missing
-            missing[: len(before)] += before
-        return missing
+        return np.bincount(self._blocks.members, minlength=self._graph.size)
 
     @cached_property
     def _blended(self) -> Matrix:
-        blended = np.zeros((self._graph.size, 3))
-        if self._place.before is not None:
-            before = self._place.before._blended
-            blended[: len(before)] = before
-        return blended
+        return np.zeros((self._graph.size, 3))
 
     @cached_property
     def _final(self) -> Mask:
@@ -126,7 +99,7 @@ class Assembly:
 
     def lose(self, number: int) -> None:
         """Take note that the block with a number will not come."""
-        self._lost.append(number - self._place.first)
+        self._lost.append(number)
 
     def mesh(self) -> TriangleMesh:
         """The mesh in its own unit, once every block is in."""
@@ -137,7 +110,7 @@ class Assembly:
     @property
     def whole(self) -> bool:
         """Whether no block was lost."""
-        return not self._lost and (self._place.before is None or self._place.before.whole)
+        return not self._lost
 
     def solid(self) -> Solid | None:
         """Decoded positions, once every block is in; None if one was lost."""
@@ -166,28 +139,15 @@ class Assembly:
         seen = block.vertices[self._blend.known(block.vertices)]
         self._blended[seen] = self._blend.positions(seen)
         self._missing[block.vertices] -= 1
-        if not self._place.last:
-            return self._told(seen, self._blended[seen], seen[:0])
-        finished = self._finished(self._completed(block.vertices))
+        finished = self._finished(block.vertices[self._missing[block.vertices] == 0])
         self._final[finished] = True
         moved = seen[~self._final[seen]]
         done = self._smoothed(finished)
-        return self._told(np.concatenate([moved, finished]), np.concatenate([self._blended[moved], done]), finished)
-
-    def _told(self, changed: Indices, positions: Matrix, finished: Indices) -> Changes:
-        """Vertices that changed, the last of them `finished`, and their positions, in the user's numbers and unit."""
-        positions = self._units.back(positions)
+        changed = np.concatenate([moved, finished])
+        positions = self._units.back(np.concatenate([self._blended[moved], done]))
         numbers, rows = self._numbering.spread(changed)
         self._spend(COPY * len(numbers))
         return Changes(numbers, positions[rows], (np.arange(len(changed)) >= len(changed) - len(finished))[rows])
-
-    def _completed(self, vertices: Indices) -> Indices:
-        """Which of a block's vertices have no copies to come; the first time, all that do not of earlier sections."""
-        if not self._caught_up:
-            self._caught_up = True
-            vertices = np.arange(self._graph.size, dtype=np.int32)
-        complete: Indices = vertices[self._missing[vertices] == 0]
-        return complete
 
     def losses(self) -> Losses:
         """What the blocks that were lost leave missing or less good."""
@@ -202,8 +162,7 @@ class Assembly:
 
     def _touched(self) -> Indices:
         own = [self._blocks.members_of(index) for index in self._lost]
-        before = [] if self._place.before is None else [self._place.before._touched()]
-        return np.unique(np.concatenate([np.empty(0, np.int32), *own, *before]))
+        return np.unique(np.concatenate([np.empty(0, np.int32), *own]))
 
     def _finished(self, complete: Indices) -> Indices:
         """Vertices that become final when all copies of `complete` have come: none that the filter sees is missing."""

@@ -2,7 +2,7 @@
 
 A way knows the steps and widths of a stream. `Coding.begin` gives it the state that a chain starts from; after that
 the encoder calls `choose`, `write` and `positions` for one block after the other, the decoder `read` and `positions`.
-A way reads its numbers from the header (`coding_of`) and writes them there (`Coding.fields`), and nobody else does.
+`coding_of` says which way a header asks for.
 
 What has no dictionary and no blocks, or comes behind them all, is no way of coding a block: it is a stage of its own
 (`codec.static.stages`), which follows the preamble or the blocks.
@@ -11,7 +11,7 @@ What has no dictionary and no blocks, or comes behind them all, is no way of cod
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -19,19 +19,15 @@ from bsm.bitstream.coefficients.adaptive import (
     MAX_LEVEL,
     CoefficientModel,
     decode_coefficients,
-    decode_layers,
     encode_coefficients,
-    encode_layers,
 )
 from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
-from bsm.bitstream.coefficients.priors import detail_experience
 from bsm.bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
-from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.header import Header, paper_of
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Integers, Levels, Matrix
+from bsm.codec.arrays import Integers, Matrix
 from bsm.codec.basis.dynamic_size import DynamicSize
 from bsm.codec.blocks.overlap import Block
-from bsm.codec.signal.detail import Normals, Surface, fold_details, make_surface
 from bsm.codec.signal.quantize import (
     BIT_WORTH,
     dequantize,
@@ -60,15 +56,6 @@ class Ground:
         return self.prediction + reconstruct(self.dictionary, coefficients)
 
 
-@dataclass(frozen=True, eq=False)
-class BlockLevels:
-    """The levels of one block."""
-
-    coordinates: Integers
-    details: Levels
-    width: int
-
-
 class Coding(Protocol):
     """A way of coding blocks."""
 
@@ -77,26 +64,30 @@ class Coding(Protocol):
         """Columns of the largest dictionary."""
 
     @property
-    def detail_rows(self) -> int:
-        """Rows of levels of the largest detail layer."""
+    def step(self) -> float:
+        """Of quantization, in BSM units."""
 
     @property
-    def fields(self) -> dict[str, Any]:
-        """What the header has to say of it; the number of coefficients is said when all blocks are coded."""
+    def bits(self) -> int:
+        """Of a packed coefficient; 0: adaptive."""
+
+    @property
+    def coarser(self) -> int:
+        """How many bits coarser packed coefficients of the lowest frequency are."""
 
     def begin(self) -> Coding:
         """This way of coding, in the state that a chain starts from."""
 
-    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> BlockLevels:
-        """Levels that bring a block near to `wanted`, shape (n, 3), or as near as pays."""
+    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> Integers:
+        """Levels, shape (c_i, 3), that bring a block near to `wanted`, shape (n, 3), or as near as pays."""
 
-    def write(self, levels: BlockLevels) -> bytes:
+    def write(self, levels: Integers) -> bytes:
         """The payload of the chain's next block."""
 
-    def read(self, payload: bytes, count: int, size: int) -> BlockLevels:
-        """Twin of `write`, for a block of `size` rows and `count` coefficients a coordinate."""
+    def read(self, payload: bytes, count: int) -> Integers:
+        """Twin of `write`, for `count` coefficients a coordinate."""
 
-    def positions(self, ground: Ground, levels: BlockLevels) -> Matrix:
+    def positions(self, ground: Ground, levels: Integers) -> Matrix:
         """What levels make of a block, shape (n, 3)."""
 
 
@@ -109,33 +100,28 @@ class Packed:
     step: float
     coarser: int
 
-    @property
-    def detail_rows(self) -> int:
-        return 0
-
-    @property
-    def fields(self) -> dict[str, Any]:
-        return {"coding": 0, "step": self.step, "bits": self.bits, "coarser": self.coarser}
-
     def begin(self) -> Packed:
         return self
 
-    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> BlockLevels:
-        return _plain(quantize_packed(_offered(ground, wanted, self.width, sizes), self.step, self.coarser))
+    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> Integers:
+        return quantize_packed(_offered(ground, wanted, self.width, sizes), self.step, self.coarser)
 
-    def write(self, levels: BlockLevels) -> bytes:
-        return pack_coefficients(levels_to_unsigned(levels.coordinates, self.bits, self.coarser), self.bits)
+    def write(self, levels: Integers) -> bytes:
+        return pack_coefficients(levels_to_unsigned(levels, self.bits, self.coarser), self.bits)
 
-    def read(self, payload: bytes, count: int, size: int) -> BlockLevels:
-        return _plain(unsigned_to_levels(unpack_coefficients(payload, 3 * count, self.bits), self.bits, self.coarser))
+    def read(self, payload: bytes, count: int) -> Integers:
+        return unsigned_to_levels(unpack_coefficients(payload, 3 * count, self.bits), self.bits, self.coarser)
 
-    def positions(self, ground: Ground, levels: BlockLevels) -> Matrix:
-        return ground.add(dequantize(levels.coordinates, self.step))
+    def positions(self, ground: Ground, levels: Integers) -> Matrix:
+        return ground.add(dequantize(levels, self.step))
 
 
 @dataclass(eq=False)
 class Adaptive:
     """Levels on two grids, chosen by rate and distortion and coded by what the chain has taught."""
+
+    bits: ClassVar[int] = 0
+    coarser: ClassVar[int] = 0
 
     width: int
     step: float
@@ -145,111 +131,30 @@ class Adaptive:
         """What the chain has taught."""
         return CoefficientModel(self.width)
 
-    @property
-    def detail_rows(self) -> int:
-        return 0
-
-    @property
-    def fields(self) -> dict[str, Any]:
-        return {"coding": 1, "step": self.step}
-
     def begin(self) -> Adaptive:
         return replace(self)
 
-    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> BlockLevels:
+    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> Integers:
         offered = _offered(ground, wanted, self.width, sizes)
         choice = choose_levels(self.model, targets(offered, self.step, TARGET_UNIT, MAX_LEVEL), BIT_WORTH)
-        return _plain(choice.levels if sizes is not None else choice.levels[: choice.width])
+        return choice.levels if sizes is not None else choice.levels[: choice.width]
 
-    def write(self, levels: BlockLevels) -> bytes:
-        return encode_coefficients(self.model, np.asarray(levels.coordinates, np.int32))
+    def write(self, levels: Integers) -> bytes:
+        return encode_coefficients(self.model, np.asarray(levels, np.int32))
 
-    def read(self, payload: bytes, count: int, size: int) -> BlockLevels:
-        return _plain(decode_coefficients(self.model, payload, count))
+    def read(self, payload: bytes, count: int) -> Integers:
+        return decode_coefficients(self.model, payload, count)
 
-    def positions(self, ground: Ground, levels: BlockLevels) -> Matrix:
-        return placed(ground.prediction, ground.dictionary, np.asarray(levels.coordinates, np.int32), self.step)
-
-
-@dataclass(eq=False)
-class Layered:
-    """`Adaptive` for x, y and z, and a detail layer along the normals above it."""
-
-    base: Adaptive
-    details: int
-    step: float
-    surface: Surface
-
-    @cached_property
-    def model(self) -> CoefficientModel:
-        """What the chain has taught of the detail layer."""
-        return CoefficientModel(self.detail_rows, detail_experience())
-
-    @cached_property
-    def normals(self) -> Normals:
-        """Where that layer points."""
-        return Normals(self.surface)
-
-    @property
-    def width(self) -> int:
-        return max(self.base.width, self.details)
-
-    @property
-    def detail_rows(self) -> int:
-        return detail_rows(self.details)
-
-    @property
-    def fields(self) -> dict[str, Any]:
-        return self.base.fields | {"details": self.details, "detail_step": self.step}
-
-    def begin(self) -> Layered:
-        return replace(self, base=self.base.begin())
-
-    def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> BlockLevels:
-        below = self.base.choose(ground, wanted, sizes)
-        decoded = self.base.positions(ground, below)
-        heights = (self.normals.of(ground.block, decoded) * (wanted - decoded)).sum(axis=1)
-        offered = targets(ground.coefficients(heights, self.details), self.step, TARGET_UNIT, MAX_LEVEL)
-        choice = choose_levels(self.model, fold_details(offered), BIT_WORTH)
-        rows = choice.levels[: choice.width if choice.levels.any() else 0]
-        return self._levels(below.coordinates, rows, ground.block.size)
-
-    def write(self, levels: BlockLevels) -> bytes:
-        return encode_layers(self.base.model, np.asarray(levels.coordinates, np.int32), self.model, levels.details)
-
-    def read(self, payload: bytes, count: int, size: int) -> BlockLevels:
-        return self._levels(*decode_layers(self.base.model, self.model, payload, count), size)
-
-    def positions(self, ground: Ground, levels: BlockLevels) -> Matrix:
-        decoded = self.base.positions(ground, levels)
-        heights = self._heights(levels.details, ground.block.size)
-        self.normals.raise_block(ground.block, ground.dictionary, levels.details, heights, self.step, decoded)
-        return decoded
-
-    def _levels(self, coordinates: Integers, details: Levels, size: int) -> BlockLevels:
-        return BlockLevels(coordinates, details, max(len(coordinates), self._heights(details, size)))
-
-    def _heights(self, details: Levels, size: int) -> int:
-        return min(details.size, self.details, size)
+    def positions(self, ground: Ground, levels: Integers) -> Matrix:
+        return placed(ground.prediction, ground.dictionary, np.asarray(levels, np.int32), self.step)
 
 
-def coding_of(header: Header, faces: Faces, size: int) -> Coding:
-    """The way in which a stream's blocks are coded; `faces`, shape (m, 3), on `size` vertices, as they are coded."""
-    if header.coding == 0:
-        return Packed(header.coefficients, header.bits, header.step, header.coarser)
-    base = Adaptive(header.coefficients, header.step)
-    if not header.details:
-        return base
-    return Layered(base, header.details, header.detail_step, make_surface(faces, size))
-
-
-def detail_rows(details: int) -> int:
-    """Rows of three that the largest detail layer takes."""
-    return -(-details // 3)
-
-
-def _plain(levels: Integers) -> BlockLevels:
-    return BlockLevels(levels, np.zeros((0, 3), np.int32), len(levels))
+def coding_of(header: Header) -> Coding:
+    """The way in which a stream's blocks are coded."""
+    paper = paper_of(header.paper)
+    if paper.bits:
+        return Packed(header.coefficients, paper.bits, header.step, paper.coarser)
+    return Adaptive(header.coefficients, header.step)
 
 
 def _offered(ground: Ground, wanted: Matrix, width: int, sizes: DynamicSize | None) -> Matrix:

@@ -119,22 +119,3 @@ class Contract:
         angle = f", normals {self.angle:g} degrees wrong on average" if self.angle < ANY_ANGLE else ""
         visual = f", a visual error of {decibel(self.visual):.6g} dB" if self.visual < math.inf else ""
         return bound + angle + visual + (f", a look of {self.look:g}" if self.look < math.inf else "")
-
-
-@dataclass(frozen=True)
-class Fit:
-    """How well parts of a mesh fit that were encoded apart: where they were one, they gape by at most so much."""
-
-    gap: float = 1e-4
-    absolute: bool = False
-
-    def __post_init__(self) -> None:
-        if not 0.0 < self.gap < float("inf") or (self.gap > 1.0 and not self.absolute):
-            raise OptionError(f"borders must gape by more than 0 and at most 1 diagonals, not {self.gap:g}")
-
-    def reach(self, diagonal: float, unit: float) -> float:
-        """How far a vertex of a border may come to lie from its place, in multiples of `unit`."""
-        return 0.5 * (self.gap if self.absolute else self.gap * diagonal) / unit
-
-    def __str__(self) -> str:
-        return f"borders that gape by at most {self.gap:.4g}" + ("" if self.absolute else " diagonals")

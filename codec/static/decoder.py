@@ -10,13 +10,12 @@ from typing import TypeAlias, TypeVar
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.reader import END_OF_STREAM, Signal
-from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.bitstream.public import public
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import AS_SPECIFIED, Trial
-from bsm.codec.static.assembly import Assembly, DecodedBlock, Place
+from bsm.codec.static.assembly import Assembly, DecodedBlock
 from bsm.codec.static.attributes.decoding import PendingValues, ValuesStage, completed
 from bsm.codec.static.events import (
     AttributeEvent,
@@ -39,8 +38,6 @@ from bsm.codec.static.work import Allowance
 from bsm.codec.threads import Lanes, Pending
 
 Result = TypeVar("Result")
-MOST_LAYERS = 4
-"""Layers of refinement that a stream can have."""
 ROWS_AHEAD = 1 << 16
 """Rows of blocks, besides one for each vertex, that may wait to be asked for: what is decoded has to be kept."""
 
@@ -65,64 +62,48 @@ class DecoderRequest:
     """What the user of a `Decoder` asks for; see its parameters."""
 
     tolerant: bool
-    refinements: int
+    refined: bool
 
 
 class BlockStage:
-    """The faces are known, or those of one section; its blocks come, and then the next section."""
+    """The faces are known; blocks come."""
 
     def __init__(self, structure: Structure, request: DecoderRequest, lanes: Lanes) -> None:
         self._structure = structure
         self._request = request
         self._scheme = structure.scheme
         self._lanes = lanes
-        section = structure.section
-        self._blocks = section.span.blocks
+        self._blocks = structure.header.blocks
         self._assembly = Assembly(
             structure.scheme.blocks,
             structure.header.smoothing,
             structure.units,
             structure.numbering,
             structure.allowance.spend,
-            Place(self._blocks.start, structure.connectivity.before, section.is_last),
         )
         self._chain = ChainDecoder(self._scheme, 0, structure.allowance)
-        self._next = self._blocks.start
+        self._next = 0
         self._complete: Complete | None = None
 
     def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
-        section = self._structure.section
         match arrival:
-            case packets.Block(index) if index < self._blocks.stop:
+            case packets.Block():
                 self._skip_to(arrival.index, queue)
                 self._decode(arrival, queue)
-                if (
-                    self._next == self._structure.header.blocks
-                    and self._structure.header.layers
-                    and not self._request.refinements
-                ):
+                if self._next == self._blocks and self._structure.header.refinement and not self._request.refined:
                     complete = completed(self._assembly, self._structure)
                     queue.append(complete)
                     return complete
-            case packets.Connectivity() if not section.is_last:
-                self._skip_to(self._blocks.stop, queue)
-                return self._structure.following(self._assembly).accept(arrival, queue)
-            case packets.Damaged(type=FrameType.CONNECTIVITY) if not section.is_last:
-                raise unreadable(arrival)
             case packets.Damaged():
                 queue.append(LossEvent(None, unreadable(arrival)))
-            case _ if not section.is_last:
-                # Only behind damage; nothing can be made of what belongs to faces that are not there.
-                raise CorruptError(f"the faces of section {section.number + 1} of {section.count} are missing")
             case packets.Refinement():
-                self._skip_to(self._blocks.stop, queue)
-                request = self._request
-                refinement = RefinementStage(
-                    self._assembly, self._structure, self._lanes, request.refinements, request.tolerant
-                )
+                self._skip_to(self._blocks, queue)
+                if not self._request.refined:
+                    return self._end(queue)
+                refinement = RefinementStage(self._assembly, self._structure, self._lanes, self._request.tolerant)
                 return refinement.accept(arrival, queue)
             case packets.Values():
-                self._skip_to(self._blocks.stop, queue)
+                self._skip_to(self._blocks, queue)
                 values = ValuesStage(self._assembly, self._structure, self._request.tolerant)
                 return values.accept(arrival, queue)
             case packets.End():
@@ -137,8 +118,8 @@ class BlockStage:
         number = self._scheme.chain_of(packet.index)
         if number != self._chain.number:
             self._chain = ChainDecoder(self._scheme, number, self._structure.allowance)
-        chain, lane = self._chain, self._blocks.start + number
-        queue.append(PendingBlock(self._lanes.submit(lane, lambda: chain.decode(packet)), self._assembly))
+        chain = self._chain
+        queue.append(PendingBlock(self._lanes.submit(number, lambda: chain.decode(packet)), self._assembly))
         self._next = packet.index + 1
 
     def _skip_to(self, index: int, queue: deque[Item]) -> None:
@@ -152,7 +133,7 @@ class BlockStage:
         self._next = index
 
     def _end(self, queue: deque[Item]) -> Complete:
-        self._skip_to(self._blocks.stop, queue)
+        self._skip_to(self._blocks, queue)
         self._complete = completed(self._assembly, self._structure)
         queue.append(self._complete)
         return self._complete
@@ -175,8 +156,8 @@ class Decoder(StreamDecoder[Item]):
         Report damage to blocks as `LossEvent` and go on with every block that does not depend on what is lost.
         Damage before the first block is raised all the same.
     layers : int, optional
-        How many to decode: 1 is the base alone, and each layer of refinement one more; None: all. What comes behind
-        them is not waited for.
+        How many to decode: 1 is the base alone, 2 or None the layer of refinement, too. What comes behind them is not
+        waited for.
     trial : Trial, optional
         What is tried in place of what the specification says; see `codec.signal.chain`.
 
@@ -208,7 +189,7 @@ class Decoder(StreamDecoder[Item]):
             raise OptionError("at least one layer must be decoded")
         lanes = Lanes(threads)
         self._most_ahead = 1
-        request = DecoderRequest(tolerant, MOST_LAYERS if layers is None else layers - 1)
+        request = DecoderRequest(tolerant, layers is None or layers > 1)
 
         def begin(structure: Structure) -> Stage[Item]:
             if structure.header.grid:
@@ -265,8 +246,8 @@ class Decoder(StreamDecoder[Item]):
             match item:
                 case PendingBlock(pending, assembly):
                     assembly.add(self._result(pending))
-                case PendingLevels(layer, levels, refined):
-                    refined.add(layer, *self._result(levels))
+                case PendingLevels(levels, refined):
+                    refined.add(*self._result(levels))
                 case PendingValues() as values:
                     self._attribute_event(values)
         match self._stage:
@@ -297,7 +278,7 @@ class Decoder(StreamDecoder[Item]):
             levels.refined.lose()
             return LossEvent(None, error)
         try:
-            return levels.refined.event(levels.layer, levels.refined.add(levels.layer, vertices, values))
+            return levels.refined.event(levels.refined.add(vertices, values))
         except BsmError as error:
             raise self._fail(error) from None
 
@@ -334,7 +315,6 @@ def check_header(header: Header, limits: Limits) -> None:
         raise UnsupportedError("this is a sequence; decode it with bsm.decode_sequence or bsm.SequenceDecoder")
     if not header.grid:
         chain_rules(header)
-        limits.check("coefficients", header.details)
 
 
 def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:

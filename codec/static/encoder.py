@@ -107,11 +107,6 @@ class Encoder:
 
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions | None = None) -> None:
         self.options = options or EncodeOptions()
-        if self.options.lock_borders is not None and self.options.promise is None:
-            raise OptionError(
-                "borders are locked where there is a promise: a preset but grid14, or max_error; parts on one grid, "
-                "grid_cell, fit anyway"
-            )
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._given = mesh
 
@@ -352,7 +347,6 @@ class Encoder:
             parts,
             keep_order=options.keep_order,
             splits=self._joined.splits,
-            sections=options.sections_wanted,
             light=options.quick,
         )
 

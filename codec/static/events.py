@@ -54,24 +54,17 @@ class Changes:
 @public
 @dataclass(frozen=True, eq=False)
 class ConnectivityEvent:
-    """The faces have arrived, or those of a section, with all that is needed to decode positions.
+    """The faces have arrived, with all that is needed to decode positions.
 
-    A mesh in several sections has one event for each, in their order: append the faces to those before. No vertex is
-    final before the last of them. Where the stream stores the order that the mesh had, which it does not in sections,
-    faces and all vertex numbers are in that order.
+    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
 
     Parameters
     ----------
     faces : int32 array, shape (m, 3)
-        Those that this section adds. They refer to vertices of earlier sections, too.
     vertices : int
-        How many there are so far: where the stream stores the vertices as they were given, more than were coded.
+        How many there are: where the stream stores the vertices as they were given, more than were coded.
     loose : Changes
         Those that no face uses, which are final.
-    section : int
-        From 0.
-    sections : int
-        How many there are in all.
 
     Examples
     --------
@@ -88,17 +81,9 @@ class ConnectivityEvent:
     faces: Faces
     vertices: int
     loose: Changes
-    section: int = 0
-    sections: int = 1
 
     def __repr__(self) -> str:
-        part = f", section {self.section + 1} of {self.sections}" if self.sections > 1 else ""
-        return f"ConnectivityEvent({len(self.faces)} faces, {self.vertices} vertices{part})"
-
-    @property
-    def last(self) -> bool:
-        """Whether the mesh has no more faces than have come."""
-        return self.section == self.sections - 1
+        return f"ConnectivityEvent({len(self.faces)} faces, {self.vertices} vertices)"
 
 
 @public
@@ -112,7 +97,7 @@ class BlockEvent:
         Of the block or chunk.
     changes : Changes
         Vertices that this block moved or finished, their positions in the mesh's unit, and which of them no later
-        block will move (a layer of refinement may).
+        block will move (the layer of refinement may).
 
     Examples
     --------
@@ -149,12 +134,10 @@ class BlockEvent:
 @public
 @dataclass(frozen=True, eq=False)
 class RefinementEvent:
-    """Levels of a layer of refinement have been decoded; they come when all blocks have.
+    """Levels of the layer of refinement have been decoded; they come when all blocks have.
 
     Parameters
     ----------
-    layer : int
-        1 for the first layer of refinement.
     vertices : int32 array, shape (v,)
         What was moved.
     positions : float64 array, shape (v, 3)
@@ -171,12 +154,13 @@ class RefinementEvent:
     ...             known = event.positions
     """
 
-    layer: int
+    layer: ClassVar[int] = 1
+
     vertices: Indices
     positions: Positions
 
     def __repr__(self) -> str:
-        return f"RefinementEvent(layer {self.layer}, {len(self.vertices)} vertices)"
+        return f"RefinementEvent({len(self.vertices)} vertices)"
 
 
 @public

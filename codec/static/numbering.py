@@ -22,14 +22,14 @@ class Numbering:
     arrangement: Arrangement | None = None
     splits: bool = False
 
-    def event(self, coded: int, known: int = 0, section: int = 0, sections: int = 1) -> ConnectivityEvent:
-        """What a user has to know of it, where so many vertices are coded, and so many faces are known already."""
+    def event(self, coded: int) -> ConnectivityEvent:
+        """What a user has to know of it, where so many vertices are coded."""
         if self.source is None:
             loose = np.zeros(0, np.int32)
         else:
             loose = np.flatnonzero(self.source < 0).astype(np.int32)
         changes = Changes(loose, self.loose, np.ones(len(loose), np.bool_))
-        return ConnectivityEvent(self.faces[known:], self.size(coded), changes, section, sections)
+        return ConnectivityEvent(self.faces, self.size(coded), changes)
 
     def size(self, coded: int) -> int:
         """How many vertices the user has, where so many are coded."""

@@ -6,13 +6,12 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from bsm.bitstream.container.header import MOST_SECTIONS
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.public import public
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
-from bsm.codec.static.contract import Contract, Fit
+from bsm.codec.static.contract import Contract
 from bsm.codec.static.rules import KEY_SEEDS
 from bsm.codec.static.targets import Target
 
@@ -36,9 +35,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "step": (1e-9, 1.0),
     "grid": (1, 20),
     "grid_cell": (1e-300, 1e300),
-    "detail": (0.0, 64.0),
     "smoothing": (0.0, 64.0),
-    "sections": (1, MOST_SECTIONS),
     "threads": (1, 256),
 }
 
@@ -80,9 +77,6 @@ class EncodeOptions:
     step : float, optional
         Finest quantization step of the adaptive coder, relative to the bounding box's diagonal; None: what the contract
         or the target begins with.
-    detail : float, optional
-        How many times coarser x, y and z are quantized than the detail layer, which keeps what they leave out along
-        the normal alone; 0: no detail layer. None: 3, and 0 with `bits`, `doi` and targets of distance.
     predict : bool
         Predict coefficients from overlapping vertices that are known already.
     smoothing : float, optional
@@ -101,8 +95,6 @@ class EncodeOptions:
     quick : bool
         Of all ways that keep a contract or reach a target only what is quick to decode: positions on a grid, without
         dictionaries. With `grid` and `grid_cell`, too, values are coded by a small model, in some more bytes.
-    lock_borders : Fit, optional
-        With a contract: how well parts fit that are encoded apart.
     exact : bool
         Keep every position as single precision has it, to the bit.
     grid : int, optional
@@ -119,10 +111,6 @@ class EncodeOptions:
         encoded apart on the same grid fit bit for bit.
     grid_origin : (float, float, float), optional
         Where that grid has a place; None: where the mesh's unit has its zero.
-    sections : int, optional
-        In how many sections the mesh comes where it comes in blocks: each has faces of its own, and blocks that need
-        no faces of later ones, so that something can be drawn before all faces have come. None: two, of large meshes
-        whose surfaces do not meet in single vertices, unless `keep_order`, `bits` or METIS ask for what that excludes.
     limits : str
         Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
     threads : int, optional
@@ -153,7 +141,6 @@ class EncodeOptions:
     shift: float = 2.0**-7
     bits: int | None = None
     step: float | None = None
-    detail: float | None = None
     predict: bool = True
     smoothing: float | None = None
     keep_order: bool = False
@@ -161,14 +148,12 @@ class EncodeOptions:
     target: Target | None = None
     contract: Contract | None = None
     quick: bool = False
-    lock_borders: Fit | None = None
     exact: bool = False
     grid: int | None = None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
     normals: str = "keep"
     grid_cell: float | None = None
     grid_origin: tuple[float, float, float] | None = None
-    sections: int | None = None
     limits: str = "default"
     threads: int | None = None
 
@@ -177,8 +162,6 @@ class EncodeOptions:
             raise ArgumentError(f"target must be a Target, not {self.target!r}")
         check_options(self, CHOICES, RANGES)
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
-        if self.detail_ratio and (self.bits is not None or self.doi is not None):
-            raise OptionError("a detail layer excludes a fixed number of bits and dynamic subspaces")
         doi: object = self.doi
         if doi is not None and not (
             isinstance(doi, tuple) and len(doi) == 2 and all(isinstance(one, (int, float)) for one in doi)
@@ -196,8 +179,6 @@ class EncodeOptions:
             raise OptionError("a grid with a given origin needs the length of its cells, too: grid_cell")
         if self.grid_origin is not None and not all(map(math.isfinite, self.grid_origin)):
             raise OptionError(f"the origin of a grid must be finite, not {self.grid_origin}")
-        if (self.sections or 1) > 1 and (self.keep_order or self.partition == "metis" or self.is_grid):
-            raise OptionError("sections exclude a kept order, the partition of METIS, and positions on a grid")
         if self.is_grid and (self.target is not None or self.says_how):
             raise OptionError("a grid excludes a target, and options that say how blocks are coded")
 
@@ -210,12 +191,6 @@ class EncodeOptions:
         if self.is_grid or self.says_how:
             return None
         return BALANCED if self.contract is None and self.target is None else self.contract
-
-    @property
-    def sections_wanted(self) -> int | None:
-        """In how many sections blocks are to come; None: as many as are worth it."""
-        whole = self.keep_order or self.partition == "metis" or self.bits is not None
-        return 1 if whole and self.sections is None else self.sections
 
     @property
     def grade(self) -> Grade:
@@ -234,7 +209,7 @@ class EncodeOptions:
 
     @property
     def first_step(self) -> float:
-        """The step, or where it is left open that of blocks with a detail layer."""
+        """The step, or where it is left open a usual one."""
         if self.step is not None:
             return self.step
         return STEP
@@ -243,14 +218,6 @@ class EncodeOptions:
     def says_how(self) -> bool:
         """Whether any option of `CODING` is given."""
         return any(getattr(self, name) is not None for name in CODING)
-
-    @property
-    def detail_ratio(self) -> float:
-        """Step of x, y and z over that of the detail layer; 0: no detail layer."""
-        if self.detail is not None:
-            return self.detail
-        distance = self.target is not None and self.target.kind == "nmsve_db"
-        return 0.0 if distance or self.bits is not None or self.doi is not None else DETAIL_RATIO
 
     @property
     def exact_keys(self) -> bool:
@@ -263,14 +230,12 @@ class EncodeOptions:
         return 0.0 if self.bits is not None and self.smoothing is None else self.smoothing
 
 
-DETAIL_RATIO = 3.0
-"""How much coarser x, y and z are than detail along normals; half of it costs 8 %, twice 4 % (tools.constants)."""
-CODING = ("step", "keep", "coefficients", "detail", "bits", "doi", "smoothing")
+CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
 FINE, SMALL = 0.001, 0.02
 """Promises of positions, from which on attributes are kept better, or less well."""
 STEP = 0.004
-"""Of blocks with a detail layer."""
+"""Of blocks alone."""
 
 PRESETS: dict[str, EncodeOptions] = {
     "small": EncodeOptions(

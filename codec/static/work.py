@@ -12,7 +12,7 @@ from threading import Condition, RLock
 
 from bsm.bitstream.attributes.values import values_charge
 from bsm.bitstream.fields.grid import grid_charge
-from bsm.bitstream.fields.levels import levels_charge
+from bsm.bitstream.fields.levels import AXES, levels_charge
 from bsm.bitstream.limits import Limits, as_limits
 from bsm.codec.basis.cost import factor_cost, iteration_memory, solve_cost
 from bsm.codec.basis.laplacian import Laplacian
@@ -34,12 +34,10 @@ FRESH, MOST_FRESH = 2.0, 4e6
 """Of a vertex of the mesh for each chain, in memory that is fresh; beyond some size that costs nothing."""
 
 
-def mesh_cost(vertices: int, faces: int, received: int, before: tuple[int, int] = (0, 0)) -> float:
+def mesh_cost(vertices: int, faces: int, received: int) -> float:
     """Work of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn again."""
     sewn = max(0.0, faces / 2.0 - vertices)
-    known, connected = before
-    decoded = 100.0 * known + 55.0 * connected
-    return 140.0 * vertices + 85.0 * faces + 700.0 * sewn + 400.0 * received - decoded
+    return 140.0 * vertices + 85.0 * faces + 700.0 * sewn + 400.0 * received
 
 
 def order_cost(vertices: int, faces: int, received: int) -> float:
@@ -47,9 +45,9 @@ def order_cost(vertices: int, faces: int, received: int) -> float:
     return 500.0 * vertices + 750.0 * faces + 100.0 * received
 
 
-def partition_cost(graph: Graph, first: int, blocks: int, copies: int) -> float:
-    """Work of cutting vertices from `first` on into so many parts, and of growing these to so many copies together."""
-    cut = graph.size - first + len(graph.neighbours) - int(graph.offsets[first])
+def partition_cost(graph: Graph, blocks: int, copies: int) -> float:
+    """Work of cutting vertices into so many parts, and of growing these to so many copies together."""
+    cut = graph.size + len(graph.neighbours)
     return cut * (4.0 * blocks.bit_length() + 20.0) + 2.0 * graph.size + 100.0 * blocks + 30.0 * copies
 
 
@@ -76,11 +74,6 @@ def chain_cost(vertices: int) -> float:
 def mesh_memory(vertices: int, faces: int) -> float:
     """Bytes of faces, graph, partition and blended positions."""
     return 200.0 * vertices + 60.0 * faces
-
-
-def section_memory(vertices: int, faces: int) -> float:
-    """Bytes of what stays of a section when the next one has come: graph, partition and what is around vertices."""
-    return 60.0 * vertices + 20.0 * faces
 
 
 def order_memory(vertices: int, faces: int) -> float:
@@ -133,9 +126,9 @@ def grid_memory(vertices: int, faces: int) -> float:
     return 80.0 * vertices + grid_charge(vertices, faces)
 
 
-def layer_memory(vertices: int, faces: int, axes: int) -> float:
+def layer_memory(vertices: int, faces: int) -> float:
     """Bytes for decoding a layer of refinement, and its levels that wait."""
-    return (28.0 + 48.0 * axes) * vertices + levels_charge(vertices, faces, axes)
+    return (28.0 + 48.0 * AXES) * vertices + levels_charge(vertices, faces)
 
 
 def seams_kept(vertices: int, faces: int, *, first: bool) -> float:
@@ -276,21 +269,3 @@ class Allowance:
     def _has_room(self, memory: float) -> bool:
         most = self._limits.memory_for(self._present, self._received)
         return self._kept + self._held + memory <= most
-
-
-class MeshMemory:
-    """What is kept of a mesh that comes in sections, or whole; draws on an allowance."""
-
-    def __init__(self, allowance: Allowance) -> None:
-        self._allowance = allowance
-        self._vertices = 0
-        self._kept = self._of_earlier = 0.0
-
-    def grow(self, vertices: int, faces: int, received: int) -> None:
-        """Take note of one more section, with which there are so many; raises as `Allowance.keep`."""
-        self._allowance.grant(vertices - self._vertices)
-        self._vertices = vertices
-        memory = self._of_earlier + mesh_memory(vertices, faces)
-        self._allowance.keep(memory - self._kept, received)
-        self._kept = memory
-        self._of_earlier += section_memory(vertices, faces)

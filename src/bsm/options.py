@@ -51,20 +51,11 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
 
 
 def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, Any]:
-    """Keywords, `max_error` and `look` among them as the contract that they are beside that of a preset, and
-    `lock_borders` as what it asks."""
-    from bsm.codec.static.contract import WIDEST, Contract, Fit
+    """Keywords, `max_error` and `look` among them as the contract that they are beside that of a preset."""
+    from bsm.codec.static.contract import WIDEST, Contract
     from bsm.codec.static.options import BALANCED
 
     given = dict(keywords)
-    locked = given.get("lock_borders")
-    if locked is True:
-        given["lock_borders"] = Fit()
-    elif locked is False:
-        given["lock_borders"] = None
-    elif isinstance(locked, (str, Real)):
-        gap, absolute = parse_length("lock_borders", locked)
-        given["lock_borders"] = Fit(gap, absolute)
     farthest, look = given.pop("max_error", None), given.pop("look", None)
     if farthest is None and look is None:
         return given

@@ -223,7 +223,7 @@ def _prepared(mesh: TriangleMesh, idea: Idea, options: EncodeOptions) -> Prepare
     parts = Parts(size, overlap, options.partition == "metis")
     if idea.partition is not None:
         parts = _OwnParts(size, overlap, metis=True, labelled=idea.partition)
-    return prepare(mesh, parts, keep_order=options.keep_order, sections=1 if parts.metis else options.sections_wanted)
+    return prepare(mesh, parts, keep_order=options.keep_order)
 
 
 def _decoded(stream: bytes, idea: Idea, limits: Limits, threads: int | None = None) -> TriangleMesh:

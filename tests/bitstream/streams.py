@@ -22,7 +22,7 @@ from bsm.bitstream.container.writer import write_stream
 SMALL_HEADER = Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10)
 
 STATIC: list[Packet] = [
-    Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10, center=(0.1, -2.0, 3.0), shift=0.01),
+    Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10, center=(0.1, -2.0, 3.0), step=0.01),
     Metadata({"creator": "test", "count": -3, "ratio": 0.5, "thumbnail": b"\x00\xff"}),
     Connectivity(b"faces" * 7),
     Partition(b""),
@@ -33,7 +33,7 @@ STATIC: list[Packet] = [
 ]
 BARE: list[Packet] = [SMALL_HEADER, Connectivity(b"\0\x01")]
 ANIMATED: list[Packet] = [
-    Header(vertices=4, faces=4, blocks=1, block_size=4, coefficients=2, frames=50, gop_frames=8),
+    Header(vertices=4, faces=4, blocks=1, block_size=4, coefficients=2, sequence=(50, 8)),
     Connectivity(b"x"),
     Gop(0, b"first"),
     Gop(1, b"second"),
@@ -46,21 +46,11 @@ GRID: list[Packet] = [
     Grid(60, 40, b""),
 ]
 REFINED: list[Packet] = [
-    replace(SMALL_HEADER, refinements=(0.01, 0.0, 0.001, 6.0)),
+    replace(SMALL_HEADER, refinement=(0.001, 6.0)),
     Connectivity(b"faces"),
     Block(0, 10, b"coefficients"),
-    Refinement(0, 0, 60, b"heights"),
-    Refinement(0, 60, 40, b"more"),
-    Refinement(1, 0, 100, b"all"),
-]
-SECTIONED: list[Packet] = [
-    replace(SMALL_HEADER, sections=(60, 2)),
-    Connectivity(b"some faces"),
-    Metadata({"creator": "test"}),
-    Block(0, 10, b"coefficients"),
-    Block(1, 7, b"more"),
-    Connectivity(b"the other faces"),
-    Block(2, 3, b"the rest"),
+    Refinement(0, 60, b"levels"),
+    Refinement(60, 40, b"more"),
 ]
 STREAMS = {
     "static": STATIC,
@@ -68,7 +58,6 @@ STREAMS = {
     "animated": ANIMATED,
     "grid": GRID,
     "refined": REFINED,
-    "sectioned": SECTIONED,
 }
 
 

@@ -143,34 +143,6 @@ def test_some_blocks_are_a_part_of_the_mesh(folder, tmp_path, capsys):
     assert 0 < faces[0] < faces[blocks - 1] == faces[blocks] == whole["faces"]
 
 
-def test_sections_are_made_shown_and_decoded(folder, tmp_path, capsys, mesh):
-    words = ["encode", folder / "sample.ply", "-q", "-o", tmp_path / "a.bsm", "--set", "sections=3", *SMALL]
-    assert main(list(map(str, words))) == 0
-    info = run_json(capsys, "info", tmp_path / "a.bsm")
-    sections = info["sections"]
-    assert [section["faces"] for section in sections[:2]] == info["header"]["sections"][::2]
-    assert sum(section["faces"] for section in sections) == len(mesh.faces)
-    assert sum(section["blocks"] for section in sections) == info["blocks"]
-    assert sum(section["connectivity"] for section in sections) == info["bytes"]["connectivity"]
-    assert sum(section["coefficient_bytes"] for section in sections) == info["bytes"]["coefficients"]
-    firsts = [section["first_block"] for section in sections]
-    assert sections[0]["connectivity"] < firsts[0] < firsts[1] < firsts[2] < info["bytes"]["total"]
-    assert main(["info", str(tmp_path / "a.bsm")]) == 0
-    assert f"its first block is there after {firsts[0]} bytes" in capsys.readouterr().out
-    faces = [
-        run_json(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / f"{count}.ply", "--blocks", count)["faces"]
-        for count in (1, sections[0]["blocks"], info["blocks"])
-    ]
-    assert 0 < faces[0] < faces[1] <= sections[0]["faces"] < faces[2] == len(mesh.faces)
-    assert main(["verify", str(tmp_path / "a.bsm"), "-q"]) == 0
-
-
-def test_a_mesh_in_one_section_says_nothing_of_them(folder, capsys):
-    assert len(run_json(capsys, "info", folder / "sample.bsm")["sections"]) == 1
-    assert main(["info", str(folder / "sample.bsm")]) == 0
-    assert "section" not in capsys.readouterr().out
-
-
 def test_some_blocks_of_a_stream_that_is_cut_short(folder, tmp_path):
     data = (folder / "sample.bsm").read_bytes()
     cut = tmp_path / "cut.bsm"
@@ -247,11 +219,6 @@ FAILURES = {
     "unknown output format": (["decode", "{folder}/sample.bsm", "-o", "{tmp}/a.xyz"], 2),
     "json into a pipe": (["encode", "{folder}/sample.ply", "-o", "-", "--json"], 2),
     "output is the input": (["encode", "{folder}/sample.bsm"], 2),
-    "no sections": (["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--set", "sections=0"], 2),
-    "sections in order": (
-        ["encode", "{folder}/sample.ply", "-o", "{tmp}/a.bsm", "--set", "sections=2", "--keep-order"],
-        2,
-    ),
     "no blocks": (["decode", "{folder}/sample.bsm", "-o", "{tmp}/a.ply", "--blocks", "0"], 2),
     "not a stream": (["decode", "{folder}/sample.ply", "-o", "{tmp}/a.ply"], 3),
     "not a mesh": (["encode", "{folder}/sample.bsm", "-o", "{tmp}/a.bsm"], 3),

@@ -323,7 +323,7 @@ def told_by_python(data: bytes, kind: type[bsm.Decoder | bsm.SequenceDecoder]) -
 def essence(event: Any) -> list[Any]:
     match event:
         case bsm.ConnectivityEvent():
-            return ["connectivity", event.section, event.sections, len(event.faces), event.vertices]
+            return ["connectivity", len(event.faces), event.vertices]
         case bsm.BlockEvent():
             return ["block", event.index, len(event.vertices)]
         case bsm.RefinementEvent():
@@ -342,9 +342,7 @@ DAMAGED = {
     bsm.Decoder: [
         "labels",
         "keys",
-        "sections",
-        "details",
-        "layers",
+        "layer-chunks",
         "refined",
         "grid-chunks",
         "smoothing",

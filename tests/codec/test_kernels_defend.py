@@ -12,7 +12,7 @@ from bsm.codec.basis.orthogonal_iteration import hash_columns
 from bsm.codec.blocks import overlap
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry import graph
-from bsm.codec.signal import detail, predict, smooth, transform
+from bsm.codec.signal import predict, smooth, transform
 from tests.bitstream.test_kernels_defend import copied, shortened
 from tests.shapes import torus
 
@@ -21,7 +21,6 @@ STAGES = {
     "chain_blocks": overlap,
     "reaches_all": graph,
     "suspend": predict,
-    "raise_block": detail,
     "smooth_all": smooth,
     "place_block": transform,
 }
@@ -31,7 +30,6 @@ ROOMY = {
     "chain_blocks": {6, 7, 13},
     "reaches_all": {0},
     "suspend": set(),
-    "raise_block": {0},
     "smooth_all": {3},
     "place_block": {2, 4},
 }
@@ -64,10 +62,7 @@ def test_every_stage_defends_itself(calls):
     assert graph.is_connected(whole)
     around = predict.Known(whole, 8.0).around(laplacian_of(block), 0.125)
     levels = np.ones((4, 3), np.int32)
-    placed = transform.placed(around.continuation, hash_columns(120, 9), levels, 0.25)
-    detail.Normals(detail.make_surface(mesh.faces, 300)).raise_block(
-        block, hash_columns(120, 12), levels, 12, 0.25, placed
-    )
+    transform.placed(around.continuation, hash_columns(120, 9), levels, 0.25)
     smooth.smooth(whole, mesh.positions, 4.0)
     assert set(calls) == set(STAGES)
     for name, arguments in calls.items():

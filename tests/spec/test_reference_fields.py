@@ -18,7 +18,6 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.fields.chunks import FieldDecoder
-from bsm.bitstream.fields.corners import corners_of, keep_borders
 from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
 from bsm.bitstream.fields.lattice import spread
 from bsm.bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder
@@ -111,21 +110,15 @@ def test_light_grids(reference, mesh, largest, kind, seed, chunk, data):
 
 
 @quick
-@given(
-    SOUPS, st.sampled_from([1, 3]), st.sampled_from([1, 9, MOST_LEVEL]), KINDS, SEEDS, CHUNKS, st.booleans(), st.data()
-)
-def test_levels(reference, mesh, axes, most, kind, seed, chunk, borders, data):
+@given(SOUPS, st.sampled_from([1, 9, MOST_LEVEL]), KINDS, SEEDS, CHUNKS, st.data())
+def test_levels(reference, mesh, most, kind, seed, chunk, data):
     faces, vertices = mesh
     if not vertices:
         return
-    levels = values(vertices, [-most] * axes, [most] * axes, kind, seed)
-    if borders:
-        levels[~keep_borders(corners_of(faces, vertices))] = 0
-    chunks = encode(LevelsEncoder(faces, levels, borders=borders), vertices, chunk)
+    chunks = encode(LevelsEncoder(faces, values(vertices, [-most] * 3, [most] * 3, kind, seed)), vertices, chunk)
     for payloads in (chunks, damaged(chunks, data)):
-        expected = outcome(product(LevelsDecoder(faces, vertices, axes, borders=borders)), payloads)
-        reader = reference.LevelsReader(faces.tolist(), vertices, axes, borders=borders)
-        assert outcome(plain(reader), payloads) == expected
+        expected = outcome(product(LevelsDecoder(faces, vertices)), payloads)
+        assert outcome(plain(reference.LevelsReader(faces.tolist(), vertices)), payloads) == expected
 
 
 @pytest.mark.slow

@@ -22,7 +22,6 @@ from tools.vectors.bad import BAD
 from tools.vectors.bad_attributes import BAD_ATTRIBUTES
 from tools.vectors.bad_fields import BAD_FIELDS
 from tools.vectors.bad_light import BAD_LIGHT
-from tools.vectors.bad_sections import BAD_SECTIONS
 from tools.vectors.bad_sequences import BAD_SEQUENCES
 from tools.vectors.edges import EDGES, EDGES_BAD
 from tools.vectors.exact import BAD_EXACT, EXACT
@@ -30,7 +29,6 @@ from tools.vectors.good import STATIC
 from tools.vectors.good_attributes import ATTRIBUTES
 from tools.vectors.good_fields import FIELDS
 from tools.vectors.good_light import LIGHT
-from tools.vectors.good_sections import SECTIONS
 from tools.vectors.good_sequences import SEQUENCES
 from tools.vectors.store import FOLDER, Vector, arrays_of, read_manifest
 
@@ -92,14 +90,12 @@ def test_every_vector_has_its_files_and_every_file_is_a_vector():
             *LIGHT,
             *EXACT,
             *ATTRIBUTES,
-            *SECTIONS,
             *SEQUENCES,
             *BAD,
             *BAD_FIELDS,
             *BAD_LIGHT,
             *BAD_EXACT,
             *BAD_ATTRIBUTES,
-            *BAD_SECTIONS,
             *BAD_SEQUENCES,
             *EDGES,
             *EDGES_BAD,

@@ -28,9 +28,6 @@ REFUSED = {
     "seams-many": (LimitError, "work"),
     "nested-header": (CorruptError, "a header of"),
     "nested-attribute": (CorruptError, "a declaration of"),
-    "sections-claimed": (LimitError, "work"),
-    "sections-claimed-wide": (LimitError, "work"),
-    "sections-claimed-most": (CorruptError, "rows at section 0"),
 }
 """How, and what the message is about."""
 
@@ -50,7 +47,6 @@ def test_what_asks_for_too_much_is_refused(name):
     "name",
     [
         "members",
-        "sections-tiny",
         "tiny",
         "copies",
         "grid-chunks",

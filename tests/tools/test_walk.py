@@ -33,7 +33,7 @@ def test_the_law_says_of_every_frame_type_who_charges_it():
     assert {kind.name for kind in FrameType} <= {row[0].strip() for row in rows}
     fields = {**HEADER_FIELDS, **fields_of(Declaration)}
     lists = [name for name, declared in fields.items() if declared.type in (tuple, str, bytes)]
-    assert {"refinements", "name"} <= set(lists)
+    assert {"refinement", "name"} <= set(lists)
     for name in lists:
         assert any(f"`{name}`" in row[1] for row in rows), name
     assert all(row[2].strip() for row in rows if row[1].strip() != "nothing")

@@ -75,7 +75,6 @@ KINDS: dict[str, Callable[[], bytes]] = {
     "paper-exact": lambda: _options(bits=12, keep=0.2, block_size=500, key_interval=1, key_seed="svd"),
     "large-blocks": lambda: _options(step=0.002, block_size=5000),
     "small-blocks": lambda: _options(step=0.002, block_size=30),
-    "in-sections": lambda: encode(torus(200, 150), replace(PRESETS["balanced"], sections=8)),
     "quick": lambda: encode(torus(400, 300), EncodeOptions(grid=14, quick=True)),
     "order": _in_order,
     "attributes": _with_attributes,

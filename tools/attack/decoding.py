@@ -68,7 +68,7 @@ def _by_events(
             while (event := decoder.next_event()) is not NEED_DATA and event is not END_OF_STREAM:
                 match event:
                     case ConnectivityEvent():
-                        if event.section == 0 and kind is SequenceDecoder:  # a run, with a mesh of its own
+                        if kind is SequenceDecoder:  # a run, with a mesh of its own
                             faces, vertices, positions = np.zeros((0, 3), np.int32), 0, []
                             shown.clear()
                             runs.append((len(frames), event.vertices, event.faces))

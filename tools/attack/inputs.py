@@ -20,7 +20,6 @@ from bsm.codec.static.targets import Target
 from tools.attack.mutate import mutate_stream
 from tools.attack.sweep import mutate
 from tools.gridded import random_grid
-from tools.sections import random_sections
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 from tools.vectors.store import FOLDER
 
@@ -32,10 +31,6 @@ SEQUENCES = 0.25
 """Share of sequences among random streams."""
 MOVING = 0.3
 """Share of sequences with an attribute that changes."""
-SECTIONS = 0.25
-"""Share of meshes that are to come in sections."""
-GRIDS = 0.5
-"""Share of grids among streams that no encoder wrote."""
 
 
 def vector_seeds() -> list[bytes]:
@@ -56,10 +51,9 @@ def random_stream(random: Random) -> bytes:
     return encode(random_mesh(random), _static_options(random))
 
 
-def unencoded_stream(random: Random) -> bytes | None:
-    """A mesh on a grid, or in sections, some illegal, that no encoder would choose; None where it cannot be cut."""
-    mesh = random_mesh(random)
-    return random_grid(random, mesh) if random.random() < GRIDS else random_sections(random, mesh)
+def unencoded_stream(random: Random) -> bytes:
+    """A mesh on a grid that no encoder would choose."""
+    return random_grid(random, random_mesh(random))
 
 
 def random_mesh(random: Random) -> TriangleMesh:
@@ -173,8 +167,6 @@ def _static_options(random: Random) -> EncodeOptions:
         given["doi"] = (5e-4, 2e-3)
     else:
         given["step"] = 2.0 ** -random.randrange(3, 16)
-    if random.random() < SECTIONS:
-        given["sections"] = random.choice((2, 2, 3, 8))
     return EncodeOptions(**{**_some(random, _static_choices(random), 0.15), **given})
 
 
@@ -190,7 +182,6 @@ def _static_choices(random: Random) -> dict[str, Callable[[], Any]]:
         "iterations": lambda: random.choice((1, 3, 9)),
         "key_iterations": lambda: random.choice((1, 8, 40)),
         "shift": lambda: 10.0 ** random.randrange(-6, 4),
-        "detail": lambda: random.choice((0.0, 0.5, 3.0)),
         "predict": lambda: False,
         "smoothing": lambda: random.choice((0.0, 0.5, 8.0)),
         "keep_order": lambda: True,

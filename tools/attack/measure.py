@@ -82,7 +82,7 @@ def sequence_memory(stream: bytes, vertices: int) -> float:
     try:
         for kind, payload in frames_of(stream):
             cursor = Cursor(payload)
-            if kind == FrameType.HEADER and (entries := header_entries(payload)).get(HEADER_FIELDS["gop_frames"].key):
+            if kind == FrameType.HEADER and (entries := header_entries(payload)).get(HEADER_FIELDS["sequence"].key):
                 columns = max(columns, entries.get(HEADER_FIELDS["coefficients"].key, 0))
             elif kind == FrameType.GOP and cursor.varint() >= 0:
                 data = cursor.rest()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -44,7 +44,6 @@ from bsm.codec.sequence.gop import level_references
 from bsm.codec.static.attributes.pieces import PieceEncoder
 from bsm.codec.static.attributes.surface import surface_of
 from tools.gridded import gridded
-from tools.sections import in_sections
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
 from tools.vectors.meshes import torus
 
@@ -151,7 +150,7 @@ def _blocks(count: int, columns: int) -> Iterator[tuple[int, bytes]]:
         yield FrameType.BLOCK, write_varint(index) + write_varint(columns) + zeros
 
 
-PACKED = {"coding": 0, "bits": 1, "stiffness": 0.0}
+PACKED = {"bits": 1, "springs": 0}
 
 
 def _blocky(
@@ -162,34 +161,6 @@ def _blocky(
     fields = PACKED | {"coefficients": columns} | fields
     count = count if sent is None else sent
     return stream_of([_header(coded, **fields), _faces(coded), *before, *_blocks(count, columns)])
-
-
-def _sectioned(
-    shape: tuple[Any, ...], shares: Sequence[float], counts: Sequence[int], columns: int = 1, **fields: Any
-) -> bytes:
-    """Packed blocks in sections, of which each but the last ends where a share of all vertices is known."""
-    faces = SHAPES[shape[0]](*shape[1:])
-    vertices = int(faces.max()) + 1
-    coded = encode_connectivity(faces, vertices, range(1, len(faces)) if len(faces) < 5000 else _places(len(faces)))
-    wanted = [min(share if share > 1 else share * vertices, vertices - 1) for share in shares]
-    cuts = tuple(next(cut for cut in coded.cuts if cut.vertices >= most) for most in wanted)
-    zeros = write_varint(columns) + pack_coefficients(np.ones(3 * columns, np.int64), 1)
-    given = PACKED | {"coefficients": columns} | fields
-    return stream_of(in_sections(replace(coded, cuts=cuts), counts, lambda section, number: zeros, **given))
-
-
-def _places(faces: int) -> list[int]:
-    """Where a large mesh may be cut: near its beginning and its end, and a thousand times between."""
-    near = 3000
-    return sorted({*range(1, near), *range(near, faces - near, faces // 1000), *range(faces - near, faces)})
-
-
-def _claimed(blocks: int, size: int, **fields: Any) -> bytes:
-    """A section of a thousand vertices, and a header that says that sixteen million are to come."""
-    claims = {"vertices": 1 << 24, "faces": 1 << 25, "blocks": 1 << 17, "block_size": size}
-    frames = frames_of(_sectioned(("torus", 64, 64), [1000], [blocks, 1], **claims | fields))
-    last = max(place for place, (kind, _) in enumerate(frames) if kind == FrameType.CONNECTIVITY)
-    return stream_of(frames[:last])
 
 
 def _scattered(shape: tuple[Any, ...], parts: int) -> tuple[int, bytes]:
@@ -234,17 +205,16 @@ def _layers(rows: int, columns: int, chunk: int) -> bytes:
             block_size=min(size, 8000),
             coefficients=1,
             power=1,
-            refinements=(1.0, 1.0) * 4,
+            refinement=(1.0, 1.0),
         ),
         _faces(coded),
         *_blocks(blocks, 1),
     ]
-    for layer in range(4):
-        encoder = LevelsEncoder(coded.faces, np.zeros((size, 3), np.int32))
-        for first in range(0, size, chunk):
-            count = min(chunk, size - first)
-            place = write_varint(layer) + write_varint(first) + write_varint(count)
-            frames.append((FrameType.REFINEMENT, place + encoder.chunk(count)))
+    encoder = LevelsEncoder(coded.faces, np.zeros((size, 3), np.int32))
+    for first in range(0, size, chunk):
+        count = min(chunk, size - first)
+        place = write_varint(first) + write_varint(count)
+        frames.append((FrameType.REFINEMENT, place + encoder.chunk(count)))
     return stream_of(frames)
 
 
@@ -290,7 +260,7 @@ def _joined(streams: Iterable[bytes], agains: Iterable[int] = (), gop: GopBody |
     for stream in streams:
         for kind, payload in frames_of(stream):
             if kind == FrameType.HEADER:
-                entries = header_entries(payload) | ({HEADER_FIELDS["run"].key: run} if run else {})
+                entries = header_entries(payload) | ({HEADER_FIELDS["run"].key: [run]} if run else {})
                 payload = write_map(sorted(entries.items()))
             if kind == FrameType.GOP:
                 payload = write_varint(run) + bytes([payload[1] + METHODS * (run % RUNS)]) + payload[2:]
@@ -300,7 +270,7 @@ def _joined(streams: Iterable[bytes], agains: Iterable[int] = (), gop: GopBody |
     for mesh in agains:
         sizes = {name: meshes[mesh][HEADER_FIELDS[name].key] for name in ("vertices", "faces")}
         assert gop is not None
-        frames.append(header_frame(**sizes, gop_frames=1024, run=run, again=mesh + 1))
+        frames.append(header_frame(**sizes, gop_frames=1024, run=(run, mesh)))
         frames.append((FrameType.GOP, write_varint(run) + write_gop_body(gop, run)))
         run += 1
     return stream_of(frames)
@@ -481,11 +451,11 @@ BOMBS: dict[str, Bomb] = {
         lambda: _blocky(("torus", 36, 36), blocks=100, block_size=14, power=64, iterations=1024, key_iterations=1024),
     ),
     "wide": Bomb("as many columns as rows", lambda: one_block(64, 64, 4096, power=1)),
-    "wide-exact": Bomb("the same, exact", lambda: one_block(64, 64, 4096, key_seed=1)),
+    "wide-exact": Bomb("the same, exact", lambda: one_block(64, 64, 4096, exact=1)),
     "wide-1024": Bomb("1,024 columns, two iterations", lambda: one_block(64, 64, 1024, power=1, key_iterations=2)),
     "svd-keys": Bomb(
         "exact chains of one block each",
-        lambda: _blocky(("torus", 100, 100), columns=100, blocks=50, block_size=250, key_seed=1, key_interval=1),
+        lambda: _blocky(("torus", 100, 100), columns=100, blocks=50, block_size=250, exact=1, key_interval=1),
     ),
     "careful": Bomb(
         "columns that one solution loses", lambda: one_block(40, 40, 400, power=64, shift=2.0**-30, key_iterations=16)
@@ -498,7 +468,7 @@ BOMBS: dict[str, Bomb] = {
     ),
     "chains": Bomb(
         "chains of two blocks",
-        lambda: _tiny_blocks(("torus", 256, 256), 8, key_interval=2, stiffness=1.0, power=1, key_iterations=1),
+        lambda: _tiny_blocks(("torus", 256, 256), 8, key_interval=2, springs=1, power=1, key_iterations=1),
     ),
     "chains-large": Bomb(
         "the same of a large mesh, each on its own",
@@ -508,7 +478,7 @@ BOMBS: dict[str, Bomb] = {
             blocks=131072,
             block_size=64,
             key_interval=2,
-            stiffness=1.0,
+            springs=1,
             power=1,
             key_iterations=1,
         ),
@@ -522,7 +492,7 @@ BOMBS: dict[str, Bomb] = {
             blocks=4096,
             block_size=256,
             key_interval=2,
-            stiffness=1.0,
+            springs=1,
             power=1,
         ),
     ),
@@ -559,59 +529,6 @@ BOMBS: dict[str, Bomb] = {
         lambda: _blocky(("torus", 1024, 1024), blocks=160, block_size=8192, power=2, columns=8),
     ),
     "copies": Bomb("copies of one vertex in every block", lambda: _copies(64, 64)),
-    "sections": Bomb(
-        "a large mesh, eight times almost all of it",
-        lambda: _sectioned(
-            ("torus", 1024, 1024),
-            [(1 << 20) - left for left in range(8, 1, -1)],
-            [160, *[1] * 7],
-            block_size=8192,
-            power=1,
-            key_iterations=1,
-        ),
-    ),
-    "sections-even": Bomb(
-        "eight sections of a large mesh, as many blocks in each",
-        lambda: _sectioned(
-            ("torus", 512, 512), [k / 8 for k in range(1, 8)], [40] * 8, block_size=1200, power=1, key_iterations=1
-        ),
-    ),
-    "sections-tiny": Bomb(
-        "blocks of one vertex in eight sections",
-        lambda: _sectioned(
-            ("torus", 64, 64), [k / 8 for k in range(1, 8)], [500] * 8, block_size=4, power=1, key_iterations=1
-        ),
-    ),
-    "sections-members": Bomb(
-        "blocks that overlap as much as they may in every section",
-        lambda: _sectioned(
-            ("torus", 256, 256),
-            [k / 8 for k in range(1, 8)],
-            [47, *[31] * 7],
-            block_size=4096,
-            power=1,
-            key_iterations=1,
-        ),
-    ),
-    "sections-wheel": Bomb(
-        "smoothing where everything is near everything, in sections",
-        lambda: _sectioned(
-            ("wheels", 2, 20000),
-            [k / 8 for k in range(1, 8)],
-            [200] * 8,
-            block_size=200,
-            smoothing=1.0,
-            power=1,
-            key_iterations=1,
-        ),
-    ),
-    "sections-claimed": Bomb("blocks for a claim", lambda: _claimed(637, 128, power=64, iterations=64)),
-    "sections-claimed-wide": Bomb(
-        "some of all that came, as wide", lambda: _claimed(78, 1000, columns=1000, power=1, key_iterations=1)
-    ),
-    "sections-claimed-most": Bomb(
-        "as many blocks as a claim allows", lambda: _claimed(1000, 2047, power=1, key_iterations=1)
-    ),
     "grid": Bomb("a grid of a million vertices", lambda: _grid(("torus", 1024, 1024), 1 << 15)),
     "grid-chunks": Bomb("a grid, vertex by vertex", lambda: _grid(("torus", 100, 100), 1)),
     "light": Bomb("the small model on a million vertices", lambda: _grid(("torus", 1024, 1024), 1 << 15, light=1)),

@@ -11,10 +11,10 @@ import numpy as np
 from bsm.bitstream.attributes.faces import FaceValueDecoder
 from bsm.bitstream.attributes.seams import Joins, decode_seams
 from bsm.bitstream.attributes.values import Kind, ValueDecoder
-from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_blocks, decode_coefficients, decode_layers
+from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients
 from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import unpack_coefficients
-from bsm.bitstream.connectivity.faces import ConnectivityDecoder, decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import decode_connectivity
 from bsm.bitstream.connectivity.partition import decode_labels
 from bsm.bitstream.connectivity.permutation import decode_permutation, decode_rotations
 from bsm.bitstream.container.gop import parse_gop_body
@@ -104,18 +104,6 @@ def coefficients(data: bytes) -> None:
     decode_coefficients(model, data[2:], model.width)
 
 
-def coefficient_blocks(data: bytes) -> None:
-    """Several blocks in one payload."""
-    decode_blocks(CoefficientModel(1 + data[0]), data[2:], data[1])
-
-
-def coefficient_layers(data: bytes) -> None:
-    """A block with a detail layer, twice."""
-    model, over = CoefficientModel(1 + data[0]), CoefficientModel(1 + data[1])
-    for _ in range(2):
-        decode_layers(model, over, data[2:], 1 + data[0] // 2)
-
-
 def packed(data: bytes) -> None:
     """Packed coefficients, zstd included."""
     count = 1 + data[1] % 96
@@ -129,21 +117,6 @@ def connectivity(data: bytes) -> None:
     _expect(decoded.shape == (faces, 3), "a wrong number of faces")
     _expect(bool((np.bincount(decoded.ravel(), minlength=vertices) > 0).all()), "a vertex without face")
     _expect(len(np.bincount(decoded.ravel())) == vertices, "a vertex beyond the last")
-
-
-def pieces(data: bytes) -> None:
-    """Attack the decoder of faces in pieces; the first numbers tell the lengths of two, and the faces of all."""
-    vertices, faces, first, more, one, two = (int.from_bytes(data[at : at + 2], "little") for at in range(0, 12, 2))
-    cuts = 1 + first % 1000, 2 + first % 1000 + more % 1000
-    ends, begin, before = (*cuts, cuts[1] + 1 + faces % 2000), 12, 0
-    decoder = ConnectivityDecoder(vertices % 2000, ends[-1], LIMITS, cuts)
-    for expected, size in zip(ends, (one, two, len(data)), strict=True):
-        known = decoder.take(data[begin : begin + size])
-        _expect(known.faces.shape == (expected, 3), "a wrong number of faces")
-        _expect(before <= known.vertices, "vertices that vanish")
-        _expect(bool((known.faces < known.vertices).all() and (known.faces >= 0).all()), "vertices out of range")
-        begin, before = begin + size, known.vertices
-    _expect(before == vertices % 2000, "a wrong number of vertices")
 
 
 _FAN = np.array([[0, k, k + 1] for k in range(1, 40)], np.int32)
@@ -200,7 +173,7 @@ def _on_grid(data: bytes, decoder: GridDecoder | LightDecoder) -> None:
 
 def levels(data: bytes) -> None:
     """Levels of a refinement, in chunks; the first two bytes tell their number and lengths."""
-    decoder, size = LevelsDecoder(_SOUP, 46, 1 + data[0] % 2 * 2), 1 + data[0] % 46
+    decoder, size = LevelsDecoder(_SOUP, 46), 1 + data[0] % 46
     for chunk, count in ((data[2 : 2 + data[1]], size), (data[2 + data[1] :], 46 - size)):
         if count:
             _, found = decoder.chunk(chunk, count)
@@ -302,11 +275,8 @@ TARGETS: dict[str, Target] = {
         tolerant_reader,
         payloads,
         coefficients,
-        coefficient_blocks,
-        coefficient_layers,
         packed,
         connectivity,
-        pieces,
         arrangement,
         permutation,
         labels,
@@ -341,8 +311,6 @@ def seeds(name: str, vectors: Path) -> list[bytes]:
         return _mesh_seeds()
     if name in ("grid", "light", "levels"):
         return _field_seeds(name)
-    if name == "pieces":
-        return _piece_seeds()
     found: list[bytes] = []
     for data in good:
         frames = frames_of(data)
@@ -359,7 +327,7 @@ def _seed(name: str, kind: int, payload: bytes, header: object) -> bytes:
     if name == "connectivity" and kind == FrameType.CONNECTIVITY:
         counts = (getattr(header, "vertices"), getattr(header, "faces"))  # noqa: B009
         return b"".join(count.to_bytes(2, "little") for count in counts) + payload
-    if name in ("coefficients", "coefficient_blocks", "coefficient_layers", "packed") and kind == FrameType.BLOCK:
+    if name in ("coefficients", "packed") and kind == FrameType.BLOCK:
         return bytes([min(255, getattr(header, "coefficients") - 1), payload[1] - 1]) + payload[2:]  # noqa: B009
     if name in ("arrangement", "permutation") and kind == FrameType.ORDER:
         return payload
@@ -374,28 +342,12 @@ def _seed(name: str, kind: int, payload: bytes, header: object) -> bytes:
     return b""
 
 
-def _piece_seeds() -> list[bytes]:
-    from tools.vectors.good_sections import crowded, uneven
-    from tools.vectors.meshes import torus
-
-    found = []
-    for faces in (crowded(), uneven(), torus(12, 10).faces):
-        vertices = int(faces.max()) + 1
-        for first, more in ((1, 1), (5, 30), (60, 20)):
-            coded = encode_connectivity(faces, vertices, (first, first + more))
-            parts = coded.pieces(coded.cuts)
-            left = len(faces) - first - more
-            numbers = (vertices, left - 1, first - 1, more - 1, len(parts[0]), len(parts[1]))
-            found.append(b"".join(number.to_bytes(2, "little") for number in numbers) + b"".join(parts))
-    return found
-
-
 def _field_seeds(name: str) -> list[bytes]:
     found = []
     for size, spread in ((1, 2), (23, 9), (46, 1000)):
         values = np.arange(46 * 3).reshape(46, 3) * 7 % spread
         if name == "levels":
-            encoder: FieldEncoder = LevelsEncoder(_SOUP, values[:, : 1 + (size - 1) % 2 * 2] - spread // 2)
+            encoder: FieldEncoder = LevelsEncoder(_SOUP, values - spread // 2)
         else:
             coder = LightEncoder if name == "light" else GridEncoder
             encoder = coder(_SOUP, np.minimum(values, _LARGEST), _LARGEST)

@@ -85,7 +85,7 @@ class BlockView:
 def view_blocks(mesh: TriangleMesh, options: EncodeOptions) -> BlockView:
     """Encode a mesh in blocks and decode it, and derive its parts as both sides did."""
     step = options.step if options.says_how else options.first_step
-    encoder = Encoder(mesh, replace(options, step=step, partition="derived", keep_order=False, sections=1))
+    encoder = Encoder(mesh, replace(options, step=step, partition="derived", keep_order=False))
     data = encoder.encode()
     decoded = decode(data, NAMED_LIMITS[options.limits]())
     info = inspect_stream(iter([data]))
@@ -118,9 +118,9 @@ def blend_blocks(mesh: TriangleMesh, options: EncodeOptions, weigh: Weighing) ->
     """The error of a mesh whose blocks are coded as by `view_blocks`, and joined with other weights."""
     view = view_blocks(mesh, options)
     prepared = prepare(join(mesh, keep=False).mesh, Parts(options.block_size, options.overlap), keep_order=False)
-    schemes = Planner(prepared, options).schemes(options.step or options.first_step)
+    scheme = Planner(prepared, options).scheme(options.step or options.first_step)
     blocks, blend = view.blocks(), Blend(view.graph.size)
-    for coded in encode_blocks(schemes, prepared.positions, threads=options.threads, doi=options.doi):
+    for coded in encode_blocks(scheme, prepared.positions, threads=options.threads, doi=options.doi):
         block = blocks.block(coded.decoded.index)
         blend.add(block.vertices, coded.decoded.positions, weigh(blocks, coded.decoded.index, block))
     return replace(view, error=blend.all_positions() - prepared.positions)

@@ -309,8 +309,7 @@ def coefficients_figure(source: Source) -> Figure:
     for name in PAPER_RATE_MESHES:
         mesh = source.mesh(name)
         paper = measure(Spectral(paper_options(keep=KEEPS[-1], power=2)), mesh, Reference(mesh.positions, mesh.faces))
-        # Distance, not looks: every coordinate counts, so there is no detail layer.
-        points = run_curve(our_curve(detail=0.0), mesh, name)["points"]
+        points = run_curve(our_curve(), mesh, name)["points"]
         found = rate_curve_of(points, "nmsve_db", "bpv_geometry").rate(paper["nmsve_db"])
         rows.append((f"{name}, {paper['nmsve_db']:.2f} dB", number(found, 2), number(paper["bpv_paper"] / 3, 2)))
     curves = {name: run_curve(our_curve(), source.mesh(name), name)["points"] for name, _, _ in COEFFICIENT_LIMITS}

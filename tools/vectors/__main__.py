@@ -124,7 +124,6 @@ def write(*, keep: bool) -> int:
     from tools.vectors.bad_attributes import BAD_ATTRIBUTES
     from tools.vectors.bad_fields import BAD_FIELDS
     from tools.vectors.bad_light import BAD_LIGHT
-    from tools.vectors.bad_sections import BAD_SECTIONS
     from tools.vectors.bad_sequences import BAD_SEQUENCES
     from tools.vectors.edges import EDGES, EDGES_BAD
     from tools.vectors.exact import BAD_EXACT, EXACT
@@ -132,12 +131,11 @@ def write(*, keep: bool) -> int:
     from tools.vectors.good_attributes import ATTRIBUTES
     from tools.vectors.good_fields import FIELDS
     from tools.vectors.good_light import LIGHT
-    from tools.vectors.good_sections import SECTIONS
     from tools.vectors.good_sequences import SEQUENCES
 
     streams: dict[Vector, bytes] = {}
     meshes = {}
-    for name, good in {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **SECTIONS, **LIGHT, **EXACT, **EDGES}.items():
+    for name, good in {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **LIGHT, **EXACT, **EDGES}.items():
         vector = Vector(name, good.probes)
         streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else good.make()
         decoder = _decode_sequence if "-sequence" in name else _decode_static
@@ -147,7 +145,6 @@ def write(*, keep: bool) -> int:
         **BAD_FIELDS,
         **BAD_SEQUENCES,
         **BAD_ATTRIBUTES,
-        **BAD_SECTIONS,
         **BAD_LIGHT,
         **BAD_EXACT,
         **EDGES_BAD,

@@ -13,7 +13,7 @@ import zstandard
 
 from bsm.bitstream.connectivity.faces import decode_connectivity
 from bsm.bitstream.connectivity.partition import encode_labels
-from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.bitstream.container.header import HEADER_FIELDS, Paper
 from bsm.bitstream.container.maps import write_map
 from bsm.bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
 from bsm.codec.geometry.graph import graph_of_faces
@@ -27,6 +27,7 @@ from tools.vectors.meshes import patch, shuffled, together, torus
 KINDS = ("format", "unsupported", "corrupt", "truncated", "limit", "numeric")
 HEADER, CONNECTIVITY, PARTITION, ORDER, BLOCK = FrameType.HEADER, 3, 4, 5, FrameType.BLOCK
 METADATA, GOP, END = FrameType.METADATA, FrameType.GOP, FrameType.END
+PAPER = tuple(vars(Paper()).values())
 
 
 _NARROW = {"bits": 7}
@@ -218,10 +219,10 @@ HEADERS: dict[str, Bad] = {
         f"bad-lacks-{name.replace('_', '-')}": Bad(f"HEADER lacks {name}", "corrupt", _entries(**{name: None}))
         for name in ("vertices", "faces", "blocks", "block_size", "coefficients")
     },
-    "bad-default-stored": Bad("a field is stored that has its default", "corrupt", _entries(coarser=0)),
+    "bad-default-stored": Bad("a field is stored that has its default", "corrupt", _entries(key_interval=0)),
     "bad-default-stored-float": Bad("the default step is stored", "corrupt", _entries(step=2.0**-8)),
     "bad-int-as-float": Bad("a float where an int belongs", "corrupt", _entries(vertices=56.0)),
-    "bad-float-as-int": Bad("an int where a float belongs", "corrupt", _entries(shift=1)),
+    "bad-float-as-int": Bad("an int where a float belongs", "corrupt", _entries(smoothing=1)),
     "bad-center-short": Bad("a center of two numbers", "corrupt", _entries(center=[1.0, 2.0])),
     "bad-center-type": Bad("a center of ints", "corrupt", _entries(center=[1, 2, 3])),
     "bad-scale-zero": Bad("scale = 0", "corrupt", _entries(scale=0.0)),
@@ -232,7 +233,6 @@ HEADERS: dict[str, Bad] = {
     "bad-power-65": Bad("power = 65", "corrupt", _entries(power=65)),
     "bad-iterations-zero": Bad("iterations = 0", "corrupt", _entries(iterations=0)),
     "bad-bits-33": Bad("bits = 33", "corrupt", _entries(bits=33)),
-    "bad-method-256": Bad("a method above 255", "corrupt", _entries(key_seed=256)),
     "bad-vertices-zero": Bad("vertices = 0", "corrupt", _entries(vertices=0)),
     "bad-vertices-negative": Bad("vertices < 0", "corrupt", _entries(vertices=-1)),
     "bad-vertices-2-31": Bad("vertices = 2^31", "corrupt", _entries(vertices=2**31)),
@@ -246,12 +246,13 @@ HEADERS: dict[str, Bad] = {
         _entries(vertices=5000, faces=10_000, blocks=3000, block_size=50),
     ),
     "bad-coefficients-many": Bad("more coefficients than rows", "corrupt", _entries(coefficients=50)),
-    "bad-details-many": Bad("more details than rows", "corrupt", _entries(details=50, detail_step=0.5)),
-    "bad-details-no-step": Bad("details without a step", "corrupt", _entries(details=5)),
-    "bad-details-none": Bad("a step without details", "corrupt", _entries(detail_step=0.5)),
-    "bad-frames-static": Bad("frames without gop_frames", "corrupt", _entries(frames=3)),
-    "bad-stiffness-negative": Bad("a spring of negative stiffness", "corrupt", _entries(stiffness=-1.0)),
-    "bad-stiffness-beyond": Bad("a spring stiffer than 2^16", "corrupt", _entries(stiffness=65536.0078125)),
+    "bad-sequence-short": Bad("frames without a length for GOPs", "corrupt", _entries(sequence=[3])),
+    "bad-run-static": Bad("a run of a static mesh", "corrupt", _entries(run=[1])),
+    "bad-springs-2": Bad("springs = 2", "corrupt", _entries(springs=2)),
+    "bad-paper-default": Bad("paper as the law has it", "corrupt", _entries(paper=list(map(float, PAPER)))),
+    "bad-paper-short": Bad("paper of seven numbers", "corrupt", _entries(paper=[12.0, *map(float, PAPER[1:7])])),
+    "bad-paper-fraction": Bad("half a bit", "corrupt", _entries(paper=[11.5, *map(float, PAPER[1:])])),
+    "bad-paper-type": Bad("paper of ints", "corrupt", _entries(paper=[12, 0, 0, 3, 1, 2, 1, 1])),
     "bad-limit-vertices": Bad(
         "more vertices than a decoder should grant",
         "limit",
@@ -290,17 +291,17 @@ HEADERS: dict[str, Bad] = {
     "bad-float-long": Bad(
         "a float 64 where a float 32 holds the value",
         "corrupt",
-        _map(lambda e: write_map(sorted({**e, 18: 2.0}.items())).replace(b"\xca\x40\0\0\0", b"\xcb\x40" + bytes(7), 1)),
+        _map(lambda e: write_map(sorted({**e, 9: 2.0}.items())).replace(b"\xca\x40\0\0\0", b"\xcb\x40" + bytes(7), 1)),
     ),
     "bad-float-infinite": Bad(
         "an infinite scale",
         "corrupt",
-        _map(lambda e: write_map(sorted({**e, 18: 2.0}.items())).replace(b"\xca\x40\0\0\0", b"\xca\x7f\x80\0\0", 1)),
+        _map(lambda e: write_map(sorted({**e, 9: 2.0}.items())).replace(b"\xca\x40\0\0\0", b"\xca\x7f\x80\0\0", 1)),
     ),
     "bad-float-nan": Bad(
         "a scale that is no number",
         "corrupt",
-        _map(lambda e: write_map(sorted({**e, 18: 2.0}.items())).replace(b"\xca\x40\0\0\0", b"\xca\x7f\xc0\0\0", 1)),
+        _map(lambda e: write_map(sorted({**e, 9: 2.0}.items())).replace(b"\xca\x40\0\0\0", b"\xca\x7f\xc0\0\0", 1)),
     ),
     "bad-map-nil": Bad("nil in a map", "corrupt", _map(lambda e: msgpack.packb({**e, 64: None}))),
     "bad-map-true": Bad("a boolean in a map", "corrupt", _map(lambda e: msgpack.packb({**e, 64: True}))),
@@ -318,14 +319,19 @@ HEADERS: dict[str, Bad] = {
     "bad-map-deep": Bad(
         "arrays nested 10,000 deep", "corrupt", _map(lambda e: b"\x81\x01" + b"\x91" * 10_000 + b"\x01")
     ),
-    "unsupported-key": Bad(
-        "an unknown key below 64", "unsupported", _map(lambda e: write_map(sorted({**e, 63: 1}.items())))
-    ),
+    **{
+        f"unsupported-key{name}": Bad(
+            f"key {key}, which is unknown",
+            "unsupported",
+            _map(lambda e, key=key: write_map(sorted({**e, key: 1}.items()))),  # type: ignore[misc]
+        )
+        for name, key in (("", 20), ("-64", 64))
+    },
     **{
         f"unsupported-{name}": Bad(
             f"a {name} that is not known", "unsupported", _entries(**{name: int(HEADER_FIELDS[name].high) + 1})
         )
-        for name in ("coding", "key_seed", "borders", "light")
+        for name in ("light",)
     },
     "bad-not-finite": Bad(
         "positions beyond the greatest double",
@@ -377,9 +383,6 @@ PAYLOADS: dict[str, Bad] = {
         "c_i above the rows of a small component's block",
         "corrupt",
         lambda: _changed(_edit(BLOCK, lambda p: p[:1] + b"\x3c" + p[2:], which=0), _small_component),
-    ),
-    "bad-details-missing": Bad(
-        "details announced, and none in the blocks", "truncated", _entries(details=6, detail_step=0.5)
     ),
     "bad-levels-short": Bad("levels that end too early", "truncated", _framed(_edit(BLOCK, lambda p: p[:3]))),
     "bad-levels-long": Bad("bytes behind the levels", "corrupt", _framed(_edit(BLOCK, lambda p: p + b"\x55" * 8))),

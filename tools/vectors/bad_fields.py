@@ -14,7 +14,7 @@ from bsm.codec.static.options import EncodeOptions
 from tools.surgery import frames_of, stream_of, with_header, with_payload
 from tools.vectors.bad import Bad
 from tools.vectors.good import BASE
-from tools.vectors.good_fields import ALL_AXES, HEIGHTS, on_grid, refined, soup
+from tools.vectors.good_fields import LAYER, on_grid, refined, soup
 from tools.vectors.meshes import torus
 
 GRID, REFINEMENT, ORDER, BLOCK = FrameType.GRID, FrameType.REFINEMENT, FrameType.ORDER, FrameType.BLOCK
@@ -27,7 +27,7 @@ def _grid() -> bytes:
 
 @cache
 def _refined() -> bytes:
-    return refined(torus(8, 7), (HEIGHTS, ALL_AXES), ((30, 26), (56,)))
+    return refined(torus(8, 7), LAYER, (30, 26))
 
 
 @cache
@@ -102,37 +102,23 @@ BAD_FIELDS: dict[str, Bad] = {
     "bad-corner-blocks": Bad("a corner of blocks", "corrupt", lambda: with_header(_refined(), corner=[1, 2, 3])),
     "bad-no-blocks-no-grid": Bad("neither blocks nor a grid", "corrupt", lambda: with_header(_grid(), grid=None)),
     "unsupported-refinement": Bad(
-        "REFINEMENT where `refinements` is empty", "unsupported", lambda: with_header(_refined(), refinements=None)
-    ),
-    "bad-refinement-layer": Bad(
-        "a layer that the header does not have",
-        "corrupt",
-        lambda: with_header(_refined(), refinements=[HEIGHTS.step, HEIGHTS.ratio]),
+        "REFINEMENT where `refinement` is empty", "unsupported", lambda: with_header(_refined(), refinement=None)
     ),
     "bad-refinement-gap": Bad(
         "the first chunk of a layer is missing", "corrupt", lambda: _without(_refined, REFINEMENT, 0)
     ),
-    "bad-refinement-descending": Bad(
-        "layers in the wrong order",
-        "corrupt",
-        lambda: stream_of([*frames_of(_refined())[:-3], *frames_of(_refined())[-1:], *frames_of(_refined())[-3:-1]]),
-    ),
     "bad-refinement-short": Bad(
         "levels that end early", "truncated", lambda: _frame(_refined, REFINEMENT, lambda p: p[:5])
     ),
-    "bad-refinement-step": Bad(
-        "a step above 1", "corrupt", lambda: with_header(_refined(), refinements=[1.5, 0.0, 0.1, 3.0])
-    ),
+    "bad-refinement-step": Bad("a step above 1", "corrupt", lambda: with_header(_refined(), refinement=[1.5, 3.0])),
     "bad-refinement-ratio": Bad(
-        "a ratio below 1/16", "corrupt", lambda: with_header(_refined(), refinements=[0.1, 0.01, 0.1, 3.0])
+        "a ratio below 1/16", "corrupt", lambda: with_header(_refined(), refinement=[0.1, 0.01])
     ),
-    "bad-borders-alone": Bad(
-        "borders without refinements", "corrupt", lambda: with_header(encode(torus(8, 7), BASE), borders=1)
+    "bad-refinement-odd": Bad("a step without a ratio", "corrupt", lambda: with_header(_refined(), refinement=[0.1])),
+    "bad-refinement-two": Bad(
+        "two layers", "corrupt", lambda: with_header(_refined(), refinement=[0.1, 3.0, 0.1, 3.0])
     ),
-    "unsupported-borders": Bad(
-        "borders of a kind that is not known", "unsupported", lambda: with_header(_refined(), borders=2)
-    ),
-    "bad-refinement-odd": Bad("a step without a ratio", "corrupt", lambda: with_header(_refined(), refinements=[0.1])),
+    "bad-paper-grid": Bad("a grid, and packed coefficients", "corrupt", lambda: with_header(_grid(), bits=12)),
     "bad-refinement-early": Bad(
         "REFINEMENT before the last BLOCK", "corrupt", lambda: stream_of(_early(frames_of(_refined())))
     ),

@@ -6,10 +6,9 @@ import struct
 from collections.abc import Callable
 from functools import cache
 
-from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS
 from bsm.bitstream.container.maps import write_map
 from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
-from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header
+from tools.surgery import Frames, change_entries, frames_of, header_entries, stream_of, with_header
 from tools.vectors.bad import Bad
 from tools.vectors.good_sequences import SEQUENCES
 
@@ -92,12 +91,9 @@ def _with_run(data: bytes, number: int, **fields: object) -> bytes:
     frames = frames_of(data)
     place = _headers_of(frames)[number]
     entries = dict(header_entries(frames[place][1]))
-    for name, value in fields.items():
-        declared = HEADER_FIELDS[name]
-        entries.pop(declared.key, None)
-        if value != HEADER_DEFAULTS.get(name):
-            entries[declared.key] = value
-    frames[place] = (FrameType.HEADER, write_map(sorted(entries.items())))
+    change_entries(entries, fields)
+    kept = sorted((key, value) for key, value in entries.items() if value is not None)
+    frames[place] = (FrameType.HEADER, write_map(kept))
     return stream_of(frames)
 
 
@@ -238,9 +234,14 @@ BAD_SEQUENCES: dict[str, Bad] = {
     "bad-sequence-back-late": Bad(
         "frames that start from some of their own", "corrupt", _gop(_back(2), 1, base="together")
     ),
-    "bad-sequence-run-number": Bad("a run that is not the next", "corrupt", _run(run=2)),
+    "bad-sequence-run-number": Bad("a run that is not the next", "corrupt", _run(run=[2])),
     "bad-sequence-run-frames": Bad("a run that announces other frames", "corrupt", _run(frames=9)),
-    "bad-sequence-run-static": Bad("a static mesh behind a run", "corrupt", _run(run=0, frames=0, gop_frames=0)),
+    "bad-sequence-run-static": Bad("a static mesh behind a run", "corrupt", _run(run=None, sequence=None)),
+    "bad-sequence-run-zero": Bad("run 0 is stored", "corrupt", lambda: with_header(_base("runs"), run=[0])),
+    "bad-sequence-gop-zero": Bad("GOPs of no frames", "corrupt", lambda: with_header(_base("learnt"), gop_frames=0)),
+    "bad-sequence-refinement": Bad(
+        "a layer of a sequence", "corrupt", lambda: with_header(_base("learnt"), refinement=[0.1, 3.0])
+    ),
     "bad-sequence-run-begins": Bad("a stream that begins with run 1", "corrupt", _frames(_from_run(1), base="runs")),
     "bad-sequence-run-early": Bad("a HEADER before any GOP", "corrupt", _frames(_without_gops, base="runs")),
     "bad-sequence-run-of-gop": Bad(
@@ -251,14 +252,14 @@ BAD_SEQUENCES: dict[str, Bad] = {
         "a run that has a mesh again and brings one", "corrupt", _frames(_with_connectivity, base="runs")
     ),
     "bad-sequence-again-fields": Bad("a run that has a mesh again, and blocks", "corrupt", _run(2, blocks=1)),
-    "bad-sequence-again-later": Bad("a run that has its own mesh again", "corrupt", _run(2, again=3)),
+    "bad-sequence-again-later": Bad("a run that has its own mesh again", "corrupt", _run(2, run=[2, 2])),
     "bad-sequence-again-none": Bad(
-        "a run that says another size of a mesh again", "corrupt", _run(2, again=2, faces=64)
+        "a run that says another size of a mesh again", "corrupt", _run(2, run=[2, 1], faces=64)
     ),
     "bad-sequence-again-gone": Bad(
         "a run that has a mesh again which is kept no longer",
         "corrupt",
-        lambda: _with_run(_base("runs-many"), 11, again=1, vertices=12, faces=24),
+        lambda: _with_run(_base("runs-many"), 11, run=[11, 0], vertices=12, faces=24),
     ),
     "bad-sequence-again-next": Bad(
         "a run whose first frame refers to one of another",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from bsm.codec.static.options import EncodeOptions
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 
-BASE = EncodeOptions(block_size=30, keep=0.3, step=1 / 256, detail=0.0, smoothing=0.0, threads=1)
+BASE = EncodeOptions(block_size=30, keep=0.3, step=1 / 256, smoothing=0.0, threads=1)
 
 
 @dataclass(frozen=True)
@@ -80,8 +80,8 @@ def _metadata() -> bytes:
 
 
 def _metadata_everywhere() -> bytes:
-    """METADATA behind each frame, also between the sections of a mesh, each of a name of its own."""
-    frames = frames_of(encode(torus(16, 12), replace(BASE, sections=2)))
+    """METADATA behind each frame, each of a name of its own."""
+    frames = frames_of(encode(torus(16, 12), BASE))
     told = [(FrameType.METADATA, bytes([0x81, 0xA1, 0x61 + place, place])) for place in range(len(frames))]
     told[-1] = (FrameType.METADATA, b"\x80")
     return stream_of([frame for pair in zip(frames, told, strict=True) for frame in pair])
@@ -123,7 +123,7 @@ STATIC: dict[str, Good] = {
     "good-genus": _static("closed, genus one", lambda: torus(9, 8)),
     "good-ordered": _static("ORDER: vertices, faces and first corners as given", _shuffled, keep_order=True),
     "good-labels": _static("PARTITION: labels of the parts are stored", _small, partition="metis"),
-    "good-packed": _static("packed coefficients (coding 0) of 12 bits", _small, bits=12),
+    "good-packed": _static("packed coefficients of 12 bits", _small, bits=12),
     "good-packed-7": _static("packed coefficients of 7 bits, which do not end at a byte", _small, bits=7),
     "good-packed-coarser": Good("packed coefficients whose first row is coarser", _coarser),
     "good-packed-zstd": Good("packed coefficients that zstd shortens", _compressed),
@@ -147,37 +147,19 @@ STATIC: dict[str, Good] = {
         "the largest shift: nothing is left to tell the columns apart",
         lambda: with_header(encode(_small(), BASE), shift=2.0**30),
     ),
-    "good-stiff": Good(
-        "the stiffest springs, between blocks that hold several components",
-        lambda: with_header(
-            encode(together(torus(7, 6), patch(6, 5), tetrahedron()), BASE),
-            stiffness=65536.0,
-            shift=2.0**-5,
-            key_interval=None,
-        ),
-    ),
-    "good-loose": Good(
-        "the loosest springs", lambda: with_header(encode(_small(), BASE), stiffness=2.0**-30, key_interval=None)
+    "good-springs": _static(
+        "springs between blocks that hold several components",
+        lambda: together(torus(7, 6), patch(6, 5), tetrahedron()),
+        shift=2.0**-5,
+        key_interval=0,
     ),
     "good-fine": _static("a fine step: levels of many bits", _small, step=1e-6, keep=1.0),
     "good-coarse": _static("a coarse step: most levels are 0", _small, step=0.04),
-    "good-details": _static("a detail layer that is wider than the coefficients", _uneven, keep=0.1, detail=3.0),
-    "good-details-narrow": _static("a detail layer that is narrower", _small, keep=1.0, step=0.02, detail=0.05),
-    "good-details-flat": _static("a detail layer on a base without area: c = 1", _small, coefficients=1, detail=3.0),
-    "good-details-independent": _static(
-        "details of blocks on their own, ordered and smoothed",
-        _shuffled,
-        key_interval=1,
-        detail=2.0,
-        keep_order=True,
-        smoothing=0.25,
-    ),
     "good-all": _static(
         "everything as the encoder chooses it",
         lambda: torus(24, 16),
         block_size=100,
         keep=0.2,
-        detail=3.0,
         smoothing=1.0,
     ),
     "good-far": _static(
@@ -185,6 +167,6 @@ STATIC: dict[str, Good] = {
         lambda: TriangleMesh(1e-3 * torus(12, 10).positions + [1e4, -3e5, 7.0], torus(12, 10).faces),
     ),
     "good-skippable": Good("skippable frames between the others", _skippable),
-    "good-metadata-everywhere": Good("metadata behind each frame, between sections too", _metadata_everywhere),
+    "good-metadata-everywhere": Good("metadata behind each frame", _metadata_everywhere),
     "good-metadata": Good("metadata: an integer, a float, a string beyond ASCII", _metadata),
 }

@@ -21,7 +21,7 @@ from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from tools.vectors.good import BASE, Good
-from tools.vectors.good_fields import ALL_AXES, soup
+from tools.vectors.good_fields import LAYER, soup
 from tools.vectors.good_sequences import BASE as MOVING
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, torus
 
@@ -125,10 +125,10 @@ def on_layers(mesh: TriangleMesh, count: int) -> bytes:
     """Behind a layer of refinement that ends after so many vertices."""
     encoder = Encoder(mesh, BASE)
     made = Spectral(encoder._prepared, BASE).base(BASE.first_step)
-    levels = made.wanted(made.expected_steps(ALL_AXES))[0]
+    levels = made.wanted(made.expected_steps(LAYER))[0]
     levels[count:], levels[:, 1:] = 0, 0  # of a layer that ends early, heights alone count
-    draft = made.refined((ALL_AXES, levels)).draft()
-    layer = Refinement(0, 0, count, LevelsEncoder(made.prepared.mesh.faces, levels).chunk(count))
+    draft = made.refined(LAYER, levels)
+    layer = Refinement(0, count, LevelsEncoder(made.prepared.mesh.faces, levels).chunk(count))
     body = (*(packet for packet in draft.body if not isinstance(packet, Refinement)), layer)
     return with_values(encoder, replace(draft, body=body), 1000)
 

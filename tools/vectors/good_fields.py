@@ -1,4 +1,4 @@
-"""Streams with positions on a grid, with layers of refinement, and with given vertices that were made one."""
+"""Streams with positions on a grid, with a layer of refinement, and with given vertices that were made one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import numpy as np
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
 from bsm.bitstream.container.writer import write_stream
-from bsm.bitstream.fields.corners import corners_of, keep_borders
 from bsm.bitstream.fields.grid import GridEncoder
 from bsm.bitstream.fields.levels import LevelsEncoder
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -62,26 +61,15 @@ def base(mesh: TriangleMesh) -> Base:
     return Spectral(encoder._prepared, BASE).base(BASE.first_step)
 
 
-def refined(
-    mesh: TriangleMesh, layers: tuple[Layer, ...], counts: tuple[tuple[int, ...], ...], *, borders: bool = False
-) -> bytes:
-    """Blocks with layers of the nearest levels, in chunks of so many vertices; a layer may end early.
-
-    With `borders`, the last one has some at vertices of these alone.
-    """
+def refined(mesh: TriangleMesh, layer: Layer, counts: tuple[int, ...]) -> bytes:
+    """Blocks with a layer of the nearest levels, in chunks of so many vertices; it may end early."""
     made = base(mesh)
-    faces = made.prepared.mesh.faces
-    numbers = tuple(number for layer in layers for number in (layer.step, layer.ratio))
-    header = replace(made.draft.header, refinements=numbers, borders=int(borders))
+    header = replace(made.draft.header, refinement=(layer.step, layer.ratio))
     packets: list[Packet] = [header, *made.draft.body]
-    for number, (layer, parts) in enumerate(zip(layers, counts, strict=True)):
-        wanted, last = made.wanted(made.expected_steps(layer))[0], number == len(layers) - 1
-        if borders and last:
-            wanted[~keep_borders(corners_of(faces, len(wanted)))] = 0
-        coder, first = LevelsEncoder(faces, wanted, borders=borders and last), 0
-        for count in parts:
-            packets.append(Refinement(number, first, count, coder.chunk(count)))
-            first += count
+    coder, first = LevelsEncoder(made.prepared.mesh.faces, made.wanted(made.expected_steps(layer))[0]), 0
+    for count in counts:
+        packets.append(Refinement(first, count, coder.chunk(count)))
+        first += count
     return write_stream(packets)
 
 
@@ -114,7 +102,7 @@ def header_of(stream: bytes) -> Header:
     return header
 
 
-HEIGHTS, ALL_AXES = Layer(2.0**-7, 0.0), Layer(2.0**-9, 3.0)
+LAYER = Layer(2.0**-9, 3.0)
 
 FIELDS: dict[str, Good] = {
     "good-grid": Good("positions on a grid of 11 bits", lambda: encode(_small(), EncodeOptions(grid=11))),
@@ -151,31 +139,22 @@ FIELDS: dict[str, Good] = {
         lambda: encode(soup(torus(7, 6)), EncodeOptions(grid=8, keep_order=True)),
     ),
     "good-splits-seams": Good("ORDER 2: a seam, in blocks", lambda: encode(seamed(), replace(BASE, keep_order=True))),
-    "good-heights": Good("a layer of heights along the normals", lambda: refined(_small(), (HEIGHTS,), ((120,),))),
-    "good-refined": Good("a layer of levels along all axes", lambda: refined(_small(), (ALL_AXES,), ((120,),))),
-    "good-layers": Good(
-        "two layers in chunks, the second ends early",
-        lambda: refined(_small(), (HEIGHTS, ALL_AXES), ((50, 70), (40, 30))),
+    "good-refined": Good("a layer of refinement", lambda: refined(_small(), LAYER, (120,))),
+    "good-layer-chunks": Good("a layer in chunks", lambda: refined(_small(), LAYER, (50, 70))),
+    "good-layer-early": Good("a layer that ends early", lambda: refined(_small(), LAYER, (40, 30))),
+    "good-layer-none": Good("a layer of which nothing comes", lambda: refined(_small(), LAYER, ())),
+    "good-layer-coarse": Good(
+        "a layer at its bounds: the widest step and the least ratio",
+        lambda: refined(_small(), Layer(1.0, 1 / 16), (120,)),
     ),
-    "good-borders": Good(
-        "levels at borders alone behind a layer that all have",
-        lambda: refined(patch(12, 9), (HEIGHTS, ALL_AXES), ((108,), (50, 58)), borders=True),
-    ),
-    "good-borders-tangled": Good(
-        "borders of non-manifold, repeated and degenerate faces",
-        lambda: refined(tangled(), (ALL_AXES,), ((len(tangled().positions),),), borders=True),
-    ),
-    "good-borders-none": Good(
-        "levels at borders of a surface that has none", lambda: refined(_small(), (HEIGHTS,), ((120,),), borders=True)
-    ),
-    "good-layers-none": Good("layers of which nothing comes", lambda: refined(_small(), (HEIGHTS, ALL_AXES), ((), ()))),
     "good-refined-tangled": Good(
-        "refinement where faces have no area", lambda: refined(tangled(), (ALL_AXES,), ((len(tangled().positions),),))
+        "refinement where faces have no area", lambda: refined(tangled(), LAYER, (len(tangled().positions),))
     ),
+    "good-refined-boundary": Good("refinement of a disc", lambda: refined(patch(12, 9), LAYER, (108,))),
     "good-refined-flat": Good(
         "a surface that looks away from the pole of frames",
         lambda: refined(
-            TriangleMesh(patch(9, 8).positions * (1, 1, 0) @ _looking_away(), patch(9, 8).faces), (ALL_AXES,), ((72,),)
+            TriangleMesh(patch(9, 8).positions * (1, 1, 0) @ _looking_away(), patch(9, 8).faces), LAYER, (72,)
         ),
     ),
 }

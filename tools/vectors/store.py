@@ -115,10 +115,10 @@ def scale_of(stream: bytes) -> float:
 def is_full(stream: bytes) -> bool:
     """Whether dictionaries of a static mesh may have as many columns as rows, by the header (M 15.4)."""
     entries = first_entries(stream)
-    columns, rows, frames = (
-        entries.get(HEADER_FIELDS[name].key) for name in ("coefficients", "block_size", "gop_frames")
+    columns, rows, sequence = (
+        entries.get(HEADER_FIELDS[name].key) for name in ("coefficients", "block_size", "sequence")
     )
-    return columns is not None and columns == rows and not frames
+    return columns is not None and columns == rows and not sequence
 
 
 def extent(positions: npt.NDArray[Any], scale: float) -> float:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -14,13 +13,12 @@ from bsm.bitstream.container.header import Layer
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.signal.quantize import smallest_step
-from bsm.codec.static.choice.borders import Borders
 from bsm.codec.static.choice.grid_search import COARSEST
 from bsm.codec.static.choice.judge import Judge, Sight
 from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, SLACK, THOROUGH, Trial, widest_step
 from bsm.codec.static.choice.settling import RATIO, Sensitivity
 from bsm.codec.static.choice.shaping import Aim
-from bsm.codec.static.choice.spectral import Base, Spectral, Stack, base_step
+from bsm.codec.static.choice.spectral import Base, Spectral, base_step
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
@@ -32,31 +30,26 @@ DETAILED_ANGLE, FINER = 4.5, 1.6
 FINER_IF_VISUAL = 4.0
 """Where a visual error is asked for, bases are as for angles so much smaller."""
 PLAIN_ANGLE = 6.0
-"""From this angle on, blocks with a detail layer are tried before refinement."""
+"""From this angle on, blocks alone are tried, too."""
 WIDEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
 are worth."""
-MANY_OUTLIERS = 0.01
-"""Of this many vertices out of reach, more are cheaper to bring back along all axes of a layer that all have."""
 ROUGH, ROUGHEST = 1.57, 13.3
 """Up to these mean angles between adjacent faces, over what is asked for, and at most, blocks alone are tried."""
-PLAIN_STEP, PLAIN_SLOPES = 0.0008, (0.35, 0.55)
-"""Step of blocks with details that is about right, over the angle that is asked for; and how angles grow with it, in
-their logarithms."""
+PLAIN_STEP, PLAIN_SLOPES = 0.0016, (0.35, 0.55)
+"""Step of blocks alone that is about right, over the angle that is asked for; and how angles grow with it, in their
+logarithms."""
 PLAIN_STRIDE = 1.4
 """The widest such step that keeps a bound may not be the cheapest; one so many times as wide is tried, too."""
-SHEET, SHEET_STEP = 1.0 / 16.0, 0.024
-"""Where they are so small, the surface is a flat sheet, which coarser blocks without details are enough for."""
-FINEST, FINEST_LAYER = 2.0**-38, 1e-6
-"""Smallest step, in BSM units, of layers for borders and of others."""
+FINEST_LAYER = 1e-6
+"""Smallest step of a layer, in BSM units."""
 ALL_AXES = 15.0
 """How much coarser levels in the plane are than those along the normal, where the surface is flat."""
-HEIGHTS, HEIGHTS_OF_MODELS = 1.34, 2.6
-"""Step of a layer along normals over what moves the end of a mean edge by the angle that is asked for."""
 LAYER, LAYER_IF_ROUGH, LEAST_LAYER, MOST_LAYER = 2.22, 0.09, 0.94, 1.5
-"""The same along all axes; less by degrees between faces beside each other."""
-STEEP, STEEP_HEIGHTS = 1.05, 0.65
-"""How angles grow with the step of a layer, in their logarithms: of one along all axes, and along normals alone."""
+"""Step of a layer over what moves the end of a mean edge by the angle that is asked for; less by degrees between faces
+beside each other."""
+STEEP = 1.05
+"""How angles grow with the step of a layer, in their logarithms."""
 FLATTER = 0.6
 """And how much less they may."""
 WORTH_OF_LOOK, STEEP_LOOK = 0.11, (1.0, 1.3)
@@ -82,7 +75,6 @@ class BlockSearch:
         contract: Contract,
         sight: Sight,
         reaches: Matrix,
-        borders: Borders,
         judge: Judge,
         told: Callable[[], AbstractContextManager[None]],
         progress: Progress | None,
@@ -95,11 +87,9 @@ class BlockSearch:
         self._options = options
         self._contract = contract
         self._sight = sight
-        self._original = sight.original
         self._shaper = sight.shaper
         self._reaches = reaches
         self._reach = float(reaches.max())
-        self._borders = borders
         self._judge = judge
         self._told = told
         self._progress = progress
@@ -113,26 +103,16 @@ class BlockSearch:
 
     def drafts(self) -> Iterator[Draft]:
         """Drafts that may be smallest."""
-        angle = self._angle
-        coarse = Spectral(self._prepared, replace(self._options, detail=0.0), WIDEST)
-        if self._thorough:
-            if angle >= DETAILED_ANGLE:
-                plain = self._plain(self._blocks)
-                if plain is not None:
-                    yield plain
-            for finer in (1.0, FINER):
-                stack = self._refined(coarse.base(self._base_step / finer, self._progress))
-                if stack is not None:
-                    yield stack.draft()
-            return
-        if angle >= PLAIN_ANGLE and self._is_smooth:
-            plain = self._plain(coarse if self._shaper.character.roughness < SHEET * angle else self._blocks)
-            if plain is not None:
-                yield plain
-                return
-        stack = self._refined(coarse.base(self._base_step, self._progress))
-        if stack is not None:
-            yield stack.draft()
+        plain = self._angle >= DETAILED_ANGLE if self._thorough else self._angle >= PLAIN_ANGLE and self._is_smooth
+        if plain:
+            alone = self._plain()
+            if alone is not None:
+                yield alone
+        for finer in (1.0, FINER) if self._thorough else (1.0,):
+            base = self._blocks.base(self._base_step / finer, self._progress)
+            found = self._refinement(base)
+            if found is not None:
+                yield base.refined(*found.found)
 
     @property
     def _base_step(self) -> float:
@@ -145,20 +125,18 @@ class BlockSearch:
         rough = LOOK_BASE_IF_ROUGH * self._shaper.character.roughness
         return min(max(step, rough), COARSEST_LOOK_BASE)
 
-    def _plain(self, blocks: Spectral) -> Draft | None:
-        """The smallest of a few steps without refinement, except for vertices out of reach: these cost more at coarser
-        ones."""
-        sheet = blocks is not self._blocks
+    def _plain(self) -> Draft | None:
+        """The smallest of a few steps without refinement."""
         found: list[Draft] = []
 
-        def measure(step: float, sure: bool) -> Trial[Stack]:
-            plain = self._with_outliers(blocks.base(max(step, smallest_step(self._prepared.size)), self._progress), [])
-            trial = self._judge.trial(step, plain.positions, plain, sure)
-            if trial.excess <= 0.0:
-                found.append(plain.draft())
+        def measure(step: float, sure: bool) -> Trial[Draft]:
+            base = self._blocks.base(max(step, smallest_step(self._prepared.size)), self._progress)
+            trial = self._judge.trial(step, base.positions, base.draft, sure)
+            if trial.excess <= 0.0 and trial.near:
+                found.append(base.draft)
             return trial
 
-        first = SHEET_STEP if sheet else PLAIN_STEP * self._angle
+        first = PLAIN_STEP * self._angle
         tries, slack = THOROUGH if self._thorough else (3, SLACK)
         widest = widest_step(measure, first, tries=tries, most=COARSEST, slopes=PLAIN_SLOPES, slack=slack)
         if widest is not None:
@@ -170,107 +148,48 @@ class BlockSearch:
         character = self._shaper.character
         return not character.is_model and character.roughness < min(ROUGH * self._angle, ROUGHEST)
 
-    def _with_outliers(self, base: Base, layers: list[tuple[Layer, Levels]]) -> Stack:
-        """With one more layer, if vertices are out of reach: of levels for these alone; and one for borders."""
-        positions = base.positions
-        for layer, levels in layers:
-            positions = base.moved(layer, levels, positions)
-        back = self._back(base, positions)
-        layers = layers if back is None else [*layers, back]
-        lock = self._lock(base)
-        if lock is not None:
-            return base.refined(*layers, lock, borders=True)
-        return base.refined(*layers)
-
-    def _back(self, base: Base, positions: Matrix) -> tuple[Layer, Levels] | None:
-        """The layer that brings vertices back that are out of reach, borders aside."""
-        out = self._judge.out(positions)
-        if not out.any():
-            return None
-        layer = base.layer(float(self._reaches[out].min()), 1.0)
-        levels = np.rint(base.offsets_of(positions) / layer.step)
-        return layer, np.where(out[:, None], levels, 0.0).astype(np.int32)
-
-    def _brought_back(self, base: Base, positions: Matrix) -> Matrix:
-        back = self._back(base, positions)
-        return positions if back is None else base.moved(*back, positions)
-
-    def _lock(self, base: Base) -> tuple[Layer, Levels] | None:
-        """The layer that brings borders back; no other layer moves them."""
-        if not self._borders.out(base.offsets).any():
-            return None
-        layer = base.layer(max(self._borders.cell, FINEST), 1.0)
-        levels = self._borders.levels(base.offsets, layer.step)
-        return None if levels is None else (layer, levels)
-
-    def _outliers(self, positions: Matrix) -> int:
-        return int(self._judge.out(positions).sum())
-
-    def _refined(self, base: Base) -> Stack | None:
-        """A base with heights along the normals, if these can bring normals right; with all axes if not."""
-        many = MANY_OUTLIERS * len(base.positions)
-        heights = (
-            self._contract.visual == math.inf
-            and self._original.angle(base.upright) <= self._angle
-            and self._outliers(base.upright) <= many
-        )
-        if heights:
-            layer = base.layer(self._first_layer(0.0), 0.0)
-            heights = self._outliers(base.moved(layer, base.wanted(base.expected_steps(layer))[0])) <= many
-        best = self._refinement(base, 0.0 if heights else self._ratio)
-        if heights and (best is None or self._outliers(base.moved(*best.found)) > many):
-            best = self._refinement(base, self._ratio)
-        return None if best is None else self._with_outliers(base, [best.found])
-
-    def _refinement(self, base: Base, ratio: float) -> Trial[tuple[Layer, Levels]] | None:
-        """One layer whose normals are right, where borders, and vertices out of reach, are back at their places."""
-        lock, still = self._lock(base), self._borders.vertices
-        start = base.positions if lock is None else base.moved(*lock)
-
-        choose = self._bent_levels(base, start) if self._sensitivity is None else self._seen_levels(base, start)
+    def _refinement(self, base: Base) -> Trial[tuple[Layer, Levels]] | None:
+        """The layer that keeps what is asked for, and brings vertices that are out of reach back to their places."""
+        ratio = self._ratio
+        choose = self._bent_levels(base) if self._sensitivity is None else self._seen_levels(base)
 
         def measure(step: float, sure: bool) -> Trial[tuple[Layer, Levels]]:
             layer = base.layer(max(step, FINEST_LAYER), ratio)
             with self._told():
                 levels = choose(layer)
-                levels[still] = 0
-                moved = self._brought_back(base, base.moved(layer, levels, start))
-                return self._judge.trial(step, moved, (layer, levels), sure)
+                out = self._judge.out(base.moved(layer, levels))
+                if out.any():
+                    levels[out] = base.wanted(base.known_steps(layer, levels))[0][out]
+                return self._judge.trial(step, base.moved(layer, levels), (layer, levels), sure)
 
         if self._sensitivity is not None:
-            first = self._sensitivity.first_step(self._contract.look, 3 if ratio else 1)
+            first = self._sensitivity.first_step(self._contract.look, 3)
             return widest_step(measure, first, tries=LOOK_TRIES, most=COARSEST, slopes=STEEP_LOOK, slack=LOOK_SLACK)
         tries, slack = THOROUGH if self._thorough else (2 if self._shaper.character.is_model else 3, SLACK)
-        steep = STEEP if ratio else STEEP_HEIGHTS
-        slopes = FLATTER * steep, steep
-        return widest_step(measure, self._first_layer(ratio), tries=tries, most=COARSEST, slopes=slopes, slack=slack)
+        slopes = FLATTER * STEEP, STEEP
+        return widest_step(measure, self._first_layer, tries=tries, most=COARSEST, slopes=slopes, slack=slack)
 
-    def _bent_levels(self, base: Base, start: Matrix) -> Callable[[Layer], Levels]:
-        """Levels of a layer, on positions, that bend faces least."""
-        still = self._borders.vertices
+    def _bent_levels(self, base: Base) -> Callable[[Layer], Levels]:
+        """Levels of a layer that bend faces least."""
 
         def choose(layer: Layer) -> Levels:
-            aim = Aim(layer.step / self._edge, min(self._reach, NEAR * layer.step if layer.ratio else math.inf), 6)
-            wanted, directions = base.wanted(base.expected_steps(layer))
-            wanted[still] = 0
-            levels = self._shaper.levels(start, wanted, directions, aim)
-            if layer.axes == 1:
-                return levels
+            aim = Aim(layer.step / self._edge, min(self._reach, NEAR * layer.step), 6)
+            levels = self._shaper.levels(base.positions, *base.wanted(base.expected_steps(layer)), aim)
             wanted, directions = base.wanted(base.known_steps(layer, levels))
-            wanted[still], wanted[:, 0] = 0, levels[:, 0]
-            return self._shaper.levels(start, wanted, directions, aim)
+            wanted[:, 0] = levels[:, 0]
+            return self._shaper.levels(base.positions, wanted, directions, aim)
 
         return choose
 
-    def _seen_levels(self, base: Base, start: Matrix) -> Callable[[Layer], Levels]:
-        """Levels of a layer, on positions, of which least is seen."""
-        sensitivity, offsets = self._sensitivity, base.offsets_of(start)
+    def _seen_levels(self, base: Base) -> Callable[[Layer], Levels]:
+        """Levels of a layer of which least is seen."""
+        sensitivity = self._sensitivity
         assert sensitivity is not None
 
         def choose(layer: Layer) -> Levels:
             reach = np.minimum(self._reaches, NEAR_SEEN * layer.step)
             steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
-            return sensitivity.levels(offsets, base.frames, steps, known, WORTH_OF_LOOK, reach)
+            return sensitivity.levels(base.offsets, base.frames, steps, known, WORTH_OF_LOOK, reach)
 
         return choose
 
@@ -280,7 +199,7 @@ class BlockSearch:
         looker = None if self._contract.look == math.inf else self._sight.looker
         if looker is None:
             return None
-        step = FIRST_LOOK * self._first_layer(RATIO)
+        step = FIRST_LOOK * self._first_layer
         positions, faces = self._prepared.positions, self._prepared.mesh.faces
         return Sensitivity(positions, faces, self._prepared.graph, looker, step)
 
@@ -290,11 +209,9 @@ class BlockSearch:
             return ALL_AXES / 2.0
         return ALL_AXES if self._sensitivity is None else RATIO
 
-    def _first_layer(self, ratio: float) -> float:
+    @property
+    def _first_layer(self) -> float:
         """The step of a layer that should be about right."""
-        character = self._shaper.character
-        if ratio:
-            factor = min(max(LAYER - LAYER_IF_ROUGH * character.roughness, LEAST_LAYER), MOST_LAYER)
-        else:
-            factor = HEIGHTS_OF_MODELS if character.is_model else HEIGHTS
+        roughness = self._shaper.character.roughness
+        factor = min(max(LAYER - LAYER_IF_ROUGH * roughness, LEAST_LAYER), MOST_LAYER)
         return factor * math.radians(self._angle) * self._edge

@@ -15,7 +15,6 @@ import numpy as np
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.block_search import BlockSearch
-from bsm.codec.static.choice.borders import borders_of
 from bsm.codec.static.choice.grid_search import GridSearch
 from bsm.codec.static.choice.judge import Judge, Sight
 from bsm.codec.static.choice.lattices import rounded
@@ -23,7 +22,7 @@ from bsm.codec.static.choice.reaches import reaches
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.preamble_encoding import FEW_VERTICES, Prepared
+from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.ways.block_coder import Progress
 
 FINE_REACH = 0.001
@@ -70,9 +69,8 @@ class Fulfilment:
         self._sight = sight
         self._shaper = sight.shaper
         self._reaches = reaches(prepared, contract) * (1.0 - MARGIN)
-        self._borders = borders_of(prepared, options.lock_borders, float(self._reaches.min()))
         self._edge = self._shaper.mean_edge or 1.0
-        self._judge = Judge(prepared, sight, contract, self._reaches, self._borders)
+        self._judge = Judge(prepared, sight, contract, self._reaches)
         self._angle = self._about_angle()
         self._blocks = BlockSearch(
             prepared,
@@ -80,7 +78,6 @@ class Fulfilment:
             contract,
             sight,
             self._reaches,
-            self._borders,
             self._judge,
             self._told,
             progress,
@@ -92,7 +89,6 @@ class Fulfilment:
             self._shaper,
             contract,
             float(self._reaches.min()),
-            self._borders,
             self._judge,
             self._told,
             angle=self._angle,
@@ -163,10 +159,7 @@ class Fulfilment:
         return len(self._prepared.connectivity.data) + self._grids.bytes
 
     def _refusal(self) -> str:
-        had = self._judge.had
-        if not had:
-            return f"{self._options.lock_borders} cannot be had on this mesh: they are too fine"
-        return f"{self._contract} cannot be kept on this mesh; the best that can be had is {had}"
+        return f"{self._contract} cannot be kept on this mesh; the best that can be had is {self._judge.had}"
 
     @contextmanager
     def _told(self) -> Iterator[None]:
@@ -179,15 +172,13 @@ class Fulfilment:
             self._progress(blocks, blocks)
 
     def _blocks_may_win(self) -> bool:
-        """Whether most of what is worth coding is at low frequencies; or only blocks can be fine at borders."""
+        """Whether most of what is worth coding is at low frequencies."""
         if self._options.quick:
             return False
         if self._thorough:
             return self._prepared.has_low_frequencies
         if not self._contract.shades and self._reaches.max() < FINE_REACH:
             return False
-        if self._borders.vertices.any():
-            return self._prepared.graph.size >= FEW_VERTICES
         if self._grids.fits_model or (self._angle <= MODEL_ANGLE and self._shaper.character.is_model):
             return False
         plain = self._shaper.character.is_model and self._edge >= DENSE

@@ -12,7 +12,6 @@ import numpy as np
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels
 from bsm.codec.geometry.mesh import extent_of
-from bsm.codec.static.choice.borders import ROUND, Borders
 from bsm.codec.static.choice.judge import Judge
 from bsm.codec.static.choice.lattices import Shaped
 from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, THOROUGH, Trial, widest_step
@@ -63,6 +62,9 @@ COARSEST_LOOKS, FITS_LOOK = 6, 0.002
 MOST_PARTS, COARSEST_GRIDS = 256, 3
 """Of models of few vertices: cells along the longest side, and how many of the coarsest grids that fit are tried."""
 
+ROUND = 2.0 / math.sqrt(3.0) * 0.999
+"""A cell of a cubic grid whose corners are just within 1 of its middle."""
+
 
 @dataclass(frozen=True, eq=False)
 class Placed:
@@ -82,7 +84,6 @@ class GridSearch:
         shaper: Shaper,
         contract: Contract,
         reach: float,
-        borders: Borders,
         judge: Judge,
         told: Callable[[], AbstractContextManager[None]],
         *,
@@ -98,16 +99,15 @@ class GridSearch:
         self._look, self._looks = contract.look, contract.look < math.inf
         self._judge = judge
         self._reach = reach
-        self._borders = borders
         self._told = told
         self._edge = shaper.mean_edge or 1.0
         self._extent = float(extent_of(prepared.positions).max())
-        self._most = min(1.6 * reach, borders.cell, COARSEST)
-        self._widest = min(ROUND * reach, borders.cell)
+        self._most = min(1.6 * reach, COARSEST)
+        self._widest = ROUND * reach
 
     def drafts(self) -> Iterator[Draft]:
         """Drafts that may be smallest."""
-        shaped = Shaped(self._prepared, self._shaper, still=self._borders.vertices)
+        shaped = Shaped(self._prepared, self._shaper)
         tried = sorted(self._tried(shaped), key=lambda trial: trial.found.estimate)
         for trial in tried[:MOST_COMPARED]:
             if trial.found.estimate <= CLOSE * tried[0].found.estimate:
@@ -204,9 +204,9 @@ class GridSearch:
 
     def _coarsest(self, shaped: Shaped) -> Iterator[Draft]:
         """The coarsest grids on which a model of few vertices is right already where it is rounded."""
-        from_origin = Shaped(self._prepared, self._shaper, np.zeros(3), still=self._borders.vertices)
+        from_origin = Shaped(self._prepared, self._shaper, np.zeros(3))
         farthest = float(np.abs(self._prepared.mesh.positions).max())
-        reach = min(self._reach, self._borders.cell / ROUND, FITS_LOOK * self._look)
+        reach = min(self._reach, FITS_LOOK * self._look)
         grids = [shaped, from_origin] if farthest < MOST_EXTENTS * self._prepared.mesh.diagonal else [shaped]
         for grid in grids:
             left, tries = COARSEST_GRIDS, COARSEST_LOOKS if self._looks else MOST_PARTS

@@ -15,7 +15,6 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.look.measure import Looker
 from bsm.codec.look.pictures import Normals
-from bsm.codec.static.choice.borders import Borders
 from bsm.codec.static.choice.search import Found, Trial
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.contract import ANY_ANGLE, Contract
@@ -62,20 +61,18 @@ class Sight:
 class Judge:
     """Says how well decoded positions keep a contract."""
 
-    def __init__(self, prepared: Prepared, sight: Sight, contract: Contract, reach: Matrix, borders: Borders) -> None:
+    def __init__(self, prepared: Prepared, sight: Sight, contract: Contract, reach: Matrix) -> None:
         self._prepared = prepared
         self._sight = sight
         self._contract = contract
         self._reach = reach
-        self._borders = borders
         self._best: tuple[float, float, float, float] | None = None
         self._seen: dict[bytes, float] = {}
         self._skew = 1.0
 
     def out(self, positions: Matrix) -> Mask:
-        """Vertices, shape (n,), that are out of reach at `positions`, shape (n, 3), borders aside."""
-        out = np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2
-        return np.asarray(out & ~self._borders.vertices)
+        """Vertices, shape (n,), that are out of reach at `positions`, shape (n, 3)."""
+        return np.asarray(np.square(positions - self._prepared.positions).sum(axis=1) > self._reach**2)
 
     def trial(self, step: float, positions: Matrix, found: Found, sure: bool = True) -> Trial[Found]:
         """A trial of a step that came to `positions`, shape (n, 3); unless it has to be `sure`, a glance may do."""
@@ -100,11 +97,11 @@ class Judge:
         look = self._distance(positions, ALL)[0] if kept else math.inf
         if self._best is None or (farther, look, angle, visual) < self._best:
             self._best = farther, look, angle, visual
-        return kept and look <= self._contract.look and self._borders.kept(self._prepared.positions, positions)
+        return kept and look <= self._contract.look
 
     @property
     def had(self) -> str:
-        """The bounds that the best one broke that was seen; empty: none but those of borders."""
+        """The bounds that the best one broke that was seen."""
         if self._best is None:
             return "nothing"
         farther, look, angle, visual = self._best

@@ -12,7 +12,7 @@ from bsm.bitstream.errors import TargetError
 from bsm.bitstream.fields.floats import ordered
 from bsm.bitstream.fields.grid import MOST_LARGEST
 from bsm.bitstream.fields.lattice import find_lattice
-from bsm.codec.arrays import Levels, Mask, Matrix, Positions
+from bsm.codec.arrays import Levels, Matrix, Positions
 from bsm.codec.static.choice.shaping import Aim, Shaper
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble_encoding import Prepared
@@ -126,10 +126,7 @@ LEAST_CELL = 2.0**-40
 class Shaped:
     """Shaped grids of one mesh, at one step after another."""
 
-    def __init__(
-        self, prepared: Prepared, shaper: Shaper, low: Matrix | None = None, *, still: Mask | None = None
-    ) -> None:
-        self._still = np.zeros(len(prepared.positions), np.bool_) if still is None else still
+    def __init__(self, prepared: Prepared, shaper: Shaper, low: Matrix | None = None) -> None:
         self._prepared = prepared
         self._shaper = shaper
         low = prepared.mesh.positions.min(axis=0) if low is None else low
@@ -151,7 +148,6 @@ class Shaped:
         held = single(step * unit)
         wanted = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
         places, bytes_of_bends = self._shaper.places(wanted, self._low, held / unit, aim, axes)
-        places[self._still] = wanted[self._still]
         return held, places, self._grid(held, places).positions(places - places.min(axis=0)), bytes_of_bends
 
     def draft(self, step: float, places: Levels) -> Draft:

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix
 from bsm.codec.basis.cost import settle
-from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.signal.bandwidth import MeasuredSpectrum
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Trial, even_interval
-from bsm.codec.signal.detail import Surface, make_surface
 from bsm.codec.signal.quantize import packed_range, smallest_step
 from bsm.codec.signal.smooth import smoothing_spectrum
 from bsm.codec.signal.transform import project
 from bsm.codec.static.admission import patience
-from bsm.codec.static.coding import Adaptive, Coding, Layered, Packed
+from bsm.codec.static.coding import Adaptive, Packed
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.rules import STIFFNESS, Scheme
@@ -28,12 +24,6 @@ from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10
 """Coefficients of a block, as a fraction of its vertices, with a fixed number of bits."""
-BASE_REACH = 4.0
-"""With a detail layer, x, y and z go as far as they would pay at a step so many times that of the details; half of it
-costs 3 %, twice 8 % (tools.constants)."""
-DETAIL_REACH = 0.9
-"""Details go as far as would pay at a step so many times their own; half of it costs 0.6 %, twice 1.9 %
-(tools.constants)."""
 SMOOTHING_FACES = 1 << 12
 """On more faces than these, smoothing is not tried."""
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
@@ -52,20 +42,14 @@ class Planner:
         self._widest = max(1, int(widest * prepared.size))
         self._trial = trial
 
-    def schemes(self, step: float) -> list[Scheme]:
-        """How the blocks of each section are coded at a step."""
-        rules = self._rules()
-        bits, prepared = self._options.bits, self._prepared
-        if bits is None:
-            codings = self._codings(step)
-        else:
-            codings = [self._packed(bits, rules)] * len(prepared.blocks)
-        schemes: list[Scheme] = []
-        first = 0
-        for blocks, coding in zip(prepared.blocks, codings, strict=True):
-            schemes.append(Scheme(blocks, rules, coding, first))
-            first += blocks.count
-        return schemes
+    def scheme(self, step: float) -> Scheme:
+        """How blocks are coded at a step."""
+        rules, bits, size = self._rules(), self._options.bits, self._prepared.size
+        if bits is not None:
+            return Scheme(self._prepared.blocks, rules, self._packed(bits, rules))
+        if step < smallest_step(size):
+            raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
+        return Scheme(self._prepared.blocks, rules, Adaptive(self._width(step), single(step)))
 
     def is_flat(self, step: float, share: float) -> bool:
         """Whether as large a share of all frequencies, or a larger one, is worth coding at a step."""
@@ -88,7 +72,7 @@ class Planner:
         options = self._options
         return ChainRules(
             exact=options.exact_keys,
-            key_interval=max(even_interval(options.key_interval, blocks.count) for blocks in self._prepared.blocks),
+            key_interval=even_interval(options.key_interval, self._prepared.blocks.count),
             power=options.power,
             iterations=options.iterations,
             key_iterations=options.key_iterations,
@@ -96,17 +80,6 @@ class Planner:
             stiffness=STIFFNESS if options.predict and options.bits is None else 0.0,
             trial=self._trial,
         )
-
-    def _codings(self, step: float) -> Sequence[Coding]:
-        """How each section is coded."""
-        size, ratio = self._prepared.size, self._options.detail_ratio
-        if step < smallest_step(size):
-            raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
-        if not ratio:
-            return [Adaptive(self._width(step), single(step))] * len(self._prepared.areas)
-        details = self._spectrum.worthwhile_size(DETAIL_REACH * step, self._widest)
-        base = Adaptive(self._width(BASE_REACH * step), single(step * ratio))
-        return [Layered(base, details, single(step), surface) for surface in self._surfaces]
 
     def _width(self, step: float) -> int:
         """c: what the options say, or as many coefficients as are worth coding at this step."""
@@ -119,13 +92,12 @@ class Planner:
 
     def _packed(self, bits: int, rules: ChainRules) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
-        sections, positions, size = self._prepared.blocks, self._prepared.positions, self._prepared.size
+        blocks, positions, size = self._prepared.blocks, self._prepared.positions, self._prepared.size
         spend = patience(self._options.limits, len(positions))
         width = min(self._options.coefficients or max(1, round((self._options.keep or PAPER_FRACTION) * size)), size)
 
-        def largest(place: tuple[Blocks, range]) -> Matrix:
+        def largest(indices: range) -> Matrix:
             """Largest coefficient in the first row of any block of a chain, and in all others."""
-            blocks, indices = place
             chain, found = Chain(rules, blocks.graph), np.zeros(2)
             for index in indices:
                 block = blocks.block(index)
@@ -136,17 +108,13 @@ class Planner:
                 found = np.maximum(found, [coefficients[:1].max(), coefficients[1:].max(initial=0.0)])
             return found
 
-        places = [(blocks, indices) for blocks in sections for indices in rules.chains(blocks.count)]
-        first, others = np.max(list(ordered_map(largest, places, self._options.threads)), axis=0)
+        chains = rules.chains(blocks.count)
+        first, others = np.max(list(ordered_map(largest, chains, self._options.threads)), axis=0)
         return Packed(width, bits, *packed_range(first, others, bits))
 
     @property
     def _spectrum(self) -> MeasuredSpectrum:
         return self._prepared.spectrum(self._options.shift)
-
-    @cached_property
-    def _surfaces(self) -> tuple[Surface, ...]:
-        return tuple(make_surface(area.faces, area.graph.size) for area in self._prepared.areas)
 
     @cached_property
     def _sample(self) -> tuple[Indices, Reference]:

@@ -1,4 +1,4 @@
-"""Drafts of blocks: a base, and layers of refinement on it."""
+"""Drafts of blocks: a base, and a layer of refinement on it."""
 
 from __future__ import annotations
 
@@ -41,24 +41,13 @@ class Base:
     @cached_property
     def offsets(self) -> Matrix:
         """What is missing, in these frames: along normals and tangents, shape (n, 3)."""
-        return self.offsets_of(self.positions)
-
-    def offsets_of(self, positions: Matrix) -> Matrix:
-        """What is missing where the base was moved to `positions`, shape (n, 3), in the same frames."""
-        return in_frames(self.prepared.positions - positions, self.frames)
-
-    @property
-    def upright(self) -> Matrix:
-        """Positions of which nothing is missing along the normals, shape (n, 3)."""
-        return self.positions + self.frames[:, :3] * self.offsets[:, :1]
+        return in_frames(self.prepared.positions - self.positions, self.frames)
 
     def expected_steps(self, layer: Layer) -> Matrix:
-        """About what levels of a layer move each vertex, shape (n, axes), before any is chosen."""
-        steps = np.full((len(self.positions), layer.axes), layer.step)
-        if layer.axes > 1:
-            original, faces = self.prepared.positions, self.prepared.mesh.faces
-            steps[:, 1:] = tangent_steps(original, faces, layer.step, layer.ratio)[:, None]
-        return steps
+        """About what levels of a layer move each vertex, shape (n, 3), before any is chosen."""
+        original, faces = self.prepared.positions, self.prepared.mesh.faces
+        aside = tangent_steps(original, faces, layer.step, layer.ratio)
+        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
 
     def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
         """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
@@ -67,60 +56,29 @@ class Base:
         return np.column_stack([np.full(len(aside), layer.step), aside, aside])
 
     def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
-        """The nearest levels to steps, both of shape (n, axes), and what one of each moves, shape (n, axes, 3)."""
-        axes = steps.shape[1]
-        directions = self.frames.reshape(-1, 3, 3)[:, :axes] * steps[:, :, None]
-        return np.rint(self.offsets[:, :axes] / steps).astype(np.int32), directions
+        """The nearest levels to steps, both of shape (n, 3), and what one of each moves, shape (n, 3, 3)."""
+        directions = self.frames.reshape(-1, 3, 3) * steps[:, :, None]
+        return np.rint(self.offsets / steps).astype(np.int32), directions
 
     def layer(self, step: float, ratio: float) -> Layer:
         """A layer whose numbers a header can hold."""
         return Layer(single(step), single(ratio))
 
-    def moved(self, layer: Layer, levels: Levels, positions: Matrix | None = None) -> Matrix:
-        """Where levels, shape (n, axes), bring the base, or other positions, in BSM units, shape (n, 3)."""
-        moved = raised(self.positions if positions is None else positions, self.frames, levels, layer.step)
-        if layer.axes > 1:
-            slide(moved, self.frames, levels, self.known_steps(layer, levels)[:, 1])
+    def moved(self, layer: Layer, levels: Levels) -> Matrix:
+        """Where levels, shape (n, 3), bring the base, in BSM units, shape (n, 3)."""
+        moved = raised(self.positions, self.frames, levels, layer.step)
+        slide(moved, self.frames, levels, self.known_steps(layer, levels)[:, 1])
         return moved
 
-    def refined(self, *added: tuple[Layer, Levels], borders: bool = False) -> Stack:
-        """With layers of levels, shapes (n, axes); with `borders`, the last has some at vertices of these alone."""
-        return Stack(self, added, borders)
-
-
-@dataclass(frozen=True, eq=False)
-class Stack:
-    """Layers of levels, shapes (n, axes), on a base; with `borders`, the last has some at vertices of these alone."""
-
-    base: Base
-    added: tuple[tuple[Layer, Levels], ...]
-    borders: bool
-
-    @cached_property
-    def positions(self) -> Matrix:
-        """As decoded, in BSM units, shape (n, 3)."""
-        positions = self.base.positions
-        for layer, levels in self.added:
-            positions = self.base.moved(layer, levels, positions)
-        return positions
-
-    def draft(self) -> Draft:
-        """The stream of blocks and layers."""
-        base = self.base
-        if not self.added:
-            return base.draft
-        body, last = base.draft.body, len(self.added) - 1
-        for number, (_, levels) in enumerate(self.added):
-            body += tuple(
-                encode_layer(base.prepared.mesh.faces, number, levels, borders=self.borders and number == last)
-            )
-        numbers = tuple(number for layer, _ in self.added for number in (layer.step, layer.ratio))
-        header = replace(base.draft.header, refinements=numbers, borders=int(self.borders))
-        return Draft(header, body, base.prepared.units.back(self.positions))
+    def refined(self, layer: Layer, levels: Levels) -> Draft:
+        """The stream with a layer of levels, shape (n, 3)."""
+        body = self.draft.body + tuple(encode_layer(self.prepared.mesh.faces, levels))
+        header = replace(self.draft.header, refinement=(layer.step, layer.ratio))
+        return Draft(header, body, self.prepared.units.back(self.moved(layer, levels)))
 
 
 def base_step(angle: float) -> float:
-    """The step of blocks without a detail layer that refinement to a mean angle of normals, degrees, is cheapest on."""
+    """The step of blocks that refinement to a mean angle of normals, degrees, is cheapest on."""
     return 0.016 if angle >= 6.0 else 0.012 if angle >= 4.0 else 0.008 if angle >= 2.5 else 0.004
 
 
@@ -141,9 +99,9 @@ class Spectral:
     def base(self, step: float, progress: Progress | None = None) -> Base:
         """The blocks at a step."""
         prepared, options = self._prepared, self._options
-        schemes = self._planner.schemes(step)
+        scheme = self._planner.scheme(step)
         blocks = encode_blocks(
-            schemes,
+            scheme,
             prepared.positions,
             threads=options.threads,
             doi=options.doi,
@@ -153,7 +111,6 @@ class Spectral:
         admit(Allowance(NAMED_LIMITS[options.limits]()), prepared, blocks)
         positions = blended(prepared.graph.size, (block.decoded for block in blocks))
         smoothing = options.fixed_smoothing
-        fields = schemes[0].fields() | {"blocks": len(blocks), "sections": prepared.sections}
         header = Header(
             vertices=prepared.graph.size,
             faces=len(prepared.mesh.faces),
@@ -162,8 +119,8 @@ class Spectral:
             center=prepared.units.center,
             scale=prepared.units.scale,
             smoothing=self._planner.smoothing(positions) if smoothing is None else single(smoothing),
-            **fields,
+            **scheme.fields(),
         )
         decoded = smooth(prepared.graph, positions, header.smoothing)
-        body = prepared.with_blocks([block.packet for block in blocks])
+        body = (*prepared.before_blocks, *(block.packet for block in blocks))
         return Base(prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +17,7 @@ from bsm.codec.blocks.overlap import degree_weights
 from bsm.codec.signal.chain import Chain
 from bsm.codec.signal.predict import Surroundings
 from bsm.codec.static.assembly import DecodedBlock
-from bsm.codec.static.coding import BlockLevels, Coding, Ground
+from bsm.codec.static.coding import Coding, Ground
 from bsm.codec.static.rules import Scheme
 from bsm.codec.static.work import Allowance, block_cost, block_memory, chain_cost, ground_cost
 from bsm.codec.threads import ordered_map
@@ -57,12 +57,11 @@ class ChainEncoder:
         ground = Ground(block, chain.continuation(around), dictionary)
         levels = coding.choose(ground, positions[block.vertices], self._sizes)
         decoded = coding.positions(ground, levels)
-        work = sum(price(levels.width) for price in prices) + self._work_of(index, around, levels)
-        chain.commit(block, np.ascontiguousarray(dictionary[:, : levels.width]), decoded)
-        number = scheme.first + index
-        packet = packets.Block(number, len(levels.coordinates), coding.write(levels))
-        result = DecodedBlock(number, block.vertices, decoded, degree_weights(block.degrees))
-        return CodedBlock(packet, result, work, block_memory(around.laplacian, levels.width))
+        work = sum(price(len(levels)) for price in prices) + self._work_of(index, around, len(levels))
+        chain.commit(block, np.ascontiguousarray(dictionary[:, : len(levels)]), decoded)
+        packet = packets.Block(index, len(levels), coding.write(levels))
+        result = DecodedBlock(index, block.vertices, decoded, degree_weights(block.degrees))
+        return CodedBlock(packet, result, work, block_memory(around.laplacian, len(levels)))
 
     def _priced_dictionary(self, around: Surroundings) -> tuple[Matrix, list[Price]]:
         """U as wide as may pay, and the prices of its steps, which a decoder pays for the columns that are coded."""
@@ -75,14 +74,13 @@ class ChainEncoder:
 
         return settle(self._chain.steps(around, width), pay), prices
 
-    def _work_of(self, index: int, around: Surroundings, levels: BlockLevels) -> float:
+    def _work_of(self, index: int, around: Surroundings, coded: int) -> float:
         """What all of a block costs a decoder but its dictionary."""
         blocks, rules = self._scheme.blocks, self._scheme.rules
-        coded = 3 * (len(levels.coordinates) + self._scheme.coding.detail_rows)
-        work = block_cost(around.laplacian.block.size, blocks.edges_of(index), coded)
+        work = block_cost(around.laplacian.block.size, blocks.edges_of(index), 3 * coded)
         if index % rules.chain_length(blocks.count) == 0:
             work += chain_cost(blocks.graph.size)
-        return work + ground_cost(around.laplacian, levels.width)
+        return work + ground_cost(around.laplacian, coded)
 
 
 class ChainDecoder:
@@ -92,14 +90,14 @@ class ChainDecoder:
         self.number = number
         self._scheme = scheme
         self._allowance = allowance
-        self._next = scheme.first + number * scheme.rules.chain_length(scheme.blocks.count)
+        self._next = number * scheme.rules.chain_length(scheme.blocks.count)
 
     # Made by the first block that is decoded: chains may wait for their turn in any number.
 
     @cached_property
     def _chain(self) -> Chain:
         rules, graph = self._scheme.rules, self._scheme.blocks.graph
-        if (rules.stiffness and not rules.alone) or self._scheme.coding.detail_rows:
+        if rules.stiffness and not rules.alone:
             self._allowance.spend(chain_cost(graph.size))
         return Chain(rules, graph)
 
@@ -120,19 +118,19 @@ class ChainDecoder:
 
     def _decode(self, packet: packets.Block) -> DecodedBlock:
         scheme, allowance, received = self._scheme, self._allowance, len(packet.data) + FRAME
-        index = packet.index - scheme.first
+        index = packet.index
         rows, edges = scheme.blocks.size_of(index), scheme.blocks.edges_of(index)
-        allowance.spend(block_cost(rows, edges, 3 * (packet.coefficients + scheme.coding.detail_rows)), received)
+        allowance.spend(block_cost(rows, edges, 3 * packet.coefficients), received)
         chain, coding = self._chain, self._coding
         block = scheme.blocks.block(index)
         if not 1 <= packet.coefficients <= block.size:
             raise CorruptError(f"{packet.coefficients} coefficients for a block of {block.size} vertices")
-        levels = coding.read(packet.data, packet.coefficients, block.size)
+        levels = coding.read(packet.data, packet.coefficients)
         around = chain.around(block)
-        with allowance.hold(block_memory(around.laplacian, levels.width)):
-            steps = chain.steps(around, levels.width)
-            dictionary = settle(steps, lambda price: allowance.spend(price(levels.width)))
-            allowance.spend(ground_cost(around.laplacian, levels.width))
+        with allowance.hold(block_memory(around.laplacian, len(levels))):
+            steps = chain.steps(around, len(levels))
+            dictionary = settle(steps, lambda price: allowance.spend(price(len(levels))))
+            allowance.spend(ground_cost(around.laplacian, len(levels)))
             ground = Ground(block, chain.continuation(around), dictionary)
             decoded = coding.positions(ground, levels)
             chain.commit(block, dictionary, decoded)
@@ -142,7 +140,7 @@ class ChainDecoder:
 
 
 def encode_blocks(
-    schemes: Sequence[Scheme],
+    scheme: Scheme,
     positions: Matrix,
     *,
     threads: int | None,
@@ -152,16 +150,13 @@ def encode_blocks(
 ) -> list[CodedBlock]:
     """All blocks of a mesh at `positions`, shape (n, 3), in BSM units; chains are encoded side by side."""
 
-    def encode_chain(place: tuple[Scheme, range]) -> list[CodedBlock]:
-        scheme, indices = place
+    def encode_chain(indices: range) -> list[CodedBlock]:
         chain = ChainEncoder(scheme, doi, spend)
         return [chain.encode(index, positions) for index in indices]
 
     coded: list[CodedBlock] = []
-    blocks = sum(scheme.blocks.count for scheme in schemes)
-    places = [(scheme, indices) for scheme in schemes for indices in scheme.chains]
-    for chain in ordered_map(encode_chain, places, threads):
+    for chain in ordered_map(encode_chain, scheme.chains, threads):
         coded.extend(chain)
         if progress:
-            progress(len(coded), blocks)
+            progress(len(coded), scheme.blocks.count)
     return coded

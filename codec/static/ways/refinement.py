@@ -1,23 +1,24 @@
-"""Layers of refinement over decoded blocks: the encoder's packets, and the stage of the decoder that takes them.
+"""The layer of refinement over decoded blocks: the encoder's packets, and the stage of the decoder that takes them.
 
-What a layer adds, it adds in the frames of the base: layers know nothing of each other. Vertices are raised along
-normals as levels come; they move along the surface when all of the layer have, for their steps follow from how bent the
-raised surface is.
+Vertices are raised along normals as levels come; they move along the surface when all of them have, for their steps
+follow from how bent the raised surface is.
 """
 
 from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from bsm.bitstream.container import packets
+from bsm.bitstream.container.header import Layer
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import CorruptError
-from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
+from bsm.bitstream.fields.levels import AXES, LevelsDecoder, LevelsEncoder
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Mask, Matrix
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -38,18 +39,17 @@ BENT_BY = 2
 """How many rings of vertices a step along the surface follows from."""
 
 
-def encode_layer(faces: Indices, layer: int, levels: Levels, *, borders: bool = False) -> list[packets.Refinement]:
-    """The packets of a layer's levels, shape (n, axes); with `borders`, of levels that only vertices of these have."""
-    encoder, size = LevelsEncoder(faces, levels, borders=borders), len(levels)
+def encode_layer(faces: Indices, levels: Levels) -> list[packets.Refinement]:
+    """The packets of levels, shape (n, 3)."""
+    encoder, size = LevelsEncoder(faces, levels), len(levels)
     chunks = [(start, min(CHUNK, size - start)) for start in range(0, size, CHUNK)]
-    return [packets.Refinement(layer, start, count, encoder.chunk(count)) for start, count in chunks]
+    return [packets.Refinement(start, count, encoder.chunk(count)) for start, count in chunks]
 
 
 @dataclass(frozen=True, eq=False)
 class PendingLevels:
-    """Levels of some vertices in a layer, counted from 0, that are being decoded, and what they will refine."""
+    """Levels of some vertices that are being decoded, and what they will refine."""
 
-    layer: int
     pending: Pending[tuple[Indices, Levels]]
     refined: Refined
 
@@ -57,22 +57,19 @@ class PendingLevels:
 class RefinementStage:
     """All blocks are there, or known to be lost; levels come."""
 
-    def __init__(self, assembly: Assembly, structure: Structure, lanes: Lanes, layers: int, tolerant: bool) -> None:
-        header = structure.header
+    def __init__(self, assembly: Assembly, structure: Structure, lanes: Lanes, tolerant: bool) -> None:
         self._lanes = lanes
-        self._layers = layers
         self._tolerant = tolerant
         self._complete: Complete | None = None
         self._structure = structure
         self._refined = Refined(assembly, structure)
-        self._decoders = [LayerDecoder(structure, number) for number in range(len(header.layers))]
+        self._decoder = LayerDecoder(structure)
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
         match arrival:
             case packets.Refinement():
-                if arrival.layer >= self._layers:
-                    return self._end(queue)
-                self._decode(arrival, queue)
+                decode = partial(self._decoder.decode, arrival)
+                queue.append(PendingLevels(self._lanes.submit(-1, decode), self._refined))
             case packets.Damaged():
                 if arrival.type is not FrameType.VALUES:
                     self._refined.lose()
@@ -87,11 +84,6 @@ class RefinementStage:
                 raise misplaced(arrival)
         return self
 
-    def _decode(self, packet: packets.Refinement, queue: deque[Any]) -> None:
-        decoder = self._decoders[packet.layer]
-        pending = self._lanes.submit(-1 - packet.layer, lambda: decoder.decode(packet))
-        queue.append(PendingLevels(packet.layer, pending, self._refined))
-
     def _end(self, queue: deque[Any]) -> Complete:
         self._complete = completed(self._refined, self._structure)
         queue.append(self._complete)
@@ -99,73 +91,71 @@ class RefinementStage:
 
 
 class LayerDecoder:
-    """Decodes the packets of one layer, in their order."""
+    """Decodes the packets of the layer, in their order."""
 
-    def __init__(self, structure: Structure, layer: int) -> None:
+    def __init__(self, structure: Structure) -> None:
         self._structure = structure
-        self._layer = layer
 
     def decode(self, packet: packets.Refinement) -> tuple[Indices, Levels]:
-        """Vertices, shape (k,), and their levels, shape (k, axes)."""
+        """Vertices, shape (k,), and their levels, shape (k, 3)."""
         self._structure.allowance.spend(chunk_cost(len(packet.data)), len(packet.data))
         following = self._decoder.coded
         if packet.first != following:
-            raise CorruptError(f"layer {packet.layer + 1} lacks the vertices before {packet.first}: the rest is lost")
+            raise CorruptError(f"the layer lacks the vertices before {packet.first}: the rest is lost")
         return self._decoder.chunk(packet.data, packet.count)
 
     @cached_property
     def _decoder(self) -> LevelsDecoder:
-        structure, header, allowance = self._structure, self._structure.header, self._structure.allowance
-        borders = bool(header.borders) and self._layer == len(header.layers) - 1
-        axes, faces = header.layers[self._layer].axes, structure.faces
-        allowance.keep(layer_memory(header.vertices, len(faces), axes))
-        allowance.spend(layer_cost(header.vertices, len(faces), axes))
-        return LevelsDecoder(faces, header.vertices, axes, allowance.limits, borders=borders)
+        structure, allowance = self._structure, self._structure.allowance
+        vertices, faces = structure.header.vertices, structure.faces
+        allowance.keep(layer_memory(vertices, len(faces)))
+        allowance.spend(layer_cost(vertices, len(faces), AXES))
+        return LevelsDecoder(faces, vertices, allowance.limits)
 
 
 class Refined:
-    """The blocks of a mesh, put together, and what layers have added so far."""
+    """The blocks of a mesh, put together, and what the layer has added so far."""
 
     def __init__(self, assembly: Assembly, structure: Structure) -> None:
         self._assembly = assembly
         self._structure = structure
-        self._lossy = False
-        self._reached = np.zeros((len(structure.header.layers), structure.header.vertices), np.bool_)
-        self._slides: Slides | None = None
+        self._lossy = self._begun = False
+        self._reached = np.zeros(structure.header.vertices, np.bool_)
+        self._levels = np.zeros((structure.header.vertices, AXES), np.int32)
 
-    def add(self, layer: int, vertices: Indices, levels: Levels) -> Indices:
-        """Add the levels, shape (k, axes), of successive vertices, shape (k,): heights at once, slides with the last"""
-        base, rule = self._base, self._structure.header.layers[layer]
+    def add(self, vertices: Indices, levels: Levels) -> Indices:
+        """Add the levels, shape (k, 3), of successive vertices, shape (k,): heights at once, slides with the last"""
+        base, layer = self._base, self._layer
         rows, size = slice(int(vertices[0]), int(vertices[-1]) + 1), len(base.whole)
-        whole = base.whole[rows]
-        lift(self._positions[rows], base.frames[rows], levels * whole[:, None], rule.step)
-        if rule.axes == 1:
-            self._reached[layer, rows] = whole
-            return vertices[whole]
-        if self._slides is None or self._slides.layer != layer:
-            self._slides = Slides(layer, np.zeros((size, rule.axes), np.int32))
-        self._slides.levels[rows] = levels
-        return self._slid(self._slides) if rows.stop == size else vertices[whole]
+        whole, self._begun = base.whole[rows], True
+        lift(self._positions[rows], base.frames[rows], levels * whole[:, None], layer.step)
+        self._levels[rows] = levels
+        return self._slid() if rows.stop == size else vertices[whole]
 
-    def _slid(self, slides: Slides) -> Indices:
+    def _slid(self) -> Indices:
         """Move vertices along the surface, as far as their steps are known: those around them must have heights."""
-        base, rule = self._base, self._structure.header.layers[slides.layer]
+        base, layer = self._base, self._layer
         faces, fit = self._structure.faces, base.whole
         for _ in range(0 if fit.all() else BENT_BY):
             fit = fit.copy()
             fit[faces[~fit[faces].all(axis=1)]] = False
-        upright = raised(base.positions, base.frames, slides.levels, rule.step)
-        steps = tangent_steps(upright, faces, rule.step, rule.ratio)
-        slide(self._positions, base.frames, slides.levels * fit[:, None], steps)
-        self._reached[slides.layer] = fit
-        self._slides = None
+        upright = raised(base.positions, base.frames, self._levels, layer.step)
+        steps = tangent_steps(upright, faces, layer.step, layer.ratio)
+        slide(self._positions, base.frames, self._levels * fit[:, None], steps)
+        self._reached = fit
         return np.flatnonzero(base.whole).astype(np.int32)
 
-    def event(self, layer: int, vertices: Indices) -> RefinementEvent:
+    @property
+    def _layer(self) -> Layer:
+        layer = self._structure.header.layer
+        assert layer is not None
+        return layer
+
+    def event(self, vertices: Indices) -> RefinementEvent:
         """Say where vertices, shape (k,), are now."""
         numbers, rows = self._structure.numbering.spread(vertices)
         positions = self._structure.units.back(self._positions[vertices])
-        return RefinementEvent(layer + 1, numbers, positions[rows])
+        return RefinementEvent(numbers, positions[rows])
 
     def mesh(self) -> TriangleMesh:
         """The mesh in its own unit."""
@@ -181,10 +171,9 @@ class Refined:
         return Solid(self._positions) if self._assembly.whole and not self._lossy else None
 
     def losses(self) -> Losses:
-        """What is missing or less good: also what a layer has begun to refine and not reached."""
+        """What is missing or less good: also what the layer has begun to refine and not reached."""
         lost = self._assembly.losses()
-        begun = self._reached.any(axis=1)
-        unrefined = np.flatnonzero(~self._reached[begun].all(axis=0)).astype(np.int32)
+        unrefined = np.flatnonzero(self._begun & ~self._reached).astype(np.int32)
         behind = np.setdiff1d(self._structure.numbering.of(unrefined), lost.missing)
         return Losses(lost.missing, np.union1d(lost.degraded, behind).astype(np.int32))
 
@@ -200,16 +189,8 @@ class Refined:
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """What layers refine."""
+    """What the layer refines."""
 
     positions: Matrix
     frames: Matrix
     whole: Mask
-
-
-@dataclass(frozen=True, eq=False)
-class Slides:
-    """Levels of a layer, shape (n, 3), that wait for the last of them: steps along the surface follow from heights."""
-
-    layer: int
-    levels: Levels

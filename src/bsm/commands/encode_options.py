@@ -88,13 +88,11 @@ ENCODE_FLAGS = (
 
 SETTINGS = (
     Setting("grid_origin", point, "X,Y,Z", "a place of the grid of --grid-cell (default 0,0,0)"),
-    Setting("sections", int, "N", "turns of faces and blocks, to be drawn sooner (default: 2 if large)"),
     Setting("runs", bool, "yes|no", "let the faces of a sequence change from frame to frame (default: no)"),
     Setting("limits", str, "default|service|wide", "what decoders may refuse is an error (default: default)"),
     Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
     Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
     Setting("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
-    Setting("detail", float, "R", "how much coarser x, y, z are than detail along normals, 0: none (default 3)"),
     Setting("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
     Setting("smoothing", float, "A", "smoothing in the decoder (default: chosen by trying)"),
     Setting("block_size", int, "N", "vertices of a block before overlap, about (default 550)"),
@@ -215,15 +213,6 @@ def add_preset_flags(parser: argparse.ArgumentParser) -> None:
     targets = group.add_mutually_exclusive_group()
     for setting in TARGETS:
         setting.add(targets)
-    group.add_argument(
-        "--lock-borders",
-        nargs="?",
-        const=True,
-        default=argparse.SUPPRESS,
-        metavar="GAP",
-        help="parts that are encoded apart gape by at most GAP where they were one: relative (default 0.0001), or "
-        "with a unit (0.05mm)",
-    )
 
 
 def add_coding_flags(parser: argparse.ArgumentParser) -> None:
@@ -252,7 +241,7 @@ def add_coding_flags(parser: argparse.ArgumentParser) -> None:
 
 
 _KEYWORDS = (
-    *("preset", "lock_borders"),
+    "preset",
     *(setting.field for setting in (*BOUNDS, *TARGETS, *ENCODE_FLAGS, *OF_SEQUENCES)),
 )
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from bsm.bitstream.container.header import paper_of
 from bsm.bitstream.container.wire import VERSION
 from bsm.bitstream.limits import Limits
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
@@ -46,7 +47,7 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
     limits = limits_of(args.limits)
     chunks = list(read_chunks(args.input)) if args.loops else read_chunks(args.input)
     summary = summarise(inspect_stream(iter(chunks), limits))
-    if args.loops and summary["header"]["gop_frames"]:
+    if args.loops and summary["header"]["sequence"]:
         summary["loops"] = list(_loops(iter(chunks), limits, console))
     return {"input": args.input, **summary}
 
@@ -82,7 +83,6 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
             "framing": info.framing,
             "total": info.total,
         },
-        "sections": [asdict(section) for section in info.sections],
         "frames": info.frames,
         "gops": [asdict(gop) for gop in info.gops],
         "runs": [asdict(run) for run in info.runs],
@@ -110,7 +110,6 @@ def _worded(summary: Facts) -> str:
         *_sequence_lines(summary),
         "bytes:",
         *shares,
-        *_section_lines(summary),
         *_rate_lines(summary),
         *map(_attribute_line, summary["attributes"]),
         *_metadata_lines(summary),
@@ -123,28 +122,11 @@ def _position_lines(summary: dict[str, Any]) -> list[str]:
     header, coefficients = summary["header"], summary["coefficients"] or [0]
     if header["grid"]:
         return [f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"]
-    layers = len(header["refinements"]) // 2
-    refined = f", and {layers} {'layer' if layers == 1 else 'layers'} of refinement" if layers else ""
+    refined = ", and a layer of refinement" if header["refinement"] else ""
     return [
         f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
         f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
     ]
-
-
-def _section_lines(summary: dict[str, Any]) -> list[str]:
-    """What there is to say of sections, if there are several."""
-    sections, total = summary["sections"], summary["bytes"]["total"]
-    if len(sections) == 1:
-        return []
-    return [
-        f"section {number}: {one['faces']} faces in {one['connectivity']} bytes, {one['blocks']} blocks in "
-        f"{one['coefficient_bytes']}" + _first_line(one["first_block"], total)
-        for number, one in enumerate(sections, start=1)
-    ]
-
-
-def _first_line(first: int | None, total: int) -> str:
-    return f"; its first block is there after {first} bytes, {100 * first / total:.1f} %" if first else ""
 
 
 def _rate_lines(summary: dict[str, Any]) -> list[str]:
@@ -152,7 +134,7 @@ def _rate_lines(summary: dict[str, Any]) -> list[str]:
     if summary["frames"]:
         return []
     rates = f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for positions"
-    packed = summary["blocks"] and summary["header"]["coding"] == 0
+    packed = paper_of(summary["header"]["paper"]).bits
     return [f"{rates}, {summary['bpv_paper']:.3f} by the paper's formula" if packed else rates]
 
 
@@ -174,7 +156,7 @@ def _attribute_line(attribute: dict[str, Any]) -> str:
 def _sequence_lines(summary: dict[str, Any]) -> list[str]:
     """What there is to say of a sequence; nothing of a mesh."""
     gops, header = summary["gops"], summary["header"]
-    if not header["gop_frames"]:
+    if not header["sequence"]:
         return []
     rate = f", {summary['metadata']['frame_rate']:g} per second" if "frame_rate" in summary["metadata"] else ""
     sizes = [gop["bytes"] for gop in gops] or [0]

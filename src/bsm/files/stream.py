@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import frames_of_gop
+from bsm.bitstream.container.header import paper_of
 from bsm.bitstream.container.layout import write_attribute, write_metadata
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, read_packets
 from bsm.bitstream.container.wire import MAGIC
@@ -69,18 +70,6 @@ class AttributeInfo:
 
 
 @dataclass(frozen=True)
-class SectionInfo:
-    """A section of a mesh: its faces and blocks, the bytes of both, and how many bytes of the stream it takes until its
-    first block (of a mesh on a grid, its first positions; None: there is none) is whole."""
-
-    faces: int
-    blocks: int
-    connectivity: int
-    coefficient_bytes: int
-    first_block: int | None
-
-
-@dataclass(frozen=True)
 class StreamInfo:
     """What a stream consists of, known without decoding it; sizes in bytes."""
 
@@ -89,7 +78,6 @@ class StreamInfo:
     coefficients: tuple[int, ...]
     gops: tuple[GopInfo, ...]
     attributes: tuple[AttributeInfo, ...]
-    sections: tuple[SectionInfo, ...]
     connectivity: int
     partition: int
     order: int
@@ -133,8 +121,8 @@ class StreamInfo:
     @property
     def bits_per_coefficient(self) -> float:
         """q_c: as declared for packed coefficients, on average for adaptive ones."""
-        if self.header.coding == 0:
-            return self.header.bits
+        if bits := paper_of(self.header.paper).bits:
+            return bits
         return 8 * self.coefficient_bytes / (3 * max(1, sum(self.coefficients)))
 
     @property
@@ -154,15 +142,12 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     sizes: Counter[type] = Counter()
     declared: list[packets.Attribute] = []
     lengths: Counter[int] = Counter()
-    counted = _SectionCount()
     reader = Reader(limits)
     for packet in read_packets(chunks, reader):
-        if reader.last_frame is not None:
-            counted.take(packet, reader.last_frame.offset + reader.last_frame.length)
         if isinstance(packet, packets.Header):
             header = header or packet
             present = packet
-            mesh = packet.again - 1 if packet.again else packet.run
+            mesh = packet.run_number if packet.again is None else packet.again
             runs.append(RunInfo(sum(gop.frames for gop in gops), 0, packet.vertices, packet.faces, mesh))
         elif isinstance(packet, packets.Metadata):
             metadata = packets.Metadata({**metadata.entries, **packet.entries})
@@ -179,7 +164,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
             coefficients.append(packet.coefficients)
         if isinstance(packet, packets.Gop) and reader.last_frame is not None:
             assert present is not None
-            frames = frames_of_gop(packet.data, present.gop_frames, present.run)
+            frames = frames_of_gop(packet.data, present.gop_frames, present.run_number)
             runs[-1] = replace(runs[-1], frames=runs[-1].frames + frames)
             gops.append(GopInfo(packet.index, frames, reader.last_frame.offset, reader.last_frame.length))
     assert header is not None and reader.last_frame is not None
@@ -189,7 +174,6 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         tuple(coefficients),
         tuple(gops),
         tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared),
-        counted.of(header),
         connectivity=sizes[packets.Connectivity],
         partition=sizes[packets.Partition],
         order=sizes[packets.Order],
@@ -198,29 +182,6 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         total=reader.last_frame.offset + reader.last_frame.length,
         runs=tuple(runs) if header.gop_frames else (),
     )
-
-
-class _SectionCount:
-    """Counts what a stream's sections consist of."""
-
-    def __init__(self) -> None:
-        self._counted: list[SectionInfo] = []
-
-    def take(self, packet: packets.Packet | packets.Damaged, end: int) -> None:
-        """Count a packet whose frame ends after so many bytes."""
-        match packet:
-            case packets.Connectivity(data):
-                self._counted.append(SectionInfo(0, 0, len(data), 0, None))
-            case packets.Block() | packets.Grid():
-                last = self._counted[-1]
-                coded, first = last.coefficient_bytes + len(packet.data), last.first_block or end
-                self._counted[-1] = replace(last, coefficient_bytes=coded, first_block=first)
-
-    def of(self, header: packets.Header) -> tuple[SectionInfo, ...]:
-        """The sections that the header tells of."""
-        own = self._counted[:1] if header.gop_frames else self._counted  # those of the first run
-        counted = zip(own, header.spans, strict=True)
-        return tuple(replace(one, faces=len(span.faces), blocks=len(span.blocks)) for one, span in counted)
 
 
 def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:

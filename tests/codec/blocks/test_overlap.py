@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from bsm.codec.blocks.overlap import block_size, grow_blocks
-from bsm.codec.blocks.partition import derive_last_parts, derive_partition
+from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import even_interval
 from tests.shapes import grid_faces, patch, tetrahedron, together, torus
@@ -52,24 +52,6 @@ def test_every_block_of_a_connected_mesh_touches_one_before_it(parts):
         steps += bool(around & set(blocks.core(index - 1)))
         seen |= set(blocks.core(index))
     assert steps >= 0.8 * (parts - 1)
-
-
-def test_blocks_of_the_last_vertices_are_a_chain_of_their_own_and_grow_over_all():
-    graph = graph_of(torus(50, 40))
-    partition = derive_last_parts(graph, 800, 7)
-    blocks = grow_blocks(graph, partition, 250)
-    assert sorted(blocks.chain) == list(range(7))
-    assert np.array_equal(np.sort(np.concatenate([blocks.core(index) for index in range(7)])), np.arange(800, 2000))
-    earlier = [bool((blocks.members_of(index) < 800).any()) for index in range(7)]
-    assert any(earlier) and not all(earlier)
-    seen = set(blocks.core(0))
-    for index in range(1, 7):
-        assert neighbours_of(graph, blocks.core(index)) & seen
-        seen |= set(blocks.core(index))
-    for index in range(7):
-        members = blocks.members_of(index)
-        outside = np.setdiff1d(members, blocks.core(index))
-        assert len(members) == 250 and set(outside) <= neighbours_of(graph, members)
 
 
 def test_the_chain_of_a_strip_walks_along_it():

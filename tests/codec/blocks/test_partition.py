@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.codec.blocks.partition import derive_last_parts, derive_partition, metis_partition, partition_of_labels
-from bsm.codec.geometry.graph import Graph, graph_of_faces
+from bsm.codec.blocks.partition import derive_partition, metis_partition, partition_of_labels
+from bsm.codec.geometry.graph import graph_of_faces
 from tests.shapes import patch, together, torus
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
@@ -62,16 +62,3 @@ def test_labels_are_numbered_by_first_appearance(labels):
     assert (np.diff(first) > 0).all()
     assert partition.parts == len(np.unique(labels))
     assert ((labels[:, None] == labels) == (partition.labels[:, None] == partition.labels)).all()
-
-
-@pytest.mark.parametrize("first", [0, 1, 30, 71])
-def test_parts_of_the_last_vertices_are_those_of_the_edges_between_them(first):
-    graph = graph_of(torus(9, 8))
-    rows = [graph.neighbours[graph.offsets[v] : graph.offsets[v + 1]] for v in range(first, 72)]
-    own = [row[row >= first] - first for row in rows]
-    alone = Graph(np.cumsum([0, *map(len, own)]).astype(np.int32), np.concatenate(own).astype(np.int32))
-    parts = min(5, 72 - first)
-    partition, expected = derive_last_parts(graph, first, parts), derive_partition(alone, parts)
-    assert np.array_equal(partition.order, expected.order + first)
-    assert np.array_equal(partition.bounds, expected.bounds)
-    assert np.array_equal(partition.labels, expected.labels)

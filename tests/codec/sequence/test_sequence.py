@@ -404,11 +404,10 @@ def test_static_meshes_and_sequences_are_told_apart():
         decode_sequence(encode(torus(12, 8)))
 
 
-@pytest.mark.parametrize("stiffness", [-8.0, 1e30])
-def test_springs_that_there_are_not_are_corrupt(stiffness):
+def test_springs_that_there_are_not_are_corrupt():
     data, _ = encoded(*bending(2))
-    with pytest.raises(CorruptError, match="stiffness"):
-        decode_sequence(with_header(data, stiffness=stiffness))
+    with pytest.raises(CorruptError, match="springs"):
+        decode_sequence(with_header(data, springs=2))
 
 
 def test_limits():

@@ -187,7 +187,7 @@ def test_a_rough_mesh_is_refined_and_every_way_decodes_to_what_was_checked() -> 
     encoder = Encoder(mesh, EncodeOptions(block_size=300, contract=Contract(0.004, 4.0)))
     ways = Fulfilment(encoder._prepared, encoder.options, Contract(0.004, 4.0), encoder._sight)
     drafts = [*ways._blocks.drafts(), *ways._grids.drafts()]
-    assert any(draft.header.refinements for draft in drafts)
+    assert any(draft.header.refinement for draft in drafts)
     assert any(draft.header.grid for draft in drafts)
     for draft in drafts:
         assert np.abs(decode(b"".join(draft.frames)).positions - draft.decoded).max() < 1e-9

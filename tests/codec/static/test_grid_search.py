@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,13 +12,11 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original
 from bsm.codec.static.choice.character import Character
 from bsm.codec.static.choice.shaping import Shaper
-from bsm.codec.static.contract import Contract
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.joining import join
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.files.mesh import read_mesh
-from bsm.options import encode_options
 from tests.shapes import curved, grid_faces, patch, torus
 
 
@@ -94,15 +91,6 @@ def test_it_is_found_however_much_coarser_a_grid_would_do(meshes: Path) -> None:
     mesh = read_mesh(str(meshes / "static" / "twelve_dodecahedron.ply")).mesh
     sizes = [len(encode(mesh, PRESETS[preset])) for preset in ("balanced", "fine", "grid14")]
     assert sizes[0] <= 1.01 * sizes[1] < sizes[2]
-
-
-@pytest.mark.parametrize("gap", [0.01, 0.001])
-def test_what_locks_borders_makes_no_stream_smaller(gap: float) -> None:
-    mesh = curved(patch(40, 40))
-    promise = Contract(0.01, 8.0)
-    ways: tuple[dict[str, Any], ...] = ({}, {"lock_borders": gap})
-    plain, locked = (encode(mesh, encode_options(contract=promise, **more)) for more in ways)
-    assert len(plain) <= 1.01 * len(locked)
 
 
 def test_a_small_model_counts_its_cells_from_the_origin() -> None:

@@ -57,7 +57,7 @@ def spent(monkeypatch):
 def test_where_everything_is_beside_everything_a_block_costs_more(spent):
     mesh = soup(250, 500)
     size = len(mesh.positions)
-    stream = encode(mesh, EncodeOptions(block_size=size, overlap=1.0, coefficients=4, detail=0.0, smoothing=0.0))
+    stream = encode(mesh, EncodeOptions(block_size=size, overlap=1.0, coefficients=4, smoothing=0.0))
     spent.clear()
     assert len(decode(stream).positions) == size
     tangled = sum(spent)
@@ -165,7 +165,6 @@ def test_every_preset_is_within_the_limits_of_a_service(preset, spent):
         {"bits": 12, "key_interval": 1, "key_seed": "cosines"},
         {"step": 0.002},
         {"doi": (1e-4, 1e-2)},
-        {"step": 0.002, "sections": 3},
     ],
 )
 def test_an_encoder_does_the_sums_of_the_decoder(options, spent):
