@@ -35,7 +35,7 @@ def encoded(frames, faces, **options):
 
 
 def runs_of(data):
-    return [event.header.run for event in events_of(data) if isinstance(event, HeaderEvent)]
+    return [event.header.run_number for event in events_of(data) if isinstance(event, HeaderEvent)]
 
 
 @pytest.mark.parametrize("way", WAYS)

@@ -178,7 +178,7 @@ def test_bounds_that_are_none(bounds: tuple[float, float]) -> None:
 
 def test_who_says_how_to_code_gets_that() -> None:
     encoder = Encoder(noisy(torus(80, 40), 0.01), EncodeOptions(step=0.03))
-    assert encoder.draft().header.step == pytest.approx(0.09)
+    assert encoder.draft().header.step == pytest.approx(0.03)
     assert kept(encoder, encoder.encode())[1] > 8.0
 
 
