@@ -1,6 +1,6 @@
-"""A decoder of attributes, written from declarations.md alone: slow, plain, easy to compare.
+"""A decoder of attributes, written from extension-attributes.md (D) alone: slow, plain, easy to compare.
 
-It shares no code with the product. Docstrings and comments name the rules of declarations.md that they implement.
+It shares no code with the product. Docstrings and comments name the rules that they implement.
 
     1  Declarations        (rules 1)
     2  Seams               (rules 2)

@@ -1,6 +1,6 @@
-"""A decoder of connectivity, order and partition, written from connectivity.md alone: slow, plain, easy to compare.
+"""A decoder of connectivity, order and partition, written from C alone: slow, plain, easy to compare.
 
-It shares no code with the product. Docstrings and comments name the rules of connectivity.md that they implement.
+It shares no code with the product. Docstrings and comments name the rules that they implement.
 
     1  Errors
     2  The entropy decoder          (rules 1 to 3)

@@ -1,9 +1,8 @@
 """A decoder of BSM streams, written from the documents of this folder alone: slow, plain, easy to compare with them.
 
-The rules that it follows are named as they are numbered: F for format.md, C for connectivity.md (see
-reference_connectivity.py), V for fields.md (see reference_fields.py), D for declarations.md (see
-reference_attributes.py), A for attributes.md, M for mathematics.md, S for sequence.md. numpy is used for linear algebra
-alone, and nothing is shared with the product.
+The rules that it follows are named as they are numbered (README.md); C is in reference_connectivity.py, too, V in
+reference_fields.py, D in reference_attributes.py, A in reference_values.py. numpy is used for linear algebra alone, and
+nothing is shared with the product.
 
     python spec/reference_decoder.py IN.bsm OUT.npz
 
@@ -367,7 +366,7 @@ def read_frames(stream, runs):
         if kind == HEADER:
             parsed = parse_header(payload)
         elif kind in (CONNECTIVITY, PARTITION, ORDER):
-            parsed = payload  # F 5.2
+            parsed = payload
         elif kind == BLOCK:
             index, at = payload_varint(payload, 0)
             width, at = payload_varint(payload, at)
@@ -926,7 +925,7 @@ class Allowance:
 
     def __init__(self):
         self.before = 0  # vertices of the runs before (S 9.6)
-        self.vertices = 0  # that the faces have so far (M 14.8, M 18.6)
+        self.vertices = 0  # that the faces have so far (M 14.8)
         self.shown = 0  # vertices of frames of a sequence
         self.work = 0.0
 

@@ -1,6 +1,6 @@
-"""A decoder of grids and refinement levels, written from fields.md alone: slow, plain, easy to compare.
+"""A decoder of grids and refinement levels, written from V alone: slow, plain, easy to compare.
 
-It shares no code with the product. Docstrings and comments name the rules (V) of fields.md that they implement.
+It shares no code with the product. Docstrings and comments name the rules that they implement.
 
     1  Tables                   (V 14)
     2  Corners, order           (V 1 to V 3)

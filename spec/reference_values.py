@@ -1,6 +1,6 @@
-"""A decoder of values on vertices and faces, written from attributes.md alone: slow, plain, easy to compare.
+"""A decoder of values on vertices and faces, written from extension-attributes.md (A): slow, plain, easy to compare.
 
-It shares no code with the product. Docstrings and comments name the rules (A) of attributes.md that they implement.
+It shares no code with the product. Docstrings and comments name the rules that they implement.
 
     1  Rows, places             (A 1, A 2)
     2  Forecasts                (A 3)

@@ -50,7 +50,7 @@ INLINE int32_t entry(int32_t d) {
 INLINE int32_t odds_of(int32_t d) { return ODDS[entry(d)]; }
 INLINE int32_t less_of(int32_t d) { return LESS[entry(d)]; }
 
-/* Mix a decision, code it and learn from it; the inputs of the predictions are set (V 3.2). */
+/* Mix a decision, code it and learn from it; the inputs of the predictions are set (V 4.4). */
 OFTEN static int decide(Work *w, int node, int kind, int bit) {
     uint32_t *slots[CONTEXTS];
     for (int i = 0; i < CONTEXTS; i++) {
@@ -77,7 +77,7 @@ OFTEN static int decide(Work *w, int node, int kind, int bit) {
 INLINE int32_t bounded(int32_t odds) { return within(odds, -MOST_ODDS, MOST_ODDS); }
 INLINE int32_t first_scale(const Expectation *e) { return e->scale < 2 ? 2 : e->scale; }
 
-/* The learnt sizes of errors, the expected one counting as if seen twice; returns that of the guess, 1/16 (V 3.3). */
+/* The learnt sizes of errors, the expected one counting as if seen twice; returns that of the guess, 1/16 (V 5.3). */
 INLINE int32_t find_scales(Work *w) {
     int64_t mean = 0;
     for (int j = 0; j < PREDICTIONS; j++) {
@@ -89,7 +89,7 @@ INLINE int32_t find_scales(Work *w) {
     return (int32_t)(mean >> 8);
 }
 
-/* Is the value one of the predictions that often are exact? What was asked goes to `asked` (V 5.2). */
+/* Is the value one of the predictions that often are exact? What was asked goes to `asked` (V 5.4). */
 INLINE bool ask(Work *w, int32_t *value, int32_t *asked, int *asks) {
     const Expectation *e = w->e;
     int open = (1 << PREDICTIONS) - 1;
@@ -180,7 +180,7 @@ INLINE int64_t code_distance(
     return first + place + (size > 0 ? code_uniform(w->coder, (distance - first) & (rest - 1), rest) : 0);
 }
 
-/* Hit rates and scales, after a value (V 3.4). */
+/* Hit rates and scales, after a value (V 5.9). */
 INLINE void learn_errors(const Work *w, int32_t value) {
     const Expectation *e = w->e;
     for (int j = 0; j < PREDICTIONS; j++) {

@@ -177,8 +177,7 @@ static bool link_parts(ConstInts offsets, ConstInts neighbours, ConstInts order,
 }
 
 /* The parts in a chain and grown to blocks: `chain_parts` and `grow_blocks`. Block i, in the order of the chain, sees
- * `edges[i]` ends of edges. Where there are fewer labels than vertices, these are the last ones' (those of a section, M 18),
- * and `order` holds only these; blocks grow over all. `links` and `shares` have room for each pair of parts that share an
+ * `edges[i]` ends of edges. `links` and `shares` have room for each pair of parts that share an
  * edge, `scratch` has seven entries a part. Returns the number of members. */
 int64_t chain_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
                      int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,

@@ -1,4 +1,4 @@
-"""The product and the decoder written from spec/connectivity.md treat the same payloads alike, damaged ones too."""
+"""The product and the decoder written from the law treat the same payloads alike, damaged ones too."""
 
 from __future__ import annotations
 
@@ -33,7 +33,8 @@ from tests.bitstream.connectivity.test_faces import SOUPS, compact, read_ply
 from tests.shapes import Faces, grid_faces
 
 quick = settings(max_examples=60)
-DOCUMENT = (Path(__file__).parents[2] / "spec" / "connectivity.md").read_text()
+SPEC = Path(__file__).parents[2] / "spec"
+DOCUMENT = (SPEC / "core-2-connectivity.md").read_text()
 REFERENCE_ERRORS = (reference.CorruptError, reference.TruncatedError, reference.LimitError)
 
 
@@ -225,25 +226,34 @@ def test_integers_of_any_size(items: list[tuple[int, int, bool]]) -> None:
     decoder.finish()
 
 
-def example(number: int) -> str:
-    """An indented line of the document's examples."""
-    section = DOCUMENT[DOCUMENT.index("## 11. ") : DOCUMENT.index("## 12. ")]
-    return [line.strip() for line in section.splitlines() if line.startswith("    ")][number]
+def lines(text: str) -> list[str]:
+    """The indented lines of a text."""
+    return [line.strip() for line in text.splitlines() if line.startswith("    ")]
 
 
-def example_numbers(number: int) -> list[list[int]]:
-    """As `example`, for a line of faces or other numbers."""
-    return [[int(corner) for corner in face.split()] for face in example(number).split("/")]
+def numbers(line: str) -> list[list[int]]:
+    """A line of faces or other numbers."""
+    return [[int(corner) for corner in face.split()] for face in line.split("/")]
+
+
+EXAMPLES = lines(DOCUMENT[DOCUMENT.index("## C 11. ") :])
 
 
 def test_the_tetrahedron_of_the_document() -> None:
-    faces = example_numbers(1)
-    assert check_faces(bytes.fromhex(example(0)), 4, 4) == faces
-    expected = example_numbers(3)[0], example_numbers(4)
-    assert check_order(bytes.fromhex(example(2)), np.array(faces), 4) == expected
+    faces = numbers(EXAMPLES[1])
+    assert check_faces(bytes.fromhex(EXAMPLES[0]), 4, 4) == faces
+    order = (SPEC / "extension-order.md").read_text()
+    section = order[order.index("The tetrahedron of C 11") :]
+    vertices, arranged = map(numbers, lines(section))
+    assert check_order(bytes.fromhex(section.split("`")[1]), np.array(faces), 4) == (vertices[0], arranged)
+    paper = (SPEC / "extension-paper.md").read_text()
+    found = re.search(
+        r"\(`(\w\w)`, with `blocks` 2, gives the tetrahedron of C 11 the labels ([\d ]+)", " ".join(paper.split())
+    )
+    assert found
     graph = graph_of_faces(np.array(faces, np.int32), 4)
-    labels = check_labels(bytes.fromhex(example(5)), graph, reference.neighbours_of(faces, 4), 2)
-    assert labels == example_numbers(6)[0]
+    labels = check_labels(bytes.fromhex(found[1]), graph, reference.neighbours_of(faces, 4), 2)
+    assert labels == numbers(found[2])[0]
 
 
 def test_the_decisions_of_the_tetrahedron(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -257,12 +267,10 @@ def test_the_decisions_of_the_tetrahedron(monkeypatch: pytest.MonkeyPatch) -> No
         return bit
 
     monkeypatch.setattr(reference.RangeDecoder, "bit", record)
-    reference.decode_connectivity(bytes.fromhex(example(0)), 4, 4)
-    rows = re.findall(
-        r"([0-9a-f]+) \| ([0-9a-f]+) \| (\d+) \| ([01]) \|", DOCUMENT[DOCUMENT.index("by these decisions") :]
-    )
-    assert rows[::2] + rows[1::2] == seen
+    reference.decode_connectivity(bytes.fromhex(EXAMPLES[0]), 4, 4)
+    rows = [re.findall(r"([0-9a-f]+) +([0-9a-f]+) +(\d+) ([01]) \S", line) for line in EXAMPLES[2:-2]]
+    assert [row[0] for row in rows] + [row[1] for row in rows if len(row) > 1] == seen
 
 
 def test_the_seam_of_the_document() -> None:
-    assert check_faces(bytes.fromhex(example(7)), 6, 3) == example_numbers(8)
+    assert check_faces(bytes.fromhex(EXAMPLES[-2]), 6, 3) == numbers(EXAMPLES[-1])

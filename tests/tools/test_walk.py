@@ -13,7 +13,7 @@ from bsm.bitstream.limits import Limits
 from tools.attack.measure import decode_all
 from tools.attack.walk import bases, cases, problem_of, web_problems
 
-LAW = (Path(__file__).parents[2] / "spec" / "charges.md").read_text()
+LAW = (Path(__file__).parents[2] / "spec" / "limits.md").read_text()
 CASES = {case.name: case for case in cases(20_000)}
 SOME = dict(list(CASES.items())[::6])
 linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")

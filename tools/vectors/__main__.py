@@ -4,7 +4,7 @@
     python -m tools.vectors --run "CMD {in} {out}"     hold another one against them, by its command line
     python -m tools.vectors --new                      make those that are missing
     python -m tools.vectors --write                    make all anew, which only a change of the format justifies
-    python -m tools.vectors --example                  print the worked example of spec/mathematics.md
+    python -m tools.vectors --example                  print the worked example of spec/vectors/README.md
 
 A command must write an npz with `positions`, `faces` and attributes, and end with code 0, or refuse and end with the
 code of its error: 3 format, 4 corrupt, 12 truncated, 5 unsupported, 6 limit, 7 numeric.

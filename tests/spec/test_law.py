@@ -1,0 +1,75 @@
+"""The law must be no longer than it may, cite rules that there are, and show what the vectors hold."""
+
+import hashlib
+import re
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bsm.bitstream._kernels import priors
+from tools.vectors.example import NAME, example
+from tools.vectors.store import FOLDER
+
+SPEC = Path(__file__).parents[2] / "spec"
+LAW = {path.name: path.read_text() for path in SPEC.glob("*.md")}
+CITED = r"\b([FMCVASD])\s+(\d+)(\.\d+)?\b"
+
+
+def rules() -> set[str]:
+    """The sections and rules that there are, as they are cited."""
+    found: set[str] = set()
+    for text in LAW.values():
+        letter = ""
+        for line in text.splitlines():
+            if line.startswith("## ") and (sections := re.findall(r"\b([FMCVASD]) (\d+)", line)):
+                letter = sections[0][0]
+                found |= {f"{one} {number}" for one, number in sections}
+            for other, number in re.findall(r"\*\*(?:([FMCVASD]) )?(\d+\.\d+)\*\*", line):
+                found |= {f"{other or letter} {number}", f"{other or letter} {number.split('.')[0]}"}
+    return found
+
+
+RULES = rules()
+
+
+def unknown(text: str) -> set[str]:
+    return {f"{letter} {section}{rule}" for letter, section, rule in re.findall(CITED, text)} - RULES
+
+
+@pytest.mark.parametrize(("pattern", "most"), [("core-*.md", 11_000), ("*.md", 25_000)])
+def test_it_keeps_to_its_length(pattern, most):
+    assert sum(len(path.read_text().split()) for path in SPEC.glob(pattern)) <= most
+
+
+@pytest.mark.parametrize("name", LAW)
+def test_it_cites_rules_that_exist(name):
+    assert not unknown(LAW[name])
+
+
+def test_code_cites_rules_that_exist():
+    root = SPEC.parent
+    folders = "spec/*.py", "bitstream", "codec", "src/bsm", "tools/vectors", "tools/*.py"
+    names = subprocess.run(["git", "ls-files", *folders], cwd=root, capture_output=True, text=True, check=True).stdout
+    texts = {name: root / name for name in names.split() if name.endswith((".py", ".c", ".h", ".ts", ".md"))}
+    wrong = {name: cited for name, path in texts.items() if path.is_file() and (cited := unknown(path.read_text()))}
+    assert not wrong
+
+
+def test_the_example_is_the_vector():
+    document = (FOLDER / "README.md").read_text()
+    section = document[document.index("## A worked example") :]
+    assert example() in section, "run python -m tools.vectors --example and put it into spec/vectors/README.md"
+    shown = re.findall(r"^    ((?:[0-9a-f]{2} )*[0-9a-f]{2})  ", section, re.MULTILINE)
+    assert bytes.fromhex(" ".join(shown)) == (FOLDER / f"{NAME}.bsm").read_bytes()
+    with np.load(FOLDER / f"{NAME}.npz") as expected:
+        positions = [[float(word) for word in line.split()] for line in section.rstrip().splitlines()[-4:]]
+        assert np.abs(positions - expected["positions"]).max() < 1e-6
+
+
+def test_the_learnt_numbers_are_named():
+    data = (SPEC / "priors.bin").read_bytes()
+    assert priors() == data, "the kernels were built from other numbers: tools/build_kernels.sh"
+    assert hashlib.sha256(data).hexdigest() in LAW["core-3-mathematics.md"]
+    assert hashlib.sha256(data).hexdigest() in (SPEC / "reference_decoder.py").read_text()
