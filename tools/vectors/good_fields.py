@@ -135,10 +135,12 @@ FIELDS: dict[str, Good] = {
         "ORDER on a grid", lambda: encode(shuffled(_small()), EncodeOptions(grid=8, keep_order=True))
     ),
     "good-splits": Good(
-        "ORDER 2: faces with vertices of their own, and one in no face",
+        "ORDER with copies: faces with vertices of their own, and one in no face",
         lambda: encode(soup(torus(7, 6)), EncodeOptions(grid=8, keep_order=True)),
     ),
-    "good-splits-seams": Good("ORDER 2: a seam, in blocks", lambda: encode(seamed(), replace(BASE, keep_order=True))),
+    "good-splits-seams": Good(
+        "ORDER with copies: a seam, in blocks", lambda: encode(seamed(), replace(BASE, keep_order=True))
+    ),
     "good-refined": Good("a layer of refinement", lambda: refined(_small(), LAYER, (120,))),
     "good-layer-chunks": Good("a layer in chunks", lambda: refined(_small(), LAYER, (50, 70))),
     "good-layer-early": Good("a layer that ends early", lambda: refined(_small(), LAYER, (40, 30))),

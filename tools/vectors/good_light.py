@@ -107,7 +107,7 @@ LIGHT: dict[str, Good] = {
         lambda: drawn(np.array([[0, 1, 1], [0, 0, 1]], np.int32), (3, 300, 30000)),
     ),
     "good-light-ordered": _good("ORDER", lambda: light(shuffled(small()), bits=8, keep_order=True)),
-    "good-light-splits": _good("ORDER 2", lambda: light(soup(torus(7, 6)), bits=8, keep_order=True)),
+    "good-light-splits": _good("ORDER with copies", lambda: light(soup(torus(7, 6)), bits=8, keep_order=True)),
     "good-light-attributes": _good(
         "attributes of vertices, corners and faces that lean on it",
         lambda: light(worn(torus(12, 10), charts, creases, colors, groups), 50, 70, bits=9),
