@@ -28,7 +28,6 @@ class Block:
 
     @property
     def size(self) -> int:
-        """Number of rows n_i."""
         return len(self.vertices)
 
     @cached_property
@@ -50,7 +49,6 @@ class Blocks:
 
     @property
     def count(self) -> int:
-        """Number of blocks k."""
         return len(self.chain)
 
     def members_of(self, index: int) -> Indices:
@@ -58,7 +56,6 @@ class Blocks:
         return self.members[self.starts[index] : self.starts[index + 1]]
 
     def size_of(self, index: int) -> int:
-        """Number of rows of one block."""
         return int(self.starts[index + 1] - self.starts[index])
 
     def edges_of(self, index: int) -> int:
@@ -112,7 +109,6 @@ def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
 
 
 def _ordered(graph: Graph, rows: Indices) -> Block:
-    """The block of some vertices, in the order of a full bisection."""
     size, room = len(rows), 8 * len(rows)
     vertices, offsets = np.empty(size, np.int32), np.empty(size + 1, np.int32)
     while True:

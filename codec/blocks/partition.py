@@ -58,7 +58,6 @@ class Partition:
 
     @property
     def parts(self) -> int:
-        """Number of parts k."""
         return len(self.bounds) - 1
 
 

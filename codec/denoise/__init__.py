@@ -10,7 +10,7 @@ except ImportError:
 
 from bsm.codec.denoise.automatic import AutomaticChoice, denoise_automatically
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.frames import FrameDenoiser, coarse_frames, denoise, denoise_frames
+from bsm.codec.denoise.frames import FrameDenoiser, denoise, denoise_frames
 from bsm.codec.denoise.normals import FINE_STEPS
 from bsm.codec.denoise.options import DenoiseOptions
 from bsm.codec.denoise.recipe import HAND_OVERS, Recipe, Step
@@ -26,7 +26,6 @@ __all__ = [
     "FrameDenoiser",
     "Recipe",
     "Step",
-    "coarse_frames",
     "denoise",
     "denoise_automatically",
     "denoise_frames",

@@ -82,8 +82,6 @@ meshes that were taken for noisy 1.1 and 2.1."""
 
 @dataclass(frozen=True)
 class AutomaticChoice:
-    """What was chosen, and why."""
-
     steps: tuple[Step, ...]
     kind: str
     reason: str
@@ -110,7 +108,6 @@ class AutomaticChoice:
 def denoise_automatically(
     positions: Positions, faces: Faces, goal: str = "shading"
 ) -> tuple[Positions, AutomaticChoice]:
-    """Denoise with settings that the noisy mesh itself suggests."""
     given = np.array(positions, dtype=np.float64)
     welded, faces, index = weld(given, faces)
     patient = Patient(faces, len(welded))

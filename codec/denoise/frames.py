@@ -12,7 +12,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.automatic import AutomaticChoice, calm, choose, treat
-from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
+from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.ripples import find_ripples
@@ -84,7 +84,6 @@ class FrameDenoiser:
             yield np.where(moved[:, None], displaced, given)
 
     def _automatic(self, frames: Iterator[Positions]) -> Iterator[Pair]:
-        """Given frames, and welded results."""
         found: Finding | None = None
 
         def finish(pair: Pair) -> Pair:
@@ -194,11 +193,6 @@ def filter_frames(coarse: CoarseFilter, frames: Frames, keep: float) -> Frames:
     return np.ascontiguousarray(coarse(columns, keep).reshape(n, count, 3).transpose(1, 0, 2))
 
 
-def coarse_frames(frames: Frames, faces: Faces, keep: float = KEEP, block_size: int = BLOCK_SIZE) -> Frames:
-    """The coarse step alone, for frames of shape (T, n, 3)."""
-    return filter_frames(CoarseFilter(faces, frames.shape[1], keep, block_size), frames, keep)
-
-
 def denoise(
     mesh: TriangleMesh,
     options: DenoiseOptions | None = None,
@@ -208,7 +202,6 @@ def denoise(
     force: bool = False,
     progress: Progress = silent,
 ) -> TriangleMesh:
-    """Remove noise from the positions of a mesh; the faces stay."""
     denoiser = FrameDenoiser(
         mesh.positions, mesh.faces, options, goal=goal, strength=strength, force=force, progress=progress
     )

@@ -50,8 +50,7 @@ def patch_guidance(geometry: FaceGeometry, topology: Topology) -> Floats:
 SIGMA_R = 0.35
 RADIUS = 2.0
 VERTEX_ITERATIONS = 10
-"""The authors' defaults; with half or twice as many vertex iterations, 1.4 and 0.9 % more of the angle is left
-(tools.constants)."""
+"""The authors' defaults; with half or twice as many vertex iterations, 1.4 and 0.9 % more of the angle is left."""
 
 Guide = Callable[[FaceGeometry, Topology], Floats]
 """From the mesh as it is to the unit normals, shape (m, 3), that the range kernel compares."""
@@ -86,14 +85,12 @@ class GuidedFilter:
 
 
 def guided_normal_filtering(positions: Positions, faces: Faces, iterations: int = 20) -> Positions:
-    """Denoise by guided normal filtering."""
     guided = GuidedFilter(np.array(positions, np.float64), Topology(faces, len(positions)))
     return next(islice(guided.iterates(), iterations, None))
 
 
 PATIENT_VERTICES = 20
-"""Vertex updates where nothing hurries; half as many leave 0.2 % more of the angle, twice as many the same
-(tools.constants)."""
+"""Vertex updates where nothing hurries; half as many leave 0.2 % more of the angle, twice as many the same."""
 AT_ONCE = 2
 
 
@@ -119,7 +116,6 @@ def filtered_normals(positions: Positions, topology: Topology, sigma_r: float) -
 
 
 def _normals(geometry: FaceGeometry, topology: Topology, sigma_r: float) -> Iterator[FaceGeometry]:
-    """The geometry with normals filtered 1, 2, ... times."""
     others = without_first(topology.patches)
     sigma_s = mean_centroid_distance(geometry.centroids, topology.pairs)
     while True:
@@ -133,5 +129,4 @@ FINE_STEPS: dict[str, FineStep] = {"guided": guided_normal_filtering, "bilateral
 
 
 def fine_step(name: str) -> FineStep:
-    """The fine step called `name`; `OptionError` if there is none."""
     return named("fine step", FINE_STEPS, name)

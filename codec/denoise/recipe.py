@@ -21,17 +21,12 @@ from bsm.codec.geometry.metrics import mean_edge_length
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 LOCAL = "local"
 SIGMA_R = 0.3
-"""Width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle (tools.constants)."""
+"""Width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle."""
 BLOCK_SIZE = 500
-"""About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle (tools.constants)."""
+"""About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle."""
 
 HandOver = Callable[[Positions, Positions, Topology], Positions]
 """From noisy and coarse positions, both (n, 3), to those from which the fine step starts (a new array)."""
-
-
-def coarse_positions(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
-    """The paper's: the fine step sees the coarse mesh alone, shape (n, 3)."""
-    return np.array(coarse)
 
 
 def coarse_heights(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
@@ -46,21 +41,15 @@ def coarse_normals(noisy: Positions, coarse: Positions, topology: Topology) -> P
     return GuidedFilter(noisy, topology).step(noisy, lambda *_: guide, SIGMA_R)
 
 
-def noisy_positions(noisy: Positions, coarse: Positions, topology: Topology) -> Positions:
-    """No coarse step: the fine step sees the noisy mesh, shape (n, 3)."""
-    return np.array(noisy)
-
-
 HAND_OVERS: dict[str, HandOver] = {
-    "positions": coarse_positions,
+    "positions": lambda noisy, coarse, topology: np.array(coarse),  # the paper's
     "heights": coarse_heights,
     "normals": coarse_normals,
-    "none": noisy_positions,
+    "none": lambda noisy, coarse, topology: np.array(noisy),
 }
 
 
 def hand_over(name: str) -> HandOver:
-    """The hand-over called `name`; `OptionError` if there is none."""
     return named("hand-over", HAND_OVERS, name)
 
 
@@ -75,14 +64,11 @@ class Recipe:
 
     @property
     def needs_coarse(self) -> bool:
-        """Whether the coarse mesh has a part in it."""
         return self.hand_over != "none"
 
 
 @dataclass(frozen=True)
 class Step:
-    """A recipe and how often its filter is repeated."""
-
     recipe: Recipe
     iterations: int
 
@@ -109,7 +95,6 @@ class Treatments:
 
     @cached_property
     def learnt(self) -> Learnt:
-        """What the networks make of the mesh."""
         return learnt(self.noisy, self._topology)
 
     def mean(self, steps: tuple[Step, ...], share: float = 0.0) -> Positions:
@@ -128,8 +113,6 @@ def blend(results: list[Positions]) -> Positions:
 
 
 class Patient:
-    """A mesh that is welded, or a part of one."""
-
     def __init__(self, faces: Faces, n: int) -> None:
         self.topology = Topology(faces, n)
         self.probe = Probe(self.topology)
@@ -150,11 +133,9 @@ class Patient:
         return self._coarse(positions, keep)
 
     def edge(self, positions: Positions) -> float:
-        """Mean edge length of `positions`, shape (n, 3)."""
         return mean_edge_length(positions, self.topology.faces)
 
     def treated(self, positions: Positions) -> Treatments:
-        """What recipes make of `positions`, shape (n, 3)."""
         return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology)
 
     def treatments(self, positions: Positions) -> Treatments:

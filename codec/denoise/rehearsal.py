@@ -29,7 +29,7 @@ MOST_ITERATIONS = 100
 PATIENCE = 3
 """Iterations behind the best one that are looked at."""
 MOST_MEMBERS = 4
-"""Of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer (tools.constants)."""
+"""Of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer."""
 GAIN = 1.01
 """Members join while the error stays below this multiple: what the guess lacks, several recipes miss less often."""
 LEARNT_SHARES = (0.0, 0.2, 0.4)
@@ -48,7 +48,6 @@ def silent(stage: str) -> None:
 
 
 def shading(reference: Reference, positions: Positions) -> float:
-    """Mean angle between face normals of the reference and of `positions`, shape (n, 3), degrees."""
     return reference.theta(positions)
 
 
@@ -59,7 +58,6 @@ def shape(reference: Reference, positions: Positions) -> float:
 
 
 def both(reference: Reference, positions: Positions) -> float:
-    """Product of `shading` and `shape` of `positions`, shape (n, 3)."""
     return shading(reference, positions) * shape(reference, positions)
 
 
@@ -129,7 +127,6 @@ class Rehearsal:
 
     @property
     def untreated(self) -> float:
-        """The error of doing nothing."""
         return self._goal(self.truth, self.noisy)
 
     def attempt(self, recipe: Recipe) -> Outcome:

@@ -33,8 +33,6 @@ FAILED_SHARE = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """What the comparison says."""
-
     good: Mask
     movement: float
     failed: float

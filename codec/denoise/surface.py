@@ -31,12 +31,10 @@ class Topology:
 
     @cached_property
     def around(self) -> Rows:
-        """Faces around each vertex."""
         return vertex_faces(self.faces, self.n)
 
     @cached_property
     def neighbours(self) -> Rows:
-        """Neighbours of each vertex."""
         return vertex_neighbours(self.faces, self.n)
 
     @cached_property
@@ -69,7 +67,6 @@ class Topology:
 
     @cached_property
     def boundary(self) -> Mask:
-        """True for the vertices of edges that only one face has, shape (n,)."""
         key, _ = self._edges
         alone = np.ones(len(key), dtype=np.bool_)
         same = key[1:] == key[:-1]
@@ -136,7 +133,6 @@ def vertex_normals(normals: Floats, around: Rows) -> Floats:
 
 
 def surface_normals(positions: Positions, topology: Topology) -> Floats:
-    """Unit vertex normals of `positions`, shape (n, 3)."""
     return vertex_normals(face_geometry(positions, topology.faces).normals, topology.around)
 
 

@@ -24,7 +24,6 @@ class Graph:
 
     @property
     def size(self) -> int:
-        """Number of vertices."""
         return len(self.offsets) - 1
 
 
@@ -43,7 +42,6 @@ def component_sizes(graph: Graph) -> Indices:
 
 
 def is_connected(graph: Graph) -> bool:
-    """Whether there is a way between any two vertices."""
     return bool(_kernels.reaches_all(graph.offsets, graph.neighbours, np.empty(2 * graph.size + 1, np.int32)))
 
 

@@ -102,7 +102,6 @@ class Reference:
         return _mean_difference(self._normals, face_normals(self._checked(decoded), self.faces))
 
     def compare(self, decoded: Positions) -> Comparison:
-        """The function `compare` of `decoded`, shape (n, 3), against this original."""
         visual = self.nmsve(decoded)
         squared = np.square(self.positions - decoded).sum(axis=1)
         rms = math.sqrt(squared.mean())
@@ -125,7 +124,6 @@ class Reference:
 
 
 def compare(original: Positions, decoded: Positions, faces: Faces) -> Comparison:
-    """Compare two meshes of the same faces; `Reference` does it faster for many decoded versions of one original."""
     return Reference(original, faces).compare(decoded)
 
 
@@ -212,8 +210,6 @@ LOST = math.pi
 
 @dataclass(frozen=True)
 class Closeness:
-    """How close a decoded mesh is to the original."""
-
     farthest: float
     angle: float
 

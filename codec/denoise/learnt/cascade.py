@@ -17,7 +17,6 @@ IMAGES = ((False, False), (True, True))
 
 
 def regressed_normals(positions: Positions, topology: Topology, network: Network) -> Floats:
-    """Unit normals of the faces, shape (m, 3), as a network sees them."""
     found = []
     for numbers, frames in descriptions(positions, topology):
         local = np.zeros((len(numbers), 3))
@@ -31,8 +30,6 @@ def regressed_normals(positions: Positions, topology: Topology, network: Network
 
 @dataclass(frozen=True, eq=False)
 class Learnt:
-    """What the networks make of a mesh."""
-
     positions: Positions
     normals: Floats
 

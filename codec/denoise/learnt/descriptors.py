@@ -39,7 +39,6 @@ BATCH = 1024
 
 
 def descriptions(positions: Positions, topology: Topology, batch: int = BATCH) -> Iterator[tuple[Singles, Floats]]:
-    """Describe all faces, so many at a time."""
     if len(topology.faces) == 0:
         return
     geometry = face_geometry(positions, topology.faces)

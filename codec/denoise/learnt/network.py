@@ -18,8 +18,6 @@ WEIGHTS = Path(__file__).with_name("weights.npz")
 
 @dataclass(frozen=True, eq=False)
 class Network:
-    """Numbers of faces to normals in the faces' frames."""
-
     mean: Singles
     scale: Singles
     layers: tuple[tuple[Singles, Singles], ...]
@@ -29,7 +27,6 @@ class Network:
         return np.asarray(np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST))
 
     def __call__(self, numbers: Singles) -> Singles:
-        """Unit normals, shape (k, 3), of faces with `numbers`, shape (k, NUMBERS)."""
         values = self.standardised(numbers)
         for matrix, shift in self.layers[:-1]:
             values = silu(values @ matrix + shift)
@@ -39,12 +36,10 @@ class Network:
 
 
 def sigmoid(values: Singles) -> Singles:
-    """``1 / (1 + exp(-x))`` of values of any shape, where it can be told from 0."""
     return np.asarray(np.float32(1.0) / (np.float32(1.0) + np.exp(np.minimum(-values, MOST_NEGATIVE))))
 
 
 def silu(values: Singles) -> Singles:
-    """``x / (1 + exp(-x))`` of values of any shape, the activation."""
     return np.asarray(values * sigmoid(values))
 
 

@@ -77,8 +77,6 @@ CENTRE = (0.55, 1.6)
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """What is known about the noise of a mesh."""
-
     kind: str
     level: float
     levels: Floats
@@ -91,11 +89,9 @@ class Finding:
 
     @property
     def noisy(self) -> bool:
-        """Whether there is anything to remove."""
         return self.kind not in ("none", "unknown")
 
     def on(self, members: npt.NDArray[np.int64]) -> Finding:
-        """The finding for some of the vertices, `members`, shape (k,)."""
         growth = None if self.growth is None else self.growth[members]
         return replace(self, levels=self.levels[members], growth=growth)
 
@@ -112,7 +108,6 @@ class Evidence:
 
 
 def look(positions: Positions, probe: Probe, edge: float, passes: int) -> Evidence:
-    """The evidence of positions, shape (n, 3), with normals from so many averagings of them."""
     normals = probe.smooth_normals(positions, passes)
     along = np.einsum("ij,ij->i", probe.fine(positions / edge), normals)
     return Evidence(probe, normals, along, probe.levels(along), edge)

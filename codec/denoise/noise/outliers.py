@@ -41,8 +41,6 @@ REFINEMENTS = 30
 
 @dataclass(frozen=True, eq=False)
 class Outliers:
-    """Vertices that stand out."""
-
     vertices: np.ndarray
     displacements: Floats
 
@@ -54,7 +52,6 @@ class Outliers:
 
 
 def find_outliers(positions: Positions, probe: Probe) -> Outliers:
-    """Look for single vertices off their places."""
     edge = mean_edge_length(positions, probe.topology.faces)
     normals = probe.smooth_normals(positions, passes=1)
     operator, gain = probe.fine_operator

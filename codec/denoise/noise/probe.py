@@ -16,11 +16,11 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Positions
 from bsm.codec.blocks.partition import metis_partition
 from bsm.codec.denoise.surface import Floats, Mask, Topology, surface_normals
-from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.graph import Graph, graph_of_faces
 
 WINDOW = 200
 """Vertices of a window: fewer are judged by chance, and more hide where noise ends. Half of it leaves 2 % more of the
-angle, twice 31 %, nearly all of it on one of four meshes (tools.constants)."""
+angle, twice 31 %, nearly all of it on one of four meshes."""
 FEWEST_IN_WINDOW = 20
 """Vertices of a window that say anything."""
 
@@ -28,20 +28,8 @@ FEWEST_IN_WINDOW = 20
 class Windows:
     """Disjoint connected pieces of about `WINDOW` vertices."""
 
-    def __init__(self, topology: Topology, counted: Mask) -> None:
-        self._graph = graph_of_faces(topology.faces, topology.n)
-        self._count(metis_partition(self._graph, max(1, round(int(counted.sum()) / WINDOW))).labels, counted)
-
-    @staticmethod
-    def of_labels(windows: Windows, counted: Mask, fewest: int = FEWEST_IN_WINDOW) -> Windows:
-        """These windows with other vertices counted, shape (n,), `fewest` of them in a valid one."""
-        other = object.__new__(Windows)
-        other._graph = windows._graph
-        other._count(windows.labels, counted, fewest)
-        return other
-
-    def _count(self, labels: Indices, counted: Mask, fewest: int = FEWEST_IN_WINDOW) -> None:
-        self.labels = labels
+    def __init__(self, graph: Graph, labels: Indices, counted: Mask, fewest: int = FEWEST_IN_WINDOW) -> None:
+        self._graph, self.labels = graph, labels
         self.count = int(labels.max()) + 1
         self._members = np.flatnonzero(counted)
         self._windows = labels[self._members]
@@ -49,9 +37,12 @@ class Windows:
         self._starts = np.concatenate([[0], np.cumsum(self._sizes)])
         self.valid: Mask = self._sizes >= fewest
 
+    def counting(self, counted: Mask, fewest: int) -> Windows:
+        """These windows with other vertices counted, shape (n,), `fewest` of them in a valid one."""
+        return Windows(self._graph, self.labels, counted, fewest)
+
     @property
     def usual_size(self) -> float:
-        """Mean number of counted vertices of the valid windows."""
         return float(self._sizes[self.valid].mean())
 
     def beside(self, chosen: Mask) -> Mask:
@@ -106,8 +97,9 @@ class Probe:
 
     @cached_property
     def windows(self) -> Windows:
-        """Where statistics are taken."""
-        return Windows(self.topology, self.counted)
+        graph = graph_of_faces(self.topology.faces, self.topology.n)
+        parts = max(1, round(int(self.counted.sum()) / WINDOW))
+        return Windows(graph, metis_partition(graph, parts).labels, self.counted)
 
     @cached_property
     def fine_operator(self) -> tuple[sparse.csr_matrix, Floats]:
@@ -159,7 +151,6 @@ class Probe:
         return white
 
     def levels(self, along: Floats) -> Floats:
-        """Standard deviations of `along`, shape (n,), in the windows, shape (windows.count,)."""
         return self.windows.quantiles(np.abs(along), SHARE) / BOUND
 
     def _repeated(self, values: npt.NDArray[np.float64]) -> Floats:

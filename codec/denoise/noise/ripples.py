@@ -48,15 +48,12 @@ OUTSIDE = 2.5
 
 @dataclass(frozen=True, eq=False)
 class Ripples:
-    """Waves, and what they did to the vertices."""
-
     lengths: Floats
     level: float
     displacements: Floats
 
     @property
     def description(self) -> str:
-        """A few words on the waves."""
         lengths = ", ".join(f"{length:.1f}" for length in self.lengths)
         return f"waves of {lengths} mean edges across the whole mesh, {self.level:.2f} edges high"
 
@@ -66,7 +63,6 @@ class Ripples:
 
 
 def find_ripples(positions: Positions, probe: Probe) -> Ripples:
-    """Look for waves."""
     none = Ripples(np.zeros(0), 0.0, np.zeros_like(positions))
     edge = mean_edge_length(positions, probe.topology.faces)
     normals = probe.smooth_normals(positions)[probe.counted]

@@ -14,7 +14,7 @@ import numpy as np
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.finding import UNEVEN, Evidence, Finding, find_grid, is_random, look, spread
-from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe, Windows
+from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.surface import Floats, Mask
 from bsm.codec.geometry.metrics import mean_edge_length
 
@@ -53,7 +53,6 @@ HEAVY_LEVEL = 0.3
 
 
 def find_noise(positions: Positions, probe: Probe) -> Finding:
-    """Look for noise."""
     edge = mean_edge_length(positions, probe.topology.faces)
     if int(probe.windows.valid.sum()) < FEWEST_WINDOWS:
         return Finding("unknown", 0.0, np.zeros(probe.topology.n), edge, "too few vertices to tell noise from shape")
@@ -249,7 +248,7 @@ def _along(axis: Floats, positions: Positions, evidence: Evidence) -> _Axis:
     probe = evidence.probe
     slope = np.abs(evidence.normals @ axis)
     reached = probe.counted & (slope > AXIS_REACH)
-    windows = Windows.of_labels(probe.windows, reached, AXIS_FEWEST)
+    windows = probe.windows.counting(reached, AXIS_FEWEST)
     growth = np.ones(len(slope))
     if reached.sum() < LEAST_REACHED * len(reached) or windows.valid.sum() < AXIS_WINDOWS:
         return _Axis(axis, 0.0, np.inf, 0.0, growth)
@@ -268,7 +267,6 @@ def _along(axis: Floats, positions: Positions, evidence: Evidence) -> _Axis:
 
 
 def _rate(depth: Floats, logarithms: Floats) -> float:
-    """Slope of a line through the points; those far above it (creases) weigh less."""
     weights, line = np.ones(len(depth)), np.zeros(2)
     for _ in range(8):
         line = np.polyfit(depth, logarithms, 1, w=np.sqrt(weights))

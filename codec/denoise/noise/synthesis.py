@@ -32,7 +32,6 @@ class NoiseLevel:
 
 
 def estimate_noise(positions: Positions, smooth: Positions, topology: Topology, seed: int = 0) -> NoiseLevel:
-    """Estimate the noise on `positions`."""
     normals = surface_normals(smooth, topology)
     white = np.random.default_rng(seed).normal(size=positions.shape)
     counted = np.diff(topology.neighbours.starts) > 0
@@ -75,7 +74,6 @@ class Synthesis:
         self._steps, self._strength = _correlation(finding.whiteness, probe) if correlated else (0, 1.0)
 
     def draw(self, positions: Positions, seed: int) -> Positions:
-        """Positions with noise."""
         finding = self._finding
         random = np.random.default_rng(seed)
         if finding.grid is not None:

@@ -15,21 +15,16 @@ from tools.noise import gaussian_along_normals, gaussian_isotropic
 
 @pytest.mark.parametrize("sigma", [0.1, 0.2, 0.6])
 @pytest.mark.parametrize("shape", [cube, sphere])
-def test_the_estimate_finds_noise_along_the_normals(sigma: float, shape) -> None:  # type: ignore[no-untyped-def]
-    clean, faces = shape(16)
-    noisy = gaussian_along_normals(clean, faces, sigma, seed=3)
-    edge = mean_edge_length(clean, faces)
-    level = estimate_noise(noisy, clean, Topology(faces, len(clean)))
-    assert level.normal / edge == pytest.approx(sigma, rel=0.2)
-    assert level.tangential < 0.5 * level.normal
-
-
-def test_the_estimate_tells_isotropic_noise() -> None:
-    clean, faces = sphere(20)
-    edge = mean_edge_length(clean, faces)
-    level = estimate_noise(gaussian_isotropic(clean, faces, 0.4, seed=3), clean, Topology(faces, len(clean)))
-    assert level.normal / edge == pytest.approx(0.4, rel=0.15)
-    assert level.tangential / edge == pytest.approx(0.4, rel=0.3)
+def test_the_estimate_tells_noise_along_the_normals_from_isotropic_noise(sigma: float, shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(20)
+    topology, edge = Topology(faces, len(clean)), mean_edge_length(clean, faces)
+    along = estimate_noise(gaussian_along_normals(clean, faces, sigma, seed=3), clean, topology)
+    assert along.normal / edge == pytest.approx(sigma, rel=0.2)
+    assert along.tangential < 0.5 * along.normal
+    if shape is sphere and sigma > 0.1:
+        everywhere = estimate_noise(gaussian_isotropic(clean, faces, sigma, seed=3), clean, topology)
+        assert everywhere.normal / edge == pytest.approx(sigma, rel=0.15)
+        assert everywhere.tangential / edge == pytest.approx(sigma, rel=0.3)
 
 
 @pytest.mark.parametrize("shape", [cube, sphere])
@@ -96,39 +91,20 @@ def test_the_smallest_meshes_pass(count: int) -> None:
     assert np.isfinite(denoised).all()
 
 
-# The better of guided filtering alone and of the paper's coarse-to-fine scheme (c = 10 %), each stopped at its best
-# iteration by an oracle that knows the clean mesh.
-BEST_BY_ORACLE = {
-    ("fandisk_6475", "fandisk_0.3_noisy"): 2.82,
-    ("fandisk_6475", "fandisk_0.7_noisy"): 6.96,
-    ("twelve_dodecahedron", "twelve_dodecahedron_noisy"): 3.60,
-    ("julius_36201", "julius_36201_noisy"): 6.66,
-    ("bunny_34834", "bunny_34834_noisy"): 5.44,
-    ("armadillo_12502", "armadillo_12502_0.2_noisy"): 14.12,
-    ("block", "block_noisy"): 3.65,
-    ("nicolo", "nicolo_noisy"): 6.62,
-    ("fr_casting", "fr_casting_0.2_noisy"): 10.64,
-    ("fr_chinese_lion", "fr_chinese_lion_0.2_noisy"): 14.27,
-}
-
-
-def _ratio(partners: Partners, names: tuple[str, str]) -> float:
-    original, mesh = partners(*names)
-    denoised, _ = denoise_automatically(mesh.positions, mesh.faces)
-    return theta(original.positions, denoised, mesh.faces) / BEST_BY_ORACLE[names]
-
-
+# Theta of the better of guided filtering alone and of the paper's coarse-to-fine scheme (c = 10 %), each stopped at its
+# best iteration by an oracle that knows the clean mesh.
 @pytest.mark.slow
 @pytest.mark.real
-@pytest.mark.parametrize("clean", ["twelve_dodecahedron", "fr_chinese_lion"])
-def test_it_is_as_good_as_the_best_fixed_scheme_with_an_oracle(partners: Partners, clean: str) -> None:
-    names = next(names for names in BEST_BY_ORACLE if names[0] == clean)
-    assert _ratio(partners, names) < 1.0
-
-
-@pytest.mark.real
-@pytest.mark.long
-def test_it_is_never_much_worse_and_mostly_better_than_the_oracle(partners: Partners) -> None:
-    ratios = {names[1]: _ratio(partners, names) for names in BEST_BY_ORACLE}
-    assert max(ratios.values()) < 1.05
-    assert sum(ratio < 1.0 for ratio in ratios.values()) >= 5
+@pytest.mark.parametrize(
+    ("clean", "noisy", "oracle"),
+    [
+        ("twelve_dodecahedron", "twelve_dodecahedron_noisy", 3.60),
+        ("fr_chinese_lion", "fr_chinese_lion_0.2_noisy", 14.27),
+    ],
+)
+def test_it_is_as_good_as_the_best_fixed_scheme_with_an_oracle(
+    partners: Partners, clean: str, noisy: str, oracle: float
+) -> None:
+    original, mesh = partners(clean, noisy)
+    denoised, _ = denoise_automatically(mesh.positions, mesh.faces)
+    assert theta(original.positions, denoised, mesh.faces) < oracle

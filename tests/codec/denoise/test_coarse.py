@@ -1,6 +1,7 @@
 """The coarse step is a projection on low graph frequencies, blended; and what is handed over."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from bsm.bitstream.errors import OptionError
 from bsm.codec.denoise.coarse import RULES, CoarseFilter
 from bsm.codec.denoise.recipe import HAND_OVERS, hand_over
-from bsm.codec.denoise.surface import Topology, face_geometry, vertex_normals
+from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import theta
 from bsm.codec.signal.chain import ChainRules
@@ -59,15 +60,11 @@ def test_place_is_kept_and_frames_are_filtered_together() -> None:
     assert together[:, 3:] == pytest.approx(coarse(positions**2, 0.2))
 
 
-def test_a_smaller_fraction_is_the_same_as_a_smaller_dictionary() -> None:
+def test_a_smaller_fraction_is_the_same_as_a_smaller_dictionary_and_everything_is_everything() -> None:
     positions, faces = sphere(12)
-    large, small = CoarseFilter(faces, len(positions), 0.3, 200), CoarseFilter(faces, len(positions), 0.1, 200)
+    whole, large, small = (CoarseFilter(faces, len(positions), keep, 200) for keep in (1.0, 0.3, 0.1))
     assert large(positions, 0.1) == pytest.approx(small(positions, 0.1), abs=1e-8)
-
-
-def test_everything_kept_is_everything() -> None:
-    positions, faces = cube(4)
-    assert CoarseFilter(faces, len(positions), 1.0, 50)(positions, 1.0) == pytest.approx(positions, abs=1e-9)
+    assert whole(positions, 1.0) == pytest.approx(positions, abs=1e-9)
 
 
 @pytest.mark.parametrize("keep", [0.0, -0.1, 1.5, np.nan])
@@ -79,23 +76,15 @@ def test_illegal_fractions_are_refused(keep: float) -> None:
         CoarseFilter(faces, len(positions), 0.5)(positions, keep)
 
 
-@pytest.mark.parametrize("name", ["positions", "heights", "normals"])
-def test_each_hand_over_takes_noise_away_before_the_fine_step(name: str) -> None:
+def test_each_hand_over_takes_noise_away_before_the_fine_step() -> None:
     clean, faces = sphere(16)
     noisy = gaussian_along_normals(clean, faces, 0.3, seed=2)
-    coarse = CoarseFilter(faces, len(clean))(noisy)
-    assert theta(clean, hand_over(name)(noisy, coarse, Topology(faces, len(noisy))), faces) < 0.6 * theta(
-        clean, noisy, faces
-    )
-
-
-def test_heights_move_along_the_normals_of_the_coarse_mesh_alone() -> None:
-    clean, faces = sphere(16)
-    noisy = gaussian_along_normals(clean, faces, 0.3, seed=2)
-    coarse = CoarseFilter(faces, len(clean))(noisy)
-    topology = Topology(faces, len(noisy))
+    coarse, topology = CoarseFilter(faces, len(clean))(noisy), Topology(faces, len(noisy))
+    for name in ("positions", "heights", "normals"):
+        handed = hand_over(name)(noisy, coarse, topology)
+        assert theta(clean, handed, faces) < 0.6 * theta(clean, noisy, faces)
     moved = hand_over("heights")(noisy, coarse, topology) - noisy
-    normals = vertex_normals(face_geometry(coarse, faces).normals, topology.around)
+    normals = surface_normals(coarse, topology)
     along = np.einsum("ij,ij->i", moved, normals)[:, None] * normals
     assert moved == pytest.approx(along, abs=1e-12) and np.abs(moved).max() > 0.0
 
@@ -110,6 +99,17 @@ def test_hand_overs_copy_what_they_hand_over() -> None:
         hand_over("best")
 
 
+def test_copies_are_weighted_as_asked_and_the_overlap_sets_the_size_of_blocks() -> None:
+    positions, faces = sphere(12)
+    coarse = partial(CoarseFilter, faces, len(positions), 0.1, 200)
+    degree = coarse()(positions)
+    assert not np.allclose(coarse(weights=np.ones_like)(positions), degree, rtol=1e-6)
+    assert coarse(weights=lambda degrees: 3.0 * np.maximum(degrees, 1))(positions) == pytest.approx(degree)
+    assert coarse(overlap=1.25).size == round(1.25 * coarse(overlap=1.0).size)
+    with pytest.raises(OptionError, match="overlap"):
+        coarse(overlap=0.9)
+
+
 @pytest.mark.real
 @pytest.mark.parametrize(
     ("clean", "noisy", "expected"),
@@ -122,20 +122,3 @@ def test_the_coarse_step_is_as_good_as_the_published_one(
     n = len(mesh.positions)
     coarse = CoarseFilter(mesh.faces, n, block=n // 10)(mesh.positions)
     assert theta(original.positions, coarse, mesh.faces) < 1.02 * expected
-
-
-def test_copies_are_weighted_as_asked() -> None:
-    positions, faces = sphere(12)
-    n = len(positions)
-    degree = CoarseFilter(faces, n, 0.1, 200)(positions)
-    assert not np.allclose(CoarseFilter(faces, n, 0.1, 200, weights=np.ones_like)(positions), degree, rtol=1e-6)
-    scaled = CoarseFilter(faces, n, 0.1, 200, weights=lambda degrees: 3.0 * np.maximum(degrees, 1))(positions)
-    assert scaled == pytest.approx(degree)
-
-
-def test_the_overlap_sets_the_size_of_the_blocks() -> None:
-    positions, faces = sphere(12)
-    largest = CoarseFilter(faces, len(positions), 0.1, 200, overlap=1.0).size
-    assert CoarseFilter(faces, len(positions), 0.1, 200, overlap=1.25).size == round(1.25 * largest)
-    with pytest.raises(OptionError, match="overlap"):
-        CoarseFilter(faces, len(positions), overlap=0.9)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
-from bsm.codec.denoise import DenoiseOptions, coarse_frames, denoise, denoise_automatically, denoise_frames
+from bsm.codec.denoise import DenoiseOptions, denoise, denoise_automatically, denoise_frames
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -23,15 +23,12 @@ def test_the_default_is_the_automatic_mode() -> None:
     assert (result.faces == FACES).all()
 
 
-def test_without_hand_over_it_is_the_fine_step_alone() -> None:
-    result = denoise(TriangleMesh(NOISY, FACES), DenoiseOptions(hand_over="none", iterations=3), force=True)
-    assert (result.positions == guided_normal_filtering(NOISY, FACES, 3)).all()
-
-
-def test_without_iterations_it_is_the_coarse_step_alone() -> None:
-    options = DenoiseOptions(hand_over="positions", fine="guided", iterations=0, keep=0.2, block_size=200)
-    result = denoise(TriangleMesh(NOISY, FACES), options, force=True)
-    assert result.positions == pytest.approx(CoarseFilter(FACES, len(NOISY), 0.2, 200)(NOISY, 0.2))
+def test_either_step_may_stand_alone() -> None:
+    mesh = TriangleMesh(NOISY, FACES)
+    fine = denoise(mesh, DenoiseOptions(hand_over="none", iterations=3), force=True)
+    assert (fine.positions == guided_normal_filtering(NOISY, FACES, 3)).all()
+    coarse = denoise(mesh, DenoiseOptions(iterations=0, keep=0.2, block_size=200), force=True)
+    assert coarse.positions == pytest.approx(CoarseFilter(FACES, len(NOISY), 0.2, 200)(NOISY, 0.2))
 
 
 @pytest.mark.parametrize(
@@ -53,12 +50,6 @@ def test_options_that_do_harm_are_refused_unless_forced(size: int) -> None:
         denoise(TriangleMesh(positions, faces), options)
     forced = denoise(TriangleMesh(positions, faces), options, force=True)
     assert (forced.positions != positions).any()
-
-
-def test_frames_pass_the_coarse_step_as_meshes_do() -> None:
-    frames = np.stack([NOISY, NOISY * 2.0])
-    alone = CoarseFilter(FACES, len(NOISY))
-    assert coarse_frames(frames, FACES) == pytest.approx(np.stack([alone(frame) for frame in frames]))
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,166 @@
+"""Filters of normals against definitions written out, what all of them promise, and published results."""
+
+import numpy as np
+import pytest
+
+from bsm.bitstream.errors import OptionError
+from bsm.codec.denoise.normals import (
+    FINE_STEPS,
+    FineStep,
+    GuidedFilter,
+    bilateral_normal_filtering,
+    filter_normals,
+    fine_step,
+    guided_normal_filtering,
+    own_normals,
+    patch_guidance,
+)
+from bsm.codec.denoise.surface import Topology, face_geometry
+from bsm.codec.geometry.metrics import theta
+from tests.codec.denoise.denoise_shapes import Partners, cube, grid, sphere
+from tools.noise import gaussian_along_normals
+
+every_step = pytest.mark.parametrize("step", FINE_STEPS.values(), ids=FINE_STEPS.keys())
+
+
+@every_step
+@pytest.mark.parametrize(("shape", "most"), [(cube, 0.25), (sphere, 0.65)])
+def test_noise_is_reduced(step: FineStep, shape, most: float) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(10)
+    noisy = gaussian_along_normals(clean, faces, 0.2, seed=5)
+    assert theta(clean, step(noisy, faces), faces) < most * theta(clean, noisy, faces)
+
+
+@every_step
+def test_a_plane_stays_a_plane(step: FineStep) -> None:
+    positions, faces = grid(6)
+    turned = positions @ np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0].T
+    normal = np.cross(turned[1] - turned[0], turned[7] - turned[0])
+    assert step(turned, faces) @ normal == pytest.approx(0, abs=1e-9)
+
+
+@every_step
+def test_size_place_and_attitude_of_the_mesh_do_not_matter(step: FineStep) -> None:
+    clean, faces = cube(5)
+    noisy = gaussian_along_normals(clean, faces, 0.2, seed=1)
+    q, _ = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))
+    rotation = q * np.linalg.det(q)
+    moved = step(noisy @ rotation.T * 100 + 7, faces, 3)
+    assert moved == pytest.approx(step(noisy, faces, 3) @ rotation.T * 100 + 7, rel=1e-6, abs=1e-6)
+
+
+@every_step
+def test_no_iterations_change_no_normal_much_and_the_input_never(step: FineStep) -> None:
+    clean, faces = cube(4)
+    before = clean.copy()
+    step(clean, faces, 2)
+    assert (clean == before).all()
+    assert step(clean, faces, 0) == pytest.approx(clean)
+
+
+@every_step
+@pytest.mark.parametrize("scale", [0.0, 1.0])
+def test_degenerate_and_non_manifold_meshes_stay_finite(step: FineStep, scale: float) -> None:
+    positions, faces = cube(2)
+    positions = np.concatenate([positions, np.full((2, 3), 9.0)]) * scale
+    extra = np.array([[0, 0, 1], [0, 0, 0], [0, 1, len(positions) - 1], [5, 6, 7]], dtype=np.int32)
+    broken = np.concatenate([faces, faces[:3], extra])
+    moved = step(positions, broken, 3)
+    assert np.isfinite(moved).all()
+    assert (moved[-2] == positions[-2]).all()
+
+
+def test_the_boundary_stays_where_the_method_says_so() -> None:
+    flat, faces = grid(5)
+    noisy = gaussian_along_normals(flat, faces, 0.2, seed=1)
+    rim = (flat[:, :2] == 0).any(axis=1) | (flat[:, :2] == 5).any(axis=1)
+    moved = bilateral_normal_filtering(noisy, faces)
+    assert (moved[rim] == noisy[rim]).all()
+    assert (moved[~rim] != noisy[~rim]).any()
+
+
+def test_an_unknown_name_is_refused_with_the_known_ones() -> None:
+    with pytest.raises(OptionError, match="guided"):
+        fine_step("best")
+    assert fine_step("guided") is FINE_STEPS["guided"]
+
+
+def noisy_cube() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    positions, faces = cube(6)
+    return positions, gaussian_along_normals(positions, faces, 0.2, seed=3), faces
+
+
+def members(rows, i: int) -> list[int]:  # type: ignore[no-untyped-def]
+    return rows.members[rows.starts[i] : rows.starts[i + 1]].tolist()
+
+
+def test_the_bilateral_sum_is_the_printed_one() -> None:
+    _, noisy, faces = noisy_cube()
+    topology, geometry = Topology(faces, len(noisy)), face_geometry(noisy, faces)
+    guide = np.roll(geometry.normals, 1, axis=0)
+    filtered = filter_normals(geometry, guide, topology.patches, 0.8, 0.4)
+    for f in (0, 17, 200):
+        total = np.zeros(3)
+        for j in members(topology.patches, f):
+            spatial = np.exp(-(np.linalg.norm(geometry.centroids[f] - geometry.centroids[j]) ** 2) / (2 * 0.8**2))
+            likeness = np.exp(-(np.linalg.norm(guide[f] - guide[j]) ** 2) / (2 * 0.4**2))
+            total += geometry.areas[j] * spatial * likeness * geometry.normals[j]
+        assert filtered[f] == pytest.approx(total / np.linalg.norm(total))
+
+
+def test_the_guide_is_the_mean_of_the_most_consistent_patch() -> None:
+    _, noisy, faces = noisy_cube()
+    topology, geometry = Topology(faces, len(noisy)), face_geometry(noisy, faces)
+    guide = patch_guidance(geometry, topology)
+
+    def score(patch: list[int]) -> float:
+        normals = geometry.normals[patch]
+        widest = np.linalg.norm(normals[:, None] - normals, axis=2).max()
+        pairs = [(a, b) for a, b in topology.pairs.tolist() if a in patch and b in patch]
+        steps = [np.linalg.norm(geometry.normals[a] - geometry.normals[b]) for a, b in pairs]
+        return widest * max(steps) / (sum(steps) + 1e-9)
+
+    for f in (0, 50, 333):
+        best = min(members(topology.patches, f), key=lambda g: score(members(topology.patches, g)))
+        patch = members(topology.patches, best)
+        mean = geometry.areas[patch] @ geometry.normals[patch]
+        assert guide[f] == pytest.approx(mean / np.linalg.norm(mean))
+
+
+def test_normals_of_lost_faces_and_cancelled_sums_stay() -> None:
+    positions, faces = grid(2)
+    positions[:] = 0.0
+    topology, geometry = Topology(faces, len(positions)), face_geometry(positions, faces)
+    assert (filter_normals(geometry, geometry.normals, topology.patches, 1.0, 0.35) == geometry.normals).all()
+
+
+def test_the_own_normals_make_an_ordinary_bilateral_filter() -> None:
+    clean, noisy, faces = noisy_cube()
+    topology = Topology(faces, len(noisy))
+    current = noisy
+    for _ in range(20):
+        current = GuidedFilter(current, topology).step(current, own_normals, 0.3)
+    assert theta(clean, current, faces) < 0.2 * theta(clean, noisy, faces)
+
+
+def test_one_filter_may_serve_many_steps() -> None:
+    _, noisy, faces = noisy_cube()
+    guided = GuidedFilter(noisy, Topology(faces, len(noisy)))
+    assert (guided.step(guided.step(noisy)) == guided_normal_filtering(noisy, faces, 2)).all()
+
+
+@pytest.mark.real
+@pytest.mark.parametrize(
+    ("step", "clean", "noisy", "expected"),
+    [
+        ("guided", "fandisk_6475", "fandisk_0.3_noisy", 2.93),
+        ("guided", "fandisk_6475", "fandisk_0.7_noisy", 8.41),
+        ("guided", "twelve_dodecahedron", "twelve_dodecahedron_noisy", 3.84),
+        ("guided", "julius_36201", "julius_36201_noisy", 7.97),
+        ("bilateral-normal", "fandisk_6475", "fandisk_0.7_noisy", 30.5),
+    ],
+)
+def test_theta_is_the_published_one(partners: Partners, step: str, clean: str, noisy: str, expected: float) -> None:
+    original, mesh = partners(clean, noisy)
+    denoised = fine_step(step)(mesh.positions, mesh.faces)
+    assert theta(original.positions, denoised, mesh.faces) == pytest.approx(expected, rel=0.03)
