@@ -4,9 +4,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.codec.blocks.partition import derive_partition, metis_partition, partition_of_labels
+from bsm.codec.blocks.partition import (
+    WORTH_A_THREAD,
+    bisect,
+    derive_partition,
+    metis_partition,
+    partition_of_labels,
+)
 from bsm.codec.geometry.graph import graph_of_faces
-from tests.shapes import patch, together, torus
+from tests.shapes import grid_faces, patch, together, torus
 
 soups = hnp.arrays(np.int32, st.tuples(st.integers(1, 40), st.just(3)), elements=st.integers(0, 19))
 
@@ -46,6 +52,8 @@ def test_parts_of_several_components():
     graph = graph_of(together(torus(30, 20), patch(12, 12), torus(9, 7)))
     sizes = np.diff(derive_partition(graph, 10).bounds)
     assert sizes.max() - sizes.min() <= 0.1 * sizes.mean()
+    both, _ = bisect(graph_of(together(patch(12, 12), patch(12, 12))), 2)
+    assert {tuple(sorted(part)) for part in both.reshape(2, -1).tolist()} == {tuple(range(144)), tuple(range(144, 288))}
 
 
 def test_one_part_and_as_many_as_vertices():
@@ -62,3 +70,33 @@ def test_labels_are_numbered_by_first_appearance(labels):
     assert (np.diff(first) > 0).all()
     assert partition.parts == len(np.unique(labels))
     assert ((labels[:, None] == labels) == (partition.labels[:, None] == partition.labels)).all()
+
+
+@given(soups, st.integers(1, 20))
+def test_bisection_cuts_any_graph_into_equal_parts(faces, parts):
+    order, bounds = bisect(graph_of_faces(faces, 20), parts)
+    assert sorted(order) == list(range(20))
+    sizes = np.diff(bounds)
+    assert sizes.min() >= 20 // parts and sizes.max() <= -(-20 // parts) + 1
+
+
+def test_a_bisection_keeps_neighbours_together():
+    """In a square grid, halves are cut across: rows that are k apart lie about sqrt(k) apart."""
+    rows = 32
+    order, bounds = bisect(graph_of_faces(grid_faces(rows, rows), rows * rows), rows * rows)
+    places = np.stack(np.divmod(order, rows), axis=1)
+    assert np.array_equal(bounds, np.arange(rows * rows + 1))
+    for gap in (16, 64, 256):
+        apart = np.abs(places[gap:] - places[:-gap]).sum(axis=1)
+        assert np.median(apart) < 3 * gap**0.5
+    parts, _ = bisect(graph_of_faces(grid_faces(rows, rows), rows * rows), 4)
+    for part in parts.reshape(4, -1):
+        assert np.ptp(part // rows) + np.ptp(part % rows) < 48
+
+
+@pytest.mark.parametrize("parts", [2, 3, 7, 46])
+def test_two_threads_cut_as_one_does(parts):
+    graph = graph_of_faces(grid_faces(100, 99), 9900)
+    assert graph.size >= WORTH_A_THREAD
+    for one, two in zip(bisect(graph, parts), bisect(graph, parts, threads=2), strict=True):
+        assert np.array_equal(one, two)
