@@ -3,7 +3,7 @@
 
 #include "codec/basis/basis.h"
 #include "codec/sequence/shown.h"
-#include "codec/signal/transform.h"
+#include "codec/signal/signal.h"
 
 #define CHOOSE(result, name, parameters, arguments)                                                                    \
     result name##_v1 parameters;                                                                                       \

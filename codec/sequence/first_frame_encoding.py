@@ -14,7 +14,7 @@ from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.tracks import Setting, make_setting
 from bsm.codec.signal.chain import ChainRules
-from bsm.codec.signal.quantize import smallest_step
+from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.admission import admit, as_of_decoders
 from bsm.codec.static.assembly import blended
 from bsm.codec.static.coding import Adaptive

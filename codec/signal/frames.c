@@ -1,6 +1,6 @@
 /* Local frames of a decoded mesh, and the displacement in them (specification, M 17). Continuous in the positions, and
  * nothing is compared: decoders whose positions differ by rounding get frames that differ by rounding. */
-#include "codec/signal/frames.h"
+#include "codec/signal/signal.h"
 
 /* Orthonormal. Few surfaces have a normal opposite the first, where the tangents turn fast. */
 static const double POLE[3] = {0.48, 0.6, 0.64}, TANGENTS[2][3] = {{-0.8, 0.0, 0.6}, {0.36, -0.8, 0.48}};

@@ -1,8 +1,8 @@
 /* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order; and what
  * continues the known (M 7.4), sums in the order of rows. */
-#include "codec/signal/predict.h"
-
+#include "bitstream/coefficients/trellis.h"
 #include "codec/geometry/geometry.h"
+#include "codec/signal/signal.h"
 
 static void hang(Doubles springs, Doubles2 pulls, int64_t row, double stiffness, const double *sum, double weight) {
     springs.data[row] += stiffness;
@@ -68,5 +68,20 @@ int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, C
     Doubles rest = {scratch.data + 2 * n + 1, scratch.size - 2 * n - 1};
     factorize_fronts(offsets, neighbours, weights, (ConstDoubles){sums, n}, fronts, column, rest, values, inverse);
     continue_known(fronts, values, (ConstDoubles){inverse.data, n}, springs, total, pulls, rest, continued);
+    return 0;
+}
+
+/* Positions of a block from its levels (specification, M 10.2): what is expected, and U times the coefficients. */
+
+/* `levels` are those of M 9.11, a row for each of the first columns of U; `scratch` has room for a number for each. */
+int64_t place_block(ConstDoubles2 prediction, ConstDoubles2 subspace, ConstInts2 levels, double half_step, Doubles scratch,
+                    Doubles2 positions) {
+    int64_t n = subspace.rows, count = 3 * levels.rows;
+    if (prediction.rows != n || positions.rows != n || prediction.columns != 3 || positions.columns != 3 ||
+        levels.columns != 3 || levels.rows > subspace.columns || scratch.size < count)
+        return MISUSED;
+    values_of_levels(levels.data, count, half_step, scratch.data);
+    reconstruct(subspace, (ConstDoubles2){scratch.data, levels.rows, 3}, positions);
+    for (int64_t i = 0; i < 3 * n; i++) positions.data[i] += prediction.data[i];
     return 0;
 }

@@ -1,5 +1,5 @@
 /* A polynomial of K = I - D^-1 A on positions (specification, M 12.2): sums over neighbours in ascending order. */
-#include "codec/signal/smooth.h"
+#include "codec/signal/signal.h"
 
 #include "codec/geometry/geometry.h"
 

@@ -3,7 +3,7 @@
  * Every number is the sum of its terms in the order of rows, or of columns, each product rounded before it is added. Where
  * there are as many columns as a vector has, vectors lie along them.
  */
-#include "codec/signal/transform.h"
+#include "codec/signal/signal.h"
 
 #include "codec/basis/vectors.h"
 

@@ -28,15 +28,17 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Integers, Matrix
 from bsm.codec.basis.dynamic_size import DynamicSize
 from bsm.codec.blocks.overlap import Block
-from bsm.codec.signal.quantize import (
+from bsm.codec.signal.transform import (
     BIT_WORTH,
     dequantize,
     levels_to_unsigned,
+    placed,
+    project,
     quantize_packed,
+    reconstruct,
     targets,
     unsigned_to_levels,
 )
-from bsm.codec.signal.transform import placed, project, reconstruct
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference
 from bsm.codec.look.measure import own_normals
 from bsm.codec.look.pictures import Normals
-from bsm.codec.signal.quantize import smallest_step
+from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.admission import as_of_decoders
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import Quality, qualities

@@ -12,7 +12,7 @@ import numpy as np
 from bsm.bitstream.container.header import Layer
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
-from bsm.codec.signal.quantize import smallest_step
+from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.choice.grid_search import COARSEST
 from bsm.codec.static.choice.judge import Judge, Sight
 from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, SLACK, THOROUGH, Trial, widest_step

@@ -11,9 +11,8 @@ from bsm.codec.basis.cost import settle
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.signal.bandwidth import MeasuredSpectrum
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Trial, even_interval
-from bsm.codec.signal.quantize import packed_range, smallest_step
 from bsm.codec.signal.smooth import smoothing_spectrum
-from bsm.codec.signal.transform import project
+from bsm.codec.signal.transform import packed_range, project, smallest_step
 from bsm.codec.static.admission import patience
 from bsm.codec.static.coding import Adaptive, Packed
 from bsm.codec.static.options import EncodeOptions

@@ -5,7 +5,7 @@ import pytest
 
 from bsm.bitstream.coefficients.trellis import points_of_levels
 from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.codec.signal.transform import placed, project, reconstruct
+from bsm.codec.signal.transform import placed, project, reconstruct, targets
 
 
 @pytest.mark.parametrize(("n", "c"), [(1, 1), (2, 2), (5, 0), (9, 2), (50, 7), (574, 57)])
@@ -46,3 +46,9 @@ def test_a_block_is_placed_where_its_levels_say(count):
 def test_a_block_of_another_shape_is_not_placed(rows, levels):
     with pytest.raises(ValueError, match="fit together"):
         placed(np.zeros((rows, 3)), hash_columns(50, 9), np.zeros((levels, 3), np.int32), 0.25)
+
+
+def test_targets_are_coefficients_in_parts_of_a_step():
+    coefficients = np.array([[0.5, -0.25, 0.001], [1e9, -1e9, 0.0]])
+    expected = [[256, -128, 1], [2560, -2560, 0]]
+    np.testing.assert_array_equal(targets(coefficients, 0.5, 256, 10), expected)
