@@ -39,7 +39,7 @@ of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenva
 START_NOISE = 0.25
 FOLLOWING_NOISE = 2.0**-8
 """How much of the hash columns is added to cosines, and to a predecessor's orthonormal columns, for blocks of several
-components (M 8.3); half or twice of it changes bytes by nothing, and by 0.3 % at most on the mean (tools.constants)."""
+components (M 8.3); half or twice of it changes bytes by nothing, and by 0.3 % at most on the mean."""
 
 
 def cosine_columns(rows: int, first: int, last: int) -> Matrix:

@@ -11,9 +11,9 @@ from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal.transform import project
 
 SAMPLES = 2
-"""Blocks that are measured; one, or four, come to 1 % more bytes, which is chance (tools.constants)."""
+"""Blocks that are measured; one, or four, come to 1 % more bytes, which is chance."""
 WORTHWHILE = 0.75
-"""Root mean square in steps from which on a coefficient pays; half of it costs 3 %, twice 8 % (tools.constants)."""
+"""Root mean square in steps from which on a coefficient pays; half of it costs 3 %, twice 8 %."""
 FIRST_LOOK = 160
 """Frequencies that are measured before anybody asks for more: this is about time alone."""
 

@@ -35,7 +35,7 @@ def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
 @pytest.mark.parametrize("count", [9, 40, 200])
 def test_what_has_so_many_frequencies_is_worth_so_many_coefficients(count: int) -> None:
     blocks = blocks_of(22, 1)
-    spectrum = MeasuredSpectrum([blocks], waves(blocks, count, 0.01), shift=SHIFT)
+    spectrum = MeasuredSpectrum(blocks, waves(blocks, count, 0.01), shift=SHIFT)
     blur = 2 + (count + 4) // 8  # frequencies are averaged with an eighth of them around
     assert abs(spectrum.worthwhile_size(0.005) - count) <= blur
     assert spectrum.worthwhile_size(0.1) == 1
@@ -43,13 +43,13 @@ def test_what_has_so_many_frequencies_is_worth_so_many_coefficients(count: int) 
 
 def test_a_point_is_worth_one_coefficient() -> None:
     blocks = blocks_of(22, 1)
-    assert MeasuredSpectrum([blocks], np.zeros((484, 3)), shift=SHIFT).worthwhile_size(1e-9) == 1
+    assert MeasuredSpectrum(blocks, np.zeros((484, 3)), shift=SHIFT).worthwhile_size(1e-9) == 1
 
 
 def test_noise_is_worth_them_all_and_a_finer_step_no_fewer() -> None:
     blocks = blocks_of(24, 3)
     positions = np.random.default_rng(1).normal(size=(576, 3))
-    spectrum = MeasuredSpectrum([blocks], positions, shift=SHIFT)
+    spectrum = MeasuredSpectrum(blocks, positions, shift=SHIFT)
     largest = int(np.diff(blocks.starts).max())
     assert spectrum.worthwhile_size(0.01) == largest
     sizes = [spectrum.worthwhile_size(step) for step in (3.0, 1.0, 0.3, 0.1)]
