@@ -13,7 +13,7 @@ FLOORS = {
     "bsm": (
         ("bitstream", "__version__", "_kernels"),
         ("codec",),
-        ("console", "lengths", "steadiness", "usage"),
+        ("console", "lengths", "steadiness"),
         ("files",),
         ("comparison", "evaluation", "exits", "foreign", "loops", "options"),
         ("meshes",),

@@ -84,3 +84,14 @@ def _parts(name: str, value: Any) -> tuple[float, str]:
 def metres(unit: str) -> float | None:
     name = unit.strip().lower()
     return IN_METRES.get(name, IN_METRES.get(name.removesuffix("s")))
+
+
+def unit_of(metadata: Mapping[str, Any]) -> str:
+    """The unit that a mesh says it has."""
+    unit = metadata.get("unit")
+    return unit if isinstance(unit, str) else ""
+
+
+def length(value: float, unit: str) -> str:
+    """A length as people write it."""
+    return f"{value:.2g} {unit}".rstrip()

@@ -6,6 +6,7 @@ import difflib
 import math
 import types
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import fields, replace
 from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, NoReturn, Union, get_args, get_origin, get_type_hints
@@ -140,25 +141,27 @@ def _checked(name: str, value: Any, hint: Any) -> Any:
     """`value` as the type that a field has; `ArgumentError` if it is of another."""
     kinds = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
     for kind in kinds:
-        number = not isinstance(value, bool)
-        if kind is types.NoneType and value is None:
-            return None
-        if kind is float and number and isinstance(value, Real):
-            return float(value)
-        if kind is int and number and isinstance(value, Integral):
-            return int(value)
-        if get_origin(kind) is Mapping and isinstance(value, Mapping):
-            return value
-        if get_origin(kind) is tuple and get_args(kind)[-1] is Ellipsis and isinstance(value, (tuple, list)):
-            return tuple(value)
-        if get_origin(kind) is tuple and isinstance(value, (tuple, list)) and len(value) == len(get_args(kind)):
-            return tuple(_checked(name, item, part) for item, part in zip(value, get_args(kind), strict=True))
-        if isinstance(kind, type) and kind not in (int, float) and isinstance(value, kind):
-            return value
-    raise ArgumentError(f"{name} must be {_said(kinds)}, not {value!r}")
+        with suppress(TypeError):
+            return _as(kind, value)
+    raise ArgumentError(f"{name} must be {_in_words(kinds)}, not {value!r}")
 
 
-def _said(kinds: Iterable[Any]) -> str:
+def _as(kind: Any, value: Any) -> Any:
+    """`value` as one type; `TypeError` if it is of another."""
+    origin, parts = get_origin(kind), get_args(kind)
+    expected: Any = {float: Real, int: Integral, tuple: (tuple, list)}.get(origin or kind, origin or kind)
+    if not isinstance(value, expected) or (kind in (float, int) and isinstance(value, bool)):
+        raise TypeError
+    if origin is not tuple:
+        return kind(value) if kind in (float, int) else value
+    if parts[-1] is Ellipsis:
+        return tuple(value)
+    if len(value) != len(parts):
+        raise TypeError
+    return tuple(map(_as, parts, value))
+
+
+def _in_words(kinds: Iterable[Any]) -> str:
     words = {float: "a number", int: "a whole number", str: "a string", bool: "True or False", types.NoneType: "None"}
     return " or ".join(words.get(kind, getattr(kind, "__name__", str(kind))) for kind in kinds)
 

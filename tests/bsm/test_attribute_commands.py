@@ -105,10 +105,25 @@ def test_metadata_that_say_nothing(tmp_path, text, capsys):
 def test_metadata_of_a_sequence(tmp_path, capsys):
     mesh = torus(12, 9)
     np.savez(tmp_path / "s.npz", positions=np.array([mesh.positions] * 3), faces=mesh.faces)
-    assert main(["encode", str(tmp_path / "s.npz"), "-o", str(tmp_path / "s.bsm"), "-q", "--meta", "name=Ring"]) == 0
+    assert (
+        main(
+            [
+                "encode",
+                str(tmp_path / "s.npz"),
+                "-o",
+                str(tmp_path / "s.bsm"),
+                "-q",
+                "--meta",
+                "name=Ring",
+                "--set",
+                "step=0.01",
+            ]
+        )
+        == 0
+    )
     assert run_json(capsys, "info", tmp_path / "s.bsm")["metadata"] == {"name": "Ring"}
     with bsm.SequenceDecoder() as decoder:
-        decoder.receive_data(bsm.encode_sequence([mesh.positions] * 2, mesh.faces, metadata={"a": 1}))
+        decoder.receive_data(bsm.encode_sequence([mesh.positions] * 2, mesh.faces, metadata={"a": 1}, step=0.01))
         while not isinstance(decoder.next_event(), bsm.Signal):
             pass
         assert dict(decoder.metadata) == {"a": 1}

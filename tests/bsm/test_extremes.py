@@ -66,5 +66,5 @@ def test_attributes_that_decoders_would_refuse_are_not_written():
     values = np.random.default_rng(0).normal(size=(3 * len(shape.faces), 4))
     many = tuple(Attribute(f"a{number}", values, "corner") for number in range(40))
     with pytest.raises(bsm.OptionError, match="decoders with default limits would refuse this stream"):
-        bsm.encode(TriangleMesh(shape.positions, shape.faces, many), preset="small")
-    bsm.encode(TriangleMesh(shape.positions, shape.faces, many[:2]), preset="small")
+        bsm.encode(TriangleMesh(shape.positions, shape.faces, many), grid=8)
+    bsm.encode(TriangleMesh(shape.positions, shape.faces, many[:2]), grid=8)

@@ -13,10 +13,12 @@ import pytest
 from bsm.cli import main
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
+from tests.bsm.program import process as run
 from tools.vectors.store import FOLDER as VECTORS
 
 ROOT = Path(__file__).parents[2]
 BSM = [sys.executable, "-m", "bsm"]
+OPTIONS = {"encode": ("--set", "step=0.004"), "decode": ()}
 
 
 @pytest.fixture(scope="module")
@@ -25,14 +27,8 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("faults")
     write_mesh(folder / "sample.ply", knot(900))
     write_mesh(folder / "large.ply", knot(30_000))
-    assert main(["encode", str(folder / "sample.ply"), "-q", "--threads", "1"]) == 0
+    assert main(["encode", str(folder / "sample.ply"), "-q", "--threads", "1", *OPTIONS["encode"]]) == 0
     return folder
-
-
-def run(*arguments, **keywords):
-    return subprocess.run(
-        [*BSM, *map(str, arguments)], capture_output=True, timeout=120, cwd=ROOT, check=False, **keywords
-    )
 
 
 def said(done):
@@ -74,15 +70,10 @@ def test_killed_in_mid_decode(folder, tmp_path):
 def test_no_room_for_the_whole_file(command, folder, tmp_path):
     """A limit on the size of files fails in mid-file, as a full disk does."""
     given, output = ("sample.ply", "a.bsm") if command == "encode" else ("sample.bsm", "a.ply")
-    done = run(
-        command,
-        folder / given,
-        "-o",
-        tmp_path / output,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512)),
-    )
+    words = (command, folder / given, "-o", tmp_path / output, *OPTIONS[command])
+    done = run(*words, preexec_fn=_small_files)
     assert done.returncode == 9
-    assert "File too large" in said(done)
+    assert said(done) == f"bsm: {tmp_path / output}: File too large\n"
     assert list(tmp_path.iterdir()) == []
 
 
@@ -90,7 +81,7 @@ def test_no_room_for_the_whole_file(command, folder, tmp_path):
 @pytest.mark.parametrize("command", ["encode", "decode"])
 def test_a_full_device(command, folder):
     given, kind = ("sample.ply", ()) if command == "encode" else ("sample.bsm", ("--format", "ply"))
-    done = run(command, folder / given, "-f", "-o", "/dev/full", *kind)
+    done = run(command, folder / given, "-f", "-o", "/dev/full", *kind, *OPTIONS[command])
     assert done.returncode == 9
     assert "No space left" in said(done)
 
@@ -101,7 +92,7 @@ def test_the_reader_of_a_pipe_goes_away(command, folder):
     reading, writing = os.pipe()
     os.close(reading)
     done = subprocess.run(
-        [*BSM, command, folder / given, "-o", "-"],
+        [*BSM, command, folder / given, "-o", "-", *OPTIONS[command]],
         stdout=writing,
         stderr=subprocess.PIPE,
         timeout=120,
@@ -119,7 +110,7 @@ def test_a_read_only_folder(folder, tmp_path):
         closed = Path("/proc")
         if not closed.is_dir():
             pytest.skip("the superuser may write everywhere")
-    done = run("encode", folder / "sample.ply", "-o", closed / "a.bsm")
+    done = run("encode", folder / "sample.ply", "-o", closed / "a.bsm", *OPTIONS["encode"])
     tmp_path.chmod(0o755)
     assert done.returncode == 9
     assert str(closed) in said(done)

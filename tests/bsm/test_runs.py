@@ -12,6 +12,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.files.mesh import read_mesh, write_mesh
 from tools.vectors.meshes import torus
 
+RUNS = ("--set", "runs=yes", "--set", "step=0.002")
 PIECES = ((10, 4), (7, 3), (10, 2))
 
 
@@ -37,7 +38,7 @@ def written(folder, meshes, kind="ply"):
 @pytest.fixture
 def stream(tmp_path):
     paths = written(tmp_path / "capture", capture())
-    assert run("encode", *paths, "-o", tmp_path / "a.bsm", "--set", "runs=yes", "-q") == 0
+    assert run("encode", *paths, "-o", tmp_path / "a.bsm", *RUNS, "-q") == 0
     return tmp_path / "a.bsm"
 
 
@@ -51,10 +52,10 @@ def test_frames_of_other_faces_are_an_error_that_says_how_to_permit_them(tmp_pat
 
 def test_they_are_permitted_by_a_setting(tmp_path, capsys):
     paths = written(tmp_path / "capture", capture())
-    assert run("encode", *paths, "-o", tmp_path / "a.bsm", "--set", "runs=yes") == 0
+    assert run("encode", *paths, "-o", tmp_path / "a.bsm", *RUNS) == 0
     said = capsys.readouterr().err
     assert "connectivity changes at frames 4, 7" in said and "9 frames" in said
-    assert run("encode", tmp_path / "capture", "-o", tmp_path / "b.bsm", "--set", "runs=yes", "-q") == 0
+    assert run("encode", tmp_path / "capture", "-o", tmp_path / "b.bsm", *RUNS, "-q") == 0
     assert (tmp_path / "a.bsm").read_bytes() == (tmp_path / "b.bsm").read_bytes()
 
 
@@ -114,7 +115,7 @@ def test_colours_of_runs_go_to_usd_and_come_back(tmp_path):
     data = bsm.encode_frames(meshes)
     (tmp_path / "a.bsm").write_bytes(data)
     assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.usda", "-q") == 0
-    assert run("encode", tmp_path / "a.usda", "-o", tmp_path / "b.bsm", "--set", "runs=yes", "-q") == 0
+    assert run("encode", tmp_path / "a.usda", "-o", tmp_path / "b.bsm", *RUNS, "-q") == 0
     shades = [int(frame.attributes[0].values[0, 0]) for frame in bsm.decode_frames(tmp_path / "b.bsm")]
     assert shades == [0, 20, 40]
 

@@ -18,6 +18,8 @@ from tests.motion import bending
 from tests.shapes import torus
 
 FRAMES = 6
+QUICK = ("--set", "step=0.002")
+"""Of tests that are about something else: no promise is to be found out."""
 
 
 @pytest.fixture
@@ -41,7 +43,7 @@ def result(capsys, *words):
 @pytest.mark.parametrize("kind", ["npz", "npy", "obj", "ply"])
 def test_there_and_back_in_every_form(npz, tmp_path, capsys, kind):
     stream, back = tmp_path / "a.bsm", tmp_path / (f"back.{kind}" if kind in ("npz", "npy") else "back")
-    encoded = result(capsys, "encode", npz, "-o", stream, "--gop", 4)
+    encoded = result(capsys, "encode", npz, "-o", stream, "--gop", 4, *QUICK)
     assert encoded["frames"] == FRAMES and encoded["bytes"] == stream.stat().st_size
     decoded = result(capsys, "decode", stream, "-o", back, *([] if back.suffix else ["--format", kind]))
     assert decoded["frames"] == FRAMES
@@ -49,7 +51,7 @@ def test_there_and_back_in_every_form(npz, tmp_path, capsys, kind):
     assert through["kg"] == pytest.approx(direct["kg"], rel=1e-4) and 0 < direct["kg"] < 1
     assert direct["bpvf_total"] == pytest.approx(encoded["bpvf_total"])
     # What was decoded is a sequence again.
-    assert result(capsys, "encode", back, "-o", tmp_path / "again.bsm")["frames"] == FRAMES
+    assert result(capsys, "encode", back, "-o", tmp_path / "again.bsm", *QUICK)["frames"] == FRAMES
 
 
 def test_info_and_verify(npz, tmp_path, capsys):
@@ -72,7 +74,7 @@ def test_info_and_verify(npz, tmp_path, capsys):
 
 def test_some_frames_only(npz, tmp_path, capsys):
     stream, whole, part = tmp_path / "a.bsm", tmp_path / "whole.npz", tmp_path / "part.npz"
-    assert bsm("encode", npz, "-o", stream, "--gop", 2) == 0
+    assert bsm("encode", npz, "-o", stream, "--gop", 2, *QUICK) == 0
     assert bsm("decode", stream, "-o", whole) == 0
     for text, chosen in (("3:5", slice(3, 5)), (":2", slice(2)), ("4:", slice(4, None)), ("5:99", slice(5, None))):
         assert bsm("decode", stream, "-o", part, "-f", "--frames", text) == 0
@@ -83,7 +85,7 @@ def test_some_frames_only(npz, tmp_path, capsys):
 
 def test_tolerant_decoding_names_what_is_lost(npz, tmp_path, capsys):
     stream, part = tmp_path / "a.bsm", tmp_path / "part.npz"
-    assert bsm("encode", npz, "-o", stream, "--gop", 2) == 0
+    assert bsm("encode", npz, "-o", stream, "--gop", 2, *QUICK) == 0
     gop = next(gop for gop in result(capsys, "info", stream)["gops"] if gop["first"] == 2)
     broken = bytearray(stream.read_bytes())
     broken[gop["offset"] + 20] ^= 1
@@ -165,7 +167,16 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
     }
     np.savez(tmp_path / "x.npz", positions=positions, faces=faces, **arrays)
     stream, back = tmp_path / "x.bsm", tmp_path / "back.npz"
-    wanted = ("--keep-order", "--attribute", "heat=0.002", "--attribute", "color=exact", "--attribute", "height=exact")
+    wanted = (
+        "--keep-order",
+        "--attribute",
+        "heat=0.002",
+        "--attribute",
+        "color=exact",
+        "--attribute",
+        "height=exact",
+        *QUICK,
+    )
     assert bsm("encode", tmp_path / "x.npz", "-o", stream, *wanted) == 0
     said = capsys.readouterr().err
     assert "left out: junk" in said and "heat: per vertex, moves, within 0.002 in every frame" in said
@@ -204,7 +215,7 @@ def test_a_field_that_is_not_finite_is_refused_with_its_frame(tmp_path, capsys):
 
 def test_permutation_restores_the_order(npz, tmp_path, capsys):
     stream, order, back = (tmp_path / name for name in ("a.bsm", "order.npy", "back.npz"))
-    assert bsm("encode", npz, "-o", stream, "--permutation", order) == 0
+    assert bsm("encode", npz, "-o", stream, "--permutation", order, *QUICK) == 0
     assert bsm("decode", stream, "-o", back, "--permutation", order) == 0
     original, decoded = np.load(npz), np.load(back)
     assert np.abs(original["positions"] - decoded["positions"]).max() < 0.04
@@ -231,7 +242,7 @@ def test_options_of_sequences_do_not_go_with_a_mesh(npz, tmp_path, capsys):
     np.savez(tmp_path / "mesh.npz", positions=positions[0], faces=faces)
     assert bsm("encode", tmp_path / "mesh.npz", "--gop", 3) != 0
     assert "sequences" in capsys.readouterr().err
-    assert bsm("encode", npz) == 0 and bsm("encode", tmp_path / "mesh.npz") == 0
+    assert bsm("encode", npz, *QUICK) == 0 and bsm("encode", tmp_path / "mesh.npz", *QUICK) == 0
     assert bsm("decode", npz.with_suffix(".bsm"), "--blocks", 1, "-o", tmp_path / "x.npz") != 0
     assert bsm("decode", npz.with_suffix(".bsm"), "-o", tmp_path / "x.ply") != 0
     assert bsm("decode", tmp_path / "mesh.bsm", "--format", "npy", "-o", tmp_path / "x.npy") != 0
@@ -356,7 +367,7 @@ def test_attributes_that_stay_go_along(tmp_path, capsys):
         color = Attribute("color", np.full((len(mesh.positions), 3), 7, np.uint8), "vertex", "color")
         (tmp_path / "ply").mkdir(exist_ok=True)
         write_mesh(tmp_path / "ply" / f"{number}.ply", TriangleMesh(frame.positions, mesh.faces, (heat, color)))
-    assert main(["encode", str(tmp_path / "run"), "-o", str(tmp_path / "run.bsm"), "--keep-order"]) == 0
+    assert main(["encode", str(tmp_path / "run"), "-o", str(tmp_path / "run.bsm"), "--keep-order", *QUICK]) == 0
     assert "normal" in capsys.readouterr().err
     assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "out"), "--format", "obj", "-q"]) == 0
     for number in range(4):
@@ -370,6 +381,9 @@ def test_attributes_that_stay_go_along(tmp_path, capsys):
             np.abs(arrays["corner/texcoord"][arrays["corner/texcoord/indices"]].reshape(-1, 2) - corners).max() < 2e-4
         )
     capsys.readouterr()
-    assert main(["encode", str(tmp_path / "ply"), "-o", str(tmp_path / "ply.bsm"), "--attribute", "color=5bits"]) == 0
+    assert (
+        main(["encode", str(tmp_path / "ply"), "-o", str(tmp_path / "ply.bsm"), "--attribute", "color=5bits", *QUICK])
+        == 0
+    )
     assert "heat" in capsys.readouterr().err
     assert result(capsys, "info", tmp_path / "ply.bsm")["attributes"][0]["name"] == "color"

@@ -18,7 +18,6 @@ from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.targets import Runs, compare_runs
-from bsm.commands.denoise_report import length, unit_of
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.about import about
@@ -39,6 +38,7 @@ from bsm.files.sequence_stream import (
     pieces_of,
 )
 from bsm.files.stream import decode_whole, is_stream
+from bsm.lengths import length, unit_of
 from bsm.loops import Loops
 
 if TYPE_CHECKING:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.metrics import mean_edge_length
-from bsm.commands import denoise_report
 from bsm.commands.flags import add_inputs, add_reader_flag, asked, run_of
 from bsm.console import Console, Progress
 from bsm.files.formats.written import Written
@@ -33,9 +35,10 @@ from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 from bsm.files.state import size_of
 from bsm.jobs.run import plan, run_jobs
 from bsm.jobs.task import Facts, Task
+from bsm.lengths import length, unit_of
 
 if TYPE_CHECKING:
-    from bsm.codec.denoise import AutomaticChoice, DenoiseOptions
+    from bsm.codec.denoise import AutomaticChoice, DenoiseOptions, Step
 
 FINE = ("guided", "bilateral-normal")
 HAND_OVERS = ("positions", "heights", "normals", "none")
@@ -84,12 +87,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "with none of these everything is chosen from the noise of the mesh (of the first frame); "
         "with any of them the others have the paper's values; a result that takes more away than noise is not written "
         "without --force",
+        argument_default=argparse.SUPPRESS,
     )
-    ways.add_argument("--fine", choices=FINE, default=argparse.SUPPRESS, help="fine step (guided)")
+    ways.add_argument("--fine", choices=FINE, help="fine step (guided)")
     ways.add_argument(
         "--hand-over",
         choices=HAND_OVERS,
-        default=argparse.SUPPRESS,
         help="what the fine step gets: coarse positions, noisy ones moved to it along its normals, noisy "
         "ones smoothed along coarse normals, or no coarse step",
     )
@@ -97,21 +100,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--iterations",
         type=int,
         metavar="N",
-        default=argparse.SUPPRESS,
         help="of the fine step, 0: none (the method's own)",
     )
     ways.add_argument(
         "--keep",
         type=float,
         metavar="FRACTION",
-        default=argparse.SUPPRESS,
         help="share of a block's frequencies that the coarse step keeps, c over n_d (0.1)",
     )
     ways.add_argument(
         "--block-size",
         type=int,
         metavar="N",
-        default=argparse.SUPPRESS,
         help="vertices of a block before overlap, about (500)",
     )
 
@@ -134,7 +134,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def denoise_one(args: DenoiseJob, console: Console) -> Facts:
     """Denoise one mesh or one sequence."""
-    options = _options(args)
+    from bsm.codec.denoise import DenoiseOptions
+
+    options = DenoiseOptions(**args.options) if args.options else None
     if sequence := open_sequence(args.input, args.format, args.reader):
         result = _denoise_sequence(args, console, sequence, options)
     else:
@@ -151,15 +153,6 @@ def _suffix(name: str) -> str:
 
 def _format_of(name: str) -> str | None:
     return STREAM if name.lower().endswith(f".{STREAM}") else format_of_name(name)
-
-
-def _options(args: DenoiseJob) -> DenoiseOptions | None:
-    """What was asked for; None: nothing."""
-    if not args.options:
-        return None
-    from bsm.codec.denoise import DenoiseOptions
-
-    return DenoiseOptions(**args.options)
 
 
 def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
@@ -189,10 +182,10 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
             progress=progress.stage,
         )
         (positions,) = denoiser([mesh.positions])
-    unit = denoise_report.unit_of(mesh.metadata)
+    unit = unit_of(mesh.metadata)
     _tell(console, denoiser.choice, args, mean_edge_length(mesh.positions, mesh.faces), unit)
-    far = denoise_report.moved(mesh.positions, positions)
-    console.note(denoise_report.moved_line(far, len(positions), unit))
+    far = _moved(mesh.positions, positions)
+    console.note(_moved_line(far, len(positions), unit))
     seconds = time.perf_counter() - begin
     moved, stale = mesh.moved(positions)
     more: dict[str, Any] = {"moved": far}
@@ -247,7 +240,7 @@ def _counted(frames: Iterator[Positions], total: int, progress: Progress) -> Ite
 
 
 def _tell(console: Console, choice: AutomaticChoice | None, args: DenoiseJob, edge: float, unit: str = "") -> None:
-    for line in denoise_report.found(choice, args.goal, edge, unit):
+    for line in _found(choice, args.goal, edge, unit):
         console.note(line)
 
 
@@ -267,3 +260,68 @@ def _result(
         "automatic": None if choice is None else asdict(choice),
         "options": None if options is None else asdict(options),
     }
+
+
+def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str) -> list[str]:
+    """Lines on the noise, and on what was done about it; none where nothing was chosen."""
+    if choice is None:
+        return []
+    lines = []
+    if choice.outliers:
+        lines.append(f"put back   {choice.outliers} vertices that stood out by themselves")
+    if choice.ripples:
+        waves = ", ".join(f"{length * edge:.2g}" for length in choice.ripples)
+        lines.append(f"took away  waves of {waves} {unit}".rstrip() + " across the whole mesh")
+    if not choice.steps:
+        if not (choice.outliers or choice.ripples):
+            line = "steadied   " if choice.kind == "unsteady" else "left       as it was: "
+            lines.append(f"{line}{choice.reason}")
+            if choice.kind == "none":
+                lines.append("           if you see noise nevertheless, ask for a filter: --fine guided --iterations 3")
+        return lines
+    noise = choice.noise
+    lines.append(f"found      {choice.reason}")
+    line = f"noise      {noise.normal:.2f} edges ({length(noise.normal * edge, unit)})"
+    if goal == "shape":
+        line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
+    elif choice.kind != "unsteady":
+        line += (
+            f"; normals about {choice.untreated:.0f} -> {choice.expected:.0f} degrees off, more where there is detail"
+        )
+    lines.append(line)
+    for step, times in Counter(choice.steps).items():
+        share = times / len(choice.steps) * (1.0 - choice.learnt)
+        if share > 0.0:
+            lines.append(f"chosen     {100.0 * share:.0f} % {_described(step)}")
+    if choice.learnt > 0.0:
+        lines.append(f"chosen     {100.0 * choice.learnt:.0f} % learnt normals")
+    return lines
+
+
+def _moved(before: Positions, after: Positions) -> dict[str, float]:
+    """How many vertices moved, and how far: the mean over those, and the farthest."""
+    far = np.linalg.norm(after - before, axis=1)
+    touched = far > 0.0
+    mean = float(far[touched].mean()) if touched.any() else 0.0
+    return {"vertices": int(touched.sum()), "mean": mean, "farthest": float(far.max(initial=0.0))}
+
+
+def _moved_line(facts: dict[str, float], vertices: int, unit: str) -> str:
+    """How far vertices moved, in words."""
+    if not facts["vertices"]:
+        return "moved      no vertex"
+    who = "all vertices" if facts["vertices"] == vertices else f"{facts['vertices']:.0f} of {vertices} vertices"
+    return f"moved      {who}, by {length(facts['mean'], unit)} on average, {length(facts['farthest'], unit)} at most"
+
+
+def _described(step: Step) -> str:
+    recipe = step.recipe
+    guide = {
+        "patches": "guided normal filter",
+        "own": "bilateral normal filter",
+        "local": "local bilateral normal filter",
+    }[recipe.guide]
+    begun = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
+    if not recipe.needs_coarse:
+        begun = "no hand-over"
+    return f"{begun}; {step.iterations} iterations of the {guide}, sigma_r {recipe.sigma_r:g}"

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from bsm.usage import suggestion
+from bsm.cli import suggestion
 
 
 @dataclass(frozen=True)
