@@ -6,7 +6,7 @@
 >>> def eigenvectors(site, width):
 ...     return np.linalg.eigh(site.laplacian + np.diag(site.springs))[1][:, :width]
 >>> idea = research.Idea(dictionary=eigenvectors)
->>> mesh = knot(1000)
+>>> mesh = knot(300)
 >>> data = research.encode(mesh, idea, step=0.01)
 >>> research.decode(data, idea).faces.shape == mesh.faces.shape
 True

@@ -11,7 +11,9 @@ from bsm import __version__
 from bsm.cli import COMMANDS, main, program_parser
 from bsm.codec.static.options import PRESETS
 from bsm.commands.encode_options import PROMISES
+from bsm.files.mesh import write_mesh
 from tests.bsm.test_batch import bsm
+from tests.shapes import torus
 
 
 @pytest.mark.parametrize(
@@ -63,8 +65,7 @@ def test_compare_says_which_file_is_wrong(tmp_path, capsys):
 
 
 def test_a_target_out_of_reach_has_its_code(tmp_path, capsys):
-    main(["demo", "-q", "--vertices", "400", "-o", str(tmp_path)])
-    main(["decode", "-q", str(tmp_path / "bsm_demo.bsm"), "-o", str(tmp_path / "a.npz")])
+    write_mesh(tmp_path / "a.npz", torus(9, 6))
     for words in (["--theta", "1e-9"], ["--size", "20"]):
         assert main(["encode", str(tmp_path / "a.npz"), "-o", str(tmp_path / "b.bsm"), *words]) == 10
         assert "at most cannot be reached; the best that can be had is" in capsys.readouterr().err

@@ -19,8 +19,7 @@ from bsm.files.pipes import read_bytes, read_chunks
 from bsm.files.state import files_behind, state_of
 from bsm.jobs.task import Facts, Job, Task, Work
 
-_OF_JOBS = {"input", "output", "replaceable", "doubtful", "fresh", "before"}
-_ABOUT_THE_RUN = {"folder", "quiet", "force", "threads", *_OF_JOBS}
+_OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
 _EVERY = 1.0
 """Seconds between two versions of a report, at least."""
 _SHARE = 0.02
@@ -30,7 +29,7 @@ _ROWS = 60
 
 def options_of(task: Task) -> Facts:
     """What outputs depend on beside their inputs."""
-    given = {name: value for name, value in asdict(task).items() if name not in _ABOUT_THE_RUN}
+    given = {name: value for name, value in asdict(task).items() if name not in _OF_ONE_RUN}
     options: Facts = json.loads(json.dumps({"version": __version__, **given}, default=str, sort_keys=True))
     return options
 
@@ -59,17 +58,8 @@ class Report:
     def write(self) -> None:
         """Write what is known."""
         begin = time.perf_counter()
-        text = json.dumps(
-            {
-                **self._head,
-                "complete": not self._open,
-                "seconds": begin - self._begin,
-                "totals": totals(self._files),
-                "files": self._files,
-            },
-            indent=1,
-            allow_nan=False,
-        )
+        state = {"complete": not self._open, "seconds": begin - self._begin, "totals": totals(self._files)}
+        text = json.dumps({**self._head, **state, "files": self._files}, indent=1, allow_nan=False)
         with open_output(self._path, overwrite=True) as file:
             file.write(text.encode() + b"\n")
         end = time.perf_counter()
@@ -125,18 +115,11 @@ def _entry(given: Any) -> Facts:
 def recorded(work: Work, task: Task, console: Console) -> Facts:
     """Work that says what it read and wrote; it is not done again where both are still as `task.before` says."""
     state, before = state_of(task.input), task.before
-    if (
-        before
-        and state
-        and before.get("input_state") == state
-        and before.get("output_sha256") == digest_of(before["output"])
-    ):
+    as_before = before is not None and state is not None and before.get("input_state") == state
+    if before and as_before and before.get("output_sha256") == digest_of(before["output"]):
         console.note(f"{task.input} -> {before['output']}: as it was")
         return {**before, "resumed": True}
-    if task.output in task.doubtful:
-        facts = _compared(work, task, console)
-    else:
-        facts = work(task, console)
+    facts = _compared(work, task, console) if task.output in task.doubtful else work(task, console)
     return {**facts, "input_state": state, "output_sha256": digest_of(facts["output"])}
 
 
@@ -191,26 +174,17 @@ def table(files: Sequence[Facts]) -> Iterator[str]:
     width = max([len(facts["input"]) for facts in rows] + [5])
     yield f"{'input':{width}} {'bytes':>12} {'to':>12} {'ratio':>7} {'error':>10} {'seconds':>8}"
     for facts in rows:
-        if "error" in facts:
-            yield f"{facts['input']:{width}} failed: {facts['error'].splitlines()[-1]}"
-        else:
-            yield f"{facts['input']:{width}} {_cells(facts)}"
+        yield f"{facts['input']:{width}} {_cells(facts)}"
     if len(files) > len(rows):
         yield f"... and {len(files) - len(rows)} more"
 
 
 def _cells(facts: Facts) -> str:
-    taken, given = facts.get("input_bytes"), facts.get("output_bytes")
+    if "error" in facts:
+        return f"failed: {facts['error'].splitlines()[-1]}"
+    taken, given, farthest, kg = map(facts.get, ("input_bytes", "output_bytes", "max_error_relative", "kg"))
+    sizes = " ".join(f"{'' if size is None else size:>12}" for size in (taken, given))
     ratio = f"{taken / given:.2f}" if taken and given else ""
-    seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds', 0.0):.2f}"
-    return f"{_cell(taken):>12} {_cell(given):>12} {ratio:>7} {_error(facts):>10} {seconds:>8}"
-
-
-def _cell(value: Any) -> str:
-    return "" if value is None else str(value)
-
-
-def _error(facts: Facts) -> str:
-    if facts.get("max_error_relative") is not None:
-        return f"{100 * facts['max_error_relative']:.3g} %"
-    return f"KG {facts['kg']:.3g} %" if facts.get("kg") is not None else ""
+    error = f"{100 * farthest:.3g} %" if farthest is not None else f"KG {kg:.3g} %" if kg is not None else ""
+    seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds') or 0.0:.2f}"
+    return f"{sizes} {ratio:>7} {error:>10} {seconds:>8}"
