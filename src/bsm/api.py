@@ -21,7 +21,7 @@ from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, writte
 from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.lengths import LENGTHS, refuse_other_units
-from bsm.meshes import as_mesh, read_any, told_of
+from bsm.libraries.meshes import as_mesh, read_any, with_metadata
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -81,7 +81,7 @@ def encode(
 
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
     check_mapping("metadata", {} if metadata is None else metadata)
-    told = told_of(as_mesh(mesh), chosen, metadata or {})
+    told = with_metadata(as_mesh(mesh), chosen, metadata or {})
     refuse_other_units({name: keywords.get(name) for name in LENGTHS}, told.metadata)
     with watched("encoding") as progress:
         return b"".join(Encoder(told, chosen).chunks(progress))

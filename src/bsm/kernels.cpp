@@ -1,9 +1,8 @@
 // The kernels of `bsm` as functions of Python: one line each.
 #include "bitstream/kernel.hpp"
 
-extern "C" {
-#include "bsm/files/formats/walk.h"
-}
+extern "C" int64_t walk_rows(
+    ConstBytes raw, int64_t offset, ConstLongs2 widths, int64_t place, bool big_endian, Longs starts, Longs sizes);
 
 using namespace nb::literals;
 

@@ -37,7 +37,7 @@ from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
-from bsm.meshes import as_mesh
+from bsm.libraries.meshes import as_mesh
 
 if TYPE_CHECKING:
     from bsm.evaluation.curve import Align

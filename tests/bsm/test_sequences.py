@@ -11,7 +11,7 @@ from bsm.bitstream.errors import CorruptError, FormatError, MeshError, OptionErr
 from bsm.cli import main
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.npy import read_npy
+from bsm.files.formats.npz import read_npy
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 from tests.motion import bending

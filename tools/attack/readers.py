@@ -34,7 +34,7 @@ from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.npy import write_npy
+from bsm.files.formats.npz import write_npy
 from bsm.files.mesh import format_mesh, read_mesh
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer

@@ -12,8 +12,8 @@ import numpy as np
 from bsm.codec.arrays import Faces
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.columns import Array, unused_name
-from bsm.files.formats.materials import Material, as_gltf, images_in, kind_of_image, materials_in
+from bsm.files.formats.metadata import Material, as_gltf, images_in, kind_of_image, materials_in
+from bsm.files.formats.polygons import Array, unused_name
 
 _DOMAINS = {"vertex": "POINT", "corner": "CORNER", "face": "FACE"}
 _TYPES = {1: ("FLOAT", "value"), 2: ("FLOAT2", "vector"), 3: ("FLOAT_VECTOR", "vector"), 4: ("FLOAT_COLOR", "color")}

@@ -20,13 +20,12 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
-from bsm.files.about import about
 from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import in_order_of, read_permutation
-from bsm.files.pipes import read_chunks
+from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.sequence_stream import (
     Pieces,

@@ -18,13 +18,11 @@ from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, ru
 from bsm.console import Console
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.motion.frames import Shared
-from bsm.files.naming import default_output, output_inside, refuse_terminal
-from bsm.files.output import refuse_to_overwrite
+from bsm.files.output import default_output, output_inside, refuse_terminal, refuse_to_overwrite
 from bsm.files.permutation import read_permutation, reorder
-from bsm.files.pipes import read_chunks
+from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of, peek_header, said_of_runs
-from bsm.files.state import size_of
 from bsm.files.stream import decode_blocks, decode_what_is_left, decode_whole
 from bsm.jobs.run import anywhere, came_to, plan, run_jobs
 from bsm.jobs.task import Facts, Task

@@ -29,10 +29,9 @@ from bsm.files.mesh import (
 )
 from bsm.files.motion.folder import separate_meshes
 from bsm.files.motion.frames import Frames
-from bsm.files.naming import output_inside, refuse_terminal
-from bsm.files.output import refuse_to_overwrite
+from bsm.files.output import output_inside, refuse_terminal, refuse_to_overwrite
+from bsm.files.pipes import size_of
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
-from bsm.files.state import size_of
 from bsm.jobs.run import plan, run_jobs
 from bsm.jobs.task import Facts, Task
 from bsm.lengths import length, unit_of

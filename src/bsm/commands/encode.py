@@ -12,7 +12,7 @@ from bsm.commands.flags import add_inputs, add_reader_flag, asked, run_of
 from bsm.console import Console
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
-from bsm.files.naming import refuse_terminal
+from bsm.files.output import refuse_terminal
 from bsm.files.sequence import SEQUENCES_READ
 from bsm.jobs.encode import EncodeJob, encode_one
 from bsm.jobs.run import plan, plan_trees, refuse_collisions, run_jobs

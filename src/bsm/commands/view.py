@@ -13,10 +13,9 @@ from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.console import Console
-from bsm.files.about import about
 from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output
-from bsm.files.pipes import read_chunks
+from bsm.files.pipes import about, read_chunks
 from bsm.viewer.content import Content, compared
 from bsm.viewer.growing import Growing, written_to
 from bsm.viewer.page import PageServer, page_with

@@ -19,13 +19,13 @@ from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.materials import fetched
+from bsm.files.formats.metadata import fetched
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.formats.written import Written
 from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
 from bsm.files.pipes import Source, as_input
 from bsm.files.remote import is_url
-from bsm.files.room import gunzipped, require_archive, require_room
+from bsm.files.room import gunzipped, require_archive, require_counts_of_head, require_room
 
 _PLAIN = ("obj", "off", "ply", "stl")
 """Read whole, with nothing but what the bytes say."""
@@ -35,6 +35,8 @@ USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 """Read with usd-core."""
 WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "ply", "stl", "vtp")
 """What we write; GLB with trimesh."""
+_HEAD = 1 << 16
+"""Bytes in which a file tells of its size, if it does."""
 READERS = ("bsm", "openmesh", "trimesh")
 """Who can be asked to read a file: ourselves, or a library."""
 
@@ -90,6 +92,8 @@ def read_mesh(
     path, name = (given.name if given.is_file else None), given.name
     if reader not in (None, *READERS):
         raise OptionError(f"a reader must be one of {', '.join(READERS)}, not {reader!r}")
+    head = given.peek(_HEAD)
+    require_counts_of_head(file_format or format_of_name(name) or format_of_bytes(head), head, limits)
     data = given.read_all()
     if data.startswith(b"\x1f\x8b"):
         path, name, data = None, name.removesuffix(".gz"), gunzipped(data, limits)
@@ -111,7 +115,7 @@ def read_mesh(
             require_archive(data, limits)
         if kind in ("glb", "gltf"):
             import_trimesh(f".{kind} files are read")
-            by_name("bsm.gltf.document", "require_room_for_meshes")(data, limits)
+            by_name("bsm.gltf.document", "require_room_for_meshes")(data, limits, Path(path).parent if path else None)
         return read_with_trimesh(data, path, kind, limits).checked(limits)
     if kind in _PLAIN:
         require_room(kind, data, limits)

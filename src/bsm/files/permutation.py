@@ -13,7 +13,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.npy import write_npy
+from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes
 

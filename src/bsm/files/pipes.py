@@ -1,15 +1,18 @@
-"""Where bytes come from: files, pipes, memory, open files; opened once, and looked at before they are read."""
+"""Where bytes come from: files, pipes, memory, open files, URLs; opened once, and looked at before they are read."""
 
 from __future__ import annotations
 
+import errno
+import glob
 import io
 import os
+import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import BinaryIO, TypeAlias, Union, cast
 
-from bsm.bitstream.errors import ArgumentError, FormatError, LimitError
-from bsm.files.remote import is_url, open_remote, without_scheme_of_files
-from bsm.files.standard import standard_input
+from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, LimitError
+from bsm.files.remote import is_url, open_remote, state_of_remote, without_scheme_of_files
 
 Source: TypeAlias = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview, BinaryIO, "Input"]
 """A path ("-" is standard input) or URL, any buffer, or a binary file, which need not be seekable."""
@@ -145,3 +148,67 @@ def read_bytes(source: Source) -> bytes:
 def read_chunks(source: Source) -> Iterator[bytes]:
     """The bytes of a source, as they come."""
     return as_input(source).chunks()
+
+
+def standard_input() -> BinaryIO:
+    """Raises `OSError` if it is closed."""
+    if sys.stdin is None:
+        raise OSError(errno.EBADF, "standard input is closed")
+    return sys.stdin.buffer
+
+
+def standard_output() -> BinaryIO:
+    """Raises `OSError` if it is closed."""
+    if sys.stdout is None:
+        raise OSError(errno.EBADF, "standard output is closed")
+    return sys.stdout.buffer
+
+
+@contextmanager
+def about(path: str) -> Iterator[None]:
+    """Put the name of the file that it is about before the message of whatever is raised inside."""
+    try:
+        yield
+    except BsmError as error:
+        error.message = f"{path}: {error.message}"
+        raise
+
+
+State = list[object]
+"""Name, size and version of each file, as JSON gives it back."""
+
+
+def files_behind(path: str) -> Iterator[str]:
+    """The files behind an input or output: itself, or what a folder or a pattern names, in order."""
+    if is_url(path):
+        yield path
+    elif os.path.isdir(path):
+        yield from sorted(entry.path for entry in os.scandir(path))
+    elif glob.has_magic(path) and not os.path.exists(path):
+        yield from sorted(glob.iglob(path))
+    else:
+        yield path
+
+
+def state_of(path: str) -> State | None:
+    """Sizes and times of the files behind an input or output; None where that cannot be told."""
+    found: State = []
+    for file in files_behind(path):
+        if is_url(file):
+            state = state_of_remote(file)
+            if state is None or not state.version:
+                return None
+            found.append([file, state.size, state.version])
+        elif os.path.isfile(file):
+            about = os.stat(file)
+            found.append([file, about.st_size, str(about.st_mtime_ns)])
+    return found or None
+
+
+def size_of(path: str) -> int | None:
+    """Bytes of the files behind an input or output; None for a pipe, and where a server does not say."""
+    if is_url(path):
+        state = state_of_remote(path)
+        return state.size if state else None
+    sizes = [os.path.getsize(file) for file in files_behind(path) if os.path.isfile(file)]
+    return sum(sizes) if sizes else None

@@ -15,6 +15,7 @@ import numpy as np
 
 from bsm.bitstream.errors import CorruptError, FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
+from bsm.files.rows import without_comments
 
 LINE, WORD = 250.0, 330.0
 """Bytes that a line of text, and a word of it, are kept in while numbers are made of them."""
@@ -26,6 +27,9 @@ TAG = 150
 """Bytes that a tag of XML becomes in the tree of a library."""
 _PIECE = 1 << 18
 _OTHER = re.compile(rb"[^\0]")
+_COUNTED = {b"vertex": "vertices", b"face": "faces"}
+_PLY_COUNTS = re.compile(rb"[\r\n][ \t]*element[ \t]+(vertex|face)[ \t]+(\d{1,18})\b")
+_OFF_COUNTS = re.compile(rb"\s*[A-Zn4]{3,9}\s+(\d{1,18})\s+(\d{1,18})\b")
 _KEYWORDS = {"v": "vertices", "f": "faces"}
 
 
@@ -36,14 +40,29 @@ class Readable(Protocol):
         """The next bytes; none at the end."""
 
 
-def most_inflated(compressed: int, limits: Limits) -> int:
-    """Bytes that so many compressed ones may become."""
-    return int(min(limits.memory_for(0, compressed), 1 << 62))
+def require_count(name: str, count: int, limits: Limits) -> None:
+    """Raise `LimitError` where a file has more vertices, faces or frames than a stream may."""
+    most = int(min(getattr(limits, name), 1 << 62))
+    if count > most:
+        raise LimitError(f"{name} = {count:,} is over the limit of {most:,}; cut it into parts")
 
 
-def require_inflated(size: int, compressed: int, limits: Limits) -> None:
+def require_counts_of_head(kind: str | None, head: bytes, limits: Limits) -> None:
+    """Raise `LimitError` where the first bytes of a file already tell of too many vertices or faces."""
+    found: list[tuple[bytes, bytes]] = []
+    if kind == "ply":
+        found = _PLY_COUNTS.findall(head.partition(b"end_header")[0])
+    elif kind == "off" and (match := _OFF_COUNTS.match(without_comments(head))):
+        found = list(zip(_COUNTED, match.groups()))
+    elif kind == "stl" and len(head) >= 84 and not head.lstrip().startswith(b"solid"):
+        found = [(b"face", str(int.from_bytes(head[80:84], "little")).encode())]
+    for name, count in found:
+        require_count(_COUNTED[name], int(count), limits)
+
+
+def require_inflated(size: int, compressed: int, limits: Limits, vertices: int = 0) -> None:
     """Raise `LimitError` where so many compressed bytes become too many."""
-    most = most_inflated(compressed, limits)
+    most = int(min(limits.memory_for(vertices, compressed), 1 << 62))
     if size > most:
         raise LimitError(
             f"{compressed} compressed bytes take {size} bytes of memory or more, over the limit of {most} "
@@ -100,7 +119,7 @@ def require_room(kind: str, data: bytes, limits: Limits) -> None:
     if kind == "obj":
         counts = {name: _lines_that_begin(data, key) for key, name in _KEYWORDS.items()}
         for name, count in counts.items():
-            limits.check(name, count)
+            require_count(name, count, limits)
         vertices = counts["vertices"]
         if not counts["faces"] and not data.startswith((b"f ", b"f\t")) and b"\0" not in data:
             raise MeshError("the file has no faces; point clouds are not supported")

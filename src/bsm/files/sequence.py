@@ -18,8 +18,7 @@ import numpy as np
 from bsm.bitstream.errors import OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
-from bsm.files.formats.npy import NPY, write_npy
-from bsm.files.formats.npz import open_npz_sequence
+from bsm.files.formats.npz import NPY, open_npz_sequence, write_npy
 from bsm.files.mesh import USD_FORMATS, WRITTEN_FORMATS, by_name, save_written, written_mesh
 from bsm.files.motion.arrays import read_archive, read_pipe
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import Limits
 from bsm.files.pipes import Input
+from bsm.files.room import require_count
 
 Array = npt.NDArray[Any]
 Tree = dict[str, Any]
@@ -200,6 +201,11 @@ def _resource(uri: str, folder: Path | None) -> bytes:
             raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
     if folder is None:
         raise FormatError(f"this glTF needs the file {uri} beside it, and did not come from a folder")
+    return Input(str(_file(uri, folder))).read_all()
+
+
+def _file(uri: str, folder: Path) -> Path:
+    """The regular file in the folder of a document, or below, that is meant."""
     try:
         path = Path(folder, unquote(uri)).resolve()
         inside, is_file = path.is_relative_to(folder.resolve()), path.is_file()
@@ -209,7 +215,7 @@ def _resource(uri: str, folder: Path | None) -> bytes:
         raise FormatError(f"this glTF refers to {uri}, which is not in its folder")
     if not is_file:
         raise FormatError(f"this glTF refers to {uri}, which is no file beside it")
-    return Input(str(path)).read_all()
+    return path
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes]:
@@ -271,9 +277,12 @@ def read_document(path: str) -> Document:
     return Document(Input(path).read_all(), Path(path).parent)
 
 
-def require_room_for_meshes(data: bytes, limits: Limits) -> None:
-    """Count what the meshes of a glTF become, before anybody makes them."""
+def require_room_for_meshes(data: bytes, limits: Limits, folder: Path | None = None) -> None:
+    """Count what the meshes of a glTF become, before anybody makes them; its buffers must be files of its folder."""
     document = Document(data)
+    for buffer in document.items("buffers"):
+        if folder and not (uri := str(buffer.get("uri", "data:"))).startswith("data:"):
+            _file(uri, folder)
     with as_format_error():
         numbers, named = 0, set()
         for primitive in document.primitives():
@@ -285,5 +294,5 @@ def require_room_for_meshes(data: bytes, limits: Limits) -> None:
                 named.add(where)
         vertices = sum(document.count(index) for index in named)
     beside = sum(_count(buffer, "byteLength") for buffer in document.items("buffers") if "uri" in buffer)
-    limits.check("vertices", vertices)
+    require_count("vertices", vertices, limits)
     limits.check_memory(PER_NUMBER * numbers, vertices, len(data) + beside)

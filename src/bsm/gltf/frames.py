@@ -10,10 +10,10 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Positions
-from bsm.files.formats.columns import Column
-from bsm.files.formats.materials import Material, Value, described, named
-from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.metadata import Material, Value, described, named
+from bsm.files.formats.polygons import Column, MeshFile, Polygons
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, rate_of_times
+from bsm.files.room import require_count
 from bsm.files.rows import Doubles
 from bsm.gltf.document import Document, Tree, as_format_error, read_document
 from bsm.gltf.scene import Part, Scene
@@ -43,7 +43,7 @@ def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Fr
     keys = scene.keys
     rate = wanted.rate or _rate(keys)
     count = int(np.floor((keys[-1] - keys[0]) * rate + 1e-3)) + 1
-    limits.check("frames", count)
+    require_count("frames", count, limits)
     limits.check_work(scene.work * count, scene.vertices * count, document.received)
     times = keys[0] + np.arange(count) / rate
     still = _still(scene, document, float(times[0]), limits)
@@ -96,7 +96,7 @@ def _still(scene: Scene, document: Document, time: float, limits: Limits) -> Mes
     parts = scene.parts
     begin = np.cumsum([0, *(len(part.base) for part in parts)])
     triangles = sum(len(part.faces) for part in parts)
-    limits.check("faces", triangles)
+    require_count("faces", triangles, limits)
     tables = sum(1 + len(part.columns) for part in parts) * triangles // len(parts)
     limits.check_memory(PER_TRIANGLE * tables + PER_PART * len(parts), scene.vertices, document.received)
     faces = np.concatenate([part.faces + first for part, first in zip(parts, begin)])

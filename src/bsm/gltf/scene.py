@@ -10,7 +10,8 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, LimitError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.welding import row_numbers
-from bsm.files.formats.columns import Column, color_column, meaning_of
+from bsm.files.formats.polygons import Column, color_column, meaning_of
+from bsm.files.room import require_count
 from bsm.files.rows import Doubles, Ints
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Array, Document, Tree
 
@@ -134,7 +135,7 @@ class Scene:
             mesh = self._nodes[node].get("mesh")
             for primitive in [] if mesh is None else document.item("meshes", mesh)["primitives"]:
                 seen += document.count(primitive["attributes"].get("POSITION", 0))
-        self._limits.check("vertices", seen)
+        require_count("vertices", seen, self._limits)
         numbers = 0
         for primitive in document.primitives():
             given = [*primitive["attributes"].values(), primitive.get("indices")]

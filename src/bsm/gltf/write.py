@@ -19,7 +19,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.materials import (
+from bsm.files.formats.metadata import (
     GLTF_TEXTURES,
     Material,
     gltf_values,

@@ -20,14 +20,14 @@ from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.permutation import write_permutation
+from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
 from bsm.files.sequence_stream import said_of_runs
-from bsm.files.state import size_of
 from bsm.jobs.run import came_to
 from bsm.jobs.task import Facts, Task
 from bsm.lengths import LENGTHS, refuse_other_units
+from bsm.libraries.meshes import with_metadata
 from bsm.loops import Loops
-from bsm.meshes import told_of
 from bsm.options import encode_options, sequence_options
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     chosen = encode_options(**job.options, threads=job.threads)
     with console.progress("reading"):
         source = read_mesh(job.input, job.format, reader=job.reader)
-    mesh = told_of(source.mesh, chosen, job.metadata)
+    mesh = with_metadata(source.mesh, chosen, job.metadata)
     refuse_other_units({name: job.options.get(name) for name in LENGTHS}, mesh.metadata)
     begin = time.perf_counter()
     encoder = Encoder(mesh, chosen)

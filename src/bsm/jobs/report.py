@@ -15,8 +15,7 @@ from bsm import __version__
 from bsm.bitstream.errors import FormatError
 from bsm.console import Console
 from bsm.files.output import open_output
-from bsm.files.pipes import read_bytes, read_chunks
-from bsm.files.state import files_behind, state_of
+from bsm.files.pipes import files_behind, read_bytes, read_chunks, state_of
 from bsm.jobs.task import Facts, Job, Task, Work
 
 _OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}

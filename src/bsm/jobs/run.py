@@ -13,11 +13,9 @@ from pathlib import Path
 from bsm.bitstream.errors import OptionError
 from bsm.console import Console, print_json
 from bsm.exits import exit_of, tell, worded
-from bsm.files.about import about
-from bsm.files.naming import default_output, output_inside
-from bsm.files.output import refuse_to_overwrite
+from bsm.files.output import default_output, output_inside, refuse_to_overwrite
+from bsm.files.pipes import about, files_behind
 from bsm.files.remote import expanded, is_url, state_of_remote, without_scheme_of_files
-from bsm.files.state import files_behind
 from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, options_of, read_report, recorded, table
 from bsm.jobs.task import Facts, Job, Numbered, Outcome, Outcomes, Run, Task, Tasks, Work, outcome_of
 
@@ -80,7 +78,9 @@ def refuse_collisions(inputs: Sequence[str], outputs: Sequence[str]) -> None:
     for output in outputs:
         path = output if is_url(output) else os.path.realpath(output)
         if path in found and output not in ("", "-"):
-            raise OptionError(f"two outputs would have the name {path}; write them to different folders")
+            raise OptionError(
+                f"two outputs would have the name {path}; write them to different folders, or name their folder with -r"
+            )
         found.add(path)
     taken = {_identity(file) for name in inputs for file in files_behind(name)} - {None}
     for output in outputs:

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias, TypeVar
 
 from bsm.console import Console
 from bsm.exits import behind, is_expected
-from bsm.files.about import about
+from bsm.files.pipes import about
 
 _Same = TypeVar("_Same", bound="Task")
 Facts = dict[str, Any]

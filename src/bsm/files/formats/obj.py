@@ -5,19 +5,28 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from itertools import chain
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Mask
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.columns import PLURALS, Column, color_column, compact
-from bsm.files.formats.materials import Value, materials_in, named, names_in, one_line, said_in_mtl, write_mtl
-from bsm.files.formats.polygons import Polygons
-from bsm.files.formats.remarks import parse_remarks, remarks
+from bsm.files.formats.metadata import (
+    Value,
+    materials_in,
+    named,
+    names_in,
+    one_line,
+    parse_remarks,
+    remarks,
+    said_in_mtl,
+    write_mtl,
+)
+from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact
 from bsm.files.formats.written import Library, Written, face_numbers, first, left_out
 from bsm.files.rows import Doubles, Ints, Rows, as_integers, point_row, text_table, without_comments
 
@@ -27,6 +36,7 @@ _OF_CORNERS: dict[bytes, Literal["texcoord", "normal"]] = {b"vt": "texcoord", b"
 _DROPPED = {b"l": "lines", b"p": "points", b"vp": "parameter space", b"curv": "curves", b"surf": "surfaces"}
 _COLORS = 3
 """Numbers of a colour that every reader takes; some count a fourth as a coordinate."""
+_FEW = 8
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
 
 
@@ -199,19 +209,33 @@ def write_obj(mesh: TriangleMesh, stem: str) -> Written:
             indices.append(mesh.faces if attribute.indices is None else attribute.indices)
     corner = "{}/{}/{}" if texcoord and normal else "{}//{}" if normal else "{}/{}" if texcoord else "{}"
     columns = np.stack(indices, axis=2).reshape(len(mesh.faces), -1) + 1
-    faces = map(f"f {corner} {corner} {corner}\n".format, *columns.T.tolist())
+    nothing = np.zeros(len(mesh.faces), np.int64)
+    states = {what: nothing if one is None else one.values[:, 0] for what, one in numbers.items() if names[what]}
+    order = _grouped(list(states.values()), len(mesh.faces))
+    faces = map(f"f {corner} {corner} {corner}\n".format, *columns[order].T.tolist())
     before = np.full(len(mesh.faces), "", dtype=object)
-    for what, attribute in numbers.items():
-        if names[what]:
-            values = np.zeros(len(mesh.faces), np.int64) if attribute is None else attribute.values[:, 0]
-            changes = np.flatnonzero(np.diff(values, prepend=values[0] - 1))
-            before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in values[changes].tolist()]
+    for what, values in states.items():
+        changes = np.flatnonzero(np.diff(values[order], prepend=values[order[0]] - 1))
+        before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in values[order[changes]].tolist()]
     parts += chain.from_iterable(zip(before.tolist(), faces))
     held = (color, texcoord, normal, *numbers.values())
     lost = left_out(mesh, held, unsaid)
     if color is not None and color.components > _COLORS:
         lost = (f"alpha of {color.name}", *lost)
     return Written("".join(parts).encode(), lost, library.beside)
+
+
+def _grouped(states: list[npt.NDArray[Any]], faces: int) -> Ints:
+    """The order in which faces are written: their own, but grouped by their materials and so on where these change for
+    every few faces, as no file has it."""
+    order = np.arange(faces)
+    if states:
+        table = np.column_stack(states[::-1])
+        kinds, of_face = np.unique(table, axis=0, return_inverse=True)
+        changes = np.count_nonzero(np.diff(of_face.reshape(-1)))
+        if changes >= len(kinds) and _FEW * changes > faces:
+            order = np.argsort(of_face.reshape(-1), kind="stable")
+    return order
 
 
 def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[int, str]:

@@ -11,9 +11,8 @@ from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.columns import Column, color_column, compact
-from bsm.files.formats.polygons import Polygons
-from bsm.files.formats.remarks import parse_remarks, remarks
+from bsm.files.formats.metadata import parse_remarks, remarks
+from bsm.files.formats.polygons import Column, Polygons, color_column, compact
 from bsm.files.formats.written import Written, first, left_out
 from bsm.files.rows import Doubles, Ints, Rows, point_row, require_lines, text_table, without_comments
 

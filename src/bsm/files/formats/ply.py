@@ -13,11 +13,9 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.columns import Array, Column, color_column, unused_name
-from bsm.files.formats.ply_header import IMAGE, Element, parse_header
-from bsm.files.formats.ply_tables import Table, tables_of
-from bsm.files.formats.polygons import Polygons
-from bsm.files.formats.remarks import remarks
+from bsm.files.formats.metadata import one_line, remarks
+from bsm.files.formats.ply_tables import COMMENTS, IMAGE, Element, Table, parse_header, tables_of
+from bsm.files.formats.polygons import Array, Column, Polygons, color_column, unused_name
 from bsm.files.formats.written import Library, Written, left_out
 from bsm.files.rows import Ints, as_integers, single_suffices
 
@@ -131,6 +129,8 @@ _PLY_TYPES = {
     "int8": "char", "uint8": "uchar", "int16": "short", "uint16": "ushort", "int32": "int", "uint32": "uint",
     "float32": "float", "float64": "double",
 }  # fmt: skip
+_MOST_TEXT = 1 << 13
+"""Characters of a comment; readers look for the end of a header in its first 64 KiB."""
 _PROPERTIES = {
     ("normal", 3): ("nx", "ny", "nz"),
     ("color", 3): ("red", "green", "blue"),
@@ -144,14 +144,17 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
     library = Library(mesh, stem)
     mesh = split_by_attributes(mesh)
     images = [f"{IMAGE} {name}" for name in library.images.values()]
-    comments, unsaid = remarks(mesh.metadata, library.said)
+    texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}
+    texts = {word: text for word, text in texts.items() if len(text) < _MOST_TEXT}
+    free = [f"{word} {one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
+    comments, unsaid = remarks(mesh.metadata, library.said | texts.keys())
     columns = {"vertex": _vertex_fields(mesh), "face": [("vertex_indices", mesh.faces)]}
     for attribute in mesh.attributes:
         fields = columns[attribute.domain]
         names = _property_names(attribute, [name for name, _ in fields])
         fields += zip(names, attribute.values.T)
     lines = ["ply", "format binary_little_endian 1.0"]
-    lines += [f"comment {line}" for line in (*images, *comments)]
+    lines += [*free, *(f"comment {line}" for line in (*images, *comments))]
     body = []
     for element, fields in columns.items():
         length = len(fields[0][1])

@@ -2,16 +2,153 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import MeshError, TruncatedError
-from bsm.files.formats.columns import Array
-from bsm.files.formats.ply_header import Element, Header
+from bsm import _kernels
+from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
+from bsm.codec.geometry.mesh import Metadata
+from bsm.files.formats.metadata import materials_in, parse_remarks, refers_to_image
+from bsm.files.formats.polygons import Array
 from bsm.files.rows import Ints, Rows, as_integers, ranges, require_lines
+
+_TYPES = {
+    "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
+    "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
+    "double": "f8", "float32": "f4", "float64": "f8",
+}  # fmt: skip
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_MAX_ELEMENTS = 64
+_MAX_PROPERTIES = 256
+"""Of one element: rows are walked once for each list."""
+COMMENTS = ("comment", "obj_info")
+"""What a line begins with that anybody may write anything in."""
+IMAGE = "TextureFile"
+"""A comment that begins so names an image; their numbers are those of the property texnumber."""
+
+
+@dataclass(frozen=True)
+class Property:
+    """One column of an element: a number, or a list of numbers behind its length (of the type `length`)."""
+
+    name: str
+    type: str
+    length: str | None = None
+
+
+@dataclass(frozen=True)
+class Element:
+    """A table of `count` rows."""
+
+    name: str
+    count: int
+    properties: tuple[Property, ...]
+
+    def index(self, *names: str) -> int:
+        """The place of the first property that has one of the names, or -1."""
+        return next((i for i, column in enumerate(self.properties) if column.name in names), -1)
+
+
+@dataclass(frozen=True)
+class Header:
+    """The order of the bytes ("" for text), the elements, where the body begins, and the comments."""
+
+    order: str
+    elements: tuple[Element, ...]
+    size: int
+    comments: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def metadata(self) -> Metadata:
+        """What the comments say; images are those of materials."""
+        images = [line.removeprefix(IMAGE).strip() for _, line in self.comments if line.startswith(f"{IMAGE} ")]
+        found = parse_remarks(line for _, line in self.comments)
+        for keyword in COMMENTS:
+            lines = [line for kind, line in self.comments if kind == keyword]
+            own = [line for line in lines if line and not line.startswith(f"{IMAGE} ") and not parse_remarks([line])]
+            if own:
+                found.setdefault(keyword, "\n".join(own))
+        shown = {
+            value
+            for material in materials_in(found).values()
+            for name, value in material.items()
+            if refers_to_image(name)
+        }
+        for number, name in enumerate(images):
+            found[f"image.{number}.name"] = name
+            if number not in shown:
+                found |= {f"material.{number}.name": name, f"material.{number}.map_Kd": number}
+        return found
+
+
+def parse_header(data: bytes) -> Header:
+    """Parse the lines up to `end_header`."""
+    begin = re.match(rb"ply[ \t]*(\r\n|\n|\r)", data)
+    if begin is None:
+        raise FormatError("this is not a PLY file: it does not begin with ply")
+    line_end = begin[1]  # old Macintosh files have \r alone
+    end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:" + line_end + rb"|\Z)").search(data, begin.end() - 1, 1 << 16)
+    if end is None:
+        raise TruncatedError("the PLY header has no end_header")
+    order: str | None = None
+    elements: list[Element] = []
+    comments: list[tuple[str, str]] = []
+    for line in re.split("[\r\n]+", _decoded(data[begin.end() : end.start()])):
+        words = line.split()
+        try:
+            match words:
+                case []:
+                    pass
+                case ["comment" | "obj_info" as keyword, *_]:
+                    comments.append((keyword, line.strip().removeprefix(keyword).strip()))
+                case ["format", name, *_]:
+                    order = _ORDERS[name]
+                case ["element", name, count]:
+                    elements.append(Element(name, _count(count), ()))
+                case ["property", "list", length, kind, name]:
+                    _extend(elements, Property(name, _TYPES[kind], _TYPES[length]))
+                case ["property", kind, name]:
+                    _extend(elements, Property(name, _TYPES[kind]))
+                case _:
+                    raise KeyError
+        except (KeyError, IndexError, ValueError):
+            raise FormatError(f"the PLY header has a line that makes no sense: {line[:80]!r}") from None
+    if order is None or len(elements) > _MAX_ELEMENTS:
+        raise FormatError("the PLY header names no format, or too many elements")
+    return Header(order, tuple(elements), end.end(), tuple(comments))
+
+
+def _decoded(text: bytes) -> str:
+    try:
+        return text.decode()
+    except UnicodeDecodeError:
+        return text.decode("latin-1")
+
+
+def _count(text: str) -> int:
+    if not re.fullmatch(r"\d{1,18}", text):
+        raise ValueError
+    return int(text)
+
+
+def _extend(elements: list[Element], column: Property) -> None:
+    last = elements[-1]
+    if len(last.properties) >= _MAX_PROPERTIES:
+        raise LimitError(f"an element of the PLY file has over {_MAX_PROPERTIES} properties")
+    elements[-1] = Element(last.name, last.count, (*last.properties, column))
+
+
+def walk_rows(
+    raw: npt.NDArray[np.uint8], offset: int, count: int, widths: npt.NDArray[np.int64], place: int, big_endian: bool
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], int]:
+    """Walk over `count` rows of numbers and lists."""
+    starts, sizes = np.zeros(count, np.int64), np.zeros(count, np.int64)
+    end = _kernels.walk_rows(raw, offset, widths, place, big_endian, starts, sizes)
+    return starts, sizes, end
 
 
 class Table(Protocol):
@@ -178,7 +315,6 @@ class _RaggedTable:
 
     def walk(self, place: int) -> tuple[Ints, Ints, int]:
         """Where each row's property begins, how many items it has, and where the last row ends."""
-        from bsm.files.formats.walk import walk_rows
 
         widths = np.array(_widths(self.element))
         starts, sizes, end = walk_rows(self.raw, self.begin, self.element.count, widths, place, self.order == ">")

@@ -1,18 +1,120 @@
-"""What mesh files hold: polygons over points. What becomes of it: triangles."""
+"""What mesh files hold: polygons over points, and columns of what these have; what becomes of it: a mesh."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, field
+from itertools import chain, count
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.limits import Limits
 from bsm.bitstream.public import public
+from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.columns import Column, attributes_of
-from bsm.files.formats.remarks import fitting
-from bsm.files.rows import Doubles, Ints
+from bsm.files.formats.metadata import fitting
+from bsm.files.room import require_count
+from bsm.files.rows import Doubles, Ints, single_suffices
+
+Array = npt.NDArray[Any]
+PLURALS = {"color": "colours", "normal": "normals", "texcoord": "texture coordinates"}
+"""Attributes in words, by their names."""
+_COLORS = ("rgb", "rgba", "colors", "colours")
+_TEXCOORDS = ("texture coordinates", "uv", "tcoords")
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """A value for each point, each polygon, or each corner of the polygons; it may be wrong."""
+
+    name: str
+    values: Array
+    domain: Domain = "vertex"
+    semantic: Semantic = "generic"
+    indices: Ints | None = None
+
+    def of_triangles(self, name: str, places: Ints, owner: Ints) -> Attribute:
+        """The attribute of triangles whose corners are the polygons' at `places`, and which are of polygon `owner`."""
+        name = name.encode()[:MOST_NAME_BYTES].decode(errors="ignore") or self.domain
+        if self.domain == "vertex":
+            return Attribute(name, self.values, semantic=self.semantic)
+        if self.domain == "face":
+            return Attribute(name, self.values[owner], "face", self.semantic)
+        indices = np.arange(len(self.values)) if self.indices is None else self.indices
+        used = indices[places]
+        if used.size and not (used.min() >= 0 and used.max() < len(self.values)):
+            raise MeshError(f"a corner refers to value {used[(used < 0) | (used >= len(self.values))][0]}")
+        return Attribute(name, self.values, "corner", self.semantic, used.astype(np.int32))
+
+
+def attributes_of(
+    columns: Iterable[Column], vertices: int, polygons: int, places: Ints, owner: Ints
+) -> tuple[tuple[Attribute, ...], dict[str, str]]:
+    """The attributes that columns are, and why the others are none, by name."""
+    rows = {"vertex": vertices, "face": polygons}
+    found: dict[str, Attribute] = {}
+    refused: dict[str, str] = {}
+    for column in columns:
+        name = unused_name(column.name, column.domain, found)
+        try:
+            if rows.get(column.domain, len(column.values)) != len(column.values):
+                raise MeshError(f"there are {len(column.values)} of them for {rows[column.domain]}")
+            found[name] = column.of_triangles(name, places, owner)
+        except MeshError as error:
+            refused[PLURALS.get(column.name, column.name)] = str(error)
+    return tuple(found.values()), refused
+
+
+def unused_name(name: str, domain: str, taken: Collection[str]) -> str:
+    """`name`, or one like it that is not taken."""
+    longer = name if name.startswith(domain) else f"{domain}_{name}"
+    candidates = chain((name, longer), (f"{name}{number}" for number in count(2)))
+    return next(candidate for candidate in candidates if candidate not in taken)
+
+
+def compact(values: Array) -> Array:
+    """Floats in single precision where that moves none by more than a millionth of their range."""
+    wide = values.dtype == np.float64 and values.size and np.isfinite(values).all() and single_suffices(values)
+    return values.astype(np.float32) if wide else values
+
+
+def color_column(values: Array, domain: Domain, *, written_whole: bool = False) -> Column:
+    """Colours as a file has them: bytes, or floats from 0 to 1; numbers beyond that mean nothing known."""
+    if values.dtype.kind == "f" and values.size and np.isfinite(values).all():
+        bytes_ = np.rint(values) if written_whole or values.max() > 1 else np.rint(values * 255)
+        exact = values if written_whole or values.max() > 1 else values * 255
+        if bytes_.min() >= 0 and bytes_.max() <= 255 and np.abs(bytes_ - exact).max() <= 255e-6:
+            return Column("color", bytes_.astype(np.uint8), domain, "color")
+        in_range = values.min() >= 0 and values.max() <= 1
+        return Column("color", compact(values), domain, "color" if in_range else "generic")
+    return Column("color", values, domain, "color" if values.dtype in (np.uint8, np.uint16) else "generic")
+
+
+def named_column(name: str, values: Array, domain: Domain, meaning: Semantic | None = None) -> Column:
+    """Values as libraries name them, shape (k, c); None: their name tells what they mean."""
+    lower = name.lower()
+    if meaning is None:
+        meaning = "color" if lower in _COLORS else "texcoord" if lower in _TEXCOORDS else meaning_of(name)
+    colored = meaning == "color" and values.shape[1] in (3, 4)
+    column = color_column(values, domain) if colored else Column(name, values, domain, meaning)
+    return Column(name, column.values, domain, column.semantic)
+
+
+def held_by(attributes: Iterable[Attribute], test: Callable[[Attribute], bool]) -> Attribute | None:
+    """The first attribute that passes a test."""
+    return next((attribute for attribute in attributes if test(attribute)), None)
+
+
+def meaning_of(name: str) -> Semantic:
+    """What the name of an attribute tells of its meaning."""
+    meanings: tuple[Semantic, ...] = ("color", "normal", "texcoord")
+    bare = re.sub(r"^(vertex|corner|face)_", "", name.lower())
+    return next((meaning for meaning in meanings if bare.startswith(meaning)), "generic")
+
 
 _MOST_TURNS = 64
 
@@ -57,8 +159,8 @@ class Polygons:
     def checked(self, limits: Limits) -> MeshFile:
         """The mesh of triangles."""
         positions, sizes, corners = self.positions, self.sizes, self.corners
-        limits.check("vertices", len(positions))
-        limits.check("faces", int(np.maximum(sizes - 2, 0).sum()))
+        require_count("vertices", len(positions), limits)
+        require_count("faces", int(np.maximum(sizes - 2, 0).sum()), limits)
         if not (sizes > 0).any():
             raise MeshError("the file has no faces; point clouds are not supported")
         outside = (corners < 0) | (corners >= len(positions))

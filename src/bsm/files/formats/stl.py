@@ -9,8 +9,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.columns import Column
-from bsm.files.formats.polygons import Polygons
+from bsm.files.formats.polygons import Column, Polygons
 from bsm.files.formats.written import Written, face_numbers, left_out
 from bsm.files.rows import Doubles, Rows, single_suffices
 

@@ -17,15 +17,14 @@ from xml.parsers import expat
 
 import numpy as np
 
-from bsm.bitstream.errors import CorruptError, FormatError, MeshError, TruncatedError
+from bsm.bitstream.errors import BsmError, CorruptError, FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.columns import Array, Column, named_column
-from bsm.files.formats.polygons import Polygons
+from bsm.files.formats.polygons import Array, Column, Polygons, named_column
 from bsm.files.formats.written import Written, first
-from bsm.files.room import AS_NUMBERS, require_inflated
+from bsm.files.room import AS_NUMBERS, require_count, require_inflated
 from bsm.files.rows import Ints, single_suffices
 
 _TYPES = {
@@ -38,9 +37,11 @@ _TYPES = {
     "Float64": "f8",
 }
 _NAMES = {kind: name for name, kind in _TYPES.items()}
-_APPENDED = re.compile(rb"<AppendedData\b([^>]*)>\s*_")
+_UNDERSCORE = re.compile(rb"\s*_")
+_TAGS = ("VTKFile", "Piece", "PointData", "CellData")
+"""Elements whose attributes are of use."""
 _HEADS = {"UInt32": "u4", "UInt64": "u8"}
-_MOST_DEEP, _MOST_ARRAYS = 16, 1024
+_MOST_DEEP, _MOST_ARRAYS, _MOST_TAGS = 16, 1024, 8192
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
 _OTHERS = {"NumberOfVerts": "points", "NumberOfLines": "lines"}
 
@@ -61,29 +62,34 @@ class _Document:
         self.tags: dict[str, dict[str, str]] = {}
         self.arrays: list[_Array] = []
         self._path: list[str] = []
+        self._begun = 0
         parser = expat.ParserCreate()
+        parser.buffer_text = True
         parser.StartDoctypeDeclHandler = self._refuse
         parser.StartElementHandler, parser.EndElementHandler = self._begin, self._end
         parser.CharacterDataHandler = self._take
         try:
             parser.Parse(text, True)
-        except expat.ExpatError as error:
+        except BsmError:
+            raise
+        except (expat.ExpatError, LookupError, ValueError) as error:  # the last two of strange encodings
             raise FormatError(f"this is no VTP file: its XML is broken: {error}") from error
 
     def _refuse(self, *_: object) -> None:
         raise FormatError("a VTP file has no DOCTYPE")
 
     def _begin(self, tag: str, says: dict[str, str]) -> None:
-        if len(self._path) == _MOST_DEEP:
-            raise FormatError("the XML of this VTP file is too deep")
+        self._begun += 1
+        if len(self._path) == _MOST_DEEP or self._begun > _MOST_TAGS:
+            raise FormatError(f"the XML of this VTP file is too deep, or has more than {_MOST_TAGS} elements")
         if tag == "Piece" and tag in self.tags:
             raise MeshError("this VTP file has several pieces; save it as one")
         if tag in ("DataArray", "Array"):
             self.arrays.append(_Array(self._path[-1] if self._path else "", says))
             if len(self.arrays) > _MOST_ARRAYS:
                 raise FormatError(f"this VTP file has more than {_MOST_ARRAYS} arrays")
-        elif tag not in self.tags:
-            self.tags[tag] = says
+        elif tag in _TAGS:
+            self.tags.setdefault(tag, says)
         self._path.append(tag)
 
     def _end(self, _: str) -> None:
@@ -211,9 +217,11 @@ def _count(says: dict[str, str], name: str, default: int) -> int:
 
 def read_vtp(data: bytes, limits: Limits) -> Polygons:
     """Read a VTP with one piece."""
-    found = _APPENDED.search(data)
-    encoding = b"raw" if found and b"raw" in found[1] else b"base64"
-    text, behind = (data, b"") if found is None else (data[: found.start()] + b"</VTKFile>", data[found.end() :])
+    at = data.find(b"<AppendedData")
+    end = data.find(b">", at) if at >= 0 else -1
+    found = _UNDERSCORE.match(data, end + 1) if end >= 0 else None
+    encoding = b"raw" if b"raw" in data[at : end + 1] else b"base64"
+    text, behind = (data, b"") if found is None else (data[:at] + b"</VTKFile>", data[found.end() :])
     require_inflated(8 * len(text), len(data), limits)
     document = _Document(text)
     piece = document.tags.get("Piece")
@@ -224,8 +232,8 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
             "this VTP file holds triangle strips; convert them to triangles (ParaView's filter Triangulate)"
         )
     points, polygons = _count(piece, "NumberOfPoints", 0), _count(piece, "NumberOfPolys", 0)
-    limits.check("vertices", points)
-    limits.check("faces", polygons)
+    require_count("vertices", points, limits)
+    require_count("faces", polygons, limits)
     numbers = _Numbers(document, behind, encoding.decode(), limits, len(data))
     shape = {
         (one.around, one.says.get("Name", "") if one.around == "Polys" else ""): one

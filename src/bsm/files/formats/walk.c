@@ -1,5 +1,5 @@
 /* Where the rows of a binary table begin when their lists differ in length (PLY: each list begins with its length). */
-#include "bsm/files/formats/walk.h"
+#include "bitstream/kernel.h"
 
 /* The number in the first `width` bytes, which the caller has found to be there. */
 static uint64_t read_number(const uint8_t *bytes, int64_t width, bool big_endian) {

@@ -15,9 +15,9 @@ import numpy as np
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError
 from bsm.bitstream.extras import how_to_install
 from bsm.bitstream.limits import Limits
-from bsm.files.formats.columns import PLURALS, Array, Column, color_column, compact, meaning_of
-from bsm.files.formats.materials import Material, Value, described, kind_of_image, named
-from bsm.files.formats.polygons import Polygons
+from bsm.files.formats.metadata import Material, Value, described, kind_of_image, named
+from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, compact, meaning_of
+from bsm.files.room import require_count
 from bsm.files.rows import Doubles
 
 _ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
@@ -119,9 +119,9 @@ def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
     surfaces = [(matrix, scene.geometry[name], name) for matrix, name in places]
     surfaces = [surface for surface in surfaces if hasattr(surface[1], "faces")]
     vertices = sum(len(part.vertices) for _, part, _ in surfaces)
-    limits.check("vertices", vertices)
+    require_count("vertices", vertices, limits)
     triangles = sum(len(part.faces) for _, part, _ in surfaces)
-    limits.check("faces", triangles)
+    require_count("faces", triangles, limits)
     limits.check_memory(PER_TRIANGLE * triangles + PER_PART * len(surfaces), vertices, received)
     found = _polygons([_Part(part, name, matrix) for matrix, part, name in surfaces], scene.metadata)
     lost = len(places) - len(surfaces)

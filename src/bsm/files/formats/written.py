@@ -10,8 +10,7 @@ import numpy.typing as npt
 
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats import materials
-from bsm.files.formats.materials import Material
+from bsm.files.formats.metadata import Material, images_in, kind_of_image, materials_in, one_line
 
 
 @dataclass(frozen=True)
@@ -65,16 +64,16 @@ class Library:
     """The materials of a mesh as files beside it; their names begin with that of the mesh."""
 
     def __init__(self, mesh: TriangleMesh, stem: str) -> None:
-        self.materials: dict[int, Material] = materials.materials_in(mesh.metadata)
+        self.materials: dict[int, Material] = materials_in(mesh.metadata)
         self.images: dict[int, str] = {}
         self.beside: dict[str, bytes] = {}
         self.said: set[str] = set()
         """The metadata that these files hold."""
-        for number, (name, data) in materials.images_in(mesh.metadata).items():
+        for number, (name, data) in images_in(mesh.metadata).items():
             if not data:
-                self.images[number] = materials.one_line(name)
+                self.images[number] = one_line(name)
                 self.said.add(f"image.{number}.name")
-            elif kind := materials.kind_of_image(data):
+            elif kind := kind_of_image(data):
                 self.images[number] = f"{stem}.{number}.{kind}"
                 self.beside[self.images[number]] = data
                 self.said |= {f"image.{number}.data", f"image.{number}.name"}

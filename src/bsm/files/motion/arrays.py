@@ -20,9 +20,6 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.about import about
-from bsm.files.formats.columns import Column, attributes_of, meaning_of
-from bsm.files.formats.npy import read_npy
 from bsm.files.formats.npz import (
     MOST_NAMED,
     NpzArray,
@@ -31,11 +28,13 @@ from bsm.files.formats.npz import (
     npz_shape,
     opened_archive,
     read_arrays,
+    read_npy,
     shape_of,
 )
+from bsm.files.formats.polygons import Column, attributes_of, meaning_of
 from bsm.files.motion.frames import Frames
-from bsm.files.pipes import Input
-from bsm.files.room import AS_NUMBERS, require_inflated
+from bsm.files.pipes import Input, about
+from bsm.files.room import AS_NUMBERS, require_count, require_inflated
 
 
 def read_archive(given: Input, limits: Limits) -> Frames | None:
@@ -49,7 +48,7 @@ def read_archive(given: Input, limits: Limits) -> Frames | None:
         raise MeshError(f"this npz file holds {shape[0]} frames of shape {shape[1:]}; (n, 3) numbers are a frame")
     of_faces, size = shape_of(archive, "faces")
     for name, count in (("frames", shape[0]), ("vertices", shape[1]), ("faces", of_faces[0] if of_faces else 0)):
-        limits.check(name, count)
+        require_count(name, count, limits)
     compressed = os.path.getsize(given.name) if given.is_file else len(held)
     require_inflated(AS_NUMBERS * 3 * shape[1] + max(size, AS_NUMBERS * math.prod(of_faces)), compressed, limits)
     (faces,) = read_arrays(archive, "faces")
@@ -68,6 +67,10 @@ def read_archive(given: Input, limits: Limits) -> Frames | None:
     )
 
 
+_PER_MOVING_BYTE = 5
+"""Bytes that one of a frame's values takes while it becomes an attribute, and the frame before it is still there."""
+
+
 @dataclass(frozen=True, eq=False)
 class _Worn:
     """The attributes of an npz: those of all frames, and the arrays, by name, that have values for each frame."""
@@ -82,7 +85,7 @@ class _Worn:
         columns: list[Column] = []
         moving: dict[str, str] = {}
         left: list[str] = []
-        inflated = 0
+        inflated = frame = 0
         with opened_archive(archive) as opened:
             every = [name.removesuffix(".npy") for name in opened.namelist()]
             for number, name in enumerate(every):
@@ -92,6 +95,10 @@ class _Worn:
                 try:
                     shape, size = shape_of(opened, name)
                     if shape[:2] == (frames, len(mesh.positions)) and math.prod(shape[2:]) <= MOST_COMPONENTS:
+                        frame += _PER_MOVING_BYTE * size // frames
+                        require_inflated(frame, compressed, limits, len(mesh.positions))
+                        if len(moving) >= limits.attributes:
+                            raise MeshError("too many")
                         moving[name.removeprefix("vertex/")] = name
                         continue
                     inflated += size
@@ -130,6 +137,8 @@ def read_pipe(given: Input, limits: Limits) -> Frames:
         faces = read_npy(given, "faces", limits)
         if faces is None or faces.dtype.kind not in "iu":
             raise FormatError("the first array must be the faces: integers of shape (m, 3)")
+        if faces.size and not 0 <= int(faces.min()) <= int(faces.max()) < 1 << 31:
+            raise MeshError(f"a face refers to vertex {faces.max() if faces.min() >= 0 else faces.min()}")
         unread.pop_all()
 
     def frames() -> Iterator[Positions]:

@@ -20,9 +20,10 @@ import numpy as np
 from bsm.bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
-from bsm.files.about import about
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames, Wanted, checked_frames, rate_of_times
+from bsm.files.pipes import about
+from bsm.files.room import require_count
 from bsm.files.rows import Doubles
 
 CACHES = ("pc2", "mdd")
@@ -47,8 +48,8 @@ class Cache:
 def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted, limits: Limits) -> Frames:
     """The frames of a cache, each read when it is asked for, and the faces of the mesh that it moves."""
     cache = read_head(path, kind)
-    limits.check("vertices", cache.points)
-    limits.check("frames", cache.frames)
+    require_count("vertices", cache.points, limits)
+    require_count("frames", cache.frames, limits)
     beside = _beside(path) if wanted.mesh is None else os.fspath(wanted.mesh)
     with about(beside):
         mesh = read_mesh(beside, limits=limits, reader=reader).mesh

@@ -18,10 +18,9 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import has
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.runs import can_move, moved_to, other_faces
-from bsm.files.about import about
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.frames import Frames
-from bsm.files.pipes import is_pipe
+from bsm.files.pipes import about, is_pipe
 from bsm.files.remote import is_url
 
 _NUMBERS = re.compile(r"(\d+)")
@@ -41,7 +40,8 @@ def frame_files(path: str) -> list[str]:
         names = glob.glob(_PLACE.sub("*", path) if is_numbered(path) else path)
     found = [name for name in names if format_of_name(name)]
     if not found:
-        raise FormatError(f"there are no mesh files in {path}; the formats are {', '.join(WRITTEN_FORMATS)}")
+        known = ", ".join(WRITTEN_FORMATS)
+        raise FormatError(f"there are no mesh files in {path} ({known}); -r looks in the folders below, too")
     return in_order(found)
 
 
@@ -130,7 +130,7 @@ def read_files(
                 raise MeshError(
                     f"these are different meshes, not the frames of one animation: {name} (frame {number}) has other "
                     f"faces than {names[0]}: {difference}; if their faces change, --set runs=yes; to work on each by "
-                    "itself, name the files and write to a folder, -o FOLDER/"
+                    "itself, name the files, or the folder with -r, and write to a folder, -o FOLDER/"
                 )
             own = []
             for one in kept:

@@ -19,12 +19,12 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.columns import PLURALS, Array, Column, color_column
-from bsm.files.formats.materials import named, without_materials
-from bsm.files.formats.polygons import MeshFile, Polygons
+from bsm.files.formats.metadata import named, without_materials
+from bsm.files.formats.polygons import PLURALS, Array, Column, MeshFile, Polygons, color_column
 from bsm.files.formats.written import face_numbers
 from bsm.files.motion.frames import Frames, Shared, Wanted, checked_frames
 from bsm.files.motion.usd_materials import Materials, bind_materials, write_materials
+from bsm.files.room import require_count
 from bsm.files.rows import Doubles, Ints, single_suffices
 from bsm.lengths import metres
 
@@ -179,8 +179,7 @@ class _Stage:
         self.parts = [part for part in self.parts if len(part.counts)]
         if not self.parts:
             raise FormatError("this stage has no meshes")
-        limits.check("vertices", sum(part.vertices for part in self.parts))
-        limits.check("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts))
+        self._require_counts()
 
     def _bake(self) -> None:
         """Let skeletons move the points, in a layer that is not saved."""
@@ -206,8 +205,11 @@ class _Stage:
     def turn_to(self, time: float) -> None:
         """Have the faces and attributes of a time."""
         self.parts = [_Part(self.pxr, part.prim, time) for part in self.parts]
-        self._limits.check("vertices", sum(part.vertices for part in self.parts))
-        self._limits.check("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts))
+        self._require_counts()
+
+    def _require_counts(self) -> None:
+        require_count("vertices", sum(part.vertices for part in self.parts), self._limits)
+        require_count("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts), self._limits)
 
     def mesh(self, positions: Doubles) -> MeshFile:
         """The mesh of a frame, with everything; polygons are cut into triangles."""
@@ -289,7 +291,7 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     if not np.isfinite([first, last, codes, (last - first) * rate / codes]).all():
         raise FormatError(f"the stage runs from {first:g} to {last:g} at {codes:g} codes per second")
     count = int(np.floor(max(last - first, 0.0) * rate / codes + 1e-6)) + 1
-    limits.check("frames", count)
+    require_count("frames", count, limits)
     still = stage.mesh(stage.at(first))
 
     def frames() -> Iterator[Positions]:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.materials import (
+from bsm.files.formats.metadata import (
     Material,
     Value,
     as_gltf,

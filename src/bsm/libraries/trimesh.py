@@ -1,17 +1,18 @@
-"""A mesh as trimesh has it: what it shows as visuals."""
+"""Meshes of trimesh; trimesh is told of .bsm when this is imported."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Iterator
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
+from bsm.api import decode, encode
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.columns import Array
-from bsm.files.formats.materials import (
+from bsm.files.formats.metadata import (
     GLTF_TEXTURES,
     Material,
     described,
@@ -20,18 +21,49 @@ from bsm.files.formats.materials import (
     materials_in,
     names_in,
 )
-from bsm.files.formats.with_trimesh import import_trimesh
+from bsm.files.formats.polygons import Array
+from bsm.files.formats.with_trimesh import import_trimesh, joined, polygons_of
 from bsm.files.formats.written import face_numbers, first, rgba, shown_at_vertices
+from bsm.libraries.meshes import as_mesh
+
+_library = import_trimesh(".bsm files are opened by trimesh only")
+
+
+def to_trimesh(mesh: Any) -> Any:
+    """A mesh as a `trimesh.Trimesh`.
+
+    Vertices are split where corners differ, in texture coordinates for instance; nothing is merged.
+    """
+    return _library.Trimesh(**arguments_of(as_mesh(mesh)))
+
+
+def to_scene(mesh: Any) -> Any:
+    """A mesh as a `trimesh.Scene`, with a geometry for each part that it was made of, under its name.
+
+    Parts are what the whole numbers of the face attribute ``part`` say; without it all is one part.
+    """
+    whole = as_mesh(mesh)
+    scene = _library.Scene()
+    for name, part in parts_of(whole):
+        scene.add_geometry(_library.Trimesh(**arguments_of(part)), geom_name=name)
+    of_parts = ("material.", "image.", "part.")
+    scene.metadata.update({name: value for name, value in whole.metadata.items() if not name.startswith(of_parts)})
+    return scene
+
+
+def from_trimesh(mesh: Any) -> TriangleMesh:
+    """A mesh of trimesh, or the parts of a scene where it shows them, with what they show."""
+    found = joined(mesh, DEFAULT_LIMITS) if isinstance(mesh, _library.Scene) else polygons_of(mesh)
+    return found.checked(DEFAULT_LIMITS).mesh
 
 
 def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
     """The arguments of `trimesh.Trimesh` that make it of a mesh; vertices are split where corners differ."""
-    trimesh = import_trimesh("meshes of trimesh are made")
     mesh = split_by_attributes(mesh)
     normal, color, texcoord = shown_at_vertices(mesh)
     of_faces = first(mesh, "color", (3, 4), "face")
     known = materials_in(mesh.metadata)
-    materials = [_material(trimesh, words, mesh.metadata) for words in known.values()]
+    materials = [_material(words, mesh.metadata) for words in known.values()]
     visual = None
     if texcoord is not None or materials:
         uv = None if texcoord is None else texcoord.values[:, :2]
@@ -39,20 +71,20 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
         place = {number: place for place, number in enumerate(known)}
         if not materials or (numbers is not None and not np.isin(numbers.values, list(known)).all()):
             # Of faces of whose material nothing is said: trimesh would give them a grey one, and an image.
-            materials.append(trimesh.visual.material.PBRMaterial())
+            materials.append(_library.visual.material.PBRMaterial())
         several = numbers is not None and len(materials) > 1
-        material = trimesh.visual.material.MultiMaterial(materials) if several else materials[0]
+        material = _library.visual.material.MultiMaterial(materials) if several else materials[0]
         of_each = None
         if several and numbers is not None:
             of_each = np.array([place.get(number, len(known)) for number in numbers.values[:, 0].tolist()])
-        visual = trimesh.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
+        visual = _library.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
         if color is not None:
             visual.vertex_attributes["color"] = rgba(color)
         of_faces = None
     elif color is not None:
-        visual, of_faces = trimesh.visual.ColorVisuals(vertex_colors=rgba(color)), None
+        visual, of_faces = _library.visual.ColorVisuals(vertex_colors=rgba(color)), None
     elif of_faces is not None:
-        visual = trimesh.visual.ColorVisuals(face_colors=rgba(of_faces))
+        visual = _library.visual.ColorVisuals(face_colors=rgba(of_faces))
     shown = {attribute.name for attribute in (normal, color, texcoord, of_faces) if attribute is not None}
     others = [attribute for attribute in mesh.attributes if attribute.name not in shown]
     metadata = {
@@ -99,12 +131,12 @@ def _flat(values: Array) -> Array:
     return values[:, 0] if values.shape[1] == 1 else values
 
 
-def _material(trimesh: Any, words: Material, metadata: Metadata) -> Any:
+def _material(words: Material, metadata: Metadata) -> Any:
     """A material as trimesh has it."""
     images, known = images_in(metadata), gltf_values(words)
     for name in set(GLTF_TEXTURES) & known.keys():
         known[name] = _opened(images.get(known[name], ("", b""))[1])
-    return trimesh.visual.material.PBRMaterial(**{name: value for name, value in known.items() if value is not None})
+    return _library.visual.material.PBRMaterial(**{name: value for name, value in known.items() if value is not None})
 
 
 def _opened(data: bytes) -> Any:
@@ -117,3 +149,22 @@ def _opened(data: bytes) -> Any:
         return PIL.Image.open(io.BytesIO(data))
     except (OSError, ValueError, PIL.Image.DecompressionBombError):
         return None
+
+
+def _load(file_obj: IO[bytes], file_type: str | None = None, **keywords: Any) -> dict[str, Any]:
+    return arguments_of(decode(file_obj.read())) | {name: keywords[name] for name in ("process",) if name in keywords}
+
+
+def _export(mesh: Any, **keywords: Any) -> bytes:
+    return encode(from_trimesh(mesh), **keywords)
+
+
+def register() -> None:
+    """Tell trimesh of .bsm; importing this module does it."""
+    from trimesh.exchange import export, load
+
+    load.mesh_loaders["bsm"] = _load
+    export._mesh_exporters["bsm"] = _export
+
+
+register()

@@ -1,0 +1,1 @@
+"""Meshes of other libraries as ours, and ours as theirs."""

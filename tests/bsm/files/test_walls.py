@@ -1,0 +1,129 @@
+"""Files that claim, hide or repeat: refused in a sentence, before they take time or memory."""
+
+import io
+import json
+import os
+import time
+import tracemalloc
+import zipfile
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.bitstream.limits import Limits
+from bsm.cli import main
+from bsm.files.mesh import read_mesh
+from bsm.files.sequence import open_sequence
+
+
+def npy(array):
+    file = io.BytesIO()
+    np.save(file, array)
+    return file.getvalue()
+
+
+def moving(path, count, vertices):
+    """An npz with arrays that move: zeros, of which deflate makes next to nothing."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("positions.npy", npy(np.zeros((2, vertices, 3))))
+        archive.writestr("faces.npy", npy(np.array([[0, 1, 2]])))
+        for number in range(count):
+            archive.writestr(f"a{number}.npy", npy(np.zeros((2, vertices, 4))))
+
+
+@pytest.mark.parametrize("limits", [Limits(), Limits.service()])
+def test_attributes_that_move_are_counted(tmp_path, limits):
+    moving(tmp_path / "a.npz", 8, 100_000)
+    few = open_sequence(str(tmp_path / "a.npz"), limits=limits)
+    assert len(few.attributes) == 8
+    moving(tmp_path / "a.npz", 60, 100_000)
+    tracemalloc.start()
+    with pytest.raises(bsm.LimitError, match="compressed bytes"):
+        open_sequence(str(tmp_path / "a.npz"), limits=limits)
+    assert tracemalloc.get_traced_memory()[1] < 50e6
+    tracemalloc.stop()
+    moving(tmp_path / "a.npz", 300, 3)
+    many = open_sequence(str(tmp_path / "a.npz"), limits=limits)
+    assert len(many.attributes) == limits.attributes and "left out" in many.notes[0]
+
+
+def test_a_vtp_takes_time_as_it_is_long():
+    begun = time.process_time()
+    with pytest.raises(bsm.FormatError):
+        read_mesh(b'<VTKFile type="PolyData">' + b"<AppendedData " * 300_000)
+    with pytest.raises(bsm.FormatError, match="too deep, or has more"):
+        read_mesh(b'<VTKFile type="PolyData">' + b"".join(b"<a%d/>" % number for number in range(300_000)))
+    assert time.process_time() - begun < 5
+
+
+ENCODINGS = "foo hex zip rot13 mbcs utf-7 shift_jis idna undefined punycode utf-16 cp037"
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS.split())
+def test_strange_encodings_of_xml(encoding):
+    text = f'<?xml version="1.0" encoding="{encoding}"?><VTKFile type="PolyData"/>'
+    with pytest.raises(bsm.FormatError):
+        read_mesh(text.encode())
+
+
+@pytest.mark.parametrize("vertex", [2**32 + 2, 2**31, -1, 2**63 + 2])
+def test_faces_of_a_pipe_do_not_wrap(vertex):
+    given = npy(np.array([[0, 1, vertex]], np.uint64 if vertex > 2**62 else np.int64)) + npy(np.eye(3))
+    with pytest.raises(bsm.MeshError, match="refers to vertex"):
+        open_sequence(given, "npy")
+
+
+def test_a_side_that_is_true():
+    with pytest.raises(bsm.CorruptError, match="shape"):
+        open_sequence(npy(np.zeros((1, 3), np.int64)).replace(b"(1, 3), }   ", b"(True, 3), }"), "npy")
+
+
+def test_a_gltf_whose_buffer_is_no_file(tmp_path):
+    """A pipe would be waited for, a link to itself be followed for ever."""
+    pytest.importorskip("trimesh")
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "loop").symlink_to("loop")
+    for uri in ("pipe", "loop"):
+        accessors = [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]
+        tree = {
+            "asset": {"version": "2.0"},
+            "buffers": [{"uri": uri, "byteLength": 36}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "accessors": accessors,
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "nodes": [{"mesh": 0}],
+            "scenes": [{"nodes": [0]}],
+        }
+        (tmp_path / "a.gltf").write_text(json.dumps(tree))
+        with pytest.raises(bsm.FormatError, match=r"no file beside|cannot be opened"):
+            read_mesh(tmp_path / "a.gltf")
+
+
+HEADS = {
+    "ply": b"ply\nformat binary_little_endian 1.0\nelement vertex 20000000\nproperty float x\nproperty float y\n"
+    b"property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n",
+    "stl": bytes(80) + (40_000_000).to_bytes(4, "little"),
+    "off": b"# a scan\nOFF\n20000000 1 0\n",
+}
+
+
+@pytest.mark.parametrize("kind", HEADS)
+def test_too_many_vertices_are_refused_from_the_head(tmp_path, kind, capsys):
+    path = tmp_path / f"a.{kind}"
+    with open(path, "wb") as file:
+        file.write(HEADS[kind])
+        file.truncate(300_000_000)
+    tracemalloc.start()
+    with pytest.raises(bsm.LimitError, match=r"over the limit of .*; cut it into parts"):
+        read_mesh(path)
+    assert tracemalloc.get_traced_memory()[1] < 10e6
+    tracemalloc.stop()
+    assert main(["encode", str(path), "-o", str(tmp_path / "a.bsm")]) == 6
+    assert "cut it into parts" in capsys.readouterr().err
+
+
+def test_an_npz_of_too_many_vertices(tmp_path):
+    moving(tmp_path / "a.npz", 0, 1000)
+    with pytest.raises(bsm.LimitError, match="vertices = 1,000 is over the limit of 999; cut it into parts"):
+        open_sequence(str(tmp_path / "a.npz"), limits=Limits(vertices=999))
