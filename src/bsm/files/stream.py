@@ -23,6 +23,7 @@ from bsm.files.pipes import Source, as_input, is_pipe
 if TYPE_CHECKING:
     from bsm.codec.geometry.attributes import Attribute
     from bsm.codec.geometry.mesh import TriangleMesh
+    from bsm.codec.static.decoder import Decoder
     from bsm.codec.static.events import AttributeEvent
 
 Progress = Callable[[int, int], None]
@@ -133,8 +134,7 @@ class StreamInfo:
 
 def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> StreamInfo:
     """Read a stream to its end, check every checksum, and count."""
-    header: packets.Header | None = None
-    present: packets.Header | None = None
+    headers: list[packets.Header] = []
     metadata = packets.Metadata()
     runs: list[RunInfo] = []
     coefficients: list[int] = []
@@ -144,32 +144,33 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     lengths: Counter[int] = Counter()
     reader = Reader(limits)
     for packet in read_packets(chunks, reader):
-        if isinstance(packet, packets.Header):
-            header = header or packet
-            present = packet
-            mesh = packet.run_number if packet.again is None else packet.again
-            runs.append(RunInfo(sum(gop.frames for gop in gops), 0, packet.vertices, packet.faces, mesh))
-        elif isinstance(packet, packets.Metadata):
-            metadata = packets.Metadata({**metadata.entries, **packet.entries})
-            sizes[type(packet)] += len(write_metadata(packet))
-        elif isinstance(packet, packets.Attribute):
-            if len(runs) == 1:
-                declared.append(packet)
-            lengths[packet.index] += len(write_attribute(packet))
-        elif isinstance(packet, packets.Values):
-            lengths[packet.attribute] += len(packet.data)
-        elif not isinstance(packet, packets.End | packets.Damaged):
-            sizes[type(packet)] += len(packet.data)
+        frame = reader.last_frame
+        match packet:
+            case packets.Header():
+                headers.append(packet)
+                mesh = packet.run_number if packet.again is None else packet.again
+                runs.append(RunInfo(sum(gop.frames for gop in gops), 0, packet.vertices, packet.faces, mesh))
+            case packets.Metadata(entries):
+                metadata = packets.Metadata({**metadata.entries, **entries})
+                sizes[packets.Metadata] += len(write_metadata(packet))
+            case packets.Attribute():
+                declared += [packet] if len(runs) == 1 else []
+                lengths[packet.index] += len(write_attribute(packet))
+            case packets.Values():
+                lengths[packet.attribute] += len(packet.data)
+            case packets.End() | packets.Damaged():
+                pass
+            case _:
+                sizes[type(packet)] += len(packet.data)
         if isinstance(packet, packets.Block):
             coefficients.append(packet.coefficients)
-        if isinstance(packet, packets.Gop) and reader.last_frame is not None:
-            assert present is not None
-            frames = frames_of_gop(packet.data, present.gop_frames, present.run_number)
+        if isinstance(packet, packets.Gop) and frame is not None:
+            frames = frames_of_gop(packet.data, headers[-1].gop_frames, headers[-1].run_number)
             runs[-1] = replace(runs[-1], frames=runs[-1].frames + frames)
-            gops.append(GopInfo(packet.index, frames, reader.last_frame.offset, reader.last_frame.length))
-    assert header is not None and reader.last_frame is not None
+            gops.append(GopInfo(packet.index, frames, frame.offset, frame.length))
+    assert reader.last_frame is not None
     return StreamInfo(
-        header,
+        headers[0],
         metadata,
         tuple(coefficients),
         tuple(gops),
@@ -180,7 +181,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         coefficient_bytes=sum(sizes[kind] for kind in (packets.Block, packets.Gop, packets.Grid, packets.Refinement)),
         metadata_bytes=sizes[packets.Metadata],
         total=reader.last_frame.offset + reader.last_frame.length,
-        runs=tuple(runs) if header.gop_frames else (),
+        runs=tuple(runs) if headers[0].gop_frames else (),
     )
 
 
@@ -220,19 +221,18 @@ def decode_blocks(
 
     if count < 1:
         raise OptionError("at least one block must be decoded")
-    part = _Part()
     wanted, done = count, 0
-    with Decoder(limits) as decoder:
-        for event in events(decoder, chunks):
-            part.take(event)
-            if isinstance(event, HeaderEvent):
-                wanted = count if event.header.grid else min(count, event.header.blocks)
-            elif isinstance(event, BlockEvent):
-                done += 1
-                progress(done, wanted)
-            if done == wanted or isinstance(event, EndEvent):
-                break
-    return replace(part.mesh(), metadata=decoder.metadata)
+
+    def enough(event: Any) -> bool:
+        nonlocal wanted, done
+        if isinstance(event, HeaderEvent):
+            wanted = count if event.header.grid else min(count, event.header.blocks)
+        elif isinstance(event, BlockEvent):
+            done += 1
+            progress(done, wanted)
+        return done == wanted or isinstance(event, EndEvent)
+
+    return _decode_until(Decoder(limits), chunks, enough)
 
 
 def decode_what_is_left(
@@ -242,17 +242,25 @@ def decode_what_is_left(
     from bsm.codec.static.decoder import Decoder
     from bsm.codec.static.events import EndEvent, LossEvent
 
+    def reported(event: Any) -> bool:
+        match event:
+            case LossEvent(_, error):
+                report(f"lost: {error}")
+            case EndEvent(losses) if len(losses.missing) or len(losses.degraded):
+                report(f"{len(losses.missing)} vertices are missing, {len(losses.degraded)} less good than they were")
+        return False
+
+    return _decode_until(Decoder(limits, tolerant=True), chunks, reported)
+
+
+def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[Any], bool]) -> TriangleMesh:
+    """Decode until an event is enough, or to the end; the faces whose vertices have all arrived."""
     part = _Part()
-    with Decoder(limits, tolerant=True) as decoder:
+    with decoder:
         for event in events(decoder, chunks):
             part.take(event)
-            match event:
-                case LossEvent(_, error):
-                    report(f"lost: {error}")
-                case EndEvent(losses) if len(losses.missing) or len(losses.degraded):
-                    report(
-                        f"{len(losses.missing)} vertices are missing, {len(losses.degraded)} less good than they were"
-                    )
+            if enough(event):
+                break
     return replace(part.mesh(), metadata=decoder.metadata)
 
 
@@ -289,10 +297,7 @@ class _Part:
 
         match event:
             case ConnectivityEvent(faces, vertices):
-                more = vertices - len(self._known)
-                self._faces = np.concatenate([self._faces, faces])
-                self._positions = np.concatenate([self._positions, np.zeros((more, 3))])
-                self._known = np.concatenate([self._known, np.zeros(more, np.bool_)])
+                self._faces, self._positions, self._known = faces, np.zeros((vertices, 3)), np.zeros(vertices, np.bool_)
             case BlockEvent() | RefinementEvent():
                 self._positions[event.vertices] = event.positions
                 self._known[event.vertices] = True
