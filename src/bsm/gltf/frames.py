@@ -10,8 +10,8 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Positions
-from bsm.files.formats.metadata import Material, Value, described, named
-from bsm.files.formats.polygons import Column, MeshFile, Polygons
+from bsm.files.formats.metadata import Material, Value, described
+from bsm.files.formats.polygons import Column, MeshFile, Polygons, sorted_into_parts
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, rate_of_times
 from bsm.files.room import require_count
 from bsm.files.rows import Doubles
@@ -109,12 +109,10 @@ def _still(scene: Scene, document: Document, time: float, limits: Limits) -> Mes
         metadata |= described(words) | images
         if len(used) > 1:
             columns.append(Column("material", np.maximum(numbers, 0)[:, None].astype(np.int32), "face"))
-    notes = []
+    notes: list[str] = []
     if len(parts) > 1:
-        notes.append(f"{len(parts)} parts were joined to one mesh")
-        owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.faces) for part in parts])
-        columns.append(Column("part", owner[:, None], "face"))
-        metadata |= named([part.name for part in parts], "part")
+        notes, column, names = sorted_into_parts([part.name for part in parts], [len(part.faces) for part in parts])
+        columns, metadata = [*columns, *column], {**metadata, **names}
     elif parts[0].name:
         metadata["name"] = parts[0].name
     sizes = np.full(len(faces), 3)

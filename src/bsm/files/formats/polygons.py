@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import chain, count
 from typing import Any
 
@@ -16,7 +16,7 @@ from bsm.bitstream.limits import Limits
 from bsm.bitstream.public import public
 from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.metadata import fitting
+from bsm.files.formats.metadata import fitting, named
 from bsm.files.room import require_count
 from bsm.files.rows import Doubles, Ints, single_suffices
 
@@ -67,6 +67,41 @@ def attributes_of(
         except MeshError as error:
             refused[PLURALS.get(column.name, column.name)] = str(error)
     return tuple(found.values()), refused
+
+
+def joined_columns(
+    parts: Iterable[Iterable[Column]], rows: Sequence[Mapping[Domain, int]]
+) -> tuple[list[Column], list[str]]:
+    """The columns of parts, one behind the other, and notes; `rows` is how many values of each domain a part has."""
+    of_parts = [{(column.name, column.domain): column for column in columns} for columns in parts]
+    found, notes = [], []
+    for key in dict.fromkeys(key for columns in of_parts for key in columns):
+        model = next(columns[key] for columns in of_parts if key in columns)
+        blank = 255 if model.semantic == "color" and model.values.dtype == np.uint8 else 0
+        tables, places, begin, lacking = [], [], 0, 0
+        for columns, sizes in zip(of_parts, rows, strict=True):
+            column, count = columns.get(key), sizes[model.domain]
+            if column is None or column.values.shape[1:] != model.values.shape[1:]:
+                lacking += 1
+                size = min(count, 1) if model.domain == "corner" else count
+                values = np.full((size, *model.values.shape[1:]), blank, model.values.dtype)
+                column = replace(model, values=values, indices=np.zeros(count, np.int64))
+            tables.append(column.values)
+            places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
+            begin += len(column.values)
+        if lacking:
+            what, filled = PLURALS.get(model.name, model.name), "white" if blank else "zeros"
+            notes.append(f"parts without {what} were given {filled}: {lacking}")
+        at_corners = np.concatenate(places) if model.domain == "corner" else None
+        found.append(replace(model, values=np.concatenate(tables), indices=at_corners))
+    return found, notes
+
+
+def sorted_into_parts(names: Sequence[str], faces: Sequence[int]) -> tuple[list[str], list[Column], dict[str, str]]:
+    """What says which faces are of which part: a note, a column, and the names of the parts as metadata."""
+    owner = np.repeat(np.arange(len(names), dtype=np.int32), faces)
+    notes = [f"{len(names)} parts were joined to one mesh"]
+    return notes, [Column("part", owner[:, None], "face")], named(names, "part")
 
 
 def unused_name(name: str, domain: str, taken: Collection[str]) -> str:

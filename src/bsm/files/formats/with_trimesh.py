@@ -15,8 +15,18 @@ import numpy as np
 from bsm.bitstream.errors import BsmError, DependencyError, FormatError
 from bsm.bitstream.extras import how_to_install
 from bsm.bitstream.limits import Limits
-from bsm.files.formats.metadata import Material, Value, described, kind_of_image, named
-from bsm.files.formats.polygons import PLURALS, Array, Column, Polygons, color_column, compact, meaning_of
+from bsm.codec.geometry.attributes import Domain
+from bsm.files.formats.metadata import Material, Value, described, kind_of_image
+from bsm.files.formats.polygons import (
+    Array,
+    Column,
+    Polygons,
+    color_column,
+    compact,
+    joined_columns,
+    meaning_of,
+    sorted_into_parts,
+)
 from bsm.files.room import require_count
 from bsm.files.rows import Doubles
 
@@ -152,6 +162,11 @@ class _Part:
         mirrored = np.linalg.det(self.matrix[:3, :3]) < 0
         return np.asarray(self.mesh.faces[:, ::-1] if mirrored else self.mesh.faces)
 
+    @property
+    def rows(self) -> dict[Domain, int]:
+        """How many values a column of each domain has."""
+        return {"vertex": len(self.mesh.vertices), "face": len(self.mesh.faces)}
+
     def columns(self) -> list[Column]:
         """Attributes of a geometry's vertices and faces."""
         mesh, visual = self.mesh, self.mesh.visual
@@ -209,41 +224,17 @@ def _polygons(parts: list[_Part], of_scene: dict[str, Any]) -> Polygons:
     begin = np.cumsum([0, *(len(part.mesh.vertices) for part in parts)])
     faces = [np.empty((0, 3), np.int64), *(part.faces + first for part, first in zip(parts, begin))]
     triangles = np.concatenate(faces)
-    columns, notes = _columns(parts)
+    columns, notes = joined_columns((part.columns() for part in parts), [part.rows for part in parts])
     metadata = _metadata(parts, of_scene)
     of_materials, numbers = _materials(parts)
     metadata |= of_materials
     if len(np.unique(numbers)) > 1:
         columns.append(Column("material", numbers[:, None], "face"))
     if len(parts) > 1:
-        notes.insert(0, f"{len(parts)} parts were joined to one mesh")
-        owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.mesh.faces) for part in parts])
-        columns.append(Column("part", owner[:, None], "face"))
-        metadata |= named([part.name for part in parts], "part")
+        note, column, names = sorted_into_parts([part.name for part in parts], [len(part.mesh.faces) for part in parts])
+        notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
     sizes = np.full(len(triangles), 3)
     return Polygons(positions, sizes, triangles.reshape(-1), tuple(notes), (), tuple(columns), metadata)
-
-
-def _columns(parts: list[_Part]) -> tuple[list[Column], list[str]]:
-    """The columns of all parts, one behind the other."""
-    of_parts = [{(column.name, column.domain): column for column in part.columns()} for part in parts]
-    found, notes = [], []
-    for key in dict.fromkeys(key for columns in of_parts for key in columns):
-        model = next(columns[key] for columns in of_parts if key in columns)
-        tables, lacking = [], 0
-        for part, columns in zip(parts, of_parts):
-            rows = len(part.mesh.vertices if model.domain == "vertex" else part.mesh.faces)
-            values = columns[key].values if key in columns else None
-            if values is None or values.shape[1:] != model.values.shape[1:]:
-                lacking += 1
-                blank = 255 if model.semantic == "color" and model.values.dtype == np.uint8 else 0
-                values = np.full((rows, *model.values.shape[1:]), blank, model.values.dtype)
-            tables.append(values)
-        if lacking:
-            what = PLURALS.get(model.name, model.name)
-            notes.append(f"parts without {what} were given {'white' if blank else 'zeros'}: {lacking}")
-        found.append(replace(model, values=np.concatenate(tables)))
-    return found, notes
 
 
 def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> dict[str, Value]:

@@ -19,8 +19,16 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import named, without_materials
-from bsm.files.formats.polygons import PLURALS, Array, Column, MeshFile, Polygons, color_column
+from bsm.files.formats.metadata import without_materials
+from bsm.files.formats.polygons import (
+    Array,
+    Column,
+    MeshFile,
+    Polygons,
+    color_column,
+    joined_columns,
+    sorted_into_parts,
+)
 from bsm.files.formats.written import face_numbers
 from bsm.files.motion.frames import Frames, Shared, Wanted, checked_frames
 from bsm.files.motion.usd_materials import Materials, bind_materials, write_materials
@@ -219,11 +227,10 @@ class _Stage:
         corners = np.concatenate([part.corners + first for part, first in zip(parts, begin)])
         turned = np.repeat([part.turned for part in parts], [len(part.counts) for part in parts])
         order = _turned(sizes, turned)
-        notes = [f"{len(parts)} parts were joined to one mesh"] if len(parts) > 1 else []
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         metadata: dict[str, str | int | float | bytes] = {"up": up, "unit": _UNITS.get(round(unit, 9), f"{unit:g} m")}
-        columns, lacking = _columns(parts)
+        columns, lacking = joined_columns((part.columns() for part in parts), [part.rows for part in parts])
         places = [None if column.indices is None else column.indices[order] for column in columns]
         columns = [replace(column, indices=where) for column, where in zip(columns, places)]
         materials = Materials(self.pxr, self._path)
@@ -232,40 +239,16 @@ class _Stage:
             columns.append(Column("material", numbers[:, None], "face"))
         of_materials, absent = materials.metadata(self._limits.metadata_bytes)
         metadata |= of_materials
-        notes += [*lacking, *absent]
+        notes = [*lacking, *absent]
         if len(parts) == 1:
             metadata["name"] = parts[0].prim.GetName()
         else:
-            owner = np.repeat(np.arange(len(parts), dtype=np.int32), [len(part.counts) for part in parts])
-            columns.append(Column("part", owner[:, None], "face"))
-            metadata |= named([str(part.prim.GetPath()) for part in parts], "part")
+            paths = [str(part.prim.GetPath()) for part in parts]
+            note, column, names = sorted_into_parts(paths, [len(part.counts) for part in parts])
+            notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
         return Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata).checked(
             self._limits
         )
-
-
-def _columns(parts: list[_Part]) -> tuple[list[Column], list[str]]:
-    """The columns of all parts, one behind the other, and notes; parts that lack one have zeros there."""
-    of_parts = [{(column.name, column.domain): column for column in part.columns()} for part in parts]
-    found, notes = [], []
-    for key in dict.fromkeys(key for columns in of_parts for key in columns):
-        model = next(columns[key] for columns in of_parts if key in columns)
-        tables, places, begin, lacking = [], [], 0, 0
-        for part, columns in zip(parts, of_parts):
-            column = columns.get(key)
-            rows = part.rows[model.domain]
-            if column is None or column.values.shape[1] != model.values.shape[1]:
-                lacking += 1
-                blank = np.zeros((min(rows, 1) if model.domain == "corner" else rows, model.values.shape[1]))
-                column = replace(model, values=blank.astype(model.values.dtype), indices=np.zeros(rows, np.int64))
-            tables.append(column.values)
-            places.append(begin + (np.empty(0, np.int64) if column.indices is None else column.indices))
-            begin += len(column.values)
-        if lacking:
-            notes.append(f"parts without {PLURALS.get(model.name, model.name)} were given zeros: {lacking}")
-        at_corners = np.concatenate(places) if model.domain == "corner" else None
-        found.append(replace(model, values=np.concatenate(tables), indices=at_corners))
-    return found, notes
 
 
 def _turned(sizes: Ints, turned: Array) -> Ints:
