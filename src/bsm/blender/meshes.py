@@ -12,7 +12,7 @@ import numpy as np
 from bsm.codec.arrays import Faces
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.metadata import Material, as_gltf, images_in, kind_of_image, materials_in
+from bsm.files.formats.metadata import gltf_values, images_in, kind_of_image, materials_in
 from bsm.files.formats.polygons import Array, unused_name
 
 _DOMAINS = {"vertex": "POINT", "corner": "CORNER", "face": "FACE"}
@@ -83,22 +83,20 @@ def _corners(made: Any) -> Array:
 def _add_materials(made: Any, mesh: TriangleMesh) -> None:
     known = materials_in(mesh.metadata)
     for number in range(max(known) + 1 if known else 0):
-        made.materials.append(_material(as_gltf(known.get(number, {})), mesh.metadata, number))
+        made.materials.append(_material(gltf_values(known.get(number, {})), mesh.metadata, number))
 
 
-def _material(words: Material, metadata: Metadata, number: int) -> Any:
+def _material(words: dict[str, Any], metadata: Metadata, number: int) -> Any:
     made = bpy.data.materials.new(str(words.get("name") or f"material {number}"))
     made.use_nodes = True
     shader = next(node for node in made.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-    color = [float(one) for one in str(words.get("baseColorFactor", "")).split()]
-    if len(color) in (3, 4):
+    if color := words.get("baseColorFactor"):
         shader.inputs["Base Color"].default_value = (*color[:3], 1.0)
-        shader.inputs["Alpha"].default_value = color[3] if len(color) == 4 else 1.0
+        shader.inputs["Alpha"].default_value = color[3]
     for name, socket in (("metallicFactor", "Metallic"), ("roughnessFactor", "Roughness")):
-        if isinstance(value := words.get(name), int | float | str):
-            shader.inputs[socket].default_value = float(value)
-    texture = words.get("baseColorTexture")
-    data = images_in(metadata).get(texture, ("", b""))[1] if isinstance(texture, int) else b""
+        if name in words:
+            shader.inputs[socket].default_value = words[name]
+    data = images_in(metadata).get(words.get("baseColorTexture", -1), ("", b""))[1]
     if kind := kind_of_image(data):
         node = made.node_tree.nodes.new("ShaderNodeTexImage")
         node.image = _image(data, f"{made.name}.{kind}")

@@ -1,9 +1,8 @@
-"""OBJ, OFF, PLY and STL as openmesh reads them, for whoever wants that: a second opinion on our own readers.
+"""OBJ, OFF, PLY and STL as openmesh reads them: a second opinion on our own readers.
 
-openmesh builds a half-edge mesh while it reads, and that costs what a codec must keep: it duplicates vertices at
-non-manifold edges, drops faces with repeated corners, and passes coordinates through float32. It hangs on, or crashes
-over, some damaged files, so it is only given what our own readers have understood. It crashes over
-attributes as well, and is not asked for them: they are ours, where the mesh is still the same.
+openmesh duplicates vertices at non-manifold edges, drops faces with repeated corners, and passes coordinates through
+float32. It crashes over some damaged files and attributes: it is given what our readers have understood, and these are
+ours, where the mesh is still the same.
 """
 
 from __future__ import annotations

@@ -17,6 +17,7 @@ from bsm.files.formats.metadata import (
     as_gltf,
     described,
     fetched,
+    gltf_values,
     images_in,
     kind_of_image,
     materials_in,
@@ -145,7 +146,7 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
         place = mesh.GetPath().AppendChild(name)
         place = mesh.GetPath().AppendChild(f"{name}_{number}") if stage.GetPrimAtPath(place) else place
         bound[number] = shade.Material.Define(stage, place)
-        told = _Surface(pxr, bound[number], files).write(as_gltf(known))
+        told = _Surface(pxr, bound[number], files).write(gltf_values(known))
         said |= {f"material.{number}.{one}" for one in known if one == "name" or set(as_gltf({one: known[one]})) & told}
         if {"Kd", "d"} & known.keys() and "baseColorFactor" in told:
             said |= {f"material.{number}.{one}" for one in ("Kd", "d")}
@@ -191,13 +192,13 @@ class _Surface:
         self._surface = self._shader("surface", _SURFACE)
         material.CreateSurfaceOutput().ConnectToSource(self._surface.ConnectableAPI(), "surface")
 
-    def write(self, words: Material) -> set[str]:
+    def write(self, words: Mapping[str, Any]) -> set[str]:
         """Say what USD has an input for; returns which of the words of glTF these were."""
         types, said = self._types, {"name"}
-        factor = _numbers(words.get("baseColorFactor"), 4)
+        factor = words.get("baseColorFactor")
         for name, painted in _PAINTED.items():
-            image = words.get(painted)
-            if isinstance(image, int) and image in self._images:
+            image = words.get(painted, -1)
+            if image in self._images:
                 kind = types.Float if name == "occlusion" else types.Normal3f if name == "normal" else types.Color3f
                 scale = factor if name == "diffuseColor" else None
                 self._paint(name, kind, self._images[image], scale)
@@ -208,13 +209,13 @@ class _Surface:
             if factor[3] < 1.0:
                 self._set("opacity", types.Float, factor[3])
             said.add("baseColorFactor")
-        emitted = _numbers(words.get("emissiveFactor"), 3)
+        emitted = words.get("emissiveFactor")
         if emitted is not None and "emissiveTexture" not in said:
             self._set("emissiveColor", types.Color3f, self._pxr.Gf.Vec3f(*emitted))
             said.add("emissiveFactor")
         for name, known in _SINGLE.items():
-            if value := _numbers(words.get(known), 1):
-                self._set(name, types.Float, value[0])
+            if known in words:
+                self._set(name, types.Float, words[known])
                 said.add(known)
         return said
 
@@ -246,12 +247,3 @@ class _Surface:
         shader = self._pxr.UsdShade.Shader.Define(self._stage, self._path.AppendChild(name))
         shader.CreateIdAttr(kind)
         return shader
-
-
-def _numbers(value: object, width: int) -> list[float] | None:
-    """So many numbers of a text or a number, or None where it is anything else."""
-    try:
-        found = [float(word) for word in str(value).split()]
-    except ValueError:
-        return None
-    return found if len(found) == width and np.isfinite(found).all() else None
