@@ -1,6 +1,6 @@
 // The kernels of `bitstream` and `codec` as WebAssembly, with and without vector instructions: `npm run kernels`.
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { delimiter, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -8,55 +8,18 @@ import { fileURLToPath } from "node:url";
 export const WEB = dirname(dirname(fileURLToPath(import.meta.url)));
 const ROOT = join(WEB, "../..");
 
-const SOURCES = [
-    "bitstream/attributes/faces.c",
-    "bitstream/attributes/normals.c",
-    "bitstream/attributes/places.c",
-    "bitstream/attributes/scalars.c",
-    "bitstream/attributes/seams.c",
-    "bitstream/attributes/texcoords.c",
-    "bitstream/attributes/values.c",
-    "bitstream/coefficients/adaptive.c",
-    "bitstream/coefficients/contexts.c",
-    "bitstream/coefficients/matrices.c",
-    "bitstream/coefficients/trellis.c",
-    "bitstream/connectivity/conquest.c",
-    "bitstream/connectivity/halfedges.c",
-    "bitstream/connectivity/partition.c",
-    "bitstream/connectivity/permutation.c",
-    "bitstream/connectivity/seams.c",
-    "bitstream/entropy/symbols.c",
-    "bitstream/fields/corners.c",
-    "bitstream/fields/floats.c",
-    "bitstream/fields/grid.c",
-    "bitstream/fields/levels.c",
-    "bitstream/fields/light.c",
-    "bitstream/fields/seen.c",
-    "bitstream/fields/value.c",
-    "codec/basis/columns.c",
-    "codec/basis/completion.simd.c",
-    "codec/basis/cosines.simd.c",
-    "codec/basis/orthogonal_iteration.simd.c",
-    "codec/basis/cholesky.simd.c",
-    "codec/basis/fronts.c",
-    "codec/basis/weighted.c",
-    "codec/blocks/overlap.c",
-    "codec/blocks/partition.c",
-    "codec/geometry/graph.c",
-    "codec/sequence/row_prediction.c",
-    "codec/signal/detail.c",
-    "codec/signal/frames.c",
-    "codec/signal/predict.c",
-    "codec/signal/smooth.c",
-    "codec/signal/transform.simd.c",
-    "tools/web/src/memory.c",
-    "tools/web/src/noise.c",
-    "tools/web/src/places.c",
-    "tools/web/src/tables.c",
-];
+/** C files below a folder of the repository. */
+function sourcesIn(folder) {
+    return readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".c")).map((name) => join(folder, name)).sort();
+}
 
-/** Tables that the kernels make for themselves, by `tables.c`. */
-const TABLES = ["bitstream/entropy/tables.c", "bitstream/fields/tables.c"];
+/** Whether a file holds tables, which the kernels make for themselves, by `tables.c`. */
+const isTable = (path) => readFileSync(join(ROOT, path), "utf8").startsWith("/* Written by");
+
+/** All kernels; the linker takes what those that are asked for need. Filters have no place in a decoder, and need a C library. */
+const FOUND = ["bitstream", "codec"].flatMap(sourcesIn).filter((path) => !path.startsWith("codec/denoise"));
+const SOURCES = [...FOUND.filter((path) => !isTable(path)), ...sourcesIn("tools/web/src")];
+const TABLES = FOUND.filter(isTable);
 
 const KERNELS = [
     "make_tables", "make_value_tables", "learn_beforehand", "add_noise",
