@@ -13,7 +13,7 @@ from typing import Any
 
 from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.grammar import FOLLOWERS
-from bsm.bitstream.container.header import Field, Header, defaults_of, fields_of
+from bsm.bitstream.container.header import Field, Header, Paper, defaults_of, fields_of
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
 
@@ -103,6 +103,7 @@ def source() -> str:
                     "What may follow a frame of each type, METADATA and skippable ones left aside.",
                 ),
                 _fields("HEADER_FIELDS", Header, "Fields of the header (F 4.4)."),
+                _fields("PAPER_FIELDS", Paper, "Numbers of its field `paper`, by their places, and the law's constants (F 4.5)."),
                 _fields("DECLARATION_FIELDS", Declaration, "Fields of what an attribute declares (D 1)."),
                 "\n".join(
                     ["/** Limits that are Python's (M 14.1). */", "export const LIMITS = {", *granted, "} as const;"]

@@ -24,11 +24,11 @@ const TABLES = FOUND.filter(isTable);
 const KERNELS = [
     "make_tables", "make_value_tables", "learn_beforehand", "add_noise",
     "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
-    "code_labels", "points_of_levels", "code_rows", "code_block", "vertex_faces", "bisect", "refine_partition",
+    "code_labels", "points_of_levels", "code_block", "bisect", "refine_partition",
     "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
     "find_fronts", "suspend", "factorize_fronts", "solve_columns", "resize_columns", "iteration_space", "iterate", "completion_space", "complete_columns",
-    "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals", "smooth_all",
-    "find_rings", "filter_rows", "link_corners", "order_vertices", "keep_borders", "code_grid", "code_floats", "code_light", "place_values", "code_levels",
+    "cholesky_onorm", "householder", "reconstruct", "look_around", "smooth_all",
+    "find_rings", "filter_rows", "link_corners", "order_vertices", "code_grid", "code_floats", "code_light", "place_values", "code_levels",
     "local_frames", "add_heights", "add_slides", "tangent_steps", "code_matrix", "project", "code_edges", "join_corners",
     "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "learn_around", "follow_rows",
 ];
@@ -54,14 +54,14 @@ const ATTRIBUTES = ["code_edges", "join_corners", "expect_normals", "code_scalar
 const LIGHT = ["link_corners", "code_light", "place_values"];
 /** Kernels of grids and refinements. */
 const FIELDS = [
-    "make_value_tables", "order_vertices", "keep_borders", "code_grid", "code_floats", "code_levels", "local_frames", "add_heights", "add_slides",
+    "make_value_tables", "order_vertices", "code_grid", "code_floats", "code_levels", "local_frames", "add_heights", "add_slides",
     "tangent_steps",
 ];
 /** Kernels of blocks. */
 const BLOCKS = [
-    "learn_beforehand", "add_noise", "points_of_levels", "code_rows", "code_block", "code_labels", "vertex_faces", "bisect", "refine_partition",
+    "learn_beforehand", "add_noise", "points_of_levels", "code_block", "code_labels", "bisect", "refine_partition",
     "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges", "find_fronts", "suspend", "factorize_fronts",
-    "solve_columns", "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around", "block_normals",
+    "solve_columns", "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around",
     "smooth_all", "find_rings", "filter_rows",
 ];
 
@@ -92,34 +92,30 @@ function indexed(numbers) {
  */
 function packedPriors(bytes) {
     const words = new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.length / 2);
-    const [sets, expectations, bins, nodes] = [2, 3, 48, 38];
+    const [expectations, bins, nodes] = [3, 48, 38];
     const slots = expectations * bins * nodes;
-    const others = words.length / sets - slots;
-    const [counts, probabilities, weights] = [[], [], []];
-    for (let start = 0; start < words.length; start += others + slots) {
-        probabilities.before = probabilities.length;
-        weights.push(...new Int16Array(words.slice(start, start + others).buffer));
-        for (let i = 0; i < slots; i++) {
-            const [node, bin, expectation] = [Math.floor(i / expectations / bins), Math.floor(i / expectations) % bins, i % expectations];
-            const word = words[start + others + (expectation * bins + bin) * nodes + node];
-            const [count, probability] = [word & 15, word >> 4];
-            if (count === 0 && !UNLEARNT.includes(probability)) throw new Error("a slot that nothing was learnt for has another probability");
-            counts.push(count || -UNLEARNT.indexOf(probability));
-            if (count > 0) probabilities.push(probability);
-        }
+    const others = words.length - slots;
+    const [counts, probabilities, weights] = [[], [], [...new Int16Array(words.slice(0, others).buffer)]];
+    for (let i = 0; i < slots; i++) {
+        const [node, bin, expectation] = [Math.floor(i / expectations / bins), Math.floor(i / expectations) % bins, i % expectations];
+        const word = words[others + (expectation * bins + bin) * nodes + node];
+        const [count, probability] = [word & 15, word >> 4];
+        if (count === 0 && !UNLEARNT.includes(probability)) throw new Error("a slot that nothing was learnt for has another probability");
+        counts.push(count || -UNLEARNT.indexOf(probability));
+        if (count > 0) probabilities.push(probability);
     }
     const [count, share, number] = [counts, probabilities, weights].map(indexed);
     return `#include "bitstream/kernel.h"
 static const uint8_t COUNTS[] = {${count.places}}, SHARES[] = {${share.places}}, NUMBERS[] = {${number.places}};
-int64_t learn_beforehand(int64_t details, Ints2 expectations, Ints2 weights, Words slots) {
+int64_t learn_beforehand(Ints2 expectations, Ints2 weights, Words slots) {
     static const int16_t NUMBER[] = {${number.list}};
     static const uint16_t SHARE[] = {${share.list}}, UNLEARNT[] = {${UNLEARNT}};
     static const int8_t COUNT[] = {${count.list}};
     int64_t learnt = expectations.rows * expectations.columns, others = learnt + weights.rows * weights.columns;
-    if (others != ${others} || slots.size != ${slots} || details < 0 || details > 1) return MISUSED;
-    const uint8_t *count = COUNTS + details * slots.size, *share = SHARES + details * ${probabilities.before}, *number = NUMBERS + details * others;
+    if (others != ${others} || slots.size != ${slots}) return MISUSED;
+    const uint8_t *count = COUNTS, *share = SHARES;
     for (int64_t i = 0; i < others; i++) {
-        int32_t value = NUMBER[number[i]];
+        int32_t value = NUMBER[NUMBERS[i]];
         if (i < learnt) expectations.data[i] = value;
         else weights.data[i - learnt] = 16 * value;
     }
@@ -153,12 +149,11 @@ function checkTables(clang, objects, priors, target) {
     const [given, sizes] = [exports.__heap_base.value, [[18, 20], [76, 3], [5472]]];
     const places = sizes.map((_, k) => given + 1024 + 32768 * k);
     sizes.forEach((shape, k) => new BigInt64Array(buffer, given + 64 * k).set([places[k], ...shape].map(BigInt)));
-    for (const [set, words] of [0, 1].map((set) => [set, new Uint16Array(priors.buffer, 12120 * set, 6060)])) {
-        exports.learn_beforehand(BigInt(set), given, given + 64, given + 128);
-        compare("expectations", new Int32Array(buffer, places[0], 360), words.subarray(0, 360));
-        compare("weights", new Int32Array(buffer, places[1], 228), Array.from(words.subarray(360, 588), (word) => 16 * ((word << 16) >> 16)));
-        compare("slots", new Uint32Array(buffer, places[2], 5472), Array.from(words.subarray(588), (word) => (((word >> 4) << 20) | (1 << 19) | ((word & 15) << 2)) >>> 0));
-    }
+    const words = new Uint16Array(priors.buffer);
+    exports.learn_beforehand(given, given + 64, given + 128);
+    compare("expectations", new Int32Array(buffer, places[0], 360), words.subarray(0, 360));
+    compare("weights", new Int32Array(buffer, places[1], 228), Array.from(words.subarray(360, 588), (word) => 16 * ((word << 16) >> 16)));
+    compare("slots", new Uint32Array(buffer, places[2], 5472), Array.from(words.subarray(588), (word) => (((word >> 4) << 20) | (1 << 19) | ((word & 15) << 2)) >>> 0));
 }
 
 /** Sources of what takes most time where positions are on a grid, or refined. */

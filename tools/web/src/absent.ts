@@ -51,6 +51,10 @@ export function checkAgain(): never {
     return absent("sequences");
 }
 
+export function readPaper(): never {
+    return absent("blocks");
+}
+
 export function checkBlocks(): never {
     return absent("blocks");
 }

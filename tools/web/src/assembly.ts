@@ -41,39 +41,25 @@ export function inMeshUnits(positions: Float64Array, header: Header): Float64Arr
 
 /** Blends the blocks of one mesh. */
 export class Assembly {
-    private blend!: Blend;
-    private blocks!: Blocks;
-    private missing = new Int32Array(0);
-    private final!: Uint8Array;
+    private readonly blend: Blend;
+    /** Copies of each vertex that have not come yet. */
+    private readonly missing: Int32Array;
+    private readonly final: Uint8Array;
     /** Which vertices the filter cannot be used on yet; zero between calls. */
-    private waits!: Uint8Array;
-    private blended!: Doubles;
-    private number!: Ints;
-    private rows!: Ints;
+    private readonly waits: Uint8Array;
+    private readonly blended: Doubles;
+    private readonly number: Ints;
+    private readonly rows: Ints;
     /** Vertices of blocks that were lost. */
     private readonly lost = new Set<number>();
-    /** Sums and weights, while the memory is given to others. */
-    private kept: Float64Array[] = [];
-    /** Whether all blocks of each vertex are known, and whether that was told for those that have come before. */
-    private whole = true;
-    private told = true;
 
     constructor(
         private readonly memory: Memory,
         private readonly header: Header,
+        private readonly blocks: Blocks,
         private readonly allowance: Allowance,
-    ) {}
-
-    /** Be ready for memory that is given back; `extend` must follow. */
-    leave(): void {
-        this.kept = [this.blend.sums.view.slice(), this.blend.weights.view.slice()];
-    }
-
-    /** Go on with the blocks of another section, which may be the last one. */
-    extend(blocks: Blocks, whole: boolean): void {
-        const { memory, kept, missing } = this;
+    ) {
         const { size } = blocks.graph;
-        this.blocks = blocks;
         this.blend = new Blend(memory, size);
         this.blended = memory.doubles(3 * size, 3);
         this.number = memory.ints(size);
@@ -82,12 +68,8 @@ export class Assembly {
         this.final = new Uint8Array(size);
         this.waits = new Uint8Array(size);
         this.missing = new Int32Array(size);
-        this.missing.set(missing);
         for (const vertex of blocks.members.view) this.missing[vertex]++;
-        kept.forEach((values, i) => [this.blend.sums, this.blend.weights][i].view.set(values));
         this.settle(upTo(size));
-        this.told = !whole || missing.length === 0;
-        this.whole = whole;
     }
 
     /** Blend one block in. */
@@ -134,9 +116,7 @@ export class Assembly {
         const seen = block.vertices.filter((vertex) => weights[vertex] > 0);
         this.settle(seen);
         for (const vertex of block.vertices) this.missing[vertex]--;
-        const among = this.told ? block.vertices : upTo(this.missing.length);
-        this.told = true;
-        const finished = this.finished(among.filter((vertex) => this.whole && this.missing[vertex] === 0));
+        const finished = this.finished(block.vertices.filter((vertex) => this.missing[vertex] === 0));
         for (const vertex of finished) this.final[vertex] = 1;
         const moved = seen.filter((vertex) => !this.final[vertex]);
         const vertices = new Int32Array(moved.length + finished.length);
@@ -147,7 +127,7 @@ export class Assembly {
         positions.set(this.smoothed(finished), 3 * moved.length);
         // What levels or frames move later is not final.
         const final = new Uint8Array(vertices.length);
-        if (this.header.refinements.length === 0 && this.header.gopFrames === 0) final.fill(1, moved.length);
+        if (this.header.refinement.length === 0 && this.header.gopFrames === 0) final.fill(1, moved.length);
         this.allowance.spend(COPY * vertices.length);
         return { vertices, positions: inMeshUnits(positions, this.header), final };
     }

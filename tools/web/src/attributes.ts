@@ -13,7 +13,7 @@ import { checkLimit, type Limits } from "./limits";
 import type { Numbering } from "./numbering";
 import { areFinite } from "./numbers";
 import type { Moving } from "./sequence";
-import { DECLARED, layerCost, seamsCost, valuesCost, valuesMemory } from "./work";
+import { DECLARED, fieldCost, seamsCost, valuesCost, valuesMemory } from "./work";
 
 const SEAM = 1;
 const SEAMS = { inputs: 4, others: 9, slots: 32 * 32 + 9 * 16 + 256 + 9 };
@@ -95,7 +95,7 @@ export class Attributes {
     /** What its values cost, before their bytes are counted. */
     costOf(index: number): number {
         const { rows = 0, components = 0 } = this.valued.get(index)?.declaration ?? {};
-        return valuesCost(rows, this.header.faces) + layerCost(rows, this.header.faces, components);
+        return valuesCost(rows, this.header.faces) + fieldCost(rows, this.header.faces, components);
     }
 
     /** Decode a chunk of values; the attribute, if it is whole now. */

@@ -27,8 +27,6 @@ export interface Partition {
 /** All blocks of a mesh, in the order of their chain. */
 export interface Blocks {
     graph: Graph;
-    /** The first of them. */
-    first: number;
     count: number;
     /** Size of the part that each block grew from: the first of its members. */
     cores: Int32Array;
@@ -104,29 +102,12 @@ export function largestPart(partition: Partition): number {
     return largest;
 }
 
-/** The vertices of a graph from `first` on, numbered from 0, and the edges between them (M 18.2). */
-export function lastOf(memory: Memory, graph: Graph, first: number): Graph {
-    if (first === 0) return graph;
-    const size = graph.size - first;
-    const offsets = memory.ints(size + 1);
-    const room = memory.ints(graph.neighbours.length);
-    const [starts, beside, ends, kept] = [graph.offsets.view, graph.neighbours.view, offsets.view, room.view];
-    let count = (ends[0] = 0);
-    for (let v = 0; v < size; v++) {
-        for (let k = starts[first + v]; k < starts[first + v + 1]; k++) if (beside[k] >= first) kept[count++] = beside[k] - first;
-        ends[v + 1] = count;
-    }
-    return { size, offsets, neighbours: memory.enlarged(room, count) };
-}
-
-/** Put the parts, which are of the graph's last vertices, into a chain and grow each to at most `size` vertices (M 5). */
-export function growBlocks(memory: Memory, graph: Graph, partition: Partition, size: number, first: number): Blocks {
+/** Put the parts into a chain and grow each to at most `size` vertices (M 5). */
+export function growBlocks(memory: Memory, graph: Graph, partition: Partition, size: number): Blocks {
     const { parts, order, bounds, labels } = partition;
     const room = memory.ints(parts * Math.min(size, graph.size));
     const { starts, cores, count } = memory.scratch(() => {
         const { offsets, neighbours } = graph;
-        const others = graph.size - labels.length;
-        if (others > 0) order.view.forEach((vertex, i, all) => (all[i] = vertex + others));
         const pairs = Math.min(neighbours.length, parts * (parts - 1));
         const [links, shares, scratch] = [memory.ints(pairs), memory.longs(pairs), memory.longs(CHAIN_SCRATCH * parts)];
         const [seen, chain, places, edges] = [memory.ints(graph.size), memory.ints(parts), memory.longs(parts + 1), memory.longs(parts)];
@@ -137,12 +118,12 @@ export function growBlocks(memory: Memory, graph: Graph, partition: Partition, s
         const cores = chain.view.map((part) => ends[part + 1] - ends[part]);
         return { starts: Float64Array.from(places.view, Number), cores, count };
     });
-    return { graph, first, count: parts, cores, starts, members: memory.enlarged(room, count) };
+    return { graph, count: parts, cores, starts, members: memory.enlarged(room, count) };
 }
 
 /** Vertices of a block in the order in which they were found. */
 export function membersOf(blocks: Blocks, index: number): Ints {
-    const [start, end] = blocks.starts.subarray(index - blocks.first);
+    const [start, end] = blocks.starts.subarray(index);
     return blocks.members.part(start, end - start);
 }
 

@@ -1,5 +1,4 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
-import { begun } from "./begun";
 import {
     completed, completionCost, degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, suspend, whole,
     type Factor, type Schedule,
@@ -9,23 +8,14 @@ import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
-import type { Bytes, Doubles, Ints, Longs, Memory } from "./kernels";
+import type { Bytes, Doubles, Memory } from "./kernels";
 import { checkLimit, checkMemory, type Limits } from "./limits";
 import { blockCost, FRAME } from "./work";
 import { areFinite } from "./numbers";
 
 export const TETHER = 2 ** -16;
-const SOFTNESS = 2 ** -10;
-const LEAST_NORMAL = 2 ** -33;
-
-/** Faces, and which of them are around each vertex. */
-export interface Surface {
-    faces: Ints;
-    starts: Longs;
-    members: Ints;
-    /** Scratch of the kernel, zero between calls. */
-    place: Ints;
-}
+/** Of springs between blocks (M 7.3). */
+const STIFFNESS = 8;
 
 /** A block's own reconstruction, before it is blended with others; positions in BSM units. */
 export interface DecodedBlock {
@@ -37,7 +27,8 @@ export interface DecodedBlock {
 
 /** Power and iterations of a block that follows another, or of one that does not. */
 function scheduleOf(header: Header, follows: boolean): Schedule {
-    return isExact(header, follows) ? EXACT : [header.power, iterationsOf(header, follows)];
+    const { power, iterations, keyIterations } = header.paper;
+    return isExact(header, follows) ? EXACT : [power, follows ? iterations : keyIterations];
 }
 
 /** Columns of a dictionary, at most, that iterations give; others complete these (M 8.7). */
@@ -67,17 +58,13 @@ export function keyDictionary(
 ): Doubles {
     const first = Math.min(width, iterated(header, block.size));
     if (isExact(header, false)) return completed(memory, exactBasis(memory, block, springs, first, allowance), width);
-    const factor = held ?? factorize(memory, block, springs.map((spring) => spring + header.shift));
+    const factor = held ?? factorize(memory, block, springs.map((spring) => spring + header.paper.shift));
     const start = firstColumns(memory, block, first, false);
     return completed(memory, orthogonalIteration(memory, block, factor, start, first, scheduleOf(header, false), allowance), width);
 }
 
 function isExact(header: Header, follows: boolean): boolean {
-    return header.keySeed === 1 && !follows;
-}
-
-function iterationsOf(header: Header, follows: boolean): number {
-    return follows ? header.iterations : header.keyIterations;
+    return header.paper.exact === 1 && !follows;
 }
 
 export function chainLength(header: Header): number {
@@ -170,7 +157,6 @@ export class Blend {
 /** Decodes the blocks of one chain in their order; what it keeps lies in memory behind all that the mesh has. */
 export class ChainDecoder {
     private readonly model: CoefficientModel;
-    private readonly details?: CoefficientModel;
     private readonly known?: Blend;
     private readonly inside?: Bytes;
     private readonly behind: number;
@@ -182,11 +168,9 @@ export class ChainDecoder {
         private readonly header: Header,
         private readonly blocks: Blocks,
         private readonly allowance: Allowance,
-        private readonly surface?: Surface,
     ) {
-        this.model = new CoefficientModel(memory, header.coefficients, "coordinates");
-        if (header.details > 0) this.details = new CoefficientModel(memory, Math.ceil(header.details / 3), "details");
-        if (header.stiffness > 0) {
+        this.model = new CoefficientModel(memory, header.coefficients);
+        if (header.paper.springs > 0) {
             this.known = new Blend(memory, blocks.graph.size);
             this.inside = memory.bytes(blocks.graph.size);
             this.inside.view.fill(0);
@@ -200,20 +184,17 @@ export class ChainDecoder {
         this.subspace = this.memory.keep(() => {
             const { header, memory } = this;
             const members = membersOf(this.blocks, index);
-            const levels = 3 * (width + Math.ceil(header.details / 3));
-            this.allowance.spend(blockCost(members.length, edgesOf(this.blocks.graph, members), levels), payload.length + FRAME);
+            this.allowance.spend(blockCost(members.length, edgesOf(this.blocks.graph, members), 3 * width), payload.length + FRAME);
             const block = makeBlock(memory, this.blocks.graph, members);
-            const { points, details } = this.readPoints(payload, width, block);
-            const columns = Math.min(Math.max(width, details.length), block.size);
+            const points = this.readPoints(payload, width, block);
             const { springs, pulls } = this.lookAround(block);
-            spendOn(this.allowance, this.header, block, columns, this.predecessor(block) !== undefined);
-            const { factor, continued } = suspend(memory, block, springs, pulls, header.shift);
-            const subspace = this.dictionary(block, springs, factor, columns);
+            spendOn(this.allowance, this.header, block, width, this.predecessor(block) !== undefined);
+            const { factor, continued } = suspend(memory, block, springs, pulls, header.paper.shift);
+            const subspace = this.dictionary(block, springs, factor, width);
             const coefficients = points.map((point) => (point * header.step) / 2);
             const positions = reconstruct(memory, subspace, coefficients, 3);
             const { view } = continued;
             for (let i = 0; i < view.length; i++) positions[i] += view[i];
-            if (details.length > 0) this.displace(block, positions, subspace, details);
             if (!areFinite(positions)) throw new NumericError("the coefficients reconstruct to positions that are not finite");
             const vertices = block.vertices.view.slice();
             const degrees = degreesOf(block).map((degree) => Math.max(degree, 1));
@@ -224,19 +205,17 @@ export class ChainDecoder {
         return decoded;
     }
 
-    /** Coefficients of x, y and z, and of the detail layer, in half steps. */
-    private readPoints(payload: Uint8Array, width: number, block: Block): { points: Float64Array; details: Float64Array } {
-        const { header, memory } = this;
+    /** Coefficients of x, y and z in half steps. */
+    private readPoints(payload: Uint8Array, width: number, block: Block): Float64Array {
+        const { memory } = this;
+        const { bits, coarser } = this.header.paper;
         if (width < 1 || width > block.size) throw new CorruptError(`${width} coefficients for a block of ${block.size} vertices`);
-        const nothing = new Float64Array(0);
-        if (header.coding === 0) return { points: unpackLevels(payload, width, header.bits, header.coarser), details: nothing };
+        if (bits > 0) return unpackLevels(payload, width, bits, coarser);
         return memory.scratch(() => {
             const coder = new Coder(memory, payload);
             const points = Float64Array.from(this.model.points(coder, width).view);
-            const rows = this.details?.rowCount(coder);
-            const details = rows === undefined ? nothing : Float64Array.from(begun(this.details).points(coder, rows).view);
             coder.finish();
-            return { points, details: details.subarray(0, Math.min(header.details, block.size)) };
+            return points;
         });
     }
 
@@ -247,7 +226,7 @@ export class ChainDecoder {
         const pulls = memory.doubles(3 * block.size, 3);
         if (known && inside) {
             const { offsets, neighbours } = this.blocks.graph;
-            memory.run("look_around", offsets, neighbours, block.vertices, inside, known.sums, known.weights, this.header.stiffness, springs, pulls);
+            memory.run("look_around", offsets, neighbours, block.vertices, inside, known.sums, known.weights, STIFFNESS, springs, pulls);
         } else {
             springs.view.fill(0);
             pulls.view.fill(0);
@@ -268,19 +247,5 @@ export class ChainDecoder {
         const first = Math.min(width, iterated(header, block.size));
         const start = followColumns(memory, block, previous, first);
         return completed(memory, orthogonalIteration(memory, block, factor, start, first, scheduleOf(header, true), allowance), width);
-    }
-
-    /** Move rows along their normals (M 11.3, M 11.4). */
-    private displace(block: Block, positions: Float64Array, subspace: Doubles, details: Float64Array): void {
-        const { memory, surface, header } = this;
-        const heights = reconstruct(memory, subspace, details.map((point) => (point * header.detailStep) / 2), 1);
-        memory.scratch(() => {
-            const { faces, starts, members, place } = begun(surface);
-            const normals = memory.doubles(positions.length, 3);
-            const given = memory.copy(positions, 3);
-            memory.run("block_normals", faces, starts, members, block.vertices, place, given, SOFTNESS, LEAST_NORMAL, normals);
-            const { view } = normals;
-            for (let i = 0; i < view.length; i++) positions[i] += view[i] * heights[Math.floor(i / 3)];
-        });
     }
 }

@@ -1,5 +1,5 @@
 /** Coded coefficients to levels (specification, M 9; F 6). */
-import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
+import { makeBank, type Bank, type Coder } from "./entropy";
 import { CorruptError } from "./errors";
 import type { Ints, Longs, Memory } from "./kernels";
 import { unpackZstd } from "./zstd";
@@ -11,38 +11,27 @@ const NODES = 38;
 const SELECTORS = 2;
 const BINS = 48;
 const ROWS_AROUND = 8 + 3; // rows of zeros in front of the first frequency and behind the last
-const ROWS_UNARY = 8;
-const ROWS_SPAN = unsignedSpan(ROWS_UNARY);
 
 const WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBOURS;
 const SLOTS = EXPECTATIONS * BINS * NODES;
 
-/** Which of the two learnt sets of numbers a model starts from (M 9.1). */
-export type Layer = "coordinates" | "details";
-
 /** What a chain of blocks has taught the coder; it stays in memory as long as the chain. */
 export class CoefficientModel {
     private readonly bank: Bank;
-    private readonly rows: Bank;
     private readonly past: readonly [Ints, Ints, Ints, Longs];
-    private readonly missing: Longs;
     private readonly expectations: Ints;
 
     constructor(
         private readonly memory: Memory,
         readonly width: number,
-        layer: Layer,
     ) {
         this.bank = makeBank(memory, { slots: SLOTS, selectors: SELECTORS * NODES, inputs: EXPECTATIONS, limit: 400, rate: 4 });
-        this.rows = makeBank(memory, { slots: 17 * ROWS_SPAN, selectors: ROWS_SPAN, inputs: 2, limit: 60 });
         const size = 3 * (width + ROWS_AROUND);
         const blocks = memory.longs(1);
         this.past = [memory.ints(size, 3), memory.ints(size, 3), memory.ints(size, 3), blocks];
-        this.missing = memory.longs(1);
         this.expectations = memory.ints(WEIGHTS, NEIGHBOURS);
         this.past.forEach((place) => (place === blocks ? blocks.view.fill(0n) : (place as Ints).view.fill(0)));
-        this.missing.view.fill(0n);
-        memory.call("learn_beforehand", layer === "details" ? 1n : 0n, this.expectations, this.bank[1], this.bank[0]);
+        memory.call("learn_beforehand", this.expectations, this.bank[1], this.bank[0]);
     }
 
     /** Read a block's levels, `count` rows of three, as points in half steps (M 9.6, M 9.11). */
@@ -54,14 +43,6 @@ export class CoefficientModel {
         this.memory.call("code_block", coder.parts, this.bank, this.past, this.expectations, levels);
         this.memory.run("points_of_levels", levels, points);
         return points;
-    }
-
-    /** Read how many rows follow (M 9.8). */
-    rowCount(coder: Coder): number {
-        const rows = this.memory.call("code_rows", coder.parts, this.rows, this.missing, BigInt(this.width), 0n);
-        if (coder.overran) coder.finish();
-        if (rows < 0 || rows > this.width) throw new CorruptError(`${rows} rows of levels of at most ${this.width}`);
-        return rows;
     }
 }
 

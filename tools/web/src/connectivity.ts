@@ -1,8 +1,8 @@
 /** Faces, their original order, and parts (specification, C 4 to C 10). */
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
 import { CorruptError } from "./errors";
-import { mostCopies, sectionsOf, type Header, type Section } from "./header";
-import type { Ints, Longs, Memory } from "./kernels";
+import type { Header } from "./header";
+import type { Ints, Memory } from "./kernels";
 import { checkLimit, checkMemory, type Limits } from "./limits";
 
 const ONE = 65536;
@@ -13,7 +13,7 @@ const RARE_KINDS = 6;
 const RARE_SPAN = unsignedSpan(RARE_UNARY);
 const RARE_COUNTS = 5 * RARE_SPAN;
 const FRONT = { columns: 8, buckets: 8, heads: 18, made: 8, alive: 9 };
-const TALLIES = { size: 9, fans: 1, dummies: 3, turns: 4, steps: 5, stop: 8 };
+const TALLIES = { size: 8, dummies: 3, turns: 4, steps: 5 };
 const [NONSENSE, NO_ROOM] = [1, 2];
 const ORDER = { unary: 6, inputs: 4, classes: 32 };
 /** Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together. */
@@ -41,68 +41,10 @@ function makeModels(memory: Memory, vertices: number): Models {
     ];
 }
 
-/** What is read of a payload before its faces, and while they come. */
-interface Walk {
-    coder: Coder;
-    models: Models;
-    fans: number;
-    surplus: number;
-    /** Faces that do not repeat a corner. */
-    surface: Ints;
-    /** Where the conquest is (C 6). */
-    front: [nodes: Ints, heads: Ints];
-    vertices: Longs;
-    tallies: Longs;
-}
-
-/** Decodes faces, section by section (C 4). */
-export class ConnectivityDecoder {
-    /** All faces, shape (m, 3), that are there or will come. */
-    faces!: Ints;
-    /** Sections, faces and vertices that are there, and blocks that these are enough for. */
-    section = 0;
-    known = 0;
-    vertices = 0;
-    blocks = 0;
-    readonly sections: Section[];
-    private walk?: Walk;
-    /** What lies in memory behind the faces, and behind all that the next section needs. */
-    private behind = 0;
-    private top = 0;
-
-    constructor(
-        private readonly memory: Memory,
-        private readonly header: Header,
-        private readonly limits: Limits,
-    ) {
-        this.sections = sectionsOf(header);
-    }
-
-    /** Whether all sections are there. */
-    get whole(): boolean {
-        return this.section === this.sections.length;
-    }
-
-    /** Decode the next section. All that was allocated in memory since the one before it is given back. */
-    take(piece: Uint8Array): void {
-        const { memory, header, sections } = this;
-        if (this.walk) memory.release(this.top);
-        const { first, blocks, faces } = sections[this.section++];
-        if (this.walk) this.walk.coder.readOn(memory, piece);
-        else this.walk = this.begin(piece);
-        const known = this.whole ? this.end(this.walk) : this.pause(this.walk, faces);
-        if (known - this.vertices < blocks - first || blocks * header.blockSize > mostCopies(known)) {
-            throw new CorruptError(`a section of ${known - this.vertices} vertices has ${blocks - first} blocks`);
-        }
-        if (this.whole) memory.release(this.behind);
-        this.top = memory.mark();
-        [this.known, this.vertices, this.blocks] = [faces, known, blocks];
-    }
-
-    private begin(payload: Uint8Array): Walk {
-        const { memory, limits, header, sections } = this;
-        this.faces = memory.ints(3 * header.faces, 3);
-        this.behind = memory.mark();
+/** The faces of a mesh, shape (m, 3) (C 4). */
+export function decodeConnectivity(memory: Memory, payload: Uint8Array, header: Header, limits: Limits): Ints {
+    const faces = memory.ints(3 * header.faces, 3);
+    memory.scratch(() => {
         const coder = new Coder(memory, payload);
         const models = makeModels(memory, header.vertices);
         const [degenerate, lonely, surplus, loops] = [0, 1, 2, 3].map(() => readCount(memory, coder, models));
@@ -114,40 +56,16 @@ export class ConnectivityDecoder {
         }
         checkLimit(limits, "vertices", fans + loops);
         checkMemory(limits, FACE * header.faces + VERTEX * header.vertices + FAN * (surplus + loops), header.vertices, payload.length);
-        const before = sections.at(-2);
-        if (before && (surplus > 0 || before.faces >= proper)) throw coder.nonsense("it cannot come in these sections");
-        const heads = memory.ints(FRONT.heads);
-        heads.view.fill(-1);
-        heads.view[FRONT.made] = heads.view[FRONT.alive] = 0;
-        const tallies = memory.longs(TALLIES.size);
-        tallies.view.fill(0n);
-        tallies.view[TALLIES.dummies] = BigInt(loops);
-        tallies.view[TALLIES.turns] = BigInt(4 * proper);
-        tallies.view[TALLIES.steps] = BigInt(65536 + 16 * proper);
-        const vertices = memory.longs(2 * (fans + loops), 2);
-        const nodes = memory.ints(FRONT.columns * (fans + 16), FRONT.columns);
-        return { coder, models, fans, surplus, surface: this.faces.part(0, 3 * proper, 3), front: [nodes, heads], vertices, tallies };
-    }
-
-    /** Go on to where so many faces are there; how many vertices are there then (C 4.5). */
-    private pause(walk: Walk, faces: number): number {
-        conquer(this.memory, walk, faces);
-        walk.coder.finishPiece();
-        return Number(walk.tallies.view[TALLIES.fans]);
-    }
-
-    private end(walk: Walk): number {
-        const { memory, faces, header } = this;
-        const { coder, surface, fans, surplus } = walk;
-        conquer(memory, walk, 0);
+        const surface = faces.part(0, 3 * proper, 3);
+        conquer(memory, coder, models, surface, fans, loops);
         const known = surplus > 0 ? joinFans(memory, coder, surface, fans) : fans;
         const corners = faces.part(surface.length, faces.length - surface.length);
-        if (known !== fans - surplus || memory.call("code_degenerate", coder.parts, corners, BigInt(known)) !== header.vertices) {
+        if (known !== regular || memory.call("code_degenerate", coder.parts, corners, BigInt(known)) !== header.vertices) {
             throw coder.nonsense(`it does not make ${header.vertices} vertices`);
         }
         coder.finish();
-        return header.vertices;
-    }
+    });
+    return faces;
 }
 
 function readCount(memory: Memory, coder: Coder, models: Models): number {
@@ -158,18 +76,27 @@ function readCount(memory: Memory, coder: Coder, models: Models): number {
     });
 }
 
-/** The conquest (C 6) until so many faces are there, or all; with more memory for its front each time it asks. */
-function conquer(memory: Memory, { coder, models, surface, front, vertices, tallies }: Walk, faces: number): void {
+/** The conquest (C 6) of faces that do not repeat a corner, with more memory for its front each time it asks. */
+function conquer(memory: Memory, coder: Coder, models: Models, surface: Ints, fans: number, loops: number): void {
+    const heads = memory.ints(FRONT.heads);
+    heads.view.fill(-1);
+    heads.view[FRONT.made] = heads.view[FRONT.alive] = 0;
+    const tallies = memory.longs(TALLIES.size);
+    tallies.view.fill(0n);
+    tallies.view[TALLIES.dummies] = BigInt(loops);
+    tallies.view[TALLIES.turns] = BigInt(4 * surface.rows);
+    tallies.view[TALLIES.steps] = BigInt(65536 + 16 * surface.rows);
+    const vertices = memory.longs(2 * (fans + loops), 2);
     const nothing = memory.ints(0);
     const guide = [[nothing, nothing, nothing, nothing], memory.bytes(0), nothing, nothing, nothing, nothing];
-    tallies.view[TALLIES.stop] = BigInt(faces);
+    let nodes = memory.ints(FRONT.columns * (fans + 16), FRONT.columns);
     for (;;) {
-        const end = memory.call("conquer", coder.parts, models, guide, [front, vertices, surface, tallies]);
+        const end = memory.call("conquer", coder.parts, models, guide, [[nodes, heads], vertices, surface, tallies]);
         if (end === NONSENSE) throw coder.nonsense(`it does not make ${surface.rows} triangles`);
         if (end !== NO_ROOM) return;
-        const [nodes] = front;
-        front[0] = memory.ints(2 * nodes.length, FRONT.columns);
-        front[0].view.set(nodes.view);
+        const before = nodes;
+        nodes = memory.ints(2 * before.length, FRONT.columns);
+        nodes.view.set(before.view);
     }
 }
 

@@ -40,23 +40,6 @@ export const FOLLOWERS = {
     metadata: [],
 } as const;
 
-/** The same in meshes that come in sections (F 3.16). */
-export const FOLLOWERS_IN_SECTIONS = {
-    start: ["header"],
-    header: ["connectivity"],
-    connectivity: ["block", "refinement", "attribute", "end"],
-    partition: ["block", "refinement", "attribute", "end"],
-    order: ["block", "refinement", "attribute", "end"],
-    attribute: ["values", "block", "refinement", "attribute", "end"],
-    block: ["values", "connectivity", "block", "refinement", "end"],
-    gop: ["header", "end"],
-    grid: ["values", "end"],
-    refinement: ["values", "refinement", "end"],
-    values: ["values", "end"],
-    end: [],
-    metadata: [],
-} as const;
-
 /** Fields of the header (F 4.4). */
 export const HEADER_FIELDS = {
     vertices: { key: 1, type: "int", low: 1, high: 2147483647 },
@@ -64,34 +47,32 @@ export const HEADER_FIELDS = {
     blocks: { key: 3, type: "int", low: 0, high: 2147483647, default: 0 },
     blockSize: { key: 4, type: "int", low: 0, high: 2147483647, default: 0 },
     coefficients: { key: 5, type: "int", low: 0, high: 2147483647, default: 0 },
-    keyInterval: { key: 8, type: "int", low: 0, high: 2147483647, default: 0 },
-    power: { key: 9, type: "int", low: 1, high: 64, default: 3 },
-    iterations: { key: 10, type: "int", low: 1, high: 1024, default: 1 },
-    keyIterations: { key: 11, type: "int", low: 1, high: 1024, default: 4 },
-    shift: { key: 12, type: "float", low: 9.313225746154785e-10, high: 1073741824, default: 0.0078125 },
-    coding: { key: 14, type: "method", low: 0, high: 1, default: 1 },
-    bits: { key: 15, type: "int", low: 1, high: 32, default: 12 },
-    step: { key: 16, type: "float", low: 9.094947017729282e-13, high: 1048576, default: 0.00390625 },
-    center: { key: 17, type: "floats", low: -1e+300, high: 1e+300, default: [0, 0, 0], lengths: [3, 3] },
-    scale: { key: 18, type: "float", low: 1e-300, high: 1e+300, default: 1 },
-    stiffness: { key: 19, type: "float", low: 0, high: 65536, default: 8 },
-    smoothing: { key: 20, type: "float", low: 0, high: 1000000, default: 0 },
-    frames: { key: 21, type: "int", low: 0, high: 2147483647, default: 0 },
-    gopFrames: { key: 23, type: "int", low: 0, high: 2147483647, default: 0 },
-    detailStep: { key: 25, type: "float", low: 0, high: 1048576, default: 0 },
-    details: { key: 26, type: "int", low: 0, high: 2147483647, default: 0 },
-    coarser: { key: 27, type: "int", low: 0, high: 30, default: 0 },
-    grid: { key: 28, type: "ints", low: 0, high: 1048575, default: [], lengths: [0, 3] },
-    lattice: { key: 29, type: "ints", low: 1, high: 2147483647, default: [], lengths: [0, 2] },
-    refinements: { key: 30, type: "floats", low: 0, high: 64, default: [], lengths: [0, 8] },
-    keySeed: { key: 31, type: "method", low: 0, high: 1, default: 0 },
-    borders: { key: 32, type: "method", low: 0, high: 1, default: 0 },
-    attributes: { key: 33, type: "int", low: 0, high: 255, default: 0 },
-    corner: { key: 40, type: "ints", low: -2147483648, high: 2147483647, default: [], lengths: [0, 3] },
-    sections: { key: 41, type: "ints", low: 1, high: 2147483647, default: [], lengths: [0, 14] },
-    light: { key: 42, type: "method", low: 0, high: 2, default: 0 },
-    run: { key: 43, type: "int", low: 0, high: 2147483647, default: 0 },
-    again: { key: 44, type: "int", low: 0, high: 2147483647, default: 0 },
+    keyInterval: { key: 6, type: "int", low: 0, high: 2147483647, default: 0 },
+    step: { key: 7, type: "float", low: 9.094947017729282e-13, high: 1048576, default: 0.00390625 },
+    center: { key: 8, type: "floats", low: -1e+300, high: 1e+300, default: [0, 0, 0], lengths: [3, 3] },
+    scale: { key: 9, type: "float", low: 1e-300, high: 1e+300, default: 1 },
+    smoothing: { key: 10, type: "float", low: 0, high: 1000000, default: 0 },
+    refinement: { key: 11, type: "floats", low: 0, high: 64, default: [], lengths: [0, 2] },
+    attributes: { key: 12, type: "int", low: 0, high: 255, default: 0 },
+    grid: { key: 13, type: "ints", low: 0, high: 1048575, default: [], lengths: [0, 3] },
+    lattice: { key: 14, type: "ints", low: 1, high: 2147483647, default: [], lengths: [0, 2] },
+    corner: { key: 15, type: "ints", low: -2147483648, high: 2147483647, default: [], lengths: [0, 3] },
+    light: { key: 16, type: "method", low: 0, high: 2, default: 0 },
+    sequence: { key: 17, type: "ints", low: 0, high: 2147483647, default: [], lengths: [0, 2] },
+    run: { key: 18, type: "ints", low: 0, high: 2147483647, default: [], lengths: [0, 2] },
+    paper: { key: 19, type: "floats", low: 0, high: 1073741824, default: [], lengths: [0, 8] },
+} satisfies Record<string, Field>;
+
+/** Numbers of its field `paper`, by their places, and the law's constants (F 4.5). */
+export const PAPER_FIELDS = {
+    bits: { key: 0, type: "int", low: 0, high: 32, default: 0 },
+    coarser: { key: 1, type: "int", low: 0, high: 30, default: 0 },
+    exact: { key: 2, type: "int", low: 0, high: 1, default: 0 },
+    power: { key: 3, type: "int", low: 1, high: 64, default: 3 },
+    iterations: { key: 4, type: "int", low: 1, high: 1024, default: 1 },
+    keyIterations: { key: 5, type: "int", low: 1, high: 1024, default: 2 },
+    shift: { key: 6, type: "float", low: 9.313225746154785e-10, high: 1073741824, default: 0.0078125 },
+    springs: { key: 7, type: "int", low: 0, high: 1, default: 1 },
 } satisfies Record<string, Field>;
 
 /** Fields of what an attribute declares (D 1). */

@@ -25,18 +25,17 @@ export interface Shape {
     high: number[];
 }
 
-/** A mesh that grows has begun, or goes on with the faces of one more section: how many vertices and corners there are now. */
+/** A mesh that grows has begun: how many vertices and corners it has. */
 export interface BegunPicture {
     type: "begun";
     vertices: number;
     corners: number;
     loose: ConnectivityEvent["loose"];
-    section: number;
 }
 
 /**
  * Vertices that have moved or whose normals have, shape (k,), with what they are now, and the corners of faces that can be
- * drawn from now on. `origin`: the block that each came with, -1 if it is not there; `depth`: how many layers have moved it.
+ * drawn from now on. `origin`: the block that each came with, -1 if it is not there; `refined`: whether refinement has moved it.
  */
 export interface GrownPicture {
     type: "grown";
@@ -44,10 +43,9 @@ export interface GrownPicture {
     positions: Float32Array;
     normals: Float32Array;
     origin: Int32Array;
-    depth: Uint8Array;
+    refined: Uint8Array;
     index: Uint32Array;
     blocks: number;
-    layers: number;
 }
 
 /** The whole mesh, or the first frame of a sequence; of a later run, that which the frames behind it have. */
@@ -89,7 +87,7 @@ export class Drawing {
     private points = new Float32Array(0);
     private normals = new Float32Array(0);
     private origin: Int32Array = new Int32Array(0);
-    private depth = new Uint8Array(0);
+    private refined = new Uint8Array(0);
     /** How many corners of each face are not there. */
     private waiting = new Uint8Array(0);
     private around: { starts: Int32Array; members: Int32Array } = { starts: new Int32Array(1), members: new Int32Array(0) };
@@ -98,9 +96,6 @@ export class Drawing {
     private isTouched = new Uint8Array(0);
     private drawable: number[] = [];
     private blocks = 0;
-    private layers = 0;
-    /** Vertices that each number of layers has moved at least. */
-    private moved: number[] = [];
     private shown = 0;
     private readonly carried: Attribute[] = [];
     private shape?: Shape;
@@ -160,7 +155,7 @@ export class Drawing {
         const vertices = Int32Array.from(this.touched);
         this.touched = [];
         const [positions, normals] = [new Float32Array(3 * vertices.length), new Float32Array(3 * vertices.length)];
-        const [origin, depth] = [new Int32Array(vertices.length), new Uint8Array(vertices.length)];
+        const [origin, refined] = [new Int32Array(vertices.length), new Uint8Array(vertices.length)];
         vertices.forEach((vertex, row) => {
             this.isTouched[vertex] = 0;
             this.renewNormal(vertex);
@@ -169,43 +164,29 @@ export class Drawing {
                 normals[3 * row + d] = this.normals[3 * vertex + d];
             }
             origin[row] = this.origin[vertex];
-            depth[row] = this.depth[vertex];
+            refined[row] = this.refined[vertex];
         });
         const index = this.cornersOf(this.drawable);
         this.drawable = [];
         this.shown = performance.now();
-        const { blocks, layers } = this;
         this.show(
-            { type: "grown", vertices, positions, normals, origin, depth, index, blocks, layers },
-            [vertices, positions, normals, origin, depth, index].map(({ buffer }) => buffer),
+            { type: "grown", vertices, positions, normals, origin, refined, index, blocks: this.blocks },
+            [vertices, positions, normals, origin, refined, index].map(({ buffer }) => buffer),
         );
     }
 
-    private begin({ faces: added, vertices: size, loose, section }: ConnectivityEvent): void {
-        this.flush();
-        const [known, before] = [this.faces.length, this.origin.length];
-        this.faces = grown(this.faces, known + added.length);
-        this.faces.set(added, known);
-        this.origin = grown(this.origin, size).fill(-1, before);
-        this.points = grown(this.points, 3 * size);
-        this.normals = grown(this.normals, 3 * size);
+    private begin({ faces, vertices: size, loose }: ConnectivityEvent): void {
+        this.faces = faces;
+        this.origin = new Int32Array(size).fill(-1);
+        this.points = new Float32Array(3 * size);
+        this.normals = new Float32Array(3 * size);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
         if (!this.growing) return;
-        this.show({ type: "begun", vertices: size, corners: this.faces.length, loose, section });
-        this.depth = grown(this.depth, size);
-        this.isTouched = grown(this.isTouched, size);
-        this.waiting = grown(this.waiting, this.faces.length / 3);
-        this.around = inverse(this.faces, size);
-        for (let face = known / 3; face < this.waiting.length; face++) this.drawOrWait(face);
-        this.flush();
-    }
-
-    /** Draw a face that has come if all of its corners are there; wait for the others. */
-    private drawOrWait(face: number): void {
-        for (let k = 3 * face; k < 3 * face + 3; k++) this.waiting[face] += Number(this.origin[this.faces[k]] < 0);
-        if (this.waiting[face] > 0) return;
-        this.drawable.push(face);
-        for (let k = 3 * face; k < 3 * face + 3; k++) this.touch(this.faces[k]);
+        this.show({ type: "begun", vertices: size, corners: faces.length, loose });
+        this.refined = new Uint8Array(size);
+        this.isTouched = new Uint8Array(size);
+        this.waiting = new Uint8Array(faces.length / 3).fill(3);
+        this.around = inverse(faces, size);
     }
 
     private touch(vertex: number): void {
@@ -224,7 +205,7 @@ export class Drawing {
             else origin[vertex] = this.blocks;
         }
         if (event.type === "block") this.blocks++;
-        else if (growing) this.deepen(event);
+        else if (growing) for (const vertex of vertices) this.refined[vertex] = 1;
         if (growing && performance.now() - this.shown > PAUSE) this.flush();
     }
 
@@ -240,14 +221,6 @@ export class Drawing {
             if (isNew && --waiting[face] === 0) this.drawable.push(face);
             for (let c = 3 * face; c < 3 * face + 3; c++) this.touch(faces[c]);
         }
-    }
-
-    private deepen({ layer, vertices }: RefinementEvent): void {
-        for (const vertex of vertices) {
-            if (this.depth[vertex] <= layer) this.moved[layer] = (this.moved[layer] ?? 0) + 1;
-            this.depth[vertex] = layer + 1;
-        }
-        if (this.moved[layer] === this.depth.length) this.layers = layer + 1;
     }
 
     /** The normal of a vertex, from the faces that are there. */
@@ -325,13 +298,6 @@ export class Drawing {
         const index = 3 * faces.length === this.faces.length ? new Uint32Array(this.faces) : this.cornersOf(faces);
         return { index, pieces: index.length > 0 ? [{ part: 0, material: 0, start: 0, count: index.length }] : [], attributes: [] };
     }
-}
-
-/** Numbers with room for more behind them. */
-function grown<Numbers extends Int32Array | Uint8Array | Float32Array>(numbers: Numbers, length: number): Numbers {
-    const more = new (numbers.constructor as new (length: number) => Numbers)(length);
-    more.set(numbers);
-    return more;
 }
 
 /** Normals of all vertices, shape (n, 3); faces that lack a corner count for nothing. */

@@ -53,19 +53,6 @@ export class Coder {
         return this.position > this.size + 4;
     }
 
-    /** Go on with the next piece of the payload, of which all that came before is read (C 4.5). */
-    readOn(memory: Memory, piece: Uint8Array): void {
-        this.parts[1] = memory.bytes(piece.length);
-        this.parts[1].view.set(piece);
-        this.parts[0].view[POSITION] = 0n;
-    }
-
-    /** Check that nothing is left of a piece, and nothing was read beyond it (C 4.5). */
-    finishPiece(): void {
-        this.finish();
-        if (this.position > this.size) throw new CorruptError("a piece of a payload ends too early");
-    }
-
     /** Check that the payload was read exactly to its end (C 1.5). */
     finish(): void {
         if (this.overran) throw new TruncatedError(`an entropy-coded payload of ${this.size} bytes ends too early`);

@@ -20,17 +20,13 @@ export interface MetadataEvent {
 
 /**
  * The faces have arrived, three vertices each, in the order that the mesh had if the stream stores that; how many
- * vertices there are, and where those are that no face uses. Of a mesh in sections, the faces of one: they come behind those
- * of the sections before it.
+ * vertices there are, and where those are that no face uses.
  */
 export interface ConnectivityEvent {
     type: "connectivity";
     faces: Int32Array;
     vertices: number;
     loose: Loose;
-    /** Which section, from 0, and how many there are in all. */
-    section: number;
-    sections: number;
 }
 
 /** A block, or a chunk of a grid, has been decoded: which vertices it moved or finished, and where they are now. */
@@ -39,10 +35,9 @@ export interface BlockEvent extends Changes {
     index: number;
 }
 
-/** Levels of a layer, counted from 0, have moved vertices. */
+/** Levels of refinement have moved vertices. */
 export interface RefinementEvent extends Changes {
     type: "refinement";
-    layer: number;
 }
 
 /** Something could not be decoded, and a tolerant decoder goes on: a block, frames, or bytes of neither. */

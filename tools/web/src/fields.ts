@@ -1,5 +1,4 @@
 /** Fields of integers on a mesh: positions on a grid, and levels that refine what blocks decoded to (specification, V, M 17). */
-import { begun } from "./begun";
 import { inMeshUnits, type Changes } from "./assembly";
 import { makeBank } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
@@ -64,17 +63,15 @@ export function gridKernel(memory: Memory, { vertices, grid }: Header, faces: In
     return { name: "code_grid", state: [makeModel(memory), corners, [largest, order, values, gaps, sums, seen, learners]], order };
 }
 
-/** A mesh refined by layers of levels, each in the frames of the base (M 17). */
+/** A mesh refined by levels in the frames of the base (M 17). */
 export class Refinement {
     private readonly positions: Doubles;
     private readonly frames: Doubles;
-    private readonly behind: number;
-    private layer = -1;
-    private axes = 1;
+    private readonly levels: Ints;
+    private readonly state: Argument[];
     private coded = 0;
-    private levels?: Ints;
-    private state: Argument[] = [];
-    private readonly reached: Uint8Array[] = [];
+    /** Vertices that have got what their levels say. */
+    private readonly reached: Uint8Array;
     private readonly spoilt: Uint8Array;
 
     constructor(
@@ -84,43 +81,45 @@ export class Refinement {
         private readonly base: Float64Array,
         spoilt: Int32Array,
     ) {
-        this.spoilt = new Uint8Array(header.vertices);
+        const { vertices } = header;
+        this.reached = new Uint8Array(vertices);
+        this.spoilt = new Uint8Array(vertices);
         for (const vertex of spoilt) this.spoilt[vertex] = 1;
         this.positions = memory.copy(base, 3);
-        this.frames = memory.doubles(9 * header.vertices, 9);
+        this.frames = memory.doubles(9 * vertices, 9);
         memory.call("local_frames", this.positions, faces, this.frames);
-        this.behind = memory.mark();
+        const field = (): Ints => zeros(memory.ints(3 * vertices, 3));
+        this.levels = field();
+        const learners = makeLearners(memory, 12, (k) => (k % 4 === 0 ? [52000] : [52000, 28000]));
+        this.state = [makeBank(memory, LEVELS), linkCorners(memory, faces, vertices), [this.levels, field(), field(), learners]];
     }
 
-    decode(layer: number, first: number, count: number, payload: Uint8Array): Changes {
+    decode(first: number, count: number, payload: Uint8Array): Changes {
         const { header, memory } = this;
-        if (layer !== this.layer) this.begin(layer);
-        if (first !== this.coded) throw new CorruptError(`layer ${layer + 1} lacks the vertices before ${first}: the rest is lost`);
+        if (first !== this.coded) throw new CorruptError(`the layer lacks the vertices before ${first}: the rest is lost`);
         decodeChunk(memory, "code_levels", this.state, payload, first, count);
         this.coded += count;
         const moved = this.positions.part(3 * first, 3 * count, 3);
-        const levels = begun(this.levels).part(this.axes * first, this.axes * count, this.axes);
+        const [frames, levels] = [this.frames.part(9 * first, 9 * count, 9), this.levels.part(3 * first, 3 * count, 3)];
         const spoilt = this.spoilt.subarray(first, first + count);
-        moveBut(spoilt, moved, () => memory.call("add_heights", moved, this.frames.part(9 * first, 9 * count, 9), levels, header.refinements[2 * layer]));
-        const raised = upTo(count).filter((row) => !spoilt[row]).map((row) => first + row);
-        if (this.axes === 1) for (const vertex of raised) this.reached[layer][vertex] = 1;
-        const vertices = this.axes === 3 && this.coded === header.vertices ? this.slide(layer) : raised;
+        moveBut(spoilt, moved, () => memory.call("add_heights", moved, frames, levels, header.refinement[0]));
+        if (this.coded === header.vertices) this.slide();
+        const told = this.coded === header.vertices ? upTo(this.coded) : upTo(count).map((row) => first + row);
+        const vertices = told.filter((vertex) => !this.spoilt[vertex]);
         return { vertices, positions: inMeshUnits(rowsOf(this.positions.view, vertices), header), final: new Uint8Array(vertices.length) };
     }
 
-    /** Move vertices along the surface by steps that follow from all heights of a layer (M 17.4). */
-    private slide(layer: number): Int32Array {
-        const { memory, faces, header, frames, spoilt } = this;
-        const [step, ratio] = header.refinements.slice(2 * layer, 2 * layer + 2);
-        const levels = begun(this.levels);
+    /** Move vertices along the surface by steps that follow from all heights (M 17.4). */
+    private slide(): void {
+        const { memory, faces, header, frames, levels, spoilt } = this;
+        const [step, ratio] = header.refinement;
         const upright = memory.copy(this.base, 3);
         memory.call("add_heights", upright, frames, levels, step);
         const steps = memory.doubles(header.vertices);
         memory.call("tangent_steps", upright, faces, step, ratio, memory.doubles(8 * header.vertices, 8), steps);
         const unknown = spoilt.includes(1) ? this.around(this.around(spoilt)) : spoilt;
         moveBut(unknown, this.positions, () => memory.call("add_slides", this.positions, frames, levels, steps));
-        for (const [vertex, without] of unknown.entries()) if (!without) this.reached[layer][vertex] = 1;
-        return upTo(header.vertices).filter((vertex) => !spoilt[vertex]);
+        unknown.forEach((without, vertex) => (this.reached[vertex] = 1 - without));
     }
 
     /** Marked vertices, and all that have a face with one. */
@@ -134,10 +133,9 @@ export class Refinement {
         return found;
     }
 
-    /** Vertices that a layer which has begun did not reach. */
+    /** Vertices that refinement, if it has begun, did not reach. */
     unrefined(): Int32Array {
-        const begun = this.reached.filter((layer) => layer.includes(1));
-        return upTo(this.header.vertices).filter((vertex) => begun.some((layer) => !layer[vertex]));
+        return upTo(this.coded > 0 ? this.header.vertices : 0).filter((vertex) => !this.reached[vertex]);
     }
 
     /** All positions in BSM units. */
@@ -149,23 +147,6 @@ export class Refinement {
     whole(): Float64Array {
         if (!areFinite(this.positions.view)) throw new NumericError("refined positions are not finite");
         return inMeshUnits(this.positions.view.slice(), this.header);
-    }
-
-    /** The state of a layer takes the place of that of the one before. */
-    private begin(layer: number): void {
-        const { header, memory } = this;
-        const size = header.vertices;
-        memory.release(this.behind);
-        this.layer = layer;
-        this.coded = 0;
-        this.reached[layer] = new Uint8Array(size);
-        this.axes = header.refinements[2 * layer + 1] === 0 ? 1 : 3;
-        const field = (): Ints => zeros(memory.ints(this.axes * size, this.axes));
-        this.levels = field();
-        const learners = makeLearners(memory, 12, (k) => (k % 4 === 0 ? [52000] : [52000, 28000]));
-        const corners = linkCorners(memory, this.faces, size);
-        if (header.borders && 2 * layer === header.refinements.length - 2) memory.call("keep_borders", corners);
-        this.state = [makeBank(memory, LEVELS), corners, [this.levels, field(), field(), learners]];
     }
 }
 

@@ -5,7 +5,7 @@ import type { AttributePicture, BegunPicture, DrawnAttribute, FramePicture, Grow
 
 /** What happens to a geometry while it is filled. */
 export interface Progress {
-    /** Faces are there, all or those of one more section; those whose corners have no position yet are not drawn. */
+    /** Faces are there; those whose corners have no position yet are not drawn. */
     onConnectivity?: (geometry: BSMGeometry) => void;
     /** Vertices have come, or moved. */
     onBlock?: (geometry: BSMGeometry) => void;
@@ -35,14 +35,11 @@ export class BSMGeometry extends BufferGeometry {
     readonly metadata: Metadata = new Map();
     /** The block that each vertex came with, -1 as long as it is not there; only of a geometry that grows. */
     origin = new Int32Array(0);
-    /** How many quality layers have moved each vertex; only of a geometry that grows. */
-    depth = new Uint8Array(0);
-    /** Quality layers that are there for every vertex. */
-    layers = 0;
+    /** Whether refinement has moved each vertex, and how many it has; only of a geometry that grows. */
+    refined = new Uint8Array(0);
+    refinedVertices = 0;
     /** Blocks, or chunks of a grid, that are there. */
     blocks = 0;
-    /** Sections whose faces are there; only of a geometry that grows. */
-    sections = 0;
     /** Attributes that are there, and are drawn once the mesh is whole. */
     readonly carried: AttributePicture[] = [];
     /** Positions of the stream's vertices, shape (n, 3); only of a geometry that grows. */
@@ -138,35 +135,32 @@ export class BSMGeometry extends BufferGeometry {
         this.metadata.clear();
         [this.carried.length, this.frames.length] = [0, 0];
         this.coming = this.worn = this.colour = undefined;
-        [this.layers, this.blocks, this.sections, this.drawn, this.shown] = [0, 0, 0, 0, -1];
-        [this.points, this.normals, this.origin, this.depth] = [new Float32Array(0), new Float32Array(0), new Int32Array(0), new Uint8Array(0)];
+        [this.refinedVertices, this.blocks, this.drawn, this.shown] = [0, 0, 0, -1];
+        [this.points, this.normals, this.origin, this.refined] = [new Float32Array(0), new Float32Array(0), new Int32Array(0), new Uint8Array(0)];
     }
 
-    private begin({ vertices, corners, loose, section }: BegunPicture): void {
-        this.sections = section + 1;
-        const before = this.origin.length;
-        const index = this.getIndex()?.array ?? new Uint32Array(0);
-        if (this.getIndex()) this.dispose(); // what is drawn has no room for more
-        this.points = grown(this.points, 3 * vertices);
-        this.normals = grown(this.normals, 3 * vertices);
-        this.origin = grown(this.origin, vertices).fill(-1, before);
-        this.depth = grown(this.depth, vertices);
+    private begin({ vertices, corners, loose }: BegunPicture): void {
+        this.points = new Float32Array(3 * vertices);
+        this.normals = new Float32Array(3 * vertices);
+        this.origin = new Int32Array(vertices).fill(-1);
+        this.refined = new Uint8Array(vertices);
         loose.vertices.forEach((vertex, i) => this.points.set(loose.positions.subarray(3 * i, 3 * i + 3), 3 * vertex));
         this.setAttribute("position", new BufferAttribute(this.points, 3));
         this.setAttribute("normal", new BufferAttribute(this.normals, 3));
-        this.setIndex(new BufferAttribute(grown(index as Uint32Array, corners), 1));
+        this.setIndex(new BufferAttribute(new Uint32Array(corners), 1));
         this.setDrawRange(0, this.drawn);
         this.progress.onConnectivity?.(this);
     }
 
-    private grow({ vertices, positions, normals, origin, depth, index, blocks, layers }: GrownPicture): void {
+    private grow({ vertices, positions, normals, origin, refined, index, blocks }: GrownPicture): void {
         const { points: p, normals: n } = this;
         for (let row = 0; row < vertices.length; row++) {
             const [to, from] = [3 * vertices[row], 3 * row];
             [p[to], p[to + 1], p[to + 2]] = [positions[from], positions[from + 1], positions[from + 2]];
             [n[to], n[to + 1], n[to + 2]] = [normals[from], normals[from + 1], normals[from + 2]];
             this.origin[vertices[row]] = origin[row];
-            this.depth[vertices[row]] = depth[row];
+            this.refinedVertices += refined[row] - this.refined[vertices[row]];
+            this.refined[vertices[row]] = refined[row];
         }
         const corners = this.getIndex();
         corners?.array.set(index, this.drawn);
@@ -175,7 +169,7 @@ export class BSMGeometry extends BufferGeometry {
             if (attribute) (attribute as BufferAttribute).needsUpdate = true;
         }
         this.setDrawRange(0, this.drawn);
-        [this.blocks, this.layers] = [blocks, layers];
+        this.blocks = blocks;
         this.progress.onBlock?.(this);
     }
 
@@ -209,11 +203,4 @@ export class BSMGeometry extends BufferGeometry {
         const before = this.frames.at(-1);
         for (let k = 0; before && k < (frames?.count ?? 0); k++) this.frames.push(before);
     }
-}
-
-/** Numbers with room for more behind them. */
-function grown<Numbers extends Int32Array | Uint32Array | Uint8Array | Float32Array>(numbers: Numbers, length: number): Numbers {
-    const more = new (numbers.constructor as new (length: number) => Numbers)(length);
-    more.set(numbers);
-    return more;
 }

@@ -1,15 +1,13 @@
 /** Which packets there are, and which may follow which (specification, F 5). */
-import { FOLLOWERS, FOLLOWERS_IN_SECTIONS } from "./constants";
+import { FOLLOWERS } from "./constants";
 import { CorruptError } from "./errors";
 import { CORNER, parseDeclaration, RECOMPUTED, wordsOf, type Declaration } from "./declaration";
-import { sectionsOf, type Header, type Section } from "./header";
+import type { Header } from "./header";
 import { checkLimit } from "./limits";
 import { checkChunk, checkNames, checkWhole, COMMON, type Kind, type Packet, type Parsers } from "./packets";
 
-type Followers = Record<Kind | "start", readonly Kind[]>;
-
-const ALONE: Followers = FOLLOWERS;
-const IN_SECTIONS: Followers = FOLLOWERS_IN_SECTIONS;
+/** Kinds of packets that may follow one of a kind. */
+const AFTER: Record<Kind | "start", readonly Kind[]> = FOLLOWERS;
 
 export const PARSERS: Parsers = {
     ...COMMON,
@@ -17,8 +15,8 @@ export const PARSERS: Parsers = {
     block: (payload) => ({ type: "block", index: payload.varint(), coefficients: payload.varint(), data: payload.rest() }),
     gop: (payload) => ({ type: "gop", index: payload.varint(), data: payload.rest() }),
     refinement: (payload) => {
-        const [layer, first, count] = [payload.varint(), payload.varint(), payload.varint()];
-        return { type: "refinement", layer, first, count, data: payload.rest() };
+        const [first, count] = [payload.varint(), payload.varint()];
+        return { type: "refinement", first, count, data: payload.rest() };
     },
     attribute: (payload, limits) => {
         const index = payload.varint();
@@ -33,13 +31,13 @@ export const PARSERS: Parsers = {
 };
 
 /** Everything that may come at any distance behind a packet of a kind. */
-function reachable(followers: Followers, kind: Kind | "start"): Kind[] {
+function reachable(kind: Kind | "start"): Kind[] {
     const found = new Set<Kind>();
-    const pending = [...followers[kind]];
+    const pending = [...AFTER[kind]];
     for (let next; (next = pending.pop()); ) {
         if (found.has(next)) continue;
         found.add(next);
-        pending.push(...followers[next]);
+        pending.push(...AFTER[next]);
     }
     return [...found];
 }
@@ -52,17 +50,12 @@ export class Grammar {
     /** Whether the stream began with a run that was not the first. */
     joined = false;
     private last: Kind | "start" = "start";
-    private allowed: readonly Kind[] = ALONE.start;
-    private followers = ALONE;
+    private allowed = AFTER.start;
     /** Names of metadata. */
     private readonly told = new Set<string>();
-    private sections: Section[] = [];
-    /** Sections whose faces were there. */
-    private begun = 0;
     private nextBlock = 0;
     private nextFrame = 0;
     private nextVertex = 0;
-    private layer = 0;
     private declared = new Map<number, Declaration>();
     private valued = 0;
     private nextValue = 0;
@@ -74,7 +67,7 @@ export class Grammar {
     announces(kind: Kind): boolean {
         if (kind === "grid") return !this.header || this.header.grid.length > 0;
         if (kind === "attribute" || kind === "values") return !this.header || this.header.attributes > 0;
-        return kind !== "refinement" || !this.header || this.header.refinements.length > 0;
+        return kind !== "refinement" || !this.header || this.header.refinement.length > 0;
     }
 
     get ended(): boolean {
@@ -88,7 +81,7 @@ export class Grammar {
 
     /** Take note that an unknown number of frames is missing here: everything that can come later may come now. */
     lose(): void {
-        this.allowed = reachable(this.followers, this.last);
+        this.allowed = reachable(this.last);
         this.lossy = true;
     }
 
@@ -99,8 +92,7 @@ export class Grammar {
         if (packet.type === "header") return this.checkRun(packet.header);
         if (!header) return;
         if (packet.type === "metadata") checkNames(packet.entries, this.told);
-        this.checkSection(packet);
-        if (this.begun === this.sections.length && ["block", "gop", "grid", "values", "end"].includes(packet.type) && this.declared.size < header.attributes && !this.lossy) {
+        if (["block", "gop", "grid", "values", "end"].includes(packet.type) && this.declared.size < header.attributes && !this.lossy) {
             throw new CorruptError(`${this.declared.size} of ${header.attributes} attributes are declared`);
         }
         if (packet.type === "attribute") this.checkAttribute(packet, header);
@@ -109,7 +101,7 @@ export class Grammar {
         if (packet.type === "block") this.checkBlock(packet.index, packet.coefficients, header);
         if (packet.type === "gop") this.checkGop(packet.index, header);
         if (packet.type === "grid") checkChunk(packet, this.nextVertex, header, this.lossy);
-        if (packet.type === "refinement") this.checkRefinement(packet, header);
+        if (packet.type === "refinement") checkChunk(packet, this.nextVertex, header, this.lossy);
         if (packet.type === "partition" && header.grid.length > 0) throw new CorruptError("parts where there are no blocks");
         if (packet.type === "end" && header.grid.length > 0 && !this.lossy) checkWhole(this.nextVertex, header);
     }
@@ -121,24 +113,20 @@ export class Grammar {
             return;
         }
         if (packet.type === "header") this.begin(packet.header);
-        if (packet.type === "connectivity") this.begun++;
         if (packet.type === "block") this.nextBlock = packet.index + 1;
         if (packet.type === "gop") this.nextFrame = packet.index + 1;
-        if (packet.type === "refinement") this.layer = packet.layer;
         if (packet.type === "attribute") this.declared.set(packet.index, packet.declaration);
         if (packet.type === "values") [this.valued, this.nextValue] = [packet.attribute, packet.first + packet.count];
         if (packet.type === "grid" || packet.type === "refinement") this.nextVertex = packet.first + packet.count;
         this.last = packet.type;
-        this.allowed = packet.type === "header" && packet.header.again > 0 ? ["gop"] : this.followers[packet.type];
+        this.allowed = packet.type === "header" && packet.header.again !== undefined ? ["gop"] : AFTER[packet.type];
     }
 
     /** Forget what belongs to the mesh of the run before. */
     private begin(header: Header): void {
         this.joined ||= !this.header && header.run > 0;
         this.header = header;
-        this.sections = sectionsOf(header);
-        if (this.sections.length > 1) this.followers = IN_SECTIONS;
-        [this.begun, this.nextBlock, this.nextVertex, this.layer, this.valued, this.nextValue] = [header.again > 0 ? 1 : 0, 0, 0, 0, 0, 0];
+        [this.nextBlock, this.nextVertex, this.valued, this.nextValue] = [0, 0, 0, 0];
         this.declared = new Map();
         this.lossy = false;
     }
@@ -153,17 +141,6 @@ export class Grammar {
         if (run <= before.run || (run > before.run + 1 && !this.lossy)) throw new CorruptError(`run ${run} where run ${before.run + 1} must follow`);
         if (frames !== before.frames) throw new CorruptError(`a run of a sequence of ${frames} frames in one of ${before.frames}`);
         if (!this.lossy) this.checkComplete();
-    }
-
-    /** Refuse what has no place in the present section, or comes where one is not whole. */
-    private checkSection(packet: Packet): void {
-        const { begun, sections, lossy } = this;
-        const { first, blocks } = sections[begun - 1] ?? { first: 0, blocks: 0 };
-        const wrong =
-            packet.type === "connectivity" ? begun === sections.length || (this.nextBlock < blocks && !lossy)
-            : packet.type === "block" ? begun > 0 && (packet.index < first || (packet.index >= blocks && !lossy))
-            : begun < sections.length && !lossy && ["attribute", "refinement", "values", "end"].includes(packet.type);
-        if (wrong) throw new CorruptError(`${packet.type} may not come in section ${begun} of ${sections.length}`);
     }
 
     private checkAttribute({ index, declaration, seams }: Extract<Packet, { type: "attribute" }>, header: Header): void {
@@ -200,13 +177,6 @@ export class Grammar {
             const done = index < this.valued ? rows : index === this.valued ? this.nextValue : 0;
             if (index < before && done < rows) throw new CorruptError(`the values of attribute ${index} end at ${done} of ${rows}`);
         }
-    }
-
-    private checkRefinement(packet: Extract<Packet, { type: "refinement" }>, header: Header): void {
-        const layers = header.refinements.length / 2;
-        if (packet.layer >= layers) throw new CorruptError(`layer ${packet.layer} of ${layers}`);
-        if (packet.layer < this.layer) throw new CorruptError("layers must ascend");
-        checkChunk(packet, packet.layer > this.layer ? 0 : this.nextVertex, header, this.lossy);
     }
 
     private checkBlock(index: number, coefficients: number, header: Header): void {

@@ -1,12 +1,12 @@
 /** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
 import { begun } from "./begun";
 import { Allowance } from "./chain";
-import { ConnectivityDecoder } from "./connectivity";
+import { decodeConnectivity } from "./connectivity";
 import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./decoder";
 import { BsmError, UnsupportedError } from "./errors";
 import { Grid, lightKernel } from "./grid";
 import type { Header } from "./header";
-import type { Kernels, Memory } from "./kernels";
+import type { Ints, Kernels, Memory } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
 import { Numbering } from "./numbering";
 import { decodeOrder } from "./order";
@@ -24,7 +24,7 @@ export class Decoder {
     private readonly queue: Event[] = [];
     private error?: BsmError;
     private header?: Header;
-    private connectivity?: ConnectivityDecoder;
+    private faces?: Ints;
     private numbering?: Numbering;
     private grid?: Grid;
     private chunks = 0;
@@ -104,21 +104,20 @@ export class Decoder {
     private acceptHeader(header: Header): void {
         if (header.light !== 1 || header.attributes > 0) throw new UnsupportedError("this build decodes light grids alone, which this is not; small.js and bsm.js decode more");
         this.header = header;
-        this.connectivity = new ConnectivityDecoder(this.memory, header, this.limits);
         this.queue.push({ type: "header", header });
     }
 
     private acceptConnectivity(data: Uint8Array): void {
-        const { vertices, faces } = begun(this.header);
-        begun(this.connectivity).take(data);
-        this.allowance.grant(vertices);
-        this.allowance.spend(meshCost(vertices, faces, data.length, { vertices: 0, faces: 0 }), data.length);
+        const header = begun(this.header);
+        this.faces = decodeConnectivity(this.memory, data, header, this.limits);
+        this.allowance.grant(header.vertices);
+        this.allowance.spend(meshCost(header.vertices, header.faces, data.length), data.length);
     }
 
     private acceptOrder(data: Uint8Array): void {
         const { vertices, faces } = begun(this.header);
         this.allowance.spend(orderCost(vertices, faces, data.length), data.length);
-        this.numbering = decodeOrder(this.memory, data, begun(this.connectivity).faces, begun(this.header), this.limits);
+        this.numbering = decodeOrder(this.memory, data, begun(this.faces), begun(this.header), this.limits);
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
@@ -130,11 +129,11 @@ export class Decoder {
 
     private begunGrid(): Grid {
         const { vertices, faces } = begun(this.header);
-        this.numbering ??= new Numbering(begun(this.connectivity).faces.view.slice(), vertices);
+        this.numbering ??= new Numbering(begun(this.faces).view.slice(), vertices);
         const { size, loose } = this.numbering;
-        this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose, section: 0, sections: 1 });
+        this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose });
         this.allowance.spend(LIGHT_COST.whole(vertices, faces));
-        return new Grid(this.memory, begun(this.connectivity).faces, begun(this.header), lightKernel);
+        return new Grid(this.memory, begun(this.faces), begun(this.header), lightKernel);
     }
 }
 

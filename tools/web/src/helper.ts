@@ -24,7 +24,7 @@ export interface Share {
 
 /** Whether a block is in a chain of this share. */
 export function isMine(header: Header, index: number, { number, among }: Share): boolean {
-    return chainOf(header, index).number % among === number;
+    return chainOf(header, index) % among === number;
 }
 
 /** Takes the whole stream, as the decoder does, and gives the blocks of its share. */
@@ -87,16 +87,13 @@ export class Helper {
             this.over = header !== undefined; // of later runs the decoder has all chains
             this.header = packet.header;
             this.structure = new Structure(memory, packet.header, limits, allowance);
-        } else if (packet.type === "connectivity") {
-            begun(structure).accept(packet.data);
-            this.chains = undefined;
-        } else if (packet.type === "partition") begun(structure).acceptPartition(packet.data);
+        } else if (packet.type === "connectivity") begun(structure).accept(packet.data);
+        else if (packet.type === "partition") begun(structure).acceptPartition(packet.data);
         else if (packet.type === "block" && isMine(begun(header), packet.index, this.share)) return this.decode(packet);
         return undefined;
     }
 
     private decode({ index, coefficients, data }: Extract<Packet, { type: "block" }>): SharedBlock {
-        begun(this.structure).expectFaces(index + 1);
         this.chains ??= begun(this.structure).chains;
         try {
             return { index, block: this.chains.decode(index, coefficients, data) };

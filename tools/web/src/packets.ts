@@ -16,7 +16,7 @@ export type Packet =
     | { type: "block"; index: number; coefficients: number; data: Uint8Array }
     | { type: "gop"; index: number; data: Uint8Array }
     | { type: "grid"; first: number; count: number; data: Uint8Array }
-    | { type: "refinement"; layer: number; first: number; count: number; data: Uint8Array }
+    | { type: "refinement"; first: number; count: number; data: Uint8Array }
     | { type: "attribute"; index: number; declaration: Declaration; seams: Uint8Array }
     | { type: "values"; attribute: number; first: number; count: number; data: Uint8Array }
     | { type: "end"; frames: number; crc: number };

@@ -21,9 +21,9 @@ export function needOf(data: Uint8Array): Need | undefined {
         const end = tag.end + Math.floor(tag.value / 16);
         if (end > data.length) return data[0] === PREAMBLE[0] && tag.value % 16 === 1 ? undefined : { build: "whole", vertices: 0 };
         const header = new Map(parseMap(data.subarray(tag.end, end)).map(([key, { value }]) => [Number(key.value), Number(value)]));
-        const { vertices, coding, gopFrames, attributes, light } = HEADER_FIELDS;
-        const isWhole = header.has(attributes.key) || header.get(coding.key) === 0;
-        const build = isWhole ? "whole" : header.has(gopFrames.key) ? "moving" : header.get(light.key) === 1 ? "quick" : "small";
+        const { vertices, paper, sequence, attributes, light } = HEADER_FIELDS;
+        const isWhole = header.has(attributes.key) || header.has(paper.key);
+        const build = isWhole ? "whole" : header.has(sequence.key) ? "moving" : header.get(light.key) === 1 ? "quick" : "small";
         return { build, vertices: header.get(vertices.key) ?? 0 };
     } catch (error) {
         if (!(error instanceof BsmError)) throw error;

@@ -17,7 +17,6 @@ export interface Field {
 export type Fields<Names extends string> = Record<Names, Field>;
 
 const METHODS = 255;
-const FIRST_IGNORABLE_KEY = 64;
 
 /** The fields in a payload, each in its range; `what` is what errors call the map. */
 export function parseFields<Names extends string>(payload: Uint8Array, fields: Fields<Names>, what: string): Record<Names, Content> {
@@ -26,8 +25,7 @@ export function parseFields<Names extends string>(payload: Uint8Array, fields: F
     const entries = parseMap(payload);
     for (const [key, value] of entries) refuseUnknown(key, value, names, fields, what);
     for (const [key, value] of entries) {
-        const name = names.get(Number(key.value));
-        if (name === undefined) continue;
+        const name = names.get(Number(key.value))!;
         const content = contentOf(name, fields[name], value, what);
         if (same(content, fields[name].default)) throw new CorruptError(`${what} field ${name} is stored with its default value`);
         found[name] = content;
@@ -44,7 +42,6 @@ export function parseFields<Names extends string>(payload: Uint8Array, fields: F
 /** What is of a later version is told as that, whatever else may seem to be wrong with it (F 4.8). */
 function refuseUnknown<Names extends string>(key: Value, value: Value, names: Map<number, Names>, fields: Fields<Names>, what: string): void {
     if (key.type !== "int") throw new CorruptError(`a ${what} key is not an integer`);
-    if (key.value >= FIRST_IGNORABLE_KEY) return;
     const name = names.get(Number(key.value));
     if (name === undefined) throw new UnsupportedError(`${what} key ${key.value} is unknown to this decoder`);
     const { type, high } = fields[name];

@@ -81,8 +81,8 @@ export class Runs {
         this.leave();
         this.lost = undefined;
         this.frames = header.frames;
-        this.mesh = header.again > 0 ? header.again - 1 : header.run;
-        if (header.again > 0) return (this.present = this.resumed(header));
+        this.mesh = header.again ?? header.run;
+        if (header.again !== undefined) return (this.present = this.resumed(header));
         if (this.kept.size === KEPT_MESHES) this.giveUpOldest();
         return (this.present = open(this.course));
     }

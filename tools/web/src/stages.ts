@@ -19,7 +19,7 @@ import { type Damaged, type Packet } from "./reader";
 import type { Course } from "./runs";
 import { Sequence, type Fields, type Moving } from "./sequence";
 import { Structure, type Chains } from "./structure";
-import { chunkCost, exactCost, GRID_COST, layerCost, LIGHT_COST, orderCost, type GridCost } from "./work";
+import { chunkCost, exactCost, fieldCost, GRID_COST, LIGHT_COST, orderCost, type GridCost } from "./work";
 
 
 /** What may come behind the first frame of a sequence. */
@@ -74,11 +74,8 @@ export class Stages {
         private readonly position: () => number,
         private readonly course?: Course,
     ) {
-        if (header.gopFrames > 0 && (header.smoothing > 0 || header.details > 0)) {
-            throw new UnsupportedError("smoothing and details of sequences are unknown to this decoder");
-        }
+        if (header.gopFrames > 0 && header.smoothing > 0) throw new UnsupportedError("smoothing of sequences is unknown to this decoder");
         this.last = header;
-        checkLimit(limits, "coefficients", header.details);
         if (header.gopFrames > 0) checkLimit(limits, "sequenceBytes", 8 * header.vertices * header.coefficients);
         this.structure = new Structure(memory, header, limits, allowance);
         this.among = 1 + (wishes.helpers?.(header) ?? 0);
@@ -155,7 +152,7 @@ export class Stages {
             case "metadata":
                 return void this.queue.push(packet);
             case "connectivity":
-                return this.acceptConnectivity(packet.data);
+                return this.structure.accept(packet.data);
             case "partition":
                 return this.structure.acceptPartition(packet.data);
             case "order":
@@ -167,7 +164,7 @@ export class Stages {
             case "grid":
                 return this.acceptGrid(packet.first, packet.count, packet.data);
             case "refinement":
-                return this.acceptRefinement(packet.layer, packet.first, packet.count, packet.data);
+                return this.acceptRefinement(packet.first, packet.count, packet.data);
             case "attribute":
                 return this.acceptAttribute(packet.index, packet.declaration, packet.seams);
             case "values":
@@ -208,22 +205,10 @@ export class Stages {
             if (kind !== "end" || !begun(this.course).lossy) this.loseFrames(sequence, error);
             return;
         }
-        const { section, whole } = this.structure.connectivity;
-        const bearable = started ? kind !== "connectivity" || whole : section > 0 && (kind === "block" || kind === "attribute");
+        const bearable = started || (this.structure.begun && (kind === "block" || kind === "attribute"));
         if (!bearable) throw error;
         if (this.grid) this.gridBroken = true;
         this.lose(error);
-    }
-
-    private acceptConnectivity(data: Uint8Array): void {
-        const { connectivity } = this.structure;
-        if (connectivity.section > 0) {
-            this.built();
-            this.skipTo(connectivity.blocks);
-            this.assembled.leave();
-        }
-        this.structure.accept(data);
-        this.chains = undefined;
     }
 
     private acceptOrder(data: Uint8Array): void {
@@ -233,7 +218,6 @@ export class Stages {
     }
 
     private acceptAttribute(index: number, declaration: Declaration, seams: Uint8Array): void {
-        this.structure.expectFaces(this.header.blocks);
         this.attributes ??= new Attributes(this.memory, this.header, this.structure.faces, this.limits, this.allowance);
         const { attributes } = this;
         this.tolerating(() => attributes.declare(index, declaration, seams), undefined, true);
@@ -278,7 +262,6 @@ export class Stages {
 
     private acceptBlock(index: number, coefficients: number, data: Uint8Array): void {
         this.built();
-        this.structure.expectFaces(index + 1);
         this.skipTo(index);
         this.nextIndex++;
         if (!isMine(this.header, index, { number: 0, among: this.among })) this.queue.push({ awaited: index });
@@ -342,14 +325,14 @@ export class Stages {
         if (begun(this.course).tellLost(index, ended, this.queue)) begun(this.sequence).forget();
     }
 
-    private acceptRefinement(layer: number, first: number, count: number, data: Uint8Array): void {
+    private acceptRefinement(first: number, count: number, data: Uint8Array): void {
         const refinement = this.begunRefinement();
-        const { vertices, faces, refinements } = this.header;
+        const { vertices, faces } = this.header;
         this.tolerating(() => {
-            if (first === 0) this.allowance.spend(layerCost(vertices, faces, refinements[2 * layer + 1] === 0 ? 1 : 3));
+            if (first === 0) this.allowance.spend(fieldCost(vertices, faces, 3));
             this.allowance.spend(chunkCost(data.length), data.length);
-            const changes = refinement.decode(layer, first, count, data);
-            this.queue.push({ type: "refinement", layer, ...this.numbers.spread(changes) });
+            const changes = refinement.decode(first, count, data);
+            this.queue.push({ type: "refinement", ...this.numbers.spread(changes) });
         });
     }
 
@@ -369,7 +352,7 @@ export class Stages {
 
     /** Take note that nothing follows. */
     acceptEnd(): void {
-        if (!this.structure.connectivity.section) throw new CorruptError("the stream ends before its first block");
+        if (!this.structure.begun) throw new CorruptError("the stream ends before its first block");
         this.over = true;
         if (this.attributes) {
             const recomputed = this.begunAttributes().recomputed(this.numbers, () => this.solid());
@@ -406,33 +389,27 @@ export class Stages {
 
     /** Give up the blocks before `index` that did not come. */
     private skipTo(index: number): void {
-        this.structure.expectFaces(index);
         for (; this.nextIndex < index; this.nextIndex++) {
             this.tolerating(() => this.expect(index), this.nextIndex);
         }
     }
 
     private announce(): void {
-        const { connectivity } = this.structure;
-        const { section, vertices, known } = connectivity;
-        if (!this.numbering || section > 1) this.numbering = new Numbering(connectivity.faces.view.slice(0, 3 * known), vertices);
+        this.numbering ??= new Numbering(this.structure.faces.view.slice(), this.header.vertices);
         if (!this.wishes.tolerant) this.attributes?.check(this.numbering);
         this.tellConnectivity();
     }
 
     private tellConnectivity(): void {
-        const { connectivity, before } = this.structure;
         const { faces, size, loose } = this.numbers;
-        const { section, sections } = connectivity;
-        this.queue.push({ type: "connectivity", faces: faces.slice(3 * before.faces), vertices: size, loose, section: section - 1, sections: sections.length });
+        this.queue.push({ type: "connectivity", faces: faces.slice(), vertices: size, loose });
     }
 
     /** The blocks, built when the first of them is needed. */
     private built(): Blocks {
-        const { blocks, connectivity } = this.structure;
+        const { blocks } = this.structure;
         if (this.chains) return blocks;
-        this.assembly ??= new Assembly(this.memory, this.header, this.allowance);
-        this.assembly.extend(blocks, connectivity.whole);
+        this.assembly = new Assembly(this.memory, this.header, blocks, this.allowance);
         this.chains = this.structure.chains;
         this.announce();
         return blocks;

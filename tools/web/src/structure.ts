@@ -1,19 +1,17 @@
 /** What all blocks of a mesh share: its faces, their graph, and which vertices each block has (specification, M 2 to M 5). */
 import { begun } from "./begun";
-import { derivePartition, groupLabels, growBlocks, largestPart, lastOf, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
-import { chainLength, ChainDecoder, type Allowance, type DecodedBlock, type Surface } from "./chain";
-import { ConnectivityDecoder, decodeLabels } from "./connectivity";
+import { derivePartition, groupLabels, growBlocks, largestPart, makeGraph, type Blocks, type Graph, type Partition } from "./blocks";
+import { chainLength, ChainDecoder, type Allowance, type DecodedBlock } from "./chain";
+import { decodeConnectivity, decodeLabels } from "./connectivity";
 import { CorruptError } from "./errors";
-import { sectionsOf, type Header } from "./header";
+import type { Header } from "./header";
 import type { Ints, Memory } from "./kernels";
 import type { Limits } from "./limits";
-import { labelsCost, meshCost, partitionCost, type Earlier } from "./work";
+import { labelsCost, meshCost, partitionCost } from "./work";
 
-/** Made of the packets in front of the blocks of each section. */
+/** Made of the packets in front of the blocks. */
 export class Structure {
-    readonly connectivity: ConnectivityDecoder;
-    /** Faces and vertices of sections before the present one. */
-    before: Earlier = { faces: 0, vertices: 0 };
+    private known?: Ints;
     private made?: Graph;
     private partition?: Partition;
     private grown?: Blocks;
@@ -21,42 +19,29 @@ export class Structure {
     constructor(
         private readonly memory: Memory,
         private readonly header: Header,
-        limits: Limits,
+        private readonly limits: Limits,
         private readonly allowance: Allowance,
-    ) {
-        this.connectivity = new ConnectivityDecoder(memory, header, limits);
+    ) {}
+
+    /** Whether the faces are there. */
+    get begun(): boolean {
+        return this.known !== undefined;
     }
 
-    /** All faces, that are there or will come. */
     get faces(): Ints {
-        return this.connectivity.faces;
+        return begun(this.known);
     }
 
-    /** Take the faces of the next section; nothing that the memory holds of the one before it is needed any more. */
     accept(data: Uint8Array): void {
-        const { connectivity, allowance } = this;
-        this.before = { faces: connectivity.known, vertices: connectivity.vertices };
-        connectivity.take(data);
-        const { known, vertices } = connectivity;
-        allowance.grant(vertices - this.before.vertices);
-        allowance.spend(meshCost(vertices, known, data.length, this.before), data.length);
-        this.made = this.grown = undefined;
+        const { memory, header, limits, allowance } = this;
+        this.known = decodeConnectivity(memory, data, header, limits);
+        allowance.grant(header.vertices);
+        allowance.spend(meshCost(header.vertices, header.faces, data.length), data.length);
     }
 
-    /** Faces of this section and those before it. */
-    private get known(): Ints {
-        const { faces, known } = this.connectivity;
-        return faces.part(0, 3 * known, 3);
-    }
-
-    /** Their graph, made when it is first asked for. */
+    /** The graph of the faces, made when it is first asked for. */
     private get graph(): Graph {
-        return (this.made ??= makeGraph(this.memory, this.known, this.connectivity.vertices));
-    }
-
-    /** Check that the faces that so many blocks need are there. */
-    expectFaces(blocks: number): void {
-        if (blocks > this.connectivity.blocks) throw new CorruptError("the faces of a section are missing");
+        return (this.made ??= makeGraph(this.memory, this.faces, this.header.vertices));
     }
 
     acceptPartition(data: Uint8Array): void {
@@ -69,23 +54,19 @@ export class Structure {
     /** The blocks, built when they are first asked for. */
     get blocks(): Blocks {
         if (this.grown) return this.grown;
-        const { memory, header, graph, allowance, connectivity, before } = this;
-        const { size, offsets, neighbours } = graph;
-        const { first, blocks } = connectivity.sections[connectivity.section - 1];
-        const count = blocks - first;
-        const ends = neighbours.length - offsets.view[before.vertices];
-        allowance.spend(partitionCost(size - before.vertices, ends, size, count, count * Math.min(header.blockSize, size)));
-        const partition = this.partition ?? derivePartition(memory, lastOf(memory, graph, before.vertices), count);
+        const { memory, header, graph, allowance } = this;
+        const { blocks, blockSize } = header;
+        allowance.spend(partitionCost(graph.size, graph.neighbours.length, blocks, blocks * Math.min(blockSize, graph.size)));
+        const partition = this.partition ?? derivePartition(memory, graph, blocks);
         const largest = largestPart(partition);
-        if (largest > header.blockSize) throw new CorruptError(`a part of ${largest} vertices in blocks of ${header.blockSize}`);
-        return (this.grown = growBlocks(memory, graph, partition, header.blockSize, first));
+        if (largest > blockSize) throw new CorruptError(`a part of ${largest} vertices in blocks of ${blockSize}`);
+        return (this.grown = growBlocks(memory, graph, partition, blockSize));
     }
 
     /** Chains of these blocks, in memory from here on. */
     get chains(): Chains {
         const { memory, header, blocks, allowance } = this;
-        const surface = header.details > 0 ? makeSurface(memory, this.known, blocks.graph.size) : undefined;
-        return new Chains(memory, header, blocks, allowance, surface);
+        return new Chains(memory, header, blocks, allowance);
     }
 }
 
@@ -101,19 +82,18 @@ export class Chains {
         private readonly header: Header,
         private readonly blocks: Blocks,
         private readonly allowance: Allowance,
-        private readonly surface?: Surface,
     ) {
         this.behind = memory.mark();
     }
 
     decode(index: number, coefficients: number, data: Uint8Array): DecodedBlock {
-        const { memory, header, blocks, allowance, surface } = this;
-        const { number, first } = chainOf(header, index);
+        const { memory, header, blocks, allowance } = this;
+        const number = chainOf(header, index);
         if (this.number !== number) {
             memory.release(this.behind);
-            this.chain = new ChainDecoder(memory, header, blocks, allowance, surface);
+            this.chain = new ChainDecoder(memory, header, blocks, allowance);
             this.number = number;
-            this.next = first;
+            this.next = number * chainLength(header);
         }
         if (this.next !== index) throw new CorruptError(`the block depends on block ${this.next}, which is lost`);
         const block = begun(this.chain).decode(index, coefficients, data);
@@ -127,21 +107,7 @@ export class Chains {
     }
 }
 
-/** The chain that a block is in: its number among those of all sections, and its first block (M 18.4). */
-export function chainOf(header: Header, index: number): { number: number; first: number } {
-    const length = chainLength(header);
-    let before = 0;
-    for (const { first, blocks } of sectionsOf(header)) {
-        const number = Math.floor((index - first) / length);
-        if (index < blocks) return { number: before + number, first: first + number * length };
-        before += Math.ceil((blocks - first) / length);
-    }
-    return { number: before, first: index };
-}
-
-function makeSurface(memory: Memory, faces: Ints, size: number): Surface {
-    const surface = { faces, starts: memory.longs(size + 1), members: memory.ints(faces.length), place: memory.ints(size) };
-    surface.place.view.fill(0);
-    memory.run("vertex_faces", faces, surface.starts, surface.members);
-    return surface;
+/** The number of the chain that a block is in. */
+export function chainOf(header: Header, index: number): number {
+    return Math.floor(index / chainLength(header));
 }

@@ -22,7 +22,7 @@ export interface TeamListener {
 /** How many helpers have something to do; none for fewer vertices than are worthwhile. */
 export function helpersFor(header: Header, worthwhile = WORTHWHILE): number {
     if (header.vertices < worthwhile) return 0;
-    return Math.max(0, Math.min(chainOf(header, header.blocks - 1).number + 1, processors(), MOST + 1) - 1);
+    return Math.max(0, Math.min(chainOf(header, header.blocks - 1) + 1, processors(), MOST + 1) - 1);
 }
 
 /** A line to a thread, and what closes it. */

@@ -9,27 +9,18 @@ export const UNCODED = 8e4;
 /** Bytes of a block's frame besides its levels, at least. */
 export const FRAME = 5;
 
-/** Faces and vertices of earlier sections. */
-export interface Earlier {
-    faces: number;
-    vertices: number;
-}
-
-/**
- * Of faces and graph; what meets at more vertices than a closed surface has is sewn together. Of what there was before, only the
- * graph is made again.
- */
-export function meshCost(vertices: number, faces: number, received: number, before: Earlier): number {
-    return 140 * vertices + 85 * faces + 700 * Math.max(0, faces / 2 - vertices) + 400 * received - 100 * before.vertices - 55 * before.faces;
+/** Of faces and graph; what meets at more vertices than a closed surface has is sewn together. */
+export function meshCost(vertices: number, faces: number, received: number): number {
+    return 140 * vertices + 85 * faces + 700 * Math.max(0, faces / 2 - vertices) + 400 * received;
 }
 
 export function orderCost(vertices: number, faces: number, received: number): number {
     return 500 * vertices + 750 * faces + 100 * received;
 }
 
-/** Of cutting so many vertices and their ends of edges into parts, and of growing these to so many copies, in a graph of `size`. */
-export function partitionCost(vertices: number, ends: number, size: number, blocks: number, copies: number): number {
-    return (vertices + ends) * (4 * (32 - Math.clz32(blocks)) + 20) + 2 * size + 100 * blocks + 30 * copies;
+/** Of cutting so many vertices and their ends of edges into parts, and of growing these to so many copies. */
+export function partitionCost(vertices: number, ends: number, blocks: number, copies: number): number {
+    return (vertices + ends) * (4 * (32 - Math.clz32(blocks)) + 20) + 2 * vertices + 100 * blocks + 30 * copies;
 }
 
 export function labelsCost(vertices: number, ends: number, received: number): number {
@@ -62,8 +53,8 @@ export const LIGHT_COST: GridCost = {
     frame: (received) => 3.5e4 + 120 * received,
 };
 
-/** Of a layer of refinement or an attribute, before its bytes are counted. */
-export function layerCost(vertices: number, faces: number, axes: number): number {
+/** Of refinement or an attribute, before its bytes are counted. */
+export function fieldCost(vertices: number, faces: number, axes: number): number {
     return vertices * (400 + 230 * axes) + 130 * faces;
 }
 
@@ -80,12 +71,12 @@ export function valuesMemory(values: number, faces: number, components: number):
     return (16 * components + 12) * values + 12 * faces;
 }
 
-/** Of an attribute, besides what it costs as a layer. */
+/** Of an attribute, besides what it costs as a field. */
 export function valuesCost(values: number, faces: number): number {
     return 4e5 + 150 * values + 60 * faces;
 }
 
-/** Of a frame of a layer or of an attribute. */
+/** Of a frame of refinement or of an attribute. */
 export function chunkCost(received: number): number {
     return 8e4 + CODED * received;
 }

@@ -30,9 +30,9 @@ async function told(data: Uint8Array, size: number): Promise<{ events: Event[]; 
 
 /** What is compared of an event. */
 function essence(event: Event): unknown[] {
-    if (event.type === "connectivity") return ["connectivity", event.section, event.sections, event.faces.length / 3, event.vertices];
+    if (event.type === "connectivity") return ["connectivity", event.faces.length / 3, event.vertices];
     if (event.type === "block") return ["block", event.index, event.vertices.length];
-    if (event.type === "refinement") return ["refinement", event.layer + 1, event.vertices.length];
+    if (event.type === "refinement") return ["refinement", event.vertices.length];
     if (event.type === "frame") return ["frame", event.index];
     if (event.type === "loss") return ["loss", event.block ?? null, event.frames?.first ?? 0, event.frames?.count ?? 0, event.error.name];
     if (event.type === "end") return ["end", [...event.missing].sort((a, b) => a - b), [...event.degraded].sort((a, b) => a - b)];

@@ -1,8 +1,8 @@
-/** What colours say of a mesh: the block, the layers, or the distance from the original, vertex by vertex. */
+/** What colours say of a mesh: the block, refinement, or the distance from the original, vertex by vertex. */
 import { Color } from "three";
 import type { BSMGeometry } from "../geometry";
 
-export type Scheme = "plain" | "own" | "blocks" | "layers" | "error";
+export type Scheme = "plain" | "own" | "blocks" | "refined" | "error";
 
 /** Share of the diagonal from which on a distance has the last colour. */
 const FAR = 0.01;
@@ -11,7 +11,7 @@ export const LEGENDS: Record<Scheme, string> = {
     plain: "",
     own: "As the stream has them.",
     blocks: "Blue: the first block of the chain; red: the last.",
-    layers: "Blue: the base alone; red: all layers are there.",
+    refined: "Blue: the base alone; red: refined.",
     error: "Blue: where the original is; red: 1 % of the diagonal away, or more. The colours follow the root of the distance.",
 };
 
@@ -22,14 +22,13 @@ function ramp(share: number): Color {
 
 /** Colours of all vertices, shape (n, 3); undefined for the plain scheme. */
 export function coloursOf(geometry: BSMGeometry, scheme: Scheme, distances?: Float64Array): Float32Array | undefined {
-    const { header, origin, depth } = geometry;
+    const { header, origin, refined } = geometry;
     if (scheme === "plain" || scheme === "own" || !header || (scheme === "error" && !distances)) return undefined;
     if ((geometry.parted ?? origin).length * 3 !== geometry.getAttribute("position").array.length) return undefined; // of a later run
     const last = Math.max((header.blocks || geometry.blocks) - 1, 1);
-    const layers = Math.max(header.refinements.length / 2, 1);
     const shares: Record<Exclude<Scheme, "plain" | "own">, (vertex: number) => number> = {
         blocks: (vertex) => origin[vertex] / last,
-        layers: (vertex) => depth[vertex] / layers,
+        refined: (vertex) => refined[vertex],
         error: (vertex) => Math.sqrt(distances![vertex] / FAR),
     };
     const steps = Array.from({ length: 256 }, (_, i) => ramp(i / 255).toArray());

@@ -367,16 +367,14 @@ export class View {
     }
 
     private statusText(): string {
-        const { header, blocks, layers, sections } = this.geometry;
+        const { header, blocks, refinedVertices } = this.geometry;
         if (!header) return "";
-        const turns = header.sections.length > 0 ? `, ${sections} of ${header.sections.length / 2 + 1} sections` : "";
         const parts = header.blocks ? `${blocks} of ${header.blocks} blocks` : `${blocks} chunks of a grid`;
-        const most = header.refinements.length / 2;
-        const quality = most > 0 ? `, ${layers} of ${most} quality layers` : "";
+        const quality = header.refinement.length > 0 ? `, ${Math.floor((100 * refinedVertices) / header.vertices)} % refined` : "";
         const entered = this.missed > 0 ? `, entered at frame ${this.missed + 1}` : "";
         const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames${entered}` : "";
         const attributes = header.attributes > 0 ? `, ${this.geometry.carried.length} of ${header.attributes} attributes` : "";
-        return `${parts}${turns}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
+        return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
     }
 
     private rivalText(): string {
