@@ -6,12 +6,10 @@ import { basename, join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { inflateSync } from "node:zlib";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
-import { Decoder } from "../src/index";
 import { readNpz } from "./npz";
-import { base64, CHROMIUM, compile, FLAGS, savedPage, VECTORS, VIEWER } from "./shared";
+import { base64, CHROMIUM, FLAGS, savedPage, VECTORS, VIEWER } from "./shared";
 
 const STREAM = "good-labels";
-const SECTIONS = "good-sections";
 /** One of the specification, and a real one if it is named. */
 const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), join(VECTORS, "good-sequence-runs.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
 
@@ -105,32 +103,6 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await state("complete");
         const { share } = silhouette(await page.locator("canvas").screenshot());
         assert.ok(share > 0.05 && share < 0.6, `share ${share}`);
-        await page.goto(savedPage(folder, { whole }));
-        await state("complete");
-    });
-
-    test("draws a section before the faces of the next are there", async () => {
-        const stream = readFileSync(join(VECTORS, `${SECTIONS}.bsm`));
-        const decoder = new Decoder(await compile("kernels.wasm"));
-        const begins: number[] = [];
-        for (let at = 0; at < stream.length; at++) {
-            decoder.receiveData(stream.subarray(at, at + 1));
-            for (let event; typeof (event = decoder.nextEvent()) !== "string"; ) if (event.type === "connectivity") begins.push(at);
-        }
-        assert.ok(begins.length > 1);
-        await page.goto(savedPage(folder, { stream }));
-        await state("complete");
-        await page.getByRole("combobox", { name: "Colour" }).selectOption("blocks");
-        const shares: number[] = [];
-        for (const cut of [...begins.slice(1), stream.length]) {
-            await page.getByLabel("Cut the stream behind byte").fill(String(cut));
-            await page.waitForFunction((cut) => document.body.dataset.taken === String(cut), cut);
-            await page.waitForTimeout(200);
-            shares.push(silhouette(await page.locator("canvas").screenshot()).share);
-        }
-        assert.ok(shares[0] > 0.01 && shares.every((share, i) => i === 0 || share > 1.05 * shares[i - 1]), `${shares}`);
-        await state("complete");
-        assert.deepEqual(complaints, []);
         await page.goto(savedPage(folder, { whole }));
         await state("complete");
     });

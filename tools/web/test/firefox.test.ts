@@ -10,7 +10,7 @@ import { serveSite, POLICY, type Site } from "./server";
 import { BUILDS, compile, savedPage, VECTORS } from "./shared";
 
 const FIREFOX = process.env.FIREFOX ?? "/usr/bin/firefox-esr";
-const NAMES = ["good-labels", "good-grid", "good-layers", "good-sequence-learnt", "good-attribute-uv-blocks", "good-sections"];
+const NAMES = ["good-labels", "good-grid", "good-refined", "good-sequence-learnt", "good-attribute-uv-blocks"];
 
 describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, timeout: 120_000 }, () => {
     const folder = mkdtempSync(join(tmpdir(), "bsm-firefox-"));
