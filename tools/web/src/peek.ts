@@ -20,11 +20,12 @@ export function needOf(data: Uint8Array): Need | undefined {
         if (!tag) return undefined;
         const end = tag.end + Math.floor(tag.value / 16);
         if (end > data.length) return data[0] === PREAMBLE[0] && tag.value % 16 === 1 ? undefined : { build: "whole", vertices: 0 };
-        const header = new Map(parseMap(data.subarray(tag.end, end)).map(([key, { value }]) => [Number(key.value), Number(value)]));
+        const header = new Map(parseMap(data.subarray(tag.end, end)).map(([key, value]) => [Number(key.value), value.type === "array" ? value.value[0] : value]));
+        const first = (key: number): number => Number(header.get(key)?.value ?? 0);
         const { vertices, paper, sequence, attributes, light } = HEADER_FIELDS;
-        const isWhole = header.has(attributes.key) || header.has(paper.key);
-        const build = isWhole ? "whole" : header.has(sequence.key) ? "moving" : header.get(light.key) === 1 ? "quick" : "small";
-        return { build, vertices: header.get(vertices.key) ?? 0 };
+        const isPacked = first(paper.key) > 0;
+        const build = isPacked || header.has(attributes.key) ? "whole" : header.has(sequence.key) ? "moving" : first(light.key) === 1 ? "quick" : "small";
+        return { build, vertices: first(vertices.key) };
     } catch (error) {
         if (!(error instanceof BsmError)) throw error;
         return { build: "whole", vertices: 0 };
