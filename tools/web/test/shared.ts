@@ -44,14 +44,14 @@ export function* eventsOf(kernels: Kernels, data: Uint8Array, size: number, limi
 /** The mesh that block events add up to; of a sequence all its frames, one behind the other. */
 export function meshOfEvents(events: Iterable<Event>): Mesh {
     let positions: Float64Array = new Float64Array(0);
-    let faces: Int32Array = new Int32Array(0);
+    let faces = new Int32Array(0);
     const frames: Float64Array[] = [];
     let attributes: Attribute[] = [];
     const moved: Attribute[] = [];
     for (const event of events) {
         if (event.type === "header") attributes.length = moved.length = 0;
         if (event.type === "connectivity") {
-            faces = event.faces;
+            faces = Int32Array.from([...faces, ...event.faces]); // of all runs
             positions = new Float64Array(3 * event.vertices).fill(NaN);
             event.loose.vertices.forEach((v, i) => positions.set(event.loose.positions.subarray(3 * i, 3 * i + 3), 3 * v));
         }
