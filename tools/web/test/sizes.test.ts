@@ -8,11 +8,11 @@ import { WEB } from "./shared";
 
 /** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, and for the page itself. */
 const LOADS: Record<string, [most: number, files: string[]]> = {
-    "light grids": [21300, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
-    "static meshes": [59600, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
-    "sequences": [58000, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
-    "everything": [93000, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
-    "the page": [8900, ["three.js", "pool.js"]],
+    "light grids": [20700, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
+    "static meshes": [56500, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
+    "sequences": [55200, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
+    "everything": [90000, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    "the page": [8500, ["three.js", "pool.js"]],
 };
 
 for (const [what, [most, files]] of Object.entries(LOADS)) {
