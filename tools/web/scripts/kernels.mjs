@@ -171,6 +171,9 @@ export const KERNEL_BUILDS = {
     "built/quick.wasm": { vectors: true, without: [...FRAMES, ...ATTRIBUTES, ...FIELDS, ...BLOCKS], fast: HOT },
 };
 
+/** Objects of sources, which builds have in common. */
+const compiled = new Map();
+
 /** One of them. */
 export function compileKernels({ vectors, without = [], fast }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
@@ -184,7 +187,12 @@ export function compileKernels({ vectors, without = [], fast }) {
             const object = join(folder, `${i}.o`);
             // Short loops of 64-bit products are slower as vectors.
             const how = fast?.test(source) ? ["-O2", "-fno-vectorize", "-fno-slp-vectorize"] : LEAN.test(source) ? ["-Oz", "-DBSM_LEAN"] : ["-Oz"];
-            clang(...FLAGS, ...how, ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source, "-o", object);
+            const options = [...FLAGS, ...how, ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
+            const key = options.join(" ");
+            if (source === data || !compiled.has(key)) {
+                clang(...options, "-o", object);
+                compiled.set(key, readFileSync(object));
+            } else writeFileSync(object, compiled.get(key));
             return object;
         });
         checkTables(clang, objects.slice(-2), priors, target);
