@@ -103,7 +103,7 @@ def source() -> str:
                     "What may follow a frame of each type, METADATA and skippable ones left aside.",
                 ),
                 _fields("HEADER_FIELDS", Header, "Fields of the header (F 4.4)."),
-                _fields("PAPER_FIELDS", Paper, "Numbers of its field `paper`, by their places, and the law's constants (F 4.5)."),
+                _fields("PAPER_FIELDS", Paper, "Numbers of `paper`, by places, and the law's constants (F 4)."),
                 _fields("DECLARATION_FIELDS", Declaration, "Fields of what an attribute declares (D 1)."),
                 "\n".join(
                     ["/** Limits that are Python's (M 14.1). */", "export const LIMITS = {", *granted, "} as const;"]

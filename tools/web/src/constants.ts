@@ -63,7 +63,7 @@ export const HEADER_FIELDS = {
     paper: { key: 19, type: "floats", low: 0, high: 1073741824, default: [], lengths: [0, 8] },
 } satisfies Record<string, Field>;
 
-/** Numbers of its field `paper`, by their places, and the law's constants (F 4.5). */
+/** Numbers of `paper`, by places, and the law's constants (F 4). */
 export const PAPER_FIELDS = {
     bits: { key: 0, type: "int", low: 0, high: 32, default: 0 },
     coarser: { key: 1, type: "int", low: 0, high: 30, default: 0 },

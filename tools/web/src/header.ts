@@ -9,7 +9,7 @@ import { parseFields, same, type Fields } from "./record";
 type Stored = Record<"vertices" | "faces" | "blocks" | "blockSize" | "coefficients" | "keyInterval" | "step" | "scale" | "smoothing" | "attributes" | "light", number> &
     Record<"center" | "refinement" | "grid" | "lattice" | "corner" | "sequence" | "run" | "paper", number[]>;
 
-/** How blocks are coded; only the paper's codec has other than the law's constants (F 4.5). */
+/** How blocks are coded; only the paper's codec has other than the law's constants (F 4). */
 export type Paper = Readonly<Record<keyof typeof PAPER_FIELDS, number>>;
 
 const LAW = Object.fromEntries(Object.entries(PAPER_FIELDS).map(([name, field]) => [name, field.default])) as unknown as Paper;
