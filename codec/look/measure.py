@@ -76,7 +76,7 @@ class Look:
         return math.pow(self.dissimilarity / MOVING, POWER)
 
 
-class Looker:
+class LookMetric:
     """Pictures of an original, to compare one decoded version after another with."""
 
     def __init__(self, mesh: TriangleMesh, *, threads: int | None = None) -> None:
@@ -200,7 +200,7 @@ class Looker:
 
 def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = None) -> Look:
     """How much alike two meshes look, of whatever vertices and faces."""
-    return Looker(original, threads=threads).compare(other)
+    return LookMetric(original, threads=threads).compare(other)
 
 
 def summed(sums: Matrix) -> Look:

@@ -13,7 +13,7 @@ from bsm.bitstream.errors import MeshError, TargetError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.measure import Looker
+from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.level_writer import ROUNDS
 from bsm.codec.sequence.promise import Promise
 from bsm.codec.static.targets import COARSEST_STEP
@@ -39,7 +39,7 @@ WIDEST = 1.0
 """Logarithm of the largest weight, and of one over the smallest."""
 _TRIES = 20
 _PIXEL = 4 * 14
-"""Bytes of a `Looker` for each pixel of its pictures' side, squared."""
+"""Bytes of a `LookMetric` for each pixel of its pictures' side, squared."""
 
 
 class Attempt(Protocol):
@@ -59,7 +59,7 @@ class Watch:
     def __init__(self, frames: Positions, faces: Faces, promise: Promise, scale: float, threads: int | None) -> None:
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
         self._reach = promise.reach(scale)
-        self._lookers: dict[int, Looker | None] = {}
+        self._lookers: dict[int, LookMetric | None] = {}
         self._room = KEPT
         self._knots: list[int] = []
         if promise.look < math.inf:
@@ -150,10 +150,10 @@ class Watch:
             looker = self._lookers[index]
         return 0.0 if looker is None else looker.look(decoded[index]).moving / self._promise.look
 
-    def _looker(self, index: int) -> Looker | None:
+    def _looker(self, index: int) -> LookMetric | None:
         """None for a frame of which nothing is seen."""
         try:
-            return Looker(TriangleMesh(self._frames[index], self._faces), threads=self._threads)
+            return LookMetric(TriangleMesh(self._frames[index], self._faces), threads=self._threads)
         except MeshError:
             return None
 

@@ -10,8 +10,6 @@ from bsm.bitstream.public import public
 from bsm.codec.geometry.metrics import decibel
 
 ANY_ANGLE = 180.0
-ANGLE_OF_LOOK = 0.8
-"""Mean angle of normals that comes with a look of 1, degrees, about: 0.4 to 1.6 on scans and models."""
 WIDEST = 0.1
 """Of the diagonal: who asks for a wider bound took one unit for another."""
 
@@ -43,9 +41,9 @@ class Contract:
         In `angle` all faces count alike, whatever their area.
     visual : float
         Normalised mean visual error (`codec.geometry.metrics.nmsve`); infinite: any.
-    by_part : bool
-        Each connected part is bound by its own diagonal where that is smaller, but see `FINEST_PART`; parts near each
-        other keep their order in depth.
+    by_part : float
+        The same as `farthest`, always over diagonals, and each connected part by its own: down to a tenth of what it is
+        for the whole; parts near each other keep their order in depth. Infinite: no such bound.
 
     Raises
     ------
@@ -63,7 +61,7 @@ class Contract:
     angle: float = ANY_ANGLE
     absolute: bool = False
     look: float = math.inf
-    by_part: bool = False
+    by_part: float = math.inf
     alike: bool = False
     visual: float = math.inf
 
@@ -76,18 +74,10 @@ class Contract:
             raise OptionError(f"a mean angle must be within 0 to {ANY_ANGLE:g} degrees, not {self.angle:g}")
         if not self.visual > 0.0:
             raise OptionError(f"a visual error must be above 0, not {self.visual:g}")
+        if not self.by_part > 0.0:
+            raise OptionError(f"a bound on the vertices of a part must be above 0, not {self.by_part:g}")
         if not self.look > 0.0:
             raise OptionError(f"a look must be above 0, not {self.look:g}: 1 looks the same, 3 is a preview")
-
-    @property
-    def shades(self) -> bool:
-        """Whether more is asked for than where vertices are."""
-        return self.angle < ANY_ANGLE or self.look < math.inf or self.visual < math.inf
-
-    @property
-    def about_angle(self) -> float:
-        """Mean angle of normals that is about as good as all that is asked for, degrees."""
-        return min(self.angle, ANGLE_OF_LOOK * self.look)
 
     def reach(self, diagonal: float, unit: float) -> float:
         """How far a vertex of a mesh of this diagonal may come to lie from its place, in multiples of `unit`.

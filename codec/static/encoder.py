@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -23,29 +22,21 @@ from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.admission import as_of_decoders
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import Quality, qualities
-from bsm.codec.static.choice.fulfilment import Fulfilment
-from bsm.codec.static.choice.judge import Sight
+from bsm.codec.static.choice.blocks import Spectral
+from bsm.codec.static.choice.bounds import Measures
 from bsm.codec.static.choice.lattices import exact, rounded, rounded_to_cells
-from bsm.codec.static.choice.search import Trial, widest_step
-from bsm.codec.static.choice.spectral import Spectral
+from bsm.codec.static.choice.search import Search
 from bsm.codec.static.contract import WIDEST, Contract
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import JoinedMesh, join
-from bsm.codec.static.options import EncodeOptions, finer_promises
+from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import Target, search_step
 from bsm.codec.static.ways.block_coder import Progress
 
-COARSEST_ANGLE, FIRST_FINENESS, FINEST = 40.0, 0.2, 1000.0
-"""In searches for a size: of normals, degrees; what is tried first, and most, over a degree."""
-SIZE_SEARCH, SIZE_SLOPES, UNHAD = (12, 0.02), (0.15, 0.7), 1.0
-"""Trials, and the share of a size that may stay unused; how sizes grow with fineness, in their logarithms; and the
-excess of what cannot be had."""
 LEAST_VISUAL = 1e-300
 """NMSVE that is asked for where decibels are beyond numbers."""
-FEW, SMALL_SHARE, FREE = 4000, 0.1, 0.02
-"""Vertices of a small mesh; share of a file that is small; and what is as good as free, of a file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,6 +98,8 @@ class Encoder:
 
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions | None = None) -> None:
         self.options = options or EncodeOptions()
+        if not (self.options.target or self.options.promise or self.options.is_grid or self.options.says_how):
+            raise OptionError("nothing is asked for: give a bound or a target, or another preset than none")
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._given = mesh
 
@@ -175,29 +168,8 @@ class Encoder:
         """What the options ask for, without a target."""
         self._take_attributes()
         promise = self.options.promise
-        return self._admitted(
-            self._dressed(self._bare(progress)) if promise is None else self._promised(promise, progress)
-        )
-
-    def _promised(self, promise: Contract, progress: Progress | None) -> Draft:
-        """The smallest draft that keeps a promise; or a better one where that is as good as free."""
-        ways = Fulfilment(self._prepared, self.options, promise, self._sight, progress)
-        bare = ways.draft(self._size)
-        best = self._dressed(bare)
-        few = len(self._prepared.positions) <= FEW
-        for finer in finer_promises(promise):
-            others = Fulfilment(self._prepared, self.options, finer, self._sight, progress)
-            cheap = finer.look == math.inf and (few or others.bytes_on_grids <= best.size)
-            if bare.size > SMALL_SHARE * best.size and not cheap:
-                continue
-            try:
-                bare = others.draft(self._size)
-            except TargetError:
-                break
-            dressed = self._dressed(bare)
-            if dressed.size <= (1.0 + FREE) * best.size and ways.keeps(bare):
-                best = dressed
-        return best
+        bare = self._bare(progress) if promise is None else self._search(promise, progress).smallest(promise)
+        return self._admitted(self._dressed(bare))
 
     def _bare(self, progress: Progress | None) -> Draft:
         options = self.options
@@ -240,49 +212,28 @@ class Encoder:
             contract = replace(promise, angle=target.value, alike=True)
         else:
             contract = replace(promise, visual=max(10.0 ** (target.value / 10.0), LEAST_VISUAL))
-        sight = Sight(self._prepared, self.options.threads, self._normals, alike=contract.alike)
-        ways = Fulfilment(self._prepared, self.options, contract, sight, progress, thorough=True)
-        try:
-            return self._judged(self._dressed(ways.draft(self._size)))
-        except TargetError as error:
-            if self.options.promise is not None:
-                raise
-            raise TargetError(
-                f"{target.worded(target.value)} at most cannot be reached; the best that can be had is {ways.had}"
-            ) from error
+        return self._judged(self._dressed(self._search(contract, progress).smallest(contract)))
 
     def _sized(self, target: Target, progress: Progress | None) -> Attempt:
-        """The stream of a size whose normals are best, and which keeps whatever is promised."""
-        promise, seen = self.options.promise, list[Attempt]()
-        promised = promise or Contract(WIDEST)
-
-        def measure(fineness: float, _: bool = True, *, thorough: bool = False) -> Trial[Attempt | None]:
-            contract = replace(promised, angle=min(1.0 / fineness, promised.angle))
-            try:
-                ways = Fulfilment(self._prepared, self.options, contract, self._sight, progress, thorough=thorough)
-                draft = ways.draft(self._size)
-            except TargetError:
-                return Trial(fineness, UNHAD, True, None)
-            seen.append(self._judged(self._dressed(draft)))
-            return Trial(fineness, math.log(target.reached(seen[-1]) / target.value), True, seen[-1])
-
-        coarsest = measure(1.0 / COARSEST_ANGLE, thorough=True)
-        found: Trial[Attempt | None] | None = coarsest
-        if coarsest.kept:
-            tries, slack = SIZE_SEARCH
-            finer = widest_step(measure, FIRST_FINENESS, tries=tries, most=FINEST, slopes=SIZE_SLOPES, slack=slack)
-            found = finer or coarsest
-        if found is not None and found.kept and found.found is not None:
-            return found.found
-        if not seen:
-            raise TargetError(f"{promise} cannot be kept on this mesh")
-        best = min(target.reached(attempt) for attempt in seen)
-        asked = f"{target.worded(target.value)} at most cannot be "
+        """The best stream of a size, which keeps whatever is promised."""
+        promise = self.options.promise
+        anything = Contract(WIDEST)
+        most = target.bytes_of(self._prepared.graph.size)
+        found = self._search(promise or anything, progress).best(promise or anything, most)
+        if found is not None:
+            return self._judged(self._dressed(found))
+        asked, none = f"{target.worded(target.value)} at most cannot be", self._search(anything, progress)
         if promise is None:
-            error = TargetError(f"{asked}reached; the best that can be had is {target.worded(best)}")
+            least = self._judged(self._dressed(none.smallest(anything)))
+            error = TargetError(f"{asked} reached; the least that can be had is {target.worded(target.reached(least))}")
         else:
-            error = TargetError(f"{asked}had with {promise}: that comes to {target.worded(best)}")
-        error.best = best
+            least = self._judged(self._dressed(self._search(promise, progress).smallest(promise)))
+            other = none.best(anything, most)
+            advice = "no preset has that" if other is None else f"--preset none gives {none.seen(other)} in it"
+            error = TargetError(
+                f"{asked} had with {promise}: that takes {target.worded(target.reached(least))}; {advice}"
+            )
+        error.best = target.reached(least)
         raise error
 
     def _as_said(self, target: Target, progress: Progress | None) -> Attempt:
@@ -350,9 +301,9 @@ class Encoder:
             light=options.quick,
         )
 
-    @cached_property
-    def _sight(self) -> Sight:
-        return Sight(self._prepared, self.options.threads, self._normals)
+    def _search(self, contract: Contract, progress: Progress | None) -> Search:
+        measures = Measures(self._prepared, self.options.threads, self._normals, alike=contract.alike)
+        return Search(measures, self.options, progress, self._size)
 
     @cached_property
     def _normals(self) -> Normals | None:

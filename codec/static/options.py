@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from bsm.bitstream.errors import ArgumentError, OptionError
@@ -40,7 +40,7 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
-BALANCED = Contract(0.01, look=1.0, by_part=True)
+BALANCED = Contract(0.01, look=1.0, by_part=0.01)
 """What is promised unless something else is asked for."""
 
 
@@ -90,7 +90,7 @@ class EncodeOptions:
         Quality or size to reach.
     contract : Contract, optional
         What is promised, beside the target if there is one; the encoder finds the cheapest way to keep it. None:
-        `BALANCED`, or nothing but the target. It says nothing where `grid`, `grid_cell` or any of `CODING` is given:
+        nothing but the target. It says nothing where `grid`, `grid_cell` or any of `CODING` is given:
         who says how to code gets that.
     quick : bool
         Of all ways that keep a contract or reach a target only what is quick to decode: positions on a grid, without
@@ -146,7 +146,7 @@ class EncodeOptions:
     keep_order: bool = False
     doi: tuple[float, float] | None = None
     target: Target | None = None
-    contract: Contract | None = None
+    contract: Contract | None = BALANCED
     quick: bool = False
     exact: bool = False
     grid: int | None = None
@@ -190,7 +190,7 @@ class EncodeOptions:
         """The contract, where it counts."""
         if self.is_grid or self.says_how:
             return None
-        return BALANCED if self.contract is None and self.target is None else self.contract
+        return self.contract
 
     @property
     def grade(self) -> Grade:
@@ -239,20 +239,15 @@ STEP = 0.004
 
 PRESETS: dict[str, EncodeOptions] = {
     "small": EncodeOptions(
-        block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, look=3.0, by_part=True)
+        block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, look=3.0, by_part=0.02)
     ),
     "balanced": EncodeOptions(contract=BALANCED),
-    "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=True)),
-    "near-lossless": EncodeOptions(contract=Contract(0.0005)),
+    "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=0.005)),
+    "near-lossless": EncodeOptions(contract=Contract(0.0005, look=0.5, by_part=0.005)),
     "grid14": EncodeOptions(grid=14),
     "lossless": EncodeOptions(exact=True, attributes={"*": "exact"}),
+    "none": EncodeOptions(contract=None),
 }
-"""Names for what most users want, each a promise; "balanced" is the default. Larger blocks are smaller files and slower
+"""Names for what most users want, each a promise; "balanced" is the default, and "none" promises nothing but what is
+asked for beside it. Larger blocks are smaller files and slower
 to decode."""
-
-
-def finer_promises(promise: Contract) -> Iterator[Contract]:
-    """What presets promise that are finer than the one with this promise, from coarse to fine; none of other ones."""
-    promises = [options.contract for options in PRESETS.values() if options.contract is not None]
-    if promise in promises:
-        yield from promises[promises.index(promise) + 1 :]

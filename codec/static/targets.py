@@ -81,6 +81,10 @@ class Target:
             return (value - self.value) / TOLERANCE_DB
         return math.log(max(value, 1e-300) / self.value) / TOLERANCE
 
+    def bytes_of(self, vertices: int) -> float:
+        """The size that is asked for, of a mesh of so many vertices."""
+        return self.value if self.kind == "size" else self.value * vertices / 8.0
+
     def worded(self, value: float) -> str:
         """A value of what the target is about, in words."""
         return UNITS[self.kind].format(value)

@@ -49,9 +49,9 @@ def encode(
     metadata : mapping from str to str, int, float or bytes, optional
         Added to what the mesh says of itself.
     **keywords
-        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14", "lossless"), one
-        target (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`, `block_size`,
-        `keep_order`, `threads`, ...).
+        As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none"),
+        one target (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`,
+        `block_size`, `keep_order`, `threads`, ...).
 
     Returns
     -------

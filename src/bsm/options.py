@@ -44,17 +44,16 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     from bsm.codec.static.targets import Target
 
     base: EncodeOptions = EncodeOptions() if preset is None else _named("preset", PRESETS, preset)
-    given = _fields("a mesh", EncodeOptions, _with_bounds(base, keywords), TARGETS, Target)
+    given = _fields("a mesh", EncodeOptions, _with_bounds(base, preset is not None, keywords), TARGETS, Target)
     others = ("target", "contract", "grid_cell", *CODING)
     if base.is_grid and any(given.get(name) is not None for name in others):
         base = EncodeOptions()  # a preset that is a grid has nothing that could be changed
     return replace(base, **given)
 
 
-def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, Any]:
+def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Keywords, `max_error` and `look` among them as the contract that they are beside that of a preset."""
     from bsm.codec.static.contract import WIDEST, Contract
-    from bsm.codec.static.options import BALANCED
 
     given = dict(keywords)
     farthest, look = given.pop("max_error", None), given.pop("look", None)
@@ -62,14 +61,14 @@ def _with_bounds(base: EncodeOptions, keywords: Mapping[str, Any]) -> dict[str, 
         return given
     if given.get("contract") is not None:
         raise OptionError("a contract says all that is promised: look and max_error are its bounds")
-    contract = base.contract
+    contract = base.contract or Contract(WIDEST)
     if farthest is not None:
         number, absolute = parse_length("max_error", farthest)
-        least = number if absolute or contract is None or contract.absolute else min(number, contract.farthest)
-        contract = replace(contract or Contract(WIDEST), farthest=least, absolute=absolute)
+        # What a preset says of parts holds for the whole, too.
+        contract = replace(contract, farthest=number, absolute=absolute)
     if look is not None:
-        asked = replace(contract or BALANCED, look=_checked("look", look, float))
-        contract = asked if contract is None else replace(asked, look=min(contract.look, asked.look))
+        look = _checked("look", look, float)
+        contract = replace(contract, look=min(contract.look, look) if named else look)
     given["contract"] = contract
     return given
 
@@ -89,7 +88,7 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
         if given.get("target") is not None or given.get("step") is not None:
             raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
         farthest, absolute = parse_length("max_error", bounds.get("max_error", PROMISES[name].farthest))
-        look = _checked("look", bounds.get("look", math.inf), float)
+        look = _checked("look", bounds.get("look", math.inf if together else PROMISES[name].look), float)
         given["promise"] = Promise(farthest, look, absolute)
     elif not together and not {"target", "step", "promise"} & {key for key in given if given[key] is not None}:
         given["promise"] = PROMISES[name]

@@ -31,7 +31,7 @@ from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import Columns, Trial
 from bsm.codec.signal.predict import Surroundings
-from bsm.codec.static.choice.spectral import Spectral
+from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import join

@@ -37,7 +37,7 @@ def test_presets_of_sequences(preset):
 
 
 def test_bounds_of_sequences():
-    assert sequence_options(max_error="0.2%").promise == Promise(0.002)
+    assert sequence_options(max_error="0.2%").promise == Promise(0.002, 1.0)
     assert sequence_options(max_error="3mm", look=2).promise == Promise(3.0, 2.0, absolute=True)
     assert sequence_options(preset="fine", look=2).promise == Promise(PROMISES["fine"].farthest, 2.0)
     assert sequence_options(max_error=0.001, low_delay=4).promise == Promise(0.001)
@@ -107,26 +107,29 @@ def test_a_sequence_has_fewer_options():
 
 
 def test_a_largest_error_may_have_a_unit():
-    assert encode_options(max_error="0.1%").contract == Contract(0.001)
-    assert encode_options(max_error="0.05mm").contract == Contract(0.05, absolute=True)
-    assert encode_options(max_error="0.002").contract == encode_options(max_error=0.002).contract == Contract(0.002)
+    assert encode_options(max_error="0.1%").contract == replace(BALANCED, farthest=0.001)
+    assert encode_options(max_error="0.05mm").contract == replace(BALANCED, farthest=0.05, absolute=True)
+    assert encode_options(preset="none", max_error="0.002").contract == Contract(0.002)
+    assert encode_options(max_error="0.002").contract == encode_options(max_error=0.002).contract
     assert encode_options(max_error=0.002).target is None
     with pytest.raises(OptionError, match=r"at most 10% of .* a share of the diagonal"):
         encode_options(max_error=2)
     with pytest.raises(ArgumentError, match="with a unit"):
         encode_options(max_error="wide")
     options = encode_options(max_error="1mm", theta=3)
-    assert (options.contract, options.target) == (Contract(1.0, absolute=True), Target("theta_deg", 3.0))
+    assert options.contract == replace(BALANCED, farthest=1.0, absolute=True)
+    assert options.target == Target("theta_deg", 3.0)
 
 
 def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
     fine = PRESETS["fine"].contract
     assert encode_options(preset="fine", theta=5).contract == fine
-    assert encode_options(theta=5).contract is None and encode_options(theta=5).promise is None
+    assert encode_options(theta=5).promise == BALANCED
+    assert encode_options(preset="none", theta=5).promise is None
     assert encode_options(look=2).contract == replace(BALANCED, look=2.0)
-    assert encode_options(look=2, max_error=0.02).contract == Contract(0.02, look=2.0)
+    assert encode_options(look=2, max_error=0.02).contract == replace(BALANCED, farthest=0.02, look=2.0)
     assert encode_options(preset="fine", look=2).contract == fine
-    assert encode_options(preset="fine", look=0.3, max_error="5%").contract == replace(fine, look=0.3)
+    assert encode_options(preset="fine", look=0.3, max_error="5%").contract == replace(fine, farthest=0.05, look=0.3)
     assert encode_options(preset="grid14", look=0.3).contract == replace(BALANCED, look=0.3)
     for look in (0, -1.0, float("nan")):
         with pytest.raises(OptionError, match="1 looks the same"):

@@ -69,7 +69,7 @@ COUNTED = (
 """Bombs that are decoded to some end."""
 
 KINDS: dict[str, Callable[[], bytes]] = {
-    **{name: lambda name=name: _preset(name) for name in PRESETS},  # type: ignore[misc]
+    **{name: lambda name=name: _preset(name) for name in PRESETS if name != "none"},  # type: ignore[misc]
     "paper": lambda: _options(bits=12, key_interval=0),
     "paper-wide": lambda: _options(bits=12, keep=0.4, block_size=500, key_interval=0),
     "paper-exact": lambda: _options(bits=12, keep=0.2, block_size=500, key_interval=1, key_seed="svd"),

@@ -23,7 +23,7 @@ import numpy as np
 import bsm
 from bsm.bitstream.errors import BsmError
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.measure import Look, Looker
+from bsm.codec.look.measure import Look, LookMetric
 from bsm.console import Console, finite, print_json
 from bsm.evaluation.draco import decode_draco, encode_draco
 from bsm.files.mesh import read_mesh
@@ -51,7 +51,7 @@ def welded(path: str) -> TriangleMesh:
     return TriangleMesh(positions.astype(np.float64), faces[proper]).without_isolated_vertices()[0]
 
 
-def draco_curve(mesh: TriangleMesh, looker: Looker) -> list[Draco]:
+def draco_curve(mesh: TriangleMesh, looker: LookMetric) -> list[Draco]:
     """Draco at each of `BITS`."""
     found = []
     for bits in BITS:
@@ -73,7 +73,7 @@ def size_at(curve: list[Draco], dissimilarity: float) -> float:
 def measure(path: str, wishes: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
     """A row for Draco's default, and one for each wish."""
     mesh = welded(path)
-    looker = Looker(mesh)
+    looker = LookMetric(mesh)
     curve = draco_curve(mesh, looker)
     default = next(point for point in curve if point.bits == 11)
     rows = [row(path, "Draco, 11 bits", default.size, default.look, 1.0)]

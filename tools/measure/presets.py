@@ -96,7 +96,7 @@ def thetas(path: Path, args: argparse.Namespace) -> Iterator[Row]:
     if args.draco_bits:
         wanted.append(curve[args.draco_bits - 6][0])
     for angle in wanted:
-        attempt = Encoder(mesh, EncodeOptions(target=Target("theta_deg", angle), threads=1)).search()
+        attempt = Encoder(mesh, EncodeOptions(contract=None, target=Target("theta_deg", angle), threads=1)).search()
         begin = time.process_time()
         decode(b"".join(attempt.frames), threads=1)
         seconds = time.process_time() - begin

@@ -22,7 +22,7 @@ from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.measure import Looker
+from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
@@ -118,7 +118,7 @@ def default(positions: Positions, faces: Faces) -> dict[str, float]:
     decoded, faces = decode_sequence(data, threads=1)
     original = positions[:, encoder.vertex_order]
     pairs = zip(original, decoded, strict=True)
-    unlike = [Looker(TriangleMesh(own, faces), threads=1).look(other).dissimilarity for own, other in pairs]
+    unlike = [LookMetric(TriangleMesh(own, faces), threads=1).look(other).dissimilarity for own, other in pairs]
     found = compare_sequences(original, decoded, faces)
     return {
         "bytes": len(data),

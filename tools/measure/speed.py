@@ -58,7 +58,7 @@ def break_even(ours: Delivery, theirs: Delivery) -> float:
 
 def deliveries(mesh: TriangleMesh, repeats: int) -> tuple[Delivery, Delivery]:
     """The smallest file of ours, and of Draco, that keeps the angle."""
-    encoder = Encoder(mesh, EncodeOptions(target=Target("theta_deg", THETA)))
+    encoder = Encoder(mesh, EncodeOptions(contract=None, target=Target("theta_deg", THETA)))
     ours = encoder.encode()
     found = Reference(mesh.positions[encoder.vertex_order], decode(ours).faces).theta(decode(ours).positions)
     reference, bits, theirs, kept = Reference(mesh.positions, mesh.faces), 5, b"", math.inf

@@ -16,7 +16,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.static.attributes.encoding import ranges
-from bsm.codec.static.choice.spectral import Spectral
+from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions

@@ -12,7 +12,7 @@ from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.fields.grid import GridEncoder
 from bsm.bitstream.fields.levels import LevelsEncoder
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.choice.spectral import Base, Spectral
+from bsm.codec.static.choice.blocks import Base, Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from tools.surgery import with_header

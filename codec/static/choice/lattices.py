@@ -1,4 +1,4 @@
-"""Drafts of positions on grids: rounded, or shaped for the normals."""
+"""Drafts of positions on given grids, and of exact ones."""
 
 from __future__ import annotations
 
@@ -12,11 +12,9 @@ from bsm.bitstream.errors import TargetError
 from bsm.bitstream.fields.floats import ordered
 from bsm.bitstream.fields.grid import MOST_LARGEST
 from bsm.bitstream.fields.lattice import find_lattice
-from bsm.codec.arrays import Levels, Matrix, Positions
-from bsm.codec.static.choice.shaping import Aim, Shaper
+from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble_encoding import Prepared
-from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid, encode_exact, encode_grid
 
 MOST_SINGLE = 1e38
@@ -117,56 +115,3 @@ def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int)
     """The grid of places, shape (n, 3), on a coarser lattice where they all are on one, and the places on that."""
     points, lattice = find_lattice(places, cells)
     return Grid(origin, step, tuple(int(value) for value in points.max(axis=0)), lattice), points
-
-
-LEAST_CELL = 2.0**-40
-"""Of a mesh that is a point, in BSM units."""
-
-
-class Shaped:
-    """Shaped grids of one mesh, at one step after another."""
-
-    def __init__(self, prepared: Prepared, shaper: Shaper, low: Matrix | None = None) -> None:
-        self._prepared = prepared
-        self._shaper = shaper
-        low = prepared.mesh.positions.min(axis=0) if low is None else low
-        narrow = low.astype(np.float32)
-        fine = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
-        self._hold = single if fine else float
-        below = np.where(narrow > low, np.nextafter(narrow, np.float32(-np.inf)), narrow).astype(np.float64)
-        self._origin = below if fine else low
-        self._low = prepared.units.into(self._origin)
-
-    @property
-    def finest(self) -> float:
-        """The least step, in BSM units, that a grid can have."""
-        return max(float((self._prepared.positions - self._low).max()) / (MOST_LARGEST - 4), LEAST_CELL)
-
-    def places(self, step: float, aim: Aim, axes: int = 2) -> tuple[float, Levels, Positions, float]:
-        """The places of a grid at `step`, and what goes with them."""
-        unit = self._prepared.units.scale
-        held = single(step * unit)
-        wanted = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
-        places, bytes_of_bends = self._shaper.places(wanted, self._low, held / unit, aim, axes)
-        return held, places, self._grid(held, places).positions(places - places.min(axis=0)), bytes_of_bends
-
-    def draft(self, step: float, places: Levels) -> Draft:
-        """The stream of the places, shape (n, 3), that `places` returned."""
-        return grid_draft(self._prepared, self._grid(step, places), places - places.min(axis=0))
-
-    def fits(self, step: float, reach: float) -> bool:
-        """Whether rounding to a grid moves no vertex farther than so much, in BSM units."""
-        places = (self._prepared.positions - self._low) / step
-        return float(np.square(places - np.rint(places)).sum(axis=1).max()) * step**2 <= reach**2
-
-    def draft_from_origin(self, step: float, places: Levels) -> Draft:
-        """The stream of a grid of places, shape (n, 3), that begins where the mesh's unit does: shorter to write."""
-        least = places.min(axis=0)
-        corner = tuple(map(int, least)) if least.any() else ()
-        held = Grid((0.0, 0.0, 0.0), step, tuple(map(int, np.ptp(places, axis=0))), corner=corner)
-        return grid_draft(self._prepared, held, places - least)
-
-    def _grid(self, step: float, places: Levels) -> Grid:
-        least = places.min(axis=0)
-        origin = tuple(self._hold(value) for value in self._origin + least * step)
-        return Grid(origin, step, tuple(int(value) for value in np.ptp(places, axis=0)))

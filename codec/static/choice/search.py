@@ -1,90 +1,133 @@
-"""The largest step that keeps bounds."""
+"""The smallest stream that keeps a contract, and the best one of a size: one secant for every way to code a mesh."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Generic, TypeVar
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from operator import attrgetter
 
-SLACK = 0.03
-"""How far below a bound the search for a step may stay."""
-THOROUGH = 9, 0.015
-"""Steps that are tried, and how far below, where the search is to be thorough."""
-LOOK_SLACK, LOOK_TRIES = 0.05, 6
-"""The same of a look, and how many steps are looked at."""
+from bsm.bitstream.errors import LimitError, TargetError
+from bsm.codec.static.choice.blocks import Plain, Refined
+from bsm.codec.static.choice.bounds import Bounds, Measures
+from bsm.codec.static.choice.grids import Gridded
+from bsm.codec.static.choice.lattices import rounded
+from bsm.codec.static.choice.secant import Candidate, Way, secant, widest
+from bsm.codec.static.contract import Contract
+from bsm.codec.static.draft import Draft
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble_encoding import FEW_VERTICES
+from bsm.codec.static.ways.block_coder import Progress
 
-Found = TypeVar("Found")
-
-
-@dataclass(frozen=True)
-class Trial(Generic[Found]):
-    """What a step came to."""
-
-    step: float
-    excess: float
-    near: bool
-    found: Found
-    sure: bool = True
-
-    @property
-    def within(self) -> bool:
-        """Whether all bounds are kept, as far as is known."""
-        return self.near and self.excess <= 0.0
-
-    @property
-    def kept(self) -> bool:
-        """Whether all bounds are kept."""
-        return self.sure and self.within
+WORTH, WORTH_OF_MODELS = 0.8, 1.6
+"""What a nat is worth, in angles that a step bends a mean face by; and of models, whose bits are not where their area
+is."""
+FITS = 0.002
+"""How far off vertices of a model may be on a grid that it is made on, in BSM units, over the look."""
+LAST_RESORTS, FINEST_BITS = 4, 20
+"""Grids that are tried, each four times as fine as the last, and bits of another, where nothing else will do."""
 
 
-def widest_step(
-    measure: Callable[[float, bool], Trial[Found]],
-    first: float,
-    *,
-    tries: int,
-    most: float,
-    slopes: tuple[float, float],
-    slack: float = SLACK,
-) -> Trial[Found] | None:
-    """About the largest step whose trial keeps the bounds: a secant in the logarithms, within brackets."""
-    aim = math.log(1.0 - slack / 2.0)
-    best: Trial[Found] | None = None
-    widest: Trial[Found] | None = None
-    good: tuple[float, float] | None = None
-    bad: tuple[float, float] | None = None
-    step, slope = min(first, most), slopes[1]
-    before: tuple[float, float] | None = None
-    for _ in range(tries):
-        trial = measure(step, False)
-        within = trial.excess <= 0.0
-        at = math.log(step), trial.excess
-        if before is not None and at[0] != before[0]:
-            slope = min(max((at[1] - before[1]) / (at[0] - before[0]), slopes[0]), slopes[1])
-        before = at
-        if trial.within:
-            if widest is None or step > widest.step:
-                widest, good = trial, at
-            if trial.kept and (best is None or step > best.step):
-                best = trial
-            if (trial.sure and trial.excess > math.log(1.0 - slack)) or step >= most:
-                break
-        elif bad is None or at[0] < bad[0]:
-            bad = at[0], math.log(1.05) if within else at[1]
-        if good is not None and bad is not None:
-            if bad[0] - good[0] < slack:
-                break
-            share = (aim - good[1]) / max(bad[1] - good[1], 1e-9)
-            step = math.exp(good[0] + min(max(share, 0.15), 0.85) * (bad[0] - good[0]))
-        elif within and not trial.near:
-            step *= 0.8
-        else:
-            # Too fine a step can be coarser next time; too coarse ones come to nothing.
-            gentle = slope if within else math.sqrt(slopes[0] * slope)
-            step *= math.exp(min(max((aim - at[1]) / gentle, -1.2), 1.2))
-        step = min(step, most)
-    if widest is not None and not widest.sure:
-        trial = measure(widest.step, True)
-        if trial.kept:
-            return trial
-    return best
+class Search:
+    """Looks for the best stream of a mesh among all ways to code it."""
+
+    def __init__(
+        self,
+        measures: Measures,
+        options: EncodeOptions,
+        progress: Progress | None = None,
+        size: Callable[[Draft], int] = attrgetter("size"),
+    ) -> None:
+        self._measures, self._prepared = measures, measures.prepared
+        self._options = options
+        self._progress = progress
+        self._size = size
+
+    def smallest(self, contract: Contract) -> Draft:
+        """The smallest stream that keeps a contract.
+
+        Raises
+        ------
+        TargetError
+            If none does; says what can be had.
+        """
+        if not self._prepared.mesh.diagonal > 0.0:
+            return rounded(self._prepared, 1)  # a point
+        bounds, kept = Bounds(self._measures, contract), list[Candidate]()
+        least = math.inf
+        for way in self._ways(bounds, contract.look):
+            found = widest(way, bounds, least)
+            if found is not None:
+                kept.append(found)
+                least = min(least, found.draft.size)
+        near = bounds.excess()
+        for candidate in self._made_on(bounds, kept):
+            smaller = candidate.draft.size < least
+            if smaller and near(candidate.positions) <= 0.0 and bounds.keeps(candidate.positions):
+                kept.append(candidate)
+                least = candidate.draft.size
+        if not kept:
+            kept += self._last_resort(bounds)
+        return min((candidate.draft for candidate in kept), key=self._size)
+
+    def _last_resort(self, bounds: Bounds) -> list[Candidate]:
+        """What grids do that are finer than where a search began, where it came to nothing."""
+        way = Gridded(self._prepared, bounds, 0.0)
+        for _ in range(LAST_RESORTS):
+            way.first /= 4.0
+            if bounds.keeps(way.at(way.first).positions):
+                found = widest(way, bounds)
+                return [way.at(way.first) if found is None else found]
+        finest = rounded(self._prepared, FINEST_BITS)
+        positions = self._prepared.units.into(finest.decoded)
+        if bounds.keeps(positions):
+            return [Candidate(0.0, positions, lambda: finest)]
+        raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best that can be had is {bounds.had}")
+
+    def best(self, contract: Contract, most_bytes: float) -> Draft | None:
+        """The best stream of at most so many bytes that keeps a contract; None: there is none."""
+        bounds, found = Bounds(self._measures, contract), list[Candidate]()
+        for way in self._ways(bounds, min(contract.look, 1.0)):
+            fitting: dict[float, Candidate] = {}
+
+            def excess(fineness: float, way: Way = way, fitting: dict[float, Candidate] = fitting) -> float:
+                candidate = way.at(1.0 / fineness)
+                over = math.log(self._size(candidate.draft) / most_bytes)
+                if over <= 0.0:
+                    fitting[fineness] = candidate
+                return over
+
+            with suppress(LimitError):
+                secant(excess, 1.0 / way.first, 1.0 / way.most, 1.0 / way.least)
+            found += [fitting[finest] for finest in sorted(fitting)[-1:]]
+        found += [one for one in self._made_on(bounds, found) if self._size(one.draft) <= most_bytes]
+        found = [one for one in found if bounds.keeps(one.positions)]
+        return min(found, key=lambda one: bounds.quality(one.positions)).draft if found else None
+
+    def seen(self, draft: Draft) -> str:
+        """What is visible of a draft, in words."""
+        metric = self._measures.look
+        if metric is None:
+            return "nothing that can be seen"
+        look = metric.look(self._prepared.units.into(draft.decoded))
+        return f"a look of {look.distance:.3g}, {100.0 * look.visible:.3g} % of the pixels differ visibly,"
+
+    def _ways(self, bounds: Bounds, look: float) -> Iterator[Way]:
+        """Those that may be smallest; blocks never are where a surface is flat but for sharp edges."""
+        prepared, options = self._prepared, self._options
+        character, seen = self._measures.shaper.character, bounds.contract.look < math.inf
+        if prepared.has_low_frequencies and not options.quick and not (character.is_model and seen):
+            yield Refined(prepared, options, bounds, self._progress, look)
+            if not seen:
+                yield Plain(prepared, options, bounds, self._progress)
+        yield from (
+            Gridded(prepared, bounds, worth) for worth in (WORTH_OF_MODELS if character.is_model else WORTH, 0.0)
+        )
+
+    def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
+        """Grids of few cells, or finer than one that was found, on which a model may have been made."""
+        prepared, steps = self._prepared, [one.step for one in found if one.draft.places is not None]
+        if prepared.graph.size < FEW_VERTICES:
+            yield from Gridded(prepared, bounds, 0.0).fitting(FITS * min(bounds.contract.look, 1.0))
+        elif steps and self._measures.shaper.character.is_sharp:
+            yield from Gridded(prepared, bounds, WORTH_OF_MODELS).made_on(max(steps))

@@ -10,15 +10,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Levels, Matrix, Positions
-from bsm.codec.geometry.graph import Graph
-from bsm.codec.look.measure import DISSIMILAR, POWER, VISIBLE_SHARE, Looker
+from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Positions
+from bsm.codec.geometry.graph import Graph, vertex_faces
+from bsm.codec.look.measure import DISSIMILAR, POWER, VISIBLE_SHARE, LookMetric
+from bsm.codec.look.pictures import CREASE, MOST_AROUND
 from bsm.codec.signal.frames import in_frames, local_frames, tangent_steps
-from bsm.codec.static.choice.creases import Creases, creases_of
 
 PULL = 0.8
 """A level is expected at so much of the mean of its neighbours'."""
@@ -35,8 +37,8 @@ SPREADS = 2
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
 PLAIN, FINER, LEAST_PLAIN = 2.6, 0.76, 1.5
-"""Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `step_for` is right; how
-steps get finer with it, in their logarithms; and the share below which they do not get coarser."""
+"""Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `first_step` is right;
+how steps get finer with it, in their logarithms; and the share below which they do not get coarser."""
 ASIDE, RATIO = 0.35, 10.0
 """What rounding along a tangent costs over what it costs along the normal, where steps are as of a layer of this
 ratio."""
@@ -44,15 +46,33 @@ SWEEPS = 2
 """More move few levels, and take no bytes off: over all axes, and over those along the surface."""
 SHADED = 0.5
 """How unlike pixels count that a crease shades otherwise which is there in only one of two pictures."""
+WITHIN = 8.0
+"""Degrees, on both sides of the angle that makes a crease, in which bends are watched."""
 _MOST = 1 << 30
+
+
+class Creases(NamedTuple):
+    """Bends near the angle from which on faces are shaded each by itself; the struct of that name in `settling.h`."""
+
+    faces: Faces
+    pairs: Indices
+    sharp: npt.NDArray[np.uint8]
+    costs: Matrix
+    starts: Indices
+    members: Indices
+    cosine: float
+
+    def priced(self, price: float) -> Creases:
+        """These creases at costs so many times as high."""
+        return self._replace(costs=self.costs * price)
 
 
 class Sensitivity:
     """What errors of each vertex cost in pictures."""
 
-    def __init__(self, positions: Positions, faces: Levels, graph: Graph, looker: Looker, step: float) -> None:
+    def __init__(self, positions: Positions, faces: Levels, graph: Graph, metric: LookMetric, step: float) -> None:
         self._positions, self._faces, self._graph = positions, faces, graph
-        self._looker, self._step = looker, step
+        self._metric, self._step = metric, step
         self._finer = 1.0
 
     @cached_property
@@ -62,20 +82,16 @@ class Sensitivity:
         # All errors of a direction alike, so that no vertex costs more than another by chance.
         noise = np.where(np.random.default_rng(0).random(self._positions.shape) < 0.5, -NOISE, NOISE)
         noise[:, 1:] *= aside[:, None]
-        blame, look = self._looker.blame(self._positions + self._step * np.einsum("na,nad->nd", noise, self._frames))
+        blame, look = self._metric.blame(self._positions + self._step * np.einsum("na,nad->nd", noise, self._frames))
         plain = (look.visible / VISIBLE_SHARE) / max(look.dissimilarity / DISSIMILAR, 1e-300)
         self._finer = (min(max(plain, LEAST_PLAIN), 8.0) / PLAIN) ** -FINER
         normal = self._spread(blame / (NOISE * self._step) ** 2 / (1.0 + 2.0 * ASIDE))
         return normal, ASIDE * normal / np.square(aside)
 
-    def first_step(self, distance: float, axes: int) -> float:
-        """The step that levels should have; finer where errors are plain to see rather than many."""
-        return self.step_for(distance, axes) * self._finer
-
-    def step_for(self, distance: float, axes: int) -> float:
-        """The step, in BSM units, at which rounding along so many axes is about as bad."""
+    def first_step(self, distance: float) -> float:
+        """The step that is about right, in BSM units; finer where errors are plain to see rather than many."""
         unlike = DISSIMILAR * distance ** (1.0 / POWER)
-        return math.sqrt(12.0 * unlike / (float(self.costs[0].sum()) * (1.0 + (axes - 1) * ASIDE)))
+        return self._finer * math.sqrt(12.0 * unlike / (float(self.costs[0].sum()) * (1.0 + 2.0 * ASIDE)))
 
     def levels(
         self,
@@ -140,3 +156,25 @@ def _bits(counts: Matrix) -> Matrix:
     bits = np.log2(trusted.sum(axis=1, keepdims=True) / trusted)
     bits[:, 1:] += 1.0
     return np.ascontiguousarray(bits)
+
+
+def creases_of(positions: Positions, faces: Faces) -> Creases:
+    """The creases of a mesh, and what is almost one."""
+    count = len(positions)
+    around = vertex_faces(faces, count)
+    crosses = np.empty((len(faces), 4))
+    middle = math.degrees(math.acos(CREASE))
+    bends = CREASE, math.cos(math.radians(middle + WITHIN)), math.cos(math.radians(middle - WITHIN))
+
+    def collect(room: int) -> tuple[int, Indices, npt.NDArray[np.uint8], Matrix]:
+        pairs, sharp, costs = np.empty((room, 2), np.int32), np.empty(room, np.uint8), np.empty(room)
+        found = _kernels.collect_creases(
+            positions, faces, around.starts, around.members, MOST_AROUND, *bends, crosses, pairs, sharp, costs
+        )
+        return found, pairs, sharp, costs
+
+    _, pairs, sharp, costs = collect(collect(0)[0])
+    starts, members = np.empty(count + 1, np.int32), np.empty(6 * len(pairs), np.int32)
+    hanging = _kernels.hang_creases(faces, pairs, starts, members)
+    area = max(float(crosses[:, 3].sum()), 1e-300)
+    return Creases(faces, pairs, sharp, costs / area, starts, members[:hanging].copy(), CREASE)

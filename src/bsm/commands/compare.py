@@ -147,11 +147,11 @@ def sentence(compared: dict[str, Any], unit: str) -> str:
 
 
 def _look(original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespace) -> Look:
-    from bsm.codec.look.measure import Looker
+    from bsm.codec.look.measure import LookMetric
 
     if args.picture:
         refuse_to_overwrite(args.picture, args.force)
-    looker = Looker(original)
+    looker = LookMetric(original)
     seen = looker.compare(decoded)
     if args.picture:
         from bsm.files.picture import png, side_by_side
@@ -301,14 +301,14 @@ def _of_frames(one: Positions, two: Positions) -> list[dict[str, float]]:
 
 def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]:
     """How frames look, the worst and the mean of those of which something is seen; see `codec.look`."""
-    from bsm.codec.look.measure import Looker
+    from bsm.codec.look.measure import LookMetric
 
     found = []
     pairs = [(one, other, faces) for first, second, faces in runs for one, other in zip(first, second, strict=True)]
     for number, (one, other, faces) in enumerate(pairs):
         progress(number, len(pairs))
         with suppress(MeshError):
-            found.append(Looker(TriangleMesh(one, faces)).look(other))
+            found.append(LookMetric(TriangleMesh(one, faces)).look(other))
     if not found:
         raise MeshError("the sequence cannot be looked at: its faces have no area in any frame")
     return {

@@ -112,11 +112,12 @@ SETTINGS = (
 """What few need, and the codec's inside for those who study it: `--set NAME=VALUE`."""
 
 
-PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless")
+PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none")
 PROMISES = (
     "how far from the original a mesh may look (see --look), and a vertex be off, of the diagonal of its part: small 3 "
-    "(a preview) and 2 %%; balanced, the default, 1 (looks the same) and 1 %%; fine 0.5 and 0.5 %%; near-lossless any "
-    "and 0.05 %%; grid14: exactly as on a grid of 14 bits; lossless: single precision, to the bit"
+    "(a preview) and 2 %%; balanced, the default, 1 (looks the same) and 1 %%; fine 0.5 and 0.5 %%; near-lossless 0.5 "
+    "and 0.05 %%; grid14: exactly as on a grid of 14 bits; lossless: single precision, to the bit; none: nothing but "
+    "what is asked for beside it"
 )
 """Of the presets; written out, since importing what they are takes time."""
 

@@ -170,7 +170,9 @@ def our_curve(*, fine: bool = False, **changes: Any) -> Curve:
     steps = [step for step in OUR_STEPS if not fine or step >= FINE_STEP]
     codecs = [Spectral(EncodeOptions(**{"threads": 1, "step": step, **changes})) for step in steps]
     if fine:
-        codecs += [Spectral(EncodeOptions(threads=1, target=Target("theta_deg", angle))) for angle in OUR_ANGLES]
+        codecs += [
+            Spectral(EncodeOptions(threads=1, contract=None, target=Target("theta_deg", angle))) for angle in OUR_ANGLES
+        ]
     return Curve("ours", "ours", tuple(codecs))
 
 

@@ -9,7 +9,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec import _kernels
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.measure import Looker, judged, look
+from bsm.codec.look.measure import LookMetric, judged, look
 from bsm.codec.look.pictures import CREASE, Shape, difference, draw, draw_owned
 from bsm.codec.look.sides import LEAST_PIXELS, MOST_PIXELS, axes, cameras, pixels_for
 from bsm.files.mesh import read_mesh
@@ -97,7 +97,7 @@ def test_sliding_within_a_plane_does_not_count():
 
 
 def test_noise_is_seen_the_more_of_it():
-    looker = Looker(MESH)
+    looker = LookMetric(MESH)
     distances = [looker.distance(noisy(MESH, size).positions) for size in (1e-4, 2e-4, 4e-4, 8e-4, 1.6e-3, 3.2e-3)]
     assert distances == sorted(distances)
     assert distances[0] < 1 < distances[-1]
@@ -120,7 +120,7 @@ def test_a_missing_ear_of_a_scan_is_seen(meshes):
 @pytest.mark.parametrize("name", ["static/c3d_spot.ply", "static/fandisk_6475.ply", "assets/robot_forearm.obj"])
 def test_bits_of_a_quantizer_are_seen_one_by_one(meshes, name):
     mesh = read_mesh(meshes / name).mesh.bare
-    looker = Looker(mesh)
+    looker = LookMetric(mesh)
     low, extent = mesh.positions.min(axis=0), np.ptp(mesh.positions, axis=0).max()
     distances = []
     for bits in range(8, 16):
@@ -167,8 +167,8 @@ def test_positions_are_looked_at_by_normals_that_the_original_has():
     own = Attribute("normal", np.repeat(shades, 3, axis=0), "corner", "normal")
     worse = noisy(MESH, 0.002)
     known = look(TriangleMesh(MESH.positions, MESH.faces, (own,)), TriangleMesh(worse.positions, MESH.faces, (own,)))
-    assert Looker(TriangleMesh(MESH.positions, MESH.faces, (own,))).look(worse.positions) == known
-    assert known.distance > Looker(MESH).distance(worse.positions)
+    assert LookMetric(TriangleMesh(MESH.positions, MESH.faces, (own,))).look(worse.positions) == known
+    assert known.distance > LookMetric(MESH).distance(worse.positions)
 
 
 # ------------------------------------------------------------------------------------------------ known answers
@@ -259,7 +259,7 @@ def test_a_fan_of_very_many_faces_is_quick():
     middle = np.full(count, count)
     faces = np.column_stack([np.arange(count), (np.arange(count) + 1) % count, middle])
     fan = TriangleMesh(np.vstack([ring, [0, 0, 0.5]]), faces)
-    assert Looker(fan).distance(fan.positions) < 1e-3
+    assert LookMetric(fan).distance(fan.positions) < 1e-3
 
 
 # ------------------------------------------------------------------------------------------------ what cannot be seen
@@ -268,13 +268,13 @@ def test_a_fan_of_very_many_faces_is_quick():
 def test_what_has_no_area_is_refused():
     for corners in ([(0, 0, 0)] * 3, [(0, 0, 0), (1, 1, 1), (2, 2, 2)]):
         with pytest.raises(MeshError, match="cannot be looked at"):
-            Looker(TriangleMesh(corners, [(0, 1, 2)]))
+            LookMetric(TriangleMesh(corners, [(0, 1, 2)]))
     with pytest.raises(MeshError, match="too large"):
-        Looker(moved(MESH, MESH.positions * 1e200))
+        LookMetric(moved(MESH, MESH.positions * 1e200))
 
 
 def test_positions_of_another_shape_are_refused():
-    looker = Looker(MESH)
+    looker = LookMetric(MESH)
     with pytest.raises(MeshError, match="shape"):
         looker.look(MESH.positions[:-1])
     with pytest.raises(MeshError, match="not finite"):
@@ -282,7 +282,7 @@ def test_positions_of_another_shape_are_refused():
 
 
 def test_what_vanishes_or_flies_away_is_seen():
-    looker = Looker(MESH)
+    looker = LookMetric(MESH)
     assert looker.distance(np.zeros(MESH.positions.shape)) > 5
     assert looker.distance(np.full(MESH.positions.shape, 1e300)) > 5
     spiked = MESH.positions.copy()
@@ -299,7 +299,7 @@ def test_the_side_that_differs_most_is_drawn():
     dented = MESH.positions.copy()
     top = dented[:, 2] > 0.8 * dented[:, 2].max()
     dented[top, 2] *= 0.9
-    looker = Looker(MESH)
+    looker = LookMetric(MESH)
     first, second = looker.pictures(moved(MESH, dented))
     assert first.shape == second.shape == (looker.pixels, looker.pixels)
     assert np.abs(first - second).max() > 12 / 255
@@ -309,7 +309,7 @@ def test_blame_lies_where_the_difference_is():
     dented = MESH.positions.copy()
     top = dented[:, 2] > 0.8 * dented[:, 2].max()
     dented[top, 2] *= 0.9
-    looker = Looker(MESH, threads=2)
+    looker = LookMetric(MESH, threads=2)
     (none, same), (blame, other) = looker.blame(MESH.positions), looker.blame(dented)
     assert none.max() < 1e-6
     assert same.visible == 0
@@ -321,7 +321,7 @@ def test_blame_lies_where_the_difference_is():
 
 
 def test_a_glance_is_enough_where_it_tells_enough():
-    looker = Looker(MESH)
+    looker = LookMetric(MESH)
     other = noisy(MESH, 0.002).positions
     known = looker.look(other).distance
     few, whole = looker.glance(other, 0.5 * known, 2.0 * known)

@@ -10,7 +10,7 @@ import pytest
 from bsm.bitstream.errors import OptionError, TargetError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.measure import Looker
+from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
@@ -32,7 +32,8 @@ def kept(
 
 
 def looks(original: Positions, decoded: Positions, faces: Faces) -> list[float]:
-    return [Looker(TriangleMesh(a, faces), threads=1).look(b).moving for a, b in zip(original, decoded, strict=True)]
+    pairs = zip(original, decoded, strict=True)
+    return [LookMetric(TriangleMesh(a, faces), threads=1).look(b).moving for a, b in pairs]
 
 
 def farthest(original: Positions, decoded: Positions) -> float:
@@ -93,7 +94,7 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     drawn: list[int] = []
     make = Watch._looker
 
-    def noted(watch: Watch, index: int) -> Looker | None:
+    def noted(watch: Watch, index: int) -> LookMetric | None:
         drawn.append(index)
         return make(watch, index)
 
@@ -125,7 +126,7 @@ def test_what_a_frame_may_look_like_grows_with_the_way_to_those_that_were_drawn(
 
 def test_a_moving_look_is_what_pictures_differ_by() -> None:
     positions, faces = bending(1)
-    seen = Looker(TriangleMesh(positions[0], faces), threads=1).look(positions[0] * 1.01)
+    seen = LookMetric(TriangleMesh(positions[0], faces), threads=1).look(positions[0] * 1.01)
     assert seen.dissimilarity > 0.0
     assert seen.moving == pytest.approx((seen.dissimilarity / 0.05) ** 0.8)
 

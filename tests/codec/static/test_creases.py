@@ -8,12 +8,11 @@ import pytest
 from bsm.codec import _kernels
 from bsm.codec.geometry.graph import graph_of_faces, vertex_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.measure import Looker
+from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import CREASE
 from bsm.codec.signal.frames import local_frames
 from bsm.codec.static.choice import settling
-from bsm.codec.static.choice.creases import WITHIN, Creases, creases_of
-from bsm.codec.static.choice.settling import Sensitivity
+from bsm.codec.static.choice.settling import WITHIN, Creases, Sensitivity, creases_of
 from tests.shapes import torus
 
 MESH = torus(60, 9)
@@ -96,7 +95,7 @@ def test_levels_keep_creases(monkeypatch):
     broken, errors = [], []
     for shaded in (0.0, settling.SHADED):
         monkeypatch.setattr(settling, "SHADED", shaded)
-        sensitivity = Sensitivity(positions, faces, graph, Looker(TriangleMesh(positions, faces)), 0.002)
+        sensitivity = Sensitivity(positions, faces, graph, LookMetric(TriangleMesh(positions, faces)), 0.002)
         levels = sensitivity.levels(offsets, frames, steps, lambda _: steps, 0.05, np.full(count, np.inf))
         error = levels * steps - offsets
         broken.append(wrong(creases, positions + np.einsum("na,nad->nd", error, frames.reshape(-1, 3, 3))).mean())

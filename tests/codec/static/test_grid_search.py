@@ -10,8 +10,7 @@ import pytest
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original
-from bsm.codec.static.choice.character import Character
-from bsm.codec.static.choice.shaping import Shaper
+from bsm.codec.static.choice.shaping import Character, Shaper
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.joining import join
@@ -51,7 +50,6 @@ def test_entropy_is_that_of_the_histogram() -> None:
         bits += (axis > 0).mean() - (shares * np.log2(shares)).sum()
     wanted = len(mesh.positions) * bits / 8
     assert shaper.character.entropy(step) == pytest.approx(wanted)
-    assert shaper.character.entropy_of(bends) == pytest.approx(wanted)
 
 
 def test_twice_as_fine_a_grid_takes_three_bits_more_of_a_rough_mesh() -> None:

@@ -1,5 +1,6 @@
 """Presets do not outdo each other: none writes more than another one whose stream keeps its promise as well."""
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from bsm.codec.static.options import PRESETS
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, torus
 
-PROMISING = {name: options.contract for name, options in PRESETS.items() if options.contract is not None}
+PROMISING = {name: options.promise for name, options in PRESETS.items() if options.promise is not None}
 MODELS = ("assets/1002_tray_bottom.STL", "assets/stirrer.obj", "assets/monkey.glb", "static/c3d_spot.ply")
 LONG = ("assets/robot_forearm.obj", "assets/robot_hand.obj", "static/fandisk_6475.ply", "static/block.ply")
 
@@ -34,7 +35,7 @@ def outdone(mesh: TriangleMesh) -> list[tuple[str, str, int, int]]:
             decoded = np.where(used, draft.decoded[index[other]], mesh.positions)
             moved = np.linalg.norm(decoded - mesh.positions, axis=1).max() / mesh.diagonal
             # Parts are bound more tightly than all, down to a tenth.
-            near = moved <= contract.farthest * (0.1 if contract.by_part else 1.0)
+            near = moved <= contract.farthest * (0.1 if contract.by_part < math.inf else 1.0)
             if near and look(mesh, replace(mesh, positions=decoded)).distance <= contract.look:
                 found.append((name, other, drafts[name].size, draft.size))
     return found

@@ -1,62 +1,92 @@
-"""The search for a step: it ends near its bound, asks little, and is never wrong about what it keeps."""
+"""The search for a step: it ends near its bound, asks little, and another way never makes a file larger."""
 
 import math
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
 
+import numpy as np
 import pytest
 
-from bsm.codec.static.choice.search import LOOK_SLACK, LOOK_TRIES, Trial, widest_step
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.choice.bounds import Bounds
+from bsm.codec.static.choice.search import Search
+from bsm.codec.static.choice.secant import SEEN, UNSEEN, Way, secant
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
+from bsm.files.mesh import read_mesh
+from tests.shapes import patch, torus
 
-SLOPES = (0.9, 1.8)
-
-
-class Curve:
-    """A distance that grows with a step, as glances see it and as it is."""
-
-    def __init__(self, slope: float, glance: float = 1.0, bound: float = 1.0) -> None:
-        self.slope, self.glance, self.bound = slope, glance, bound
-        self.asked = list[bool]()
-
-    def __call__(self, step: float, sure: bool) -> Trial[float]:
-        true = self.slope * math.log(step / self.bound)
-        seen = true + math.log(self.glance)
-        known = sure or -0.2 <= seen <= 0.1
-        self.asked.append(known)
-        return Trial(step, true if known else seen, near=True, found=step, sure=known)
+SOME = (
+    "assets/monkey.glb", "assets/1002_tray_bottom.STL", "assets/featuretype.STL", "assets/Duck.glb",
+    "assets/robot_forearm.obj", "assets/robot_hand.obj", "assets/stirrer.obj", "static/c3d_spot.ply",
+    "static/trim_star.ply", "static/twelve_dodecahedron.ply", "static/fandisk_6475.ply", "static/block.ply",
+    "static/fr_casting.ply", "static/gargoyle_10002.ply", "static/cgal_elephant_with_holes.ply",
+)  # fmt: skip
 
 
-@pytest.mark.parametrize("slope", [0.9, 1.2, 1.8])
+@pytest.mark.parametrize("slope", [0.6, 1.0, 1.8])
 @pytest.mark.parametrize("first", [0.2, 0.7, 1.0, 1.3, 3.0])
-@pytest.mark.parametrize("glance", [0.95, 1.0, 1.05])
-def test_it_uses_up_what_is_allowed(slope, first, glance):
-    curve = Curve(slope, glance)
-    found = widest_step(curve, first, tries=LOOK_TRIES, most=100.0, slopes=SLOPES, slack=LOOK_SLACK)
-    assert found is not None
-    assert found.kept
-    assert (1.0 - 2.0 * LOOK_SLACK) <= found.step**slope <= 1.0
-    assert sum(curve.asked) <= 4
+@pytest.mark.parametrize("effort", [SEEN, UNSEEN])
+def test_it_uses_up_what_is_allowed(slope: float, first: float, effort: tuple[float, int]) -> None:
+    tried: list[float] = []
+
+    def excess(step: float) -> float:
+        tried.append(step)
+        return slope * math.log(step)
+
+    secant(excess, first, 1e-6, 100.0, effort)
+    assert math.exp(-effort[0]) <= max(step for step in tried if step <= 1.0) ** slope
+    assert len(tried) <= 6
 
 
-def test_nothing_is_kept_that_was_only_glanced_at():
-    curve = Curve(1.2, glance=0.5)
-    found = widest_step(curve, 1.0, tries=1, most=100.0, slopes=SLOPES)
-    assert found is not None
-    assert found.sure
-    curve = Curve(1.2, glance=0.5, bound=0.9)
-    assert widest_step(curve, 1.0, tries=1, most=100.0, slopes=SLOPES) is None
-    assert curve.asked == [False, True]
+def test_it_stays_within_what_there_is() -> None:
+    tried: list[float] = []
+    secant(lambda step: tried.append(step) or -1.0, 1.0, 1e-3, 2.0)
+    assert max(tried) == pytest.approx(2.0)
+    tried.clear()
+    secant(lambda step: tried.append(step) or 1.0, 1.0, 1e-3, 2.0)
+    assert min(tried) >= 1e-3 * (1.0 - 1e-12)
+    tried.clear()
+    secant(lambda step: tried.append(step), 1.0, 1e-3, 2.0)
+    assert tried == [1.0], "nothing more is wanted"
 
 
-def test_the_largest_step_may_do():
-    curve = Curve(1.2)
-    found = widest_step(curve, 10.0, tries=LOOK_TRIES, most=0.01, slopes=SLOPES)
-    assert found is not None
-    assert found.kept
-    assert found.step == 0.01
+def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, list[int]]:
+    """Bytes with all ways, and without each of them."""
+    everything = Search._ways
+    options = EncodeOptions(threads=1)
+    found = [Encoder(mesh, options).draft().size]
+    count = len(list(everything(*_asked(mesh, options))))
+    for left_out in range(count if count > 1 else 0):
+
+        def some(search: Search, bounds: Bounds, look: float, left_out: int = left_out) -> Iterator[Way]:
+            yield from (way for number, way in enumerate(everything(search, bounds, look)) if number != left_out)
+
+        monkeypatch.setattr(Search, "_ways", some)
+        found.append(Encoder(mesh, options).draft().size)
+        monkeypatch.setattr(Search, "_ways", everything)
+    return found[0], found[1:]
 
 
-def test_vertices_too_far_off_want_a_finer_step():
-    found = widest_step(
-        lambda step, sure: Trial(step, -math.inf, near=step < 0.5, found=step), 1.0, tries=6, most=1.0, slopes=SLOPES
-    )
-    assert found is not None
-    assert 0.4 < found.step < 0.5
+def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, float]:
+    encoder, contract = Encoder(mesh, options), options.promise
+    assert contract is not None
+    search = encoder._search(contract, None)
+    return search, Bounds(search._measures, contract), contract.look
+
+
+@pytest.mark.parametrize("mesh", [torus(40, 24), patch(24, 24)], ids=["torus", "patch"])
+def test_a_further_way_makes_no_file_larger(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> None:
+    noise = np.random.default_rng(0).normal(size=mesh.positions.shape)
+    for one in (mesh, replace(mesh, positions=mesh.positions + 0.002 * mesh.diagonal * noise)):
+        whole, less = sizes(one, monkeypatch)
+        assert whole <= min(less)
+
+
+@pytest.mark.real
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SOME)
+def test_a_further_way_makes_no_real_file_larger(name: str, meshes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole, less = sizes(read_mesh(str(meshes / name)).mesh.bare, monkeypatch)
+    assert whole <= min(less)

@@ -60,7 +60,7 @@ def test_what_cannot_be_met_is_an_error_that_says_the_best_there_is(finest):
 )
 def test_targets_are_met_by_what_the_decoder_sees(kind, value):
     mesh = torus(50, 30)
-    encoder = Encoder(mesh, EncodeOptions(block_size=200, target=Target(kind, value)))
+    encoder = Encoder(mesh, EncodeOptions(block_size=200, contract=None, target=Target(kind, value)))
     data = encoder.encode()
     decoded = decode(data)
     reached = {"size": len(data), "bpv": 8 * len(data) / len(mesh.positions)}
@@ -75,7 +75,7 @@ def test_targets_are_met_by_what_the_decoder_sees(kind, value):
 @pytest.mark.parametrize("kind, value", [("theta_deg", 4.0), ("size", 2500.0)])
 def test_targets_are_met_by_what_is_quick_to_decode(kind, value):
     mesh = torus(60, 30)
-    attempt = Encoder(mesh, EncodeOptions(quick=True, target=Target(kind, value))).result()
+    attempt = Encoder(mesh, EncodeOptions(quick=True, contract=None, target=Target(kind, value))).result()
     assert attempt.header.grid and attempt.header.light
     assert getattr(attempt, kind, None) or getattr(attempt.comparison, kind) <= value
     assert attempt.size <= (value if kind == "size" else math.inf)
@@ -83,12 +83,12 @@ def test_targets_are_met_by_what_is_quick_to_decode(kind, value):
 
 def test_an_impossible_size_is_an_error():
     with pytest.raises(TargetError, match="10 bytes at most cannot be reached") as refused:
-        Encoder(torus(20, 12), EncodeOptions(target=Target("size", 10))).encode()
+        Encoder(torus(20, 12), EncodeOptions(contract=None, target=Target("size", 10))).encode()
     best = int(re.search(r"had is (\d+) bytes", str(refused.value)).group(1))
-    data = Encoder(torus(20, 12), EncodeOptions(target=Target("size", best))).encode()
+    data = Encoder(torus(20, 12), EncodeOptions(contract=None, target=Target("size", best))).encode()
     assert len(data) <= best, "the best can be had"
     with pytest.raises(TargetError):
-        Encoder(torus(20, 12), EncodeOptions(target=Target("size", 0.8 * best))).encode()
+        Encoder(torus(20, 12), EncodeOptions(contract=None, target=Target("size", 0.8 * best))).encode()
 
 
 def test_wrong_targets_are_refused():

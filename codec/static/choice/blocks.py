@@ -1,0 +1,224 @@
+"""Blocks, alone or with a layer of refinement on them: ways to code a mesh, and the drafts that they come to."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
+
+import numpy as np
+
+from bsm.bitstream.container.header import Header, Layer
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.bitstream.once import cached_property
+from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.signal.chain import AS_SPECIFIED, Trial
+from bsm.codec.signal.frames import in_frames, local_frames, raised, slide, tangent_steps
+from bsm.codec.signal.smooth import smooth
+from bsm.codec.signal.transform import smallest_step
+from bsm.codec.static.admission import admit, patience
+from bsm.codec.static.assembly import blended
+from bsm.codec.static.choice.bounds import Bounds
+from bsm.codec.static.choice.plan import Planner
+from bsm.codec.static.choice.secant import Candidate
+from bsm.codec.static.choice.settling import RATIO, Sensitivity
+from bsm.codec.static.choice.shaping import Aim
+from bsm.codec.static.contract import ANY_ANGLE
+from bsm.codec.static.draft import Draft
+from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.units import single
+from bsm.codec.static.ways.block_coder import Progress, encode_blocks
+from bsm.codec.static.ways.refinement import encode_layer
+from bsm.codec.static.work import Allowance
+
+WIDEST = 0.14
+"""Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
+are worth."""
+BASE, ROUGH_BASE, COARSEST_BASE = 26.0, 0.0006, 0.016
+"""The step of blocks below a layer, in steps of that; at least so much for each degree between faces beside each other,
+for what is rough is not in low frequencies; and at most."""
+COARSEST_LAYER, FINEST_LAYER = 0.05, 1e-6
+"""Steps of a layer, in BSM units."""
+SHAPED_RATIO, UNSEEN_RATIO = 15.0, 2.0
+"""How much coarser levels in the plane are than those along the normal, where it is flat: for angles, and for distances
+alone."""
+PULLED, NEAR_SEEN, NEAR = 0.11, 16.0, 8.0
+"""Where a look is asked for: what a bit is worth, over the mean cost of an error of one step along the normal; and how
+far a vertex may be brought from its place where nobody sees it, and elsewhere, in steps of the layer."""
+NOISE = 0.028
+"""Errors that are looked at to learn where they are seen, over the look that is asked for and the mean edge."""
+WITHIN_REACH = 0.8
+"""How far levels are chosen off a place, of how far they may be: what moves others moves steps, too."""
+FIRST_PLAIN = 2.0
+"""First step of blocks alone, over that of a grid."""
+
+
+@dataclass(frozen=True, eq=False)
+class Base:
+    """Blocks, coded."""
+
+    prepared: Prepared
+    draft: Draft
+    positions: Matrix
+
+    @cached_property
+    def frames(self) -> Matrix:
+        """The frames that levels are in, shape (n, 9)."""
+        return local_frames(self.positions, self.prepared.mesh.faces)
+
+    @cached_property
+    def offsets(self) -> Matrix:
+        """What is missing, in these frames: along normals and tangents, shape (n, 3)."""
+        return in_frames(self.prepared.positions - self.positions, self.frames)
+
+    def expected_steps(self, layer: Layer) -> Matrix:
+        """About what levels of a layer move each vertex, shape (n, 3), before any is chosen."""
+        aside = tangent_steps(self.prepared.positions, self.prepared.mesh.faces, layer.step, layer.ratio)
+        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+
+    def known_steps(self, layer: Layer, levels: Levels) -> Matrix:
+        """What levels of a layer move each vertex, shape (n, 3), if its heights are those of `levels`, shape (n, 3)."""
+        upright = raised(self.positions, self.frames, levels, layer.step)
+        aside = tangent_steps(upright, self.prepared.mesh.faces, layer.step, layer.ratio)
+        return np.column_stack([np.full(len(aside), layer.step), aside, aside])
+
+    def wanted(self, steps: Matrix) -> tuple[Levels, Matrix]:
+        """The nearest levels to steps, both of shape (n, 3), and what one of each moves, shape (n, 3, 3)."""
+        directions = self.frames.reshape(-1, 3, 3) * steps[:, :, None]
+        return np.rint(self.offsets / steps).astype(np.int32), directions
+
+    def moved(self, layer: Layer, levels: Levels) -> Matrix:
+        """Where levels, shape (n, 3), bring the base, in BSM units, shape (n, 3)."""
+        moved = raised(self.positions, self.frames, levels, layer.step)
+        slide(moved, self.frames, levels, self.known_steps(layer, levels)[:, 1])
+        return moved
+
+    def refined(self, layer: Layer, levels: Levels) -> Draft:
+        """The stream with a layer of levels, shape (n, 3)."""
+        header = replace(self.draft.header, refinement=(layer.step, layer.ratio))
+        body = (*self.draft.body, *encode_layer(self.prepared.mesh.faces, levels))
+        return Draft(header, body, self.prepared.units.back(self.moved(layer, levels)))
+
+
+class Spectral:
+    """Codes a mesh in blocks."""
+
+    def __init__(
+        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, trial: Trial = AS_SPECIFIED
+    ) -> None:
+        self._prepared = prepared
+        self._options = options
+        self._planner = Planner(prepared, options, widest, trial)
+
+    def base(self, step: float, progress: Progress | None = None) -> Base:
+        """The blocks at a step."""
+        prepared, options = self._prepared, self._options
+        scheme = self._planner.scheme(step)
+        blocks = encode_blocks(
+            scheme,
+            prepared.positions,
+            threads=options.threads,
+            doi=options.doi,
+            progress=progress,
+            spend=patience(options.limits, prepared.graph.size),
+        )
+        admit(Allowance(NAMED_LIMITS[options.limits]()), prepared, blocks)
+        positions = blended(prepared.graph.size, (block.decoded for block in blocks))
+        smoothing = options.fixed_smoothing
+        header = Header(
+            vertices=prepared.graph.size,
+            faces=len(prepared.mesh.faces),
+            block_size=prepared.size,
+            coefficients=max(block.packet.coefficients for block in blocks),
+            center=prepared.units.center,
+            scale=prepared.units.scale,
+            smoothing=self._planner.smoothing(positions) if smoothing is None else single(smoothing),
+            **scheme.fields(),
+        )
+        decoded = smooth(prepared.graph, positions, header.smoothing)
+        body = (*prepared.before_blocks, *(block.packet for block in blocks))
+        return Base(prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded))
+
+
+class Plain:
+    """Blocks alone; vertices that are out of reach are brought back by a layer of levels for these."""
+
+    erratic = False
+
+    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, progress: Progress | None) -> None:
+        self._bounds = bounds
+        self._spectral = Spectral(prepared, options, WIDEST)
+        self._progress = progress
+        self.least, self.most = 1.01 * smallest_step(prepared.size), COARSEST_LAYER
+        self.first = FIRST_PLAIN * bounds.first_step
+
+    def at(self, step: float) -> Candidate:
+        """What a step of coefficients comes to."""
+        base = self._spectral.base(step, self._progress)
+        reaches = self._bounds.reaches
+        out = np.square(base.positions - base.prepared.positions).sum(axis=1) > reaches**2
+        if not out.any():
+            return Candidate(step, base.positions, lambda: base.draft)
+        layer = Layer(single(max(float(reaches[out].min()), FINEST_LAYER)), 1.0)
+        levels = np.rint(base.offsets / layer.step)
+        return _candidate(step, base, layer, np.where(out[:, None], levels, 0.0).astype(np.int32))
+
+
+class Refined:
+    """Blocks and a layer of refinement, by the step of that."""
+
+    erratic = False
+
+    def __init__(
+        self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, progress: Progress | None, look: float
+    ) -> None:
+        self._prepared, self._bounds, self._look = prepared, bounds, look
+        self._spectral = Spectral(prepared, options, WIDEST)
+        self._rough = ROUGH_BASE * bounds.measures.shaper.character.roughness
+        self._base = lru_cache(2)(partial(self._spectral.base, progress=progress))
+        self.least, self.most = FINEST_LAYER, COARSEST_LAYER
+        self.first = bounds.first_step if self._sensitivity is None else self._sensitivity.first_step(self._look)
+
+    def at(self, step: float) -> Candidate:
+        """What a step of the layer comes to."""
+        about = step if self._sensitivity is None else self.first
+        coarse = min(max(BASE * about, self._rough), COARSEST_BASE)
+        coarse = max(2.0 ** (round(2.0 * math.log2(coarse)) / 2.0), smallest_step(self._prepared.size))
+        base = self._base(coarse)
+        if self._sensitivity is not None:
+            layer = Layer(single(step), RATIO)
+            steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
+            reach = np.minimum(WITHIN_REACH * self._bounds.reaches, NEAR_SEEN * layer.step)
+            levels = self._sensitivity.levels(base.offsets, base.frames, steps, known, PULLED, reach)
+        elif self._bounds.contract.angle < ANY_ANGLE:
+            layer = Layer(single(step), SHAPED_RATIO)
+            levels = self._shaped(base, layer)
+        else:
+            layer = Layer(single(step), UNSEEN_RATIO)
+            heights = base.wanted(base.expected_steps(layer))[0]
+            levels = base.wanted(base.known_steps(layer, heights))[0]
+        return _candidate(step, base, layer, levels)
+
+    def _shaped(self, base: Base, layer: Layer) -> Levels:
+        """Levels that bend faces least: heights first, for the steps of others follow from these."""
+        shaper = self._bounds.measures.shaper
+        aim = Aim(layer.step / shaper.character.mean_edge, min(float(self._bounds.reaches.max()), NEAR * layer.step), 6)
+        heights = shaper.levels(base.positions, *base.wanted(base.expected_steps(layer)), aim)
+        wanted, directions = base.wanted(base.known_steps(layer, heights))
+        wanted[:, 0] = heights[:, 0]
+        return shaper.levels(base.positions, wanted, directions, aim)
+
+    @cached_property
+    def _sensitivity(self) -> Sensitivity | None:
+        """None: nothing is asked of pictures, or to be seen in them."""
+        metric = self._bounds.measures.look if self._look < math.inf else None
+        if metric is None:
+            return None
+        noise = NOISE * self._look * self._bounds.measures.shaper.character.mean_edge
+        positions, faces = self._prepared.positions, self._prepared.mesh.faces
+        return Sensitivity(positions, faces, self._prepared.graph, metric, noise)
+
+
+def _candidate(step: float, base: Base, layer: Layer, levels: Levels) -> Candidate:
+    return Candidate(step, base.moved(layer, levels), partial(base.refined, layer, levels))

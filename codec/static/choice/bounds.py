@@ -1,0 +1,217 @@
+"""How far a decoded mesh is from what a contract asks for; and what is measured of its original once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from hashlib import sha256
+
+import numpy as np
+
+from bsm.bitstream.errors import MeshError
+from bsm.bitstream.once import cached_property
+from bsm.codec.arrays import Indices, Matrix
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.graph import component_sizes
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Original, Reference
+from bsm.codec.geometry.surface_distance import distances_to_surface
+from bsm.codec.look.measure import LookMetric
+from bsm.codec.look.pictures import Normals
+from bsm.codec.static.choice.shaping import Shaper
+from bsm.codec.static.contract import ANY_ANGLE, Contract
+from bsm.codec.static.preamble_encoding import Prepared
+
+COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
+"""Largest step, in BSM units; and the mean angle of normals, degrees, that rounding comes with at a look of 1."""
+SIDES, NEARLY = 1.25, (0.85, 1.08)
+"""How much more, or less, may be seen from all sides than from a few; and shares of what is asked for outside of which
+a few sides are enough."""
+LEAST = 1e-6
+"""Share of a bound below which all is as good as it can be."""
+MARGIN = 1e-9
+"""Of a bound on distances, for what rounding may add."""
+FINEST_PART = 0.1
+"""No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
+pixel in a picture of 512."""
+SHARE_OF_GAP = 0.45
+"""How far both of two surfaces may come to each other, over what is between them."""
+LEAST_GAP, MOST_PARTS = 2e-4, 64
+"""Parts nearer to each other than this, in BSM units, touch, so that none is before the other; and of more parts than
+these, none is asked how near it is to others."""
+
+
+class Measures:
+    """What is measured of an original once, whatever is asked for; `alike`: angles count all faces alike."""
+
+    def __init__(
+        self, prepared: Prepared, threads: int | None, normals: Normals | None = None, *, alike: bool = False
+    ) -> None:
+        self.prepared = prepared
+        self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
+        self.shaper = Shaper(self.original, prepared.graph)
+        self._threads = threads
+        self._normals = normals
+
+    @cached_property
+    def reference(self) -> Reference:
+        """The original, prepared for comparing."""
+        return Reference(self.prepared.positions, self.prepared.mesh.faces)
+
+    @cached_property
+    def look(self) -> LookMetric | None:
+        """None: nothing of the mesh can be seen."""
+        own = () if self._normals is None else (Attribute("normal", self._normals.reshape(-1, 3), "corner", "normal"),)
+        mesh = TriangleMesh(self.prepared.positions, self.prepared.mesh.faces, own)
+        try:
+            return LookMetric(mesh, threads=self._threads)
+        except MeshError:
+            return None
+
+
+class Bounds:
+    """Measures decoded positions, in BSM units, shape (n, 3), by what a contract asks for."""
+
+    def __init__(self, measures: Measures, contract: Contract) -> None:
+        self.measures = measures
+        self.contract = contract
+        self.reaches = reaches(measures.prepared, contract) * (1.0 - MARGIN)
+        self._best: tuple[float, ...] | None = None
+        self._seen: dict[bytes, tuple[float, float]] = {}
+
+    def excess(self) -> Callable[[Matrix], float]:
+        """The logarithm of the largest share of a bound, for one search: where a few sides tell enough, they are all
+        that is looked at, and what all of them tell beside these is about as it was the last time."""
+        skew = 1.0
+
+        def excess(positions: Matrix) -> float:
+            nonlocal skew
+            few, whole = self._glance(positions, *(share * self.contract.look / skew for share in NEARLY))
+            if whole is not None:
+                skew = min(max(whole / max(few, LEAST), 1.0 / SIDES), SIDES)
+            look = skew * few if whole is None else whole
+            return math.log(max(*self._shares(positions), look / self.contract.look, LEAST))
+
+        return excess
+
+    def keeps(self, positions: Matrix) -> bool:
+        """Whether all bounds are kept, from all sides."""
+        shares = self._shares(positions)
+        whole = self._glance(positions, 0.0, math.inf)[1] if max(shares) <= 1.0 else math.inf
+        look = (whole or 0.0) / self.contract.look
+        if self._best is None or (shares[0], look, *shares) < self._best:
+            self._best = (shares[0], look, *shares)
+        return max(*shares, look) <= 1.0
+
+    def quality(self, positions: Matrix) -> float:
+        """How good positions are where as good ones as possible are wanted: less is better."""
+        metric = self.measures.look
+        return self.measures.original.angle(positions) if metric is None else metric.distance(self._decoded(positions))
+
+    @property
+    def about_angle(self) -> float:
+        """Mean angle of normals that is about as good as all that is asked for, degrees."""
+        return min(self.contract.angle, ANGLE_OF_LOOK * self.contract.look)
+
+    @cached_property
+    def first_step(self) -> float:
+        """A step at which what comes of rounding is about as bad as it may be, in BSM units."""
+        step = self.measures.shaper.character.step_of(self.about_angle, COARSEST)
+        if self.contract.look == math.inf:
+            return step
+        few, _ = self._glance(np.rint(self.measures.prepared.positions / step) * step, math.inf, math.inf)
+        return step * min(max(self.contract.look / max(few, LEAST), 0.1), 10.0)
+
+    @property
+    def had(self) -> str:
+        """The bounds that the best positions broke that were seen."""
+        if self._best is None:
+            return "nothing"
+        contract, (_, look, farther, angle, visual) = self.contract, self._best
+        return contract.worded(farther, angle * contract.angle, look * contract.look, visual * contract.visual)
+
+    def _shares(self, positions: Matrix) -> tuple[float, float, float]:
+        """Of the bounds on distances, on the angle of normals, and on the visual error."""
+        contract, measures = self.contract, self.measures
+        moved = np.sqrt(np.square(positions - measures.prepared.positions).sum(axis=1))
+        farther = float(np.divide(moved, self.reaches, out=np.zeros_like(moved), where=moved > 0.0).max(initial=0.0))
+        angle = measures.original.angle(positions) / contract.angle if contract.angle < ANY_ANGLE else 0.0
+        visual = measures.reference.nmsve(positions) / contract.visual if contract.visual < math.inf else 0.0
+        return farther, angle, visual
+
+    def _glance(self, positions: Matrix, least: float, most: float) -> tuple[float, float | None]:
+        """Distances in pictures, from a few sides and, if that is within these numbers, from all."""
+        metric = None if self.contract.look == math.inf else self.measures.look
+        if metric is None:
+            return 0.0, 0.0
+        seen = self._decoded(positions)
+        name = sha256(seen.tobytes()).digest()
+        if name not in self._seen:
+            few, whole = metric.glance(seen, least, most)
+            if whole is None:
+                return few.distance, None
+            self._seen[name] = few.distance, whole.distance
+        return self._seen[name]
+
+    def _decoded(self, positions: Matrix) -> Matrix:
+        """As a decoder has them."""
+        units = self.measures.prepared.units
+        return np.ascontiguousarray(units.into(units.back(positions)))
+
+
+def reaches(prepared: Prepared, contract: Contract) -> Matrix:
+    """How far each vertex may come to lie from its place, in BSM units, shape (n,)."""
+    diagonal, unit = prepared.mesh.diagonal, prepared.units.scale
+    found = np.full(len(prepared.positions), contract.reach(diagonal, unit))
+    whole = contract.by_part * diagonal / unit
+    if not whole < math.inf:
+        return found
+    if len(component_sizes(prepared.graph)) == 1:
+        return np.asarray(np.minimum(found, whole))
+    count, part = _parts(prepared)
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, part, prepared.positions)
+    np.maximum.at(high, part, prepared.positions)
+    diagonals = np.sqrt(np.square(high - low).sum(axis=1)) * unit / diagonal
+    of_part = whole * np.maximum(diagonals, FINEST_PART)[part].clip(max=1.0)
+    found = np.asarray(np.minimum(found, of_part))
+    if count <= MOST_PARTS:
+        _keep_apart(prepared, part, low - 2.0 * whole, high + 2.0 * whole, found)
+    return found
+
+
+def _keep_apart(prepared: Prepared, part: Indices, low: Matrix, high: Matrix, found: Matrix) -> None:
+    """Lower `found` so that no part comes before or behind another one; `low` and `high` are boxes around parts."""
+    positions, faces = prepared.positions, prepared.mesh.faces
+    of_face = part[faces[:, 0]]
+    corners = positions[faces]
+    first, last = corners.min(axis=1), corners.max(axis=1)
+    for number in range(len(low)):
+        near = (of_face != number) & (first <= high[number]).all(axis=1) & (last >= low[number]).all(axis=1)
+        if not near.any():
+            continue
+        own, others = faces[of_face == number], faces[near]
+        mine, theirs = np.unique(own), np.unique(others)
+        gap = min(
+            distances_to_surface(positions[mine], positions, others).min(),
+            distances_to_surface(positions[theirs], positions, own).min(),
+        )
+        if gap >= LEAST_GAP:
+            for some in (mine, theirs):
+                found[some] = np.minimum(found[some], SHARE_OF_GAP * gap)
+
+
+def _parts(prepared: Prepared) -> tuple[int, Indices]:
+    """How many connected parts there are, and the one of each vertex, shape (n,)."""
+    faces = prepared.mesh.faces
+    least = np.arange(prepared.graph.size)
+    while True:
+        # Every corner of a face hooks what it hangs on to the least that one of them hangs on.
+        hangs = least[faces]
+        np.minimum.at(least, hangs.ravel(), np.repeat(hangs.min(axis=1), 3))
+        while (least[least] != least).any():
+            least = least[least]
+        if (least[faces] == least[faces[:, :1]]).all():
+            break
+    names, part = np.unique(least, return_inverse=True)
+    return len(names), part.astype(np.int32)

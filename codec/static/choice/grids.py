@@ -1,0 +1,105 @@
+"""Positions on grids whose places are rounded, or chosen for the normals: ways to code a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import product
+
+import numpy as np
+
+from bsm.bitstream.fields.grid import MOST_LARGEST
+from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.geometry.mesh import extent_of
+from bsm.codec.static.choice.bounds import Bounds
+from bsm.codec.static.choice.lattices import grid_draft
+from bsm.codec.static.choice.secant import Candidate
+from bsm.codec.static.choice.shaping import Aim
+from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.units import single
+from bsm.codec.static.ways.grid import Grid
+
+COARSEST = 0.05
+"""Largest step, in BSM units."""
+LEAST_CELL = 2.0**-40
+"""Of a mesh that is a point, in BSM units."""
+NEAR_PLACE = 3.0
+"""How far shaping may bring a vertex from its place, in cells, where bounds are wide."""
+FINEST_BITS, PARTS_OF_OCTAVE, MOST_TRIED = 16, 6, 8
+"""Bits along the longest side of the finest grid on which a mesh may have been made; how many steps are
+compared between one and twice it; and how many grids are tried."""
+MOST_EXTENTS = 256.0
+"""How many times its diagonal a model may be from the origin, for its places to be counted from there."""
+MOST_PARTS = 256
+"""Of models of few vertices: cells along the longest side."""
+
+
+class Gridded:
+    """Grids of one mesh, at one step after another; what a nat is worth in angles that a step bends a mean face by."""
+
+    def __init__(self, prepared: Prepared, bounds: Bounds, worth: float, low: Matrix | None = None) -> None:
+        self._prepared, self._shaper = prepared, bounds.measures.shaper
+        self._reach = float(bounds.reaches.min())
+        self._worth = worth
+        low = prepared.mesh.positions.min(axis=0) if low is None else low
+        narrow = low.astype(np.float32)
+        fine = np.spacing(np.abs(narrow)).max() < 1e-6 * prepared.units.scale
+        self._hold = single if fine else float
+        below = np.where(narrow > low, np.nextafter(narrow, np.float32(-np.inf)), narrow).astype(np.float64)
+        self._origin = below if fine else low
+        self._low = prepared.units.into(self._origin)
+        self.least = max(float((prepared.positions - self._low).max()) / (MOST_LARGEST - 4), LEAST_CELL)
+        self.most = COARSEST
+        self.first = min(bounds.first_step, COARSEST)
+        self.erratic = bounds.measures.shaper.character.is_sharp
+
+    def at(self, step: float) -> Candidate:
+        """What a step comes to."""
+        unit = self._prepared.units.scale
+        held = single(max(step, self.least) * unit)
+        places = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)
+        if self._worth:
+            aim = Aim(self._worth * step / self._shaper.character.mean_edge, min(self._reach, NEAR_PLACE * step), 3)
+            places = self._shaper.places(places, self._low, held / unit, aim)
+        least = places.min(axis=0)
+        origin = tuple(self._hold(value) for value in self._origin + least * held)
+        grid = Grid(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)))
+        return self._candidate(grid, places - least)
+
+    def counted(self, step: float) -> Candidate:
+        """The same, with places that are counted from where the mesh's unit begins: shorter to write."""
+        held = single(step * self._prepared.units.scale)
+        places = np.floor(self._prepared.mesh.positions / held + 0.5).astype(np.int32)
+        least = places.min(axis=0)
+        corner = tuple(map(int, least)) if least.any() else ()
+        grid = Grid((0.0, 0.0, 0.0), held, tuple(map(int, np.ptp(places, axis=0))), corner=corner)
+        return self._candidate(grid, places - least)
+
+    def made_on(self, right: float) -> Iterator[Candidate]:
+        """Grids on which the mesh may have been made: finer ones than one that is about right, with less entropy."""
+        character, extent = self._shaper.character, float(extent_of(self._prepared.positions).max())
+        steps = [extent / ((1 << bits) - 1) for bits in range(4, FINEST_BITS)]
+        steps += [extent * 2.0 ** (-k / PARTS_OF_OCTAVE) for k in range(1, FINEST_BITS * PARTS_OF_OCTAVE)]
+        entropies = sorted(
+            (character.entropy(step), step) for step in steps if extent * 2.0**-FINEST_BITS < step < right
+        )
+        least = character.entropy(right)
+        yield from (self.at(step) for entropy, step in entropies[:MOST_TRIED] if entropy < least)
+
+    def fitting(self, reach: float) -> Iterator[Candidate]:
+        """The coarsest grids that a model of few vertices fits, from its corner and from where its unit begins."""
+        extent = float(extent_of(self._prepared.positions).max())
+        far = float(np.abs(self._prepared.mesh.positions).max()) >= MOST_EXTENTS * self._prepared.mesh.diagonal
+        fits = 0
+        for parts, make in product(range(1, MOST_PARTS), (self.at, self.counted)[: 1 if far else 2]):
+            candidate = make(extent / parts)
+            if np.square(candidate.positions - self._prepared.positions).sum(axis=1).max() <= reach**2:
+                yield candidate
+                fits += 1
+            if fits == MOST_TRIED:
+                return
+
+    def _candidate(self, grid: Grid, places: Levels) -> Candidate:
+        positions = np.ascontiguousarray(self._prepared.units.into(grid.positions(places)))
+        return Candidate(
+            grid.step / self._prepared.units.scale, positions, lambda: grid_draft(self._prepared, grid, places)
+        )
