@@ -1,4 +1,4 @@
-/** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 11). */
+/** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 10). */
 import {
     completed, completionCost, degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, suspend, whole,
     type Factor, type Schedule,

@@ -1,4 +1,4 @@
-/** Frames of a sequence, which follow the blocks of its first frame (specification, sequence.md). */
+/** Frames of a sequence, which follow the blocks of its first frame (specification, S). */
 import { factorize, reconstruct, solutionCost, solve, cosineColumns, type Factor } from "./basis";
 import { edgesOf, makeBlock, type Block, type Blocks } from "./blocks";
 import { keyDictionary, spendOn, TETHER, type Allowance } from "./chain";
