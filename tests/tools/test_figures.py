@@ -33,12 +33,11 @@ def test_figures_says_which_mesh_is_missing(tmp_path):
 
 
 def test_a_figure(tmp_path):
-    write_mesh(tmp_path / "bunny_34834.npz", torus(60, 40))
-    done = tool("figures", tmp_path, "--only", "boundary")
+    for name in ("bunny_34834", "fandisk_6475"):
+        write_mesh(tmp_path / f"{name}.npz", torus(40, 30))
+    done = tool("figures", tmp_path, "--only", "dynamic")
     assert done.returncode == 0, done.stderr
-    assert (
-        "`python -m tools.measure figures FOLDER --only boundary`" in done.stdout and "weighted average" in done.stdout
-    )
+    assert "`python -m tools.measure figures FOLDER --only dynamic`" in done.stdout and "spread" in done.stdout
 
 
 def test_sequences(tmp_path):

@@ -5,7 +5,6 @@ python -m tools.measure figures MESHES [--only NAME]"""
 from __future__ import annotations
 
 import argparse
-import json
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
@@ -15,7 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.errors import CorruptError, DependencyError, OptionError
+from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.console import Console, print_json
@@ -23,36 +22,26 @@ from bsm.evaluation.curve import (
     COLD_STARTS,
     EXACT_BASES,
     Spectral,
-    compare_curves,
-    draco_curve,
     measure,
     number,
     our_curve,
     paper_options,
-    percent,
     rate_curve_of,
     run_curve,
     scaled,
     table,
-    write_result,
 )
 from bsm.evaluation.draco import decode_draco, encode_draco
 from bsm.files.mesh import read_mesh
-from bsm.files.output import open_output
 from tools.command import run_command
 from tools.measure.blocks import (
     block_size_for,
-    boundary_rows,
-    boundary_table,
-    draw_per_block,
     dynamic_comparison,
     in_bisection_order,
     in_breadth_first_order,
     nmsve_db_of,
-    quartiles,
     spread,
 )
-from tools.measure.speed import measure_resources
 
 Result = TypeVar("Result")
 
@@ -103,17 +92,7 @@ BLOCKS = {
     "fandisk_6475": 15,
 }
 """Meshes of the paper's mode, and into how many blocks each is cut."""
-RATE_MESHES = (
-    "horse_48485",
-    "bunny_34834",
-    "julius_36201",
-    "nicolo",
-    "armadillo_20002_derived",
-    "fr_chinese_lion",
-    "fandisk_6475",
-    "block",
-    "twelve_dodecahedron",
-)
+CAD = ("fandisk_6475", "block", "twelve_dodecahedron")
 COEFFICIENT_LIMITS = (
     ("bunny_34834", 6.9, 1.1),
     ("bunny_34834", 5.6, 1.85),
@@ -131,15 +110,13 @@ PAPER_RATE_MESHES = (
     "fr_chinese_lion",
 )
 KEEPS = (0.10, 0.20)
-SCALE = ("bunny_34834", "dragon_437645")
 
 
 @dataclass(frozen=True)
 class Source:
-    """Where figures find meshes and leave results."""
+    """Where figures find meshes."""
 
     meshes: Path
-    results: Path | None
     note: Callable[[str], None]
 
     def path(self, name: str) -> Path:
@@ -225,81 +202,13 @@ def row_order_figure(source: Source) -> Figure:
     )
 
 
-def boundary_figure(source: Source) -> Figure:
-    """The error inside blocks and at their boundaries."""
-    mesh = source.mesh(SCALE[0])
-    options = paper_options(keep=KEEPS[0], power=2, block_size=block_size_for(mesh, BLOCKS[SCALE[0]]))
-    rows = [
-        {"case": case, "where": where, **quartiles(deviations)}
-        for case, groups in boundary_table(mesh, options).items()
-        for where, deviations in groups.items()
-    ]
-    return Figure(
-        f"Standard deviation of the error over the blocks of {SCALE[0]}, in thousandths of the diagonal",
-        "with weights by degree as small at the boundaries as inside",
-        boundary_rows(rows),
-    )
-
-
-def scale_figure(source: Source) -> Figure:
-    """Memory, and time per vertex, of a large mesh against a small one."""
-    measured = {name: measure_resources(source.path(name), repeats) for name, repeats in zip(SCALE, (5, 2))}
-    rows = []
-    for action in ("encode", "decode"):
-        base = measured[SCALE[0]][action]["cpu_microseconds_per_vertex"]
-        for name in SCALE:
-            m = measured[name][action]
-            rows.append(
-                (
-                    f"{action} {name}",
-                    number(m["seconds"], 2),
-                    number(m["cpu_microseconds_per_vertex"], 1),
-                    number(m["cpu_microseconds_per_vertex"] / base, 2),
-                    number(m["peak_mib"], 0),
-                )
-            )
-    return Figure(
-        "Scale: each in a process of its own, reading the file included in the memory",
-        "below 2048 MiB; time per vertex at most 1.3 times the bunny's",
-        table(("", "s", "CPU µs per vertex", "ratio", "peak, MiB"), rows),
-    )
-
-
 def connectivity_figure(source: Source) -> Figure:
     """Connectivity alone, beside Draco."""
-    names = ("bunny_34834", "julius_36201", "armadillo_12502", "dragon_437645", *RATE_MESHES[3:4], *RATE_MESHES[6:])
+    names = ("bunny_34834", "julius_36201", "armadillo_12502", "dragon_437645", "nicolo", *CAD)
     return Figure(
         "Connectivity: bits per vertex, and million triangles per second of CPU time",
         "at most Draco's; 1 million triangles per second or better",
         table(HEADINGS, [connectivity_row(name, source.mesh(name)) for name in names]),
-    )
-
-
-def rates_figure(source: Source) -> Figure:
-    """Whole files against Draco."""
-    rows = []
-    for name in RATE_MESHES:
-        mesh = source.mesh(name)
-        draco, ours = (run_curve(curve, mesh, name) for curve in (draco_curve(), our_curve()))
-        if source.results is not None:
-            for result in (draco, ours):
-                write_result(result, source.results)
-        row = compare_curves(draco, ours)
-        sizes = ours["points"][0]["bytes"]
-        rows.append(
-            (
-                name,
-                number(8 * sizes["connectivity"] / len(mesh.positions), 2),
-                number(row["bytes_at_theta"]["7"], 3),
-                number(row["bytes_at_theta"]["10"], 3),
-                percent(row["bd_rate_percent"]["theta_deg"]),
-                percent(row["bd_rate_percent"]["nmsve_db"]),
-            )
-        )
-    return Figure(
-        "Whole files against Draco (level 10): bytes at equal theta, and BD-rate over the common range",
-        "at 7 and 10 degrees at most 0.40 on horse, bunny, julius and nicolo, 0.52 on armadillo",
-        table(("mesh", "our connectivity, bpv", "at 7°", "at 10°", "BD-rate, theta", "BD-rate, NMSVE"), rows),
     )
 
 
@@ -329,12 +238,6 @@ def dynamic_figure(source: Source) -> Figure:
     for name in ("bunny_34834", "fandisk_6475"):
         mesh = source.mesh(name)
         chains = dynamic_comparison(mesh, block_size_for(mesh, BLOCKS[name]))
-        if source.results is not None:
-            path = write_chains(chains, source.results / "blocks" / name)
-            try:
-                source.note(", ".join(map(str, draw_chains(path))))
-            except DependencyError as missing:
-                source.note(f"no pictures: {missing}")
         for label, blocks in chains.items():
             sizes = np.array([block["coefficients"] for block in blocks])
             error = float(np.sqrt(np.mean([block["squared_error"] for block in blocks])))
@@ -354,28 +257,11 @@ def dynamic_figure(source: Source) -> Figure:
     )
 
 
-def write_chains(chains: dict[str, list[dict[str, float]]], stem: Path) -> Path:
-    """Write the result of `dynamic_comparison` as JSON."""
-    stem.parent.mkdir(parents=True, exist_ok=True)
-    path = stem.parent / f"{stem.name}.json"
-    with open_output(path, overwrite=True) as file:
-        file.write(json.dumps(chains, indent=1, allow_nan=False).encode())
-    return path
-
-
-def draw_chains(path: Path) -> list[Path]:
-    """Draw what `write_chains` wrote."""
-    return draw_per_block(json.loads(path.read_text()), path.parent / path.name.removesuffix(".json"))
-
-
 FIGURES: dict[str, Callable[[Source], Figure]] = {
     "basis": basis_figure,
     "order": row_order_figure,
-    "boundary": boundary_figure,
     "dynamic": dynamic_figure,
-    "rates": rates_figure,
     "coefficients": coefficients_figure,
-    "scale": scale_figure,
     "connectivity": connectivity_figure,
 }
 
@@ -391,7 +277,7 @@ def make_figures(source: Source, names: Sequence[str]) -> list[Figure]:
 def work(args: argparse.Namespace, console: Console) -> None:
     """Print each figure as it is ready."""
     names = args.only.split(",") if args.only else list(FIGURES)
-    source = Source(Path(args.meshes), Path(args.output) if args.output else None, console.note)
+    source = Source(Path(args.meshes), console.note)
     if args.json:
         figures = make_figures(source, names)
         print_json({"figures": [{"name": name, **asdict(figure)} for name, figure in zip(names, figures)]})
@@ -408,6 +294,5 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", metavar="FOLDER", help="folder of bunny_34834.ply, fandisk_6475.ply, ...")
     parser.add_argument("--only", metavar="LIST", help=f"{','.join(FIGURES)} (default: all)")
-    parser.add_argument("-o", "--output", metavar="FOLDER", help="keep the JSON of the rates there")
     parser.add_argument("--json", action="store_true", help="print it as JSON")
     run_command(parser, work)
