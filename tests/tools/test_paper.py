@@ -218,14 +218,8 @@ def test_real_meshes_are_found(meshes):
     exhibits = make_exhibits(study, ["normals", "sequences"])
     assert "Shared dictionaries" in exhibits["sequences"].remarks[0]
     assert study.model("twelve").name == "twelve_dodecahedron"
+    difference = float(re.search(r"differ by (\S+) at most", exhibits["sequences"].remarks[0]).group(1))
+    together, _, *anew = (cells[0].ours for _, cells in exhibits["sequences"].tables[0].rows)
+    assert difference < 1e-10 and min(anew) > 5 * together > 0
     theta = [cells[0].ours for _, cells in exhibits["normals"].tables[0].rows]
     assert theta[0] == 0.0 and theta[2] < 0.5 * theta[1]
-
-
-@pytest.mark.real
-def test_the_frames_of_a_product_agree_with_single_ones(meshes):
-    (exhibit,) = make_exhibits(Study(meshes, QUICK, lambda text: None), ["sequences"]).values()
-    difference = float(re.search(r"differ by (\S+) at most", exhibit.remarks[0]).group(1))
-    assert difference < 1e-10
-    together, _, *anew = (cells[0].ours for _, cells in exhibit.tables[0].rows)
-    assert min(anew) > 5 * together > 0

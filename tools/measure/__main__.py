@@ -3,7 +3,6 @@
 look        bytes, distance and visible share of presets and options, against Draco at the same look
 theta       bytes at a mean angle of normals, against Draco's
 contract    what presets give, checked by themselves and by surfaces, against Draco's bytes
-time        processor time of presets per vertex, against Draco's
 grids       whole files with exact positions on a grid, against Draco's
 attributes  what attributes take, against Draco's
 speed       time and memory per vertex as meshes grow; links on which it is there first
@@ -24,7 +23,6 @@ COMMANDS = {
     "look": "look:main",
     "theta": "presets:theta_command",
     "contract": "presets:contract_command",
-    "time": "presets:time_command",
     "grids": "grids:main",
     "attributes": "attributes:main",
     "boundary": "blocks:main",

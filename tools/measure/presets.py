@@ -2,13 +2,11 @@
 
     python -m tools.measure theta MESH [MESH ...] [--theta 3 7 10] [--draco-bits 11]
     python -m tools.measure contract MESH [MESH ...] [--preset balanced]
-    python -m tools.measure time MESH [MESH ...] [--preset balanced fine near-lossless grid14]
 
 `theta`: bytes at a mean angle between corresponding normals, over those of Draco (level 10, its bits interpolated) at
 the angle that was reached; Draco's own angle at `--draco-bits` is one more. `contract`: what a preset gives, checked
 by itself and by surfaces, over the bytes of Draco with the fewest bits whose surfaces are as close (Hausdorff
-distance, mean angle of normals). `time`: processor time per vertex, on one thread, against that of Draco. Vertices at
-one position are made one for both. Needs DracoPy.
+distance, mean angle of normals). Vertices at one position are made one for both. Needs DracoPy.
 """
 
 from __future__ import annotations
@@ -18,7 +16,6 @@ import math
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from statistics import fmean
 from typing import TypeVar
@@ -31,7 +28,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original, theta
 from bsm.codec.geometry.surface_distance import surface_distance
 from bsm.codec.static.decoder import decode
-from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.joining import join
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
@@ -143,32 +140,6 @@ def surfaces(mesh: TriangleMesh, decoded: Positions) -> tuple[float, float]:
     return distance / (mesh.diagonal or 1.0), Original(mesh.positions, mesh.faces).angle(decoded)
 
 
-def times(path: Path, args: argparse.Namespace) -> Iterator[Row]:
-    """Rows of `time`."""
-    mesh = joined(path)
-    count = len(mesh.positions)
-    theirs = measured(partial(draco_bytes, mesh, 11))[0]
-    for preset in args.preset:
-        options = replace(PRESETS[preset], threads=1)
-        taken, data = measured(partial(encode, mesh, options))
-        back, _ = measured(partial(decode, data, threads=1))
-        text = (
-            f"encode {1e6 * taken / count:6.2f} us a vertex, {taken / theirs:5.1f} times Draco's; decode "
-            f"{1e6 * back / count:5.2f} us; {len(data)} bytes"
-        )
-        yield Row(preset, text, taken / theirs)
-
-
-def measured(work: Callable[[], Result]) -> tuple[float, Result]:
-    """The least processor time of three, and what came of it."""
-    best = math.inf
-    for _ in range(3):
-        begin = time.process_time()
-        result = work()
-        best = min(best, time.process_time() - begin)
-    return best, result
-
-
 def theta_command() -> None:
     """Print the table of `theta`."""
     parser = _parser()
@@ -179,23 +150,14 @@ def theta_command() -> None:
 
 def contract_command() -> None:
     """Print the table of `contract`."""
-    _print_table(contracts, _preset_parser().parse_args())
-
-
-def time_command() -> None:
-    """Print the table of `time`."""
-    _print_table(times, _preset_parser().parse_args())
+    parser = _parser()
+    parser.add_argument("--preset", nargs="+", choices=PRESETS, default=["balanced"])
+    _print_table(contracts, parser.parse_args())
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("meshes", nargs="+", type=Path)
-    return parser
-
-
-def _preset_parser() -> argparse.ArgumentParser:
-    parser = _parser()
-    parser.add_argument("--preset", nargs="+", choices=PRESETS, default=["balanced"])
     return parser
 
 
