@@ -38,7 +38,7 @@ LONG = ("moving-most", "seams-many", "nested-attribute")
 @pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow) if n in LONG else n for n in REFUSED])
 def test_what_asks_for_too_much_is_refused(name):
     error, about = REFUSED[name]
-    taken = decode_all(BOMBS[name].make(), "events", Limits())
+    taken = decode_all(BOMBS[name](), "events", Limits())
     assert taken.outcome.startswith(error.__name__)
     assert about in taken.outcome
 
@@ -57,7 +57,7 @@ def test_what_asks_for_too_much_is_refused(name):
     ],
 )
 def test_what_is_allowed_is_paid_for(name):
-    stream = BOMBS[name].make()
+    stream = BOMBS[name]()
     taken, limits = decode_all(stream, "events", Limits()), Limits()
     granted = limits.work + limits.work_per_vertex * (taken.vertices + taken.shown)
     assert 0.0 < taken.work <= granted + limits.work_per_byte * len(stream)
@@ -66,7 +66,7 @@ def test_what_is_allowed_is_paid_for(name):
 def test_a_service_has_an_absolute_bound():
     limits = Limits.service()
     with Decoder(limits) as decoder, pytest.raises(LimitError, match="most_work"):
-        decoder.receive_data(BOMBS["narrow"].make())
+        decoder.receive_data(BOMBS["narrow"]())
         decoder.finish()
     for bound in ("most_work", "most_memory"):
         assert getattr(Limits(), bound) > getattr(limits, bound)
@@ -75,7 +75,7 @@ def test_a_service_has_an_absolute_bound():
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
 @pytest.mark.parametrize("how", ["events", "browser"])
 def test_the_measure_sees_what_a_stream_takes(how, tmp_path):
-    (tmp_path / "members.bsm").write_bytes(BOMBS["members"].make())
+    (tmp_path / "members.bsm").write_bytes(BOMBS["members"]())
     taken = taken_by(tmp_path / "members.bsm", how, "default")
     assert "missing" in taken.outcome
     assert taken.vertices == 65536

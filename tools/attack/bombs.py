@@ -36,7 +36,7 @@ def main() -> int:
     names = args.names or list(BOMBS)
     if args.write:
         for name in names:
-            (args.write / f"{name}.bsm").write_bytes(BOMBS[name].make())
+            (args.write / f"{name}.bsm").write_bytes(BOMBS[name]())
         return 0
     print(COLUMNS.format("bomb", "decoded", "bytes", "vertices", "memory", "", "CPU", "", "verdict", "outcome"))
     with tempfile.TemporaryDirectory() as folder:
@@ -50,7 +50,7 @@ def _holds(name: str, folder: Path, args: argparse.Namespace) -> bool:
     path = Path(name)
     if path.suffix != ".bsm":
         path = folder / f"{name}.bsm"
-        path.write_bytes(BOMBS[name].make())
+        path.write_bytes(BOMBS[name]())
     stream = path.read_bytes()
     results = {how: taken_by(path, how, args.limits) for how in args.how}
     vertices = max(result.vertices for result in results.values())  # one that is refused as a whole tells none

@@ -80,7 +80,7 @@ KINDS: dict[str, Callable[[], bytes]] = {
     "attributes": _with_attributes,
     "animation": lambda: _sequence(gop=12),
     "low-delay": lambda: _sequence(low_delay=1),
-    **{name: BOMBS[name].make for name in COUNTED if name in BOMBS},
+    **{name: BOMBS[name] for name in COUNTED if name in BOMBS},
 }
 
 

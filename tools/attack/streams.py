@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -48,14 +48,6 @@ from tools.surgery import Frames, frames_of, header_entries, header_frame, strea
 from tools.vectors.meshes import torus
 
 Faces = npt.NDArray[np.int32]
-
-
-@dataclass(frozen=True)
-class Bomb:
-    """A stream, and what it is that costs."""
-
-    costs: str
-    make: Callable[[], bytes]
 
 
 # What streams are made of.
@@ -435,233 +427,155 @@ def one_block(rows: int, columns: int, width: int, **fields: Any) -> bytes:
     return _blocky(("torus", rows, columns), columns=width, blocks=1, block_size=rows * columns, **fields)
 
 
-BOMBS: dict[str, Bomb] = {
-    "members": Bomb("blocks that overlap as much as they may", lambda: _tiny_blocks(("torus", 256, 256), 4096, sent=0)),
-    "members-all": Bomb(
-        "the same, and all of them sent", lambda: _tiny_blocks(("torus", 128, 128), 4096, power=1, key_iterations=1)
+def ring(rows: int, columns: int) -> tuple[str, int, int]:
+    """The shape of a torus."""
+    return "torus", rows, columns
+
+
+ONCE = {"power": 1, "key_iterations": 1}
+BOMBS: dict[str, Callable[[], bytes]] = {
+    "members": lambda: _tiny_blocks(ring(256, 256), 4096, sent=0),  # blocks that overlap as much as they may
+    "members-all": lambda: _tiny_blocks(ring(128, 128), 4096, **ONCE),  # the same, and all of them sent
+    "members-illegal": lambda: _blocky(ring(256, 256), sent=0, blocks=65536, block_size=4096),  # 65,536 blocks of 4,096
+    "narrow": lambda: one_block(91, 90, 1, power=64, key_iterations=1024),  # one column, power 64, 1,024 iterations
+    # The same in tiny blocks
+    "narrow-small": lambda: _blocky(
+        ring(36, 36), blocks=100, block_size=14, power=64, iterations=1024, key_iterations=1024
     ),
-    "members-illegal": Bomb(
-        "65,536 blocks of 4,096", lambda: _blocky(("torus", 256, 256), sent=0, blocks=65536, block_size=4096)
+    "wide": lambda: one_block(64, 64, 4096, power=1),  # as many columns as rows
+    "wide-exact": lambda: one_block(64, 64, 4096, exact=1),  # the same, exact
+    "wide-1024": lambda: one_block(64, 64, 1024, power=1, key_iterations=2),  # 1,024 columns, two iterations
+    # Exact chains of one block each
+    "svd-keys": lambda: _blocky(ring(100, 100), columns=100, blocks=50, block_size=250, exact=1, key_interval=1),
+    # Columns that one solution loses
+    "careful": lambda: one_block(40, 40, 400, power=64, shift=2.0 ** (-30), key_iterations=16),
+    # The same in pieces
+    "careful-pieces": lambda: _blocky(
+        ("pieces", 500), columns=700, blocks=1, block_size=1500, power=64, shift=2.0 ** (-30), key_iterations=16
     ),
-    "narrow": Bomb(
-        "one column, power 64, 1,024 iterations", lambda: one_block(91, 90, 1, power=64, key_iterations=1024)
+    "chains": lambda: _tiny_blocks(ring(256, 256), 8, key_interval=2, springs=1, **ONCE),  # chains of two blocks
+    # The same of a large mesh, each on its own
+    "chains-large": lambda: _blocky(
+        ring(1024, 1024), sent=4000, blocks=131072, block_size=64, key_interval=2, springs=1, **ONCE
     ),
-    "narrow-small": Bomb(
-        "the same in tiny blocks",
-        lambda: _blocky(("torus", 36, 36), blocks=100, block_size=14, power=64, iterations=1024, key_iterations=1024),
+    "tiny": lambda: _tiny_blocks(ring(64, 64), 4, **ONCE),  # blocks of one vertex
+    # Parts that are all over the mesh
+    "scattered": lambda: _blocky(
+        ring(256, 256),
+        _scattered(ring(256, 256), 4096),
+        blocks=4096,
+        block_size=256,
+        key_interval=2,
+        springs=1,
+        power=1,
     ),
-    "wide": Bomb("as many columns as rows", lambda: one_block(64, 64, 4096, power=1)),
-    "wide-exact": Bomb("the same, exact", lambda: one_block(64, 64, 4096, exact=1)),
-    "wide-1024": Bomb("1,024 columns, two iterations", lambda: one_block(64, 64, 1024, power=1, key_iterations=2)),
-    "svd-keys": Bomb(
-        "exact chains of one block each",
-        lambda: _blocky(("torus", 100, 100), columns=100, blocks=50, block_size=250, exact=1, key_interval=1),
+    # One block without separators
+    "expander": lambda: _blocky(("soup", 3000, 9000), blocks=1, block_size=3000, columns=100),
+    # Many blocks without separators
+    "expander-blocks": lambda: _blocky(("soup", 6000, 18000), blocks=60, block_size=1600, columns=8),
+    # Hubs that every block grows over
+    "hubs": lambda: _blocky(("wheels", 200, 8000), blocks=32, block_size=4096, **ONCE),
+    # The same with small blocks
+    "hubs-small": lambda: _blocky(("wheels", 60, 2000), blocks=16, block_size=2060, **ONCE),
+    # Smoothing where everything is near everything
+    "rings": lambda: _blocky(("wheels", 2, 20000), blocks=1600, block_size=200, smoothing=1.0, **ONCE),
+    "rings-torus": lambda: _tiny_blocks(ring(100, 100), 16, smoothing=1.0, **ONCE),  # smoothing of small blocks
+    "faces": lambda: _blocky(("repeated", 250000), blocks=1, block_size=4),  # a million faces of four vertices
+    "glued": lambda: _blocky(("glued", 999, 999), blocks=1, block_size=3),  # two million faces of three vertices
+    "pieces": lambda: _blocky(("pieces", 100000), blocks=2000, block_size=160, smoothing=1.0),  # triangles apart
+    "mesh": lambda: _blocky(ring(1024, 1024), sent=0, blocks=160, block_size=8192),  # a million vertices and no block
+    # A million vertices in large blocks
+    "mesh-blocks": lambda: _blocky(ring(1024, 1024), blocks=160, block_size=8192, power=2, columns=8),
+    "copies": lambda: _copies(64, 64),  # copies of one vertex in every block
+    "grid": lambda: _grid(ring(1024, 1024), 1 << 15),  # a grid of a million vertices
+    "grid-chunks": lambda: _grid(ring(100, 100), 1),  # a grid, vertex by vertex
+    "light": lambda: _grid(ring(1024, 1024), 1 << 15, light=1),  # the small model on a million vertices
+    "light-chunks": lambda: _grid(ring(100, 100), 1, light=1),  # the same, vertex by vertex
+    "light-hubs": lambda: _grid(("wheels", 20, 4000), 1 << 15, light=1),  # hubs beside everything, by the small model
+    # Vertices with very many corners, by the small model
+    "light-repeated": lambda: _grid(("repeated", 15000), 1, light=1),
+    "light-noise": lambda: _noisy_grid(ring(64, 64), 20, light=1),  # values that nothing foretells, by the small model
+    "layers": lambda: _layers(512, 512, 1 << 15),  # a layer
+    "layers-chunks": lambda: _layers(50, 50, 1),  # the same, vertex by vertex
+    "metadata": lambda: _metadata(256),  # 256 names and 100,000 frames to skip
+    "metadata-long": lambda: _long_metadata(256, 32000),  # eight MiB of metadata
+    "values": lambda: _valued(60, 60, 75, 1 << 15),  # 75 attributes of four doubles
+    "values-corners": lambda: _valued(500, 500, 5, 1 << 15),  # fewer on more corners
+    # Attributes, value by value
+    "values-chunks": lambda: _valued(60, 60, 3, 1, kind=0, components=1, largest=(1,), origin=AS_CODED),
+    # Six times normals that nobody sends
+    "values-normals": lambda: _valued(
+        400, 400, 6, 1, kind=6, components=3, semantic=2, coding=RECOMPUTED, coded=0, largest=()
     ),
-    "careful": Bomb(
-        "columns that one solution loses", lambda: one_block(40, 40, 400, power=64, shift=2.0**-30, key_iterations=16)
+    # Attributes of faces
+    "values-faces": lambda: _valued(100, 100, 20, 1 << 15, domain=FACE, origin=AS_CODED, coded=20000),
+    "seams": lambda: _seamed(1024, 1024, 60),  # 60 attributes with seams of their own on a million vertices
+    "seams-many": lambda: _seamed(256, 256, 255),  # 255 of them on fewer
+    "seams-most": lambda: _seamed(1024, 1024, 255),  # 255 of them on a million
+    "skippable": lambda: _skippable(4000000),  # frames of nothing
+    "nested-header": lambda: _nested(FrameType.HEADER, 1 << 24),  # arrays in arrays as a header
+    "nested-attribute": lambda: _nested(FrameType.ATTRIBUTE, 1 << 24),  # the same as a declaration
+    "nested-metadata": lambda: _nested(FrameType.METADATA, 8000000),  # the same as metadata
+    "torn": lambda: _torn(one_block(20, 20, 4), _rubbish(1 << 20)),  # a megabyte of rubbish behind the blocks
+    "torn-chunks": lambda: _grid(ring(100, 100), 1)[: 9 * 4000],  # half of a stream of tiny frames
+    "worthless": lambda: _worthless(64, 64, 1000, 100),  # blocks that end too early
+    "sequence": lambda: _sequence(200, 200, [_learnt_gop(1, 0)], width=440),  # dictionaries of all columns
+    "sequence-large": lambda: _sequence(600, 600, [_learnt_gop(1, 0)], width=440, **ONCE),  # the same of many vertices
+    # The same by iterations without end
+    "sequence-power": lambda: _sequence(40, 40, [_learnt_gop(1, 0)], width=8, power=64, key_iterations=1024),
+    "sequence-tiny": lambda: _sequence(256, 256, [_learnt_gop(1, 0)], width=8, part=1, power=1),  # parts of one vertex
+    # Parts of ten vertices
+    "sequence-small": lambda: _sequence(256, 256, [_learnt_gop(1, 0)], width=10, part=10, power=1),
+    # Runs of small meshes
+    "sequence-runs": lambda: _joined(
+        _sequence(4, 4 + k % 9, [_learnt_gop(1, 0)], width=4, power=1) for k in range(3000)
     ),
-    "careful-pieces": Bomb(
-        "the same in pieces",
-        lambda: _blocky(
-            ("pieces", 500), columns=700, blocks=1, block_size=1500, power=64, shift=2.0**-30, key_iterations=16
-        ),
+    # More large meshes than are kept
+    "sequence-runs-kept": lambda: _joined(
+        _sequence(100, 100 + k, [_learnt_gop(1, 0, _still(100, 100 + k, 440, 0))], width=440, power=1)
+        for k in range(20)
     ),
-    "chains": Bomb(
-        "chains of two blocks",
-        lambda: _tiny_blocks(("torus", 256, 256), 8, key_interval=2, springs=1, power=1, key_iterations=1),
+    # Two large meshes in turn, whose dictionaries are made again for each frame
+    "sequence-runs-again": lambda: _joined(
+        [_sequence(100, 100, [_learnt_gop(1, 0, _still(100, 100, 440, 0))], width=440, power=2, key_iterations=2)] * 2,
+        [k % 2 for k in range(100)],
+        _learnt_gop(1, 0, _still(100, 100, 440, 0)),
     ),
-    "chains-large": Bomb(
-        "the same of a large mesh, each on its own",
-        lambda: _blocky(
-            ("torus", 1024, 1024),
-            sent=4000,
-            blocks=131072,
-            block_size=64,
-            key_interval=2,
-            springs=1,
-            power=1,
-            key_iterations=1,
-        ),
+    # More dictionaries than there is room for, frame after frame
+    "sequence-again": lambda: _sequence(
+        250, 200, _key_gops(40, _still(250, 200, 440, 3)), width=440, power=2, key_iterations=2
     ),
-    "tiny": Bomb("blocks of one vertex", lambda: _tiny_blocks(("torus", 64, 64), 4, power=1, key_iterations=1)),
-    "scattered": Bomb(
-        "parts that are all over the mesh",
-        lambda: _blocky(
-            ("torus", 256, 256),
-            _scattered(("torus", 256, 256), 4096),
-            blocks=4096,
-            block_size=256,
-            key_interval=2,
-            springs=1,
-            power=1,
-        ),
+    # Many components of one part
+    "gop-part": lambda: _sequence(
+        70, 70, [_learnt_gop(300, 160, _still(70, 70, 4, 160, 4900))], width=4, part=4900, power=1
     ),
-    "expander": Bomb(
-        "one block without separators", lambda: _blocky(("soup", 3000, 9000), blocks=1, block_size=3000, columns=100)
+    # As many components as there is room for
+    "gop-components": lambda: _sequence(250, 200, [_learnt_gop(64, 75, _still(250, 200, 20, 75))] * 3, width=20),
+    # A GOP of 1,024 frames and 3,072 components
+    "gop-wide": lambda: _sequence(20, 20, [_learnt_gop(1024, 3072, _still(20, 20, 50, 3072))], width=50),
+    # 1,024 frames of nothing, again and again
+    "gop-still": lambda: _sequence(100, 100, [_learnt_gop(1024, 0, _still(100, 100, 10, 0))] * 20, width=10),
+    # 1,024 frames of 300 components
+    "gop-300": lambda: _sequence(50, 50, [_learnt_gop(1024, 300, _still(50, 50, 400, 300))] * 2, width=400),
+    # Frames that refer to many
+    "gop-next": lambda: _sequence(100, 80, _next_gops(1000, _still(100, 80, 400, 3)), width=400),
+    # Frames of nothing, one by one
+    "gop-keys": lambda: _sequence(100, 100, _key_gops(1000, _still(100, 100, 10, 3)), width=10),
+    # 60 attributes of four doubles that move
+    "moving": lambda: _moving(60, 60, 60, [_learnt_gop(100, 4, _still(60, 60, 10, 4), 60)]),
+    # 15 of them, in frames of nothing
+    "moving-still": lambda: _moving(60, 60, 15, [_learnt_gop(100, 0, _still(60, 60, 10, 0))]),
+    # 255 attributes in parts of eight vertices, told of again and again
+    "moving-most": lambda: _moving(
+        20, 20, 255, [_learnt_gop(1, 1, _still(20, 20, 8, 1, 8), 255)] * 20, part=8, width=8
     ),
-    "expander-blocks": Bomb(
-        "many blocks without separators", lambda: _blocky(("soup", 6000, 18000), blocks=60, block_size=1600, columns=8)
+    # The same, frame by frame
+    "moving-keys": lambda: _moving(
+        20, 20, 255, _key_gops(20, _still(20, 20, 8, 3, 8), *[_still(20, 20, 8, 4, 8)] * 255), part=8, width=8
     ),
-    "hubs": Bomb(
-        "hubs that every block grows over",
-        lambda: _blocky(("wheels", 200, 8000), blocks=32, block_size=4096, power=1, key_iterations=1),
-    ),
-    "hubs-small": Bomb(
-        "the same with small blocks",
-        lambda: _blocky(("wheels", 60, 2000), blocks=16, block_size=2060, power=1, key_iterations=1),
-    ),
-    "rings": Bomb(
-        "smoothing where everything is near everything",
-        lambda: _blocky(("wheels", 2, 20000), blocks=1600, block_size=200, smoothing=1.0, power=1, key_iterations=1),
-    ),
-    "rings-torus": Bomb(
-        "smoothing of small blocks",
-        lambda: _tiny_blocks(("torus", 100, 100), 16, smoothing=1.0, power=1, key_iterations=1),
-    ),
-    "faces": Bomb("a million faces of four vertices", lambda: _blocky(("repeated", 250_000), blocks=1, block_size=4)),
-    "glued": Bomb("two million faces of three vertices", lambda: _blocky(("glued", 999, 999), blocks=1, block_size=3)),
-    "pieces": Bomb("triangles apart", lambda: _blocky(("pieces", 100_000), blocks=2000, block_size=160, smoothing=1.0)),
-    "mesh": Bomb(
-        "a million vertices and no block", lambda: _blocky(("torus", 1024, 1024), sent=0, blocks=160, block_size=8192)
-    ),
-    "mesh-blocks": Bomb(
-        "a million vertices in large blocks",
-        lambda: _blocky(("torus", 1024, 1024), blocks=160, block_size=8192, power=2, columns=8),
-    ),
-    "copies": Bomb("copies of one vertex in every block", lambda: _copies(64, 64)),
-    "grid": Bomb("a grid of a million vertices", lambda: _grid(("torus", 1024, 1024), 1 << 15)),
-    "grid-chunks": Bomb("a grid, vertex by vertex", lambda: _grid(("torus", 100, 100), 1)),
-    "light": Bomb("the small model on a million vertices", lambda: _grid(("torus", 1024, 1024), 1 << 15, light=1)),
-    "light-chunks": Bomb("the same, vertex by vertex", lambda: _grid(("torus", 100, 100), 1, light=1)),
-    "light-hubs": Bomb(
-        "hubs beside everything, by the small model", lambda: _grid(("wheels", 20, 4000), 1 << 15, light=1)
-    ),
-    "light-repeated": Bomb(
-        "vertices with very many corners, by the small model", lambda: _grid(("repeated", 15_000), 1, light=1)
-    ),
-    "light-noise": Bomb(
-        "values that nothing foretells, by the small model", lambda: _noisy_grid(("torus", 64, 64), 20, light=1)
-    ),
-    "layers": Bomb("four layers of three axes", lambda: _layers(512, 512, 1 << 15)),
-    "layers-chunks": Bomb("the same, vertex by vertex", lambda: _layers(50, 50, 1)),
-    "metadata": Bomb("256 names and 100,000 frames to skip", lambda: _metadata(256)),
-    "metadata-long": Bomb("eight MiB of metadata", lambda: _long_metadata(256, 32_000)),
-    "values": Bomb("75 attributes of four doubles", lambda: _valued(60, 60, 75, 1 << 15)),
-    "values-corners": Bomb("fewer on more corners", lambda: _valued(500, 500, 5, 1 << 15)),
-    "values-chunks": Bomb(
-        "attributes, value by value",
-        lambda: _valued(60, 60, 3, 1, kind=0, components=1, largest=(1,), origin=AS_CODED),
-    ),
-    "values-normals": Bomb(
-        "six times normals that nobody sends",
-        lambda: _valued(400, 400, 6, 1, kind=6, components=3, semantic=2, coding=RECOMPUTED, coded=0, largest=()),
-    ),
-    "values-faces": Bomb(
-        "attributes of faces",
-        lambda: _valued(100, 100, 20, 1 << 15, domain=FACE, origin=AS_CODED, coded=20_000),
-    ),
-    "seams": Bomb("60 attributes with seams of their own on a million vertices", lambda: _seamed(1024, 1024, 60)),
-    "seams-many": Bomb("255 of them on fewer", lambda: _seamed(256, 256, 255)),
-    "seams-most": Bomb("255 of them on a million", lambda: _seamed(1024, 1024, 255)),
-    "skippable": Bomb("frames of nothing", lambda: _skippable(4_000_000)),
-    "nested-header": Bomb("arrays in arrays as a header", lambda: _nested(FrameType.HEADER, 1 << 24)),
-    "nested-attribute": Bomb("the same as a declaration", lambda: _nested(FrameType.ATTRIBUTE, 1 << 24)),
-    "nested-metadata": Bomb("the same as metadata", lambda: _nested(FrameType.METADATA, 8_000_000)),
-    "torn": Bomb(
-        "a megabyte of rubbish behind the blocks",
-        lambda: _torn(one_block(20, 20, 4), _rubbish(1 << 20)),
-    ),
-    "torn-chunks": Bomb("half of a stream of tiny frames", lambda: _grid(("torus", 100, 100), 1)[: 9 * 4000]),
-    "worthless": Bomb("blocks that end too early", lambda: _worthless(64, 64, 1000, 100)),
-    "sequence": Bomb("dictionaries of all columns", lambda: _sequence(200, 200, [_learnt_gop(1, 0)], width=440)),
-    "sequence-large": Bomb(
-        "the same of many vertices",
-        lambda: _sequence(600, 600, [_learnt_gop(1, 0)], width=440, power=1, key_iterations=1),
-    ),
-    "sequence-power": Bomb(
-        "the same by iterations without end",
-        lambda: _sequence(40, 40, [_learnt_gop(1, 0)], width=8, power=64, key_iterations=1024),
-    ),
-    "sequence-tiny": Bomb(
-        "parts of one vertex", lambda: _sequence(256, 256, [_learnt_gop(1, 0)], width=8, part=1, power=1)
-    ),
-    "sequence-small": Bomb(
-        "parts of ten vertices", lambda: _sequence(256, 256, [_learnt_gop(1, 0)], width=10, part=10, power=1)
-    ),
-    "sequence-runs": Bomb(
-        "runs of small meshes",
-        lambda: _joined(_sequence(4, 4 + k % 9, [_learnt_gop(1, 0)], width=4, power=1) for k in range(3000)),
-    ),
-    "sequence-runs-kept": Bomb(
-        "more large meshes than are kept",
-        lambda: _joined(
-            _sequence(100, 100 + k, [_learnt_gop(1, 0, _still(100, 100 + k, 440, 0))], width=440, power=1)
-            for k in range(20)
-        ),
-    ),
-    "sequence-runs-again": Bomb(
-        "two large meshes in turn, whose dictionaries are made again for each frame",
-        lambda: _joined(
-            [_sequence(100, 100, [_learnt_gop(1, 0, _still(100, 100, 440, 0))], width=440, power=2, key_iterations=2)]
-            * 2,
-            [k % 2 for k in range(100)],
-            _learnt_gop(1, 0, _still(100, 100, 440, 0)),
-        ),
-    ),
-    "sequence-again": Bomb(
-        "more dictionaries than there is room for, frame after frame",
-        lambda: _sequence(250, 200, _key_gops(40, _still(250, 200, 440, 3)), width=440, power=2, key_iterations=2),
-    ),
-    "gop-part": Bomb(
-        "many components of one part",
-        lambda: _sequence(70, 70, [_learnt_gop(300, 160, _still(70, 70, 4, 160, 4900))], width=4, part=4900, power=1),
-    ),
-    "gop-components": Bomb(
-        "as many components as there is room for",
-        lambda: _sequence(250, 200, [_learnt_gop(64, 75, _still(250, 200, 20, 75))] * 3, width=20),
-    ),
-    "gop-wide": Bomb(
-        "a GOP of 1,024 frames and 3,072 components",
-        lambda: _sequence(20, 20, [_learnt_gop(1024, 3072, _still(20, 20, 50, 3072))], width=50),
-    ),
-    "gop-still": Bomb(
-        "1,024 frames of nothing, again and again",
-        lambda: _sequence(100, 100, [_learnt_gop(1024, 0, _still(100, 100, 10, 0))] * 20, width=10),
-    ),
-    "gop-300": Bomb(
-        "1,024 frames of 300 components",
-        lambda: _sequence(50, 50, [_learnt_gop(1024, 300, _still(50, 50, 400, 300))] * 2, width=400),
-    ),
-    "gop-next": Bomb(
-        "frames that refer to many", lambda: _sequence(100, 80, _next_gops(1000, _still(100, 80, 400, 3)), width=400)
-    ),
-    "gop-keys": Bomb(
-        "frames of nothing, one by one", lambda: _sequence(100, 100, _key_gops(1000, _still(100, 100, 10, 3)), width=10)
-    ),
-    "moving": Bomb(
-        "60 attributes of four doubles that move",
-        lambda: _moving(60, 60, 60, [_learnt_gop(100, 4, _still(60, 60, 10, 4), 60)]),
-    ),
-    "moving-still": Bomb(
-        "15 of them, in frames of nothing", lambda: _moving(60, 60, 15, [_learnt_gop(100, 0, _still(60, 60, 10, 0))])
-    ),
-    "moving-most": Bomb(
-        "255 attributes in parts of eight vertices, told of again and again",
-        lambda: _moving(20, 20, 255, [_learnt_gop(1, 1, _still(20, 20, 8, 1, 8), 255)] * 20, part=8, width=8),
-    ),
-    "moving-keys": Bomb(
-        "the same, frame by frame",
-        lambda: _moving(
-            20, 20, 255, _key_gops(20, _still(20, 20, 8, 3, 8), *[_still(20, 20, 8, 4, 8)] * 255), part=8, width=8
-        ),
-    ),
-    "moving-frames": Bomb(
-        "255 attributes of nine vertices, in 200 frames of nothing",
-        lambda: _moving(3, 3, 255, [_learnt_gop(200, 0, _still(3, 3, 8, 0))]),
-    ),
-    "moving-components": Bomb(
-        "as many components of attributes as there is room for",
-        lambda: _moving(200, 200, 2, [_learnt_gop(8, 12, _still(200, 200, 20, 12), 2)] * 3, width=20),
-    ),
+    # 255 attributes of nine vertices, in 200 frames of nothing
+    "moving-frames": lambda: _moving(3, 3, 255, [_learnt_gop(200, 0, _still(3, 3, 8, 0))]),
+    # As many components of attributes as there is room for
+    "moving-components": lambda: _moving(200, 200, 2, [_learnt_gop(8, 12, _still(200, 200, 20, 12), 2)] * 3, width=20),
 }
-"""What each is called."""
+"""What each is called, and what makes it; beside it what it is that costs."""
