@@ -78,12 +78,8 @@ def check_steadiness(stream: bytes, *, limits: Limits = DEFAULT_LIMITS, threads:
 
     Parameters
     ----------
-    stream : bytes
-        Of a mesh or a sequence.
-    limits : Limits
-        What it may ask for.
-    threads : int, optional
-        None: one per core.
+    stream, limits, threads
+        As `unsteadiness` takes them.
 
     Raises
     ------
@@ -107,7 +103,6 @@ def check_steadiness(stream: bytes, *, limits: Limits = DEFAULT_LIMITS, threads:
 
 def _decoded(stream: bytes, limits: Limits, threads: int | None, rounding: Rounding) -> tuple[Positions, float]:
     """Positions, shape (n, 3), of all frames one below the other, and the header's scale."""
-
     reader = Reader(limits)
     reader.receive_data(stream)
     header = reader.next_packet()
