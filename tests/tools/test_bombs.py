@@ -32,7 +32,7 @@ REFUSED = {
 """How, and what the message is about."""
 
 
-LONG = ("moving-most", "seams-many", "nested-attribute")
+LONG = ("moving", "moving-frames", "moving-most", "seams-many", "nested-attribute")
 
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow) if n in LONG else n for n in REFUSED])
@@ -83,6 +83,7 @@ def test_the_measure_sees_what_a_stream_takes(how, tmp_path):
     assert 0.0 < taken.seconds < 3.6
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
 def test_the_command_ends_with_a_verdict():
     command = [sys.executable, "-m", "tools.attack", "bombs", "members-illegal", "--how", "whole"]

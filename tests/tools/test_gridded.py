@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
+from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import FrameType
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode
@@ -18,8 +19,7 @@ from tools.gridded import gridded, lightened, random_grid
 from tools.surgery import first_entries, frames_of, stream_of
 from tools.vectors.meshes import torus
 
-LIGHT = 42
-"""Header key."""
+LIGHT = HEADER_FIELDS["light"].key
 
 
 @pytest.mark.parametrize("light", [0, 1])

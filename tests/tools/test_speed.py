@@ -30,6 +30,7 @@ def test_the_link_on_which_both_are_as_quick():
     assert break_even(Delivery(11_000, 7.0, 0.05), theirs) == 0.0
 
 
+@pytest.mark.slow
 def test_memory_and_time_of_both_directions(tmp_path):
     mesh = torus(30, 30)
     write_mesh(tmp_path / "torus.npz", mesh)

@@ -21,6 +21,7 @@ def test_the_walk_visits_every_format_that_is_read_here():
     assert set(samples()) <= names
 
 
+@pytest.mark.slow
 @linux
 def test_numbers_as_large_as_they_can_be_are_refused_within_the_bounds():
     warm_up()

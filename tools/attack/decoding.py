@@ -7,6 +7,7 @@ from random import Random
 
 import numpy as np
 
+from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -19,13 +20,10 @@ from tools.attack.tally import Decoded, Outcome
 from tools.surgery import first_entries
 from tools.vectors.store import Arrays, arrays_of, arrays_of_frames
 
-GOP_FRAMES = 23
-"""Header key that only sequences store."""
-
 
 def is_sequence(stream: bytes) -> bool:
     """Whether the header says so; what is no stream is taken for a mesh."""
-    return bool(first_entries(stream).get(GOP_FRAMES))
+    return bool(first_entries(stream).get(HEADER_FIELDS["sequence"].key))
 
 
 def whole(stream: bytes, limits: Limits = DEFAULT_LIMITS, threads: int = 1) -> Outcome:
