@@ -27,6 +27,7 @@ from bsm.evaluation.curve import (
     table,
     write_result,
 )
+from bsm.evaluation.plots import points_of
 from bsm.files.mesh import write_mesh
 from tests.shapes import patch, torus
 
@@ -183,11 +184,17 @@ class TestPictures:
 
 
 class TestCommands:
-    def test_our_curve_goes_as_far_as_draco(self):
+    def test_our_curve_is_what_is_chosen_for_its_measure_and_goes_as_far_as_draco(self):
         mesh = patch(20, 25)
-        finest = our_curve(fine=True).codecs[-1]
-        point = json.loads(json.dumps(measure(finest, mesh, Reference(mesh.positions, mesh.faces))))
-        assert point["theta_deg"] <= 0.2 and point["settings"]["target"] == {"kind": "theta_deg", "value": 0.2}
+        curve = our_curve(fine=True)
+        kinds = {codec.options.target.kind: codec for codec in curve.codecs}
+        found = {
+            kind: json.loads(json.dumps(measure(codec, mesh, Reference(mesh.positions, mesh.faces))))
+            for kind, codec in kinds.items()
+        }
+        assert found["theta_deg"]["theta_deg"] <= 0.2 and found["nmsve_db"]["nmsve_db"] <= -68.0
+        points = list(found.values())
+        assert [points_of(points, kind) for kind in kinds] == [[point] for point in points]
 
     def test_curve(self, tmp_path, capsys):
         write_mesh(tmp_path / "torus.npz", torus(20, 20))

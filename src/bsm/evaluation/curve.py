@@ -23,7 +23,7 @@ from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Target
 from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
-from bsm.evaluation.plots import MEASURES
+from bsm.evaluation.plots import MEASURES, points_of
 from bsm.evaluation.sample import knot
 from bsm.files.output import open_output
 from bsm.files.stream import inspect_stream
@@ -143,9 +143,11 @@ PAPER_LINES: tuple[tuple[str, str, dict[str, Any]], ...] = (
     ("oi-r2-cold", "OI, R², no warm start", COLD_STARTS | {"power": 2}),
 )
 OUR_STEPS = (2.4e-2, 1.6e-2, 1.1e-2, 8e-3, 5.5e-3, 4e-3, 2.8e-3, 2e-3, 1.3e-3, 8e-4)
-FINE_STEP = 4e-3
-OUR_ANGLES = (3.0, 2.0, 1.2, 0.7, 0.4, 0.2)
-"""Below this step, and at these mean angles of normals in degrees, blocks alone are no longer the smallest way."""
+OUR_TARGETS = {
+    "theta_deg": (15.0, 11.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.2, 0.7, 0.4, 0.2),
+    "nmsve_db": (-40.0, -44.0, -48.0, -52.0, -56.0, -60.0, -64.0, -68.0),
+}
+"""Mean angles of normals in degrees, and NMSVE, that the codec is asked for, each for the line of its own measure."""
 
 
 def paper_options(**changes: Any) -> EncodeOptions:
@@ -166,14 +168,12 @@ def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) 
 
 
 def our_curve(*, fine: bool = False, **changes: Any) -> Curve:
-    """The product at a ladder of steps, everything else its defaults; with `fine`, at angles instead of fine steps."""
-    steps = [step for step in OUR_STEPS if not fine or step >= FINE_STEP]
-    codecs = [Spectral(EncodeOptions(**{"threads": 1, "step": step, **changes})) for step in steps]
+    """Blocks at a ladder of steps, all else the defaults; with `fine`, what the codec chooses for each target."""
+    settings: list[dict[str, Any]] = [{"step": step, **changes} for step in OUR_STEPS]
     if fine:
-        codecs += [
-            Spectral(EncodeOptions(threads=1, contract=None, target=Target("theta_deg", angle))) for angle in OUR_ANGLES
-        ]
-    return Curve("ours", "ours", tuple(codecs))
+        targets = [Target(kind, value) for kind, values in OUR_TARGETS.items() for value in values]
+        settings = [{"contract": None, "target": target} for target in targets]
+    return Curve("ours", "ours", tuple(Spectral(EncodeOptions(**{"threads": 1, **one})) for one in settings))
 
 
 def draco_curve() -> Curve:
@@ -298,7 +298,7 @@ def rate_curve(rates: Sequence[float], distortions: Sequence[float]) -> RateCurv
 
 def rate_curve_of(points: Sequence[Result], measure: str, rate: str = "bpv_total") -> RateCurve:
     """Curve of a result's points: a rate against one of `MEASURES`; lossless points are left out."""
-    usable = [(point[rate], scaled(point[measure], measure)) for point in points if point[measure] is not None]
+    usable = [(point[rate], scaled(point[measure], measure)) for point in points_of(points, measure)]
     pairs = [(bits, distortion) for bits, distortion in usable if distortion is not None]
     return rate_curve([bits for bits, _ in pairs], [distortion for _, distortion in pairs])
 

@@ -95,13 +95,19 @@ def draw_all(results: Iterable[Result], folder: Path) -> list[Path]:
         for measure, label in MEASURES.items() if shown else ():
             lines = {
                 f"{r['label']}  (decoded in {time_range(r)})": [
-                    (p["bpv_total"], p[measure]) for p in r["points"] if p[measure] is not None
+                    (p["bpv_total"], p[measure]) for p in points_of(r["points"], measure)
                 ]
                 for r in shown
             }
             stem = folder / f"{mesh}.{measure.split('_')[0]}"
             written += draw_rates(lines, "bits per vertex, whole file", label, title_of(shown[0]), stem)
     return written
+
+
+def points_of(points: Sequence[Result], measure: str) -> list[Result]:
+    """The points of a line of one of `MEASURES`: not those that were chosen for another, nor lossless ones."""
+    kinds = [point.get("settings", {}).get("target", {}).get("kind", measure) for point in points]
+    return [p for p, kind in zip(points, kinds, strict=True) if kind == measure and p[measure] is not None]
 
 
 def time_range(result: Result) -> str:
