@@ -21,7 +21,7 @@ RIDGE = 0.004
 """Regularisation of the weights."""
 NOISE = 30.0
 """Energy in squared steps that is added to that of a row before the row is weighed by the inverse of it;
-half costs 0.3 %, twice saves 0.1 % (tools.constants)."""
+half costs 0.3 %, twice saves 0.1 %."""
 AROUND = 30.0
 """As many rows the vertices around a block count for, together, before its first row."""
 DENSE_ROWS = 16

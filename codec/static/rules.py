@@ -14,8 +14,7 @@ KEY_SEEDS = ("cosines", "svd")
 """Where a block without predecessor begins."""
 
 STIFFNESS = 8.0
-"""Of the springs on which a block hangs, a constant of the law; half of it costs 1.0 %, twice 1.6 %
-(tools.constants)."""
+"""Of the springs on which a block hangs, a constant of the law; half of it costs 1.0 %, twice 1.6 %."""
 
 
 @dataclass(frozen=True, eq=False)

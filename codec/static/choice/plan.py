@@ -26,8 +26,7 @@ PAPER_FRACTION = 0.10
 SMOOTHING_FACES = 1 << 12
 """On more faces than these, smoothing is not tried."""
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
-"""Amounts that are tried, in this order, while they help; a factor of sqrt 2 between them is worth 0.1 %
-(tools.constants)."""
+"""Amounts that are tried, in this order, while they help; a factor of sqrt 2 between them is worth 0.1 %."""
 
 
 class Planner:
