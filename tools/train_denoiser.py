@@ -22,7 +22,7 @@ import numpy as np
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.learnt.cascade import VERTEX_ITERATIONS, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles, descriptions, mirrored
-from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, sigmoid, write_networks
+from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, sigmoid
 from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals
 from bsm.files.mesh import read_mesh
 from tools.made_shapes import made_shape
@@ -199,6 +199,18 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"stage {stage + 1}: {time.process_time() - begin:.0f} CPU s", flush=True)
     print(f"{chosen.output}: {chosen.output.stat().st_size} bytes")
     return 0
+
+
+def write_networks(path: Path, networks: list[Network]) -> None:
+    """Networks into a file, in half precision but for the scales."""
+    arrays = {}
+    for stage, network in enumerate(networks):
+        arrays[f"mean{stage}"], arrays[f"scale{stage}"] = network.mean, network.scale
+        for depth, (matrix, shift) in enumerate(network.layers):
+            arrays[f"matrix{stage}.{depth}"] = matrix.astype(np.float16)
+            arrays[f"shift{stage}.{depth}"] = shift.astype(np.float16)
+    with path.open("wb") as file:
+        np.savez_compressed(file, **arrays)  # type: ignore[arg-type]
 
 
 if __name__ == "__main__":

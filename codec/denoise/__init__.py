@@ -12,8 +12,7 @@ from bsm.codec.denoise.automatic import AutomaticChoice, denoise_automatically
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.frames import FrameDenoiser, denoise, denoise_frames
 from bsm.codec.denoise.normals import FINE_STEPS
-from bsm.codec.denoise.options import DenoiseOptions
-from bsm.codec.denoise.recipe import HAND_OVERS, Recipe, Step
+from bsm.codec.denoise.recipe import HAND_OVERS, DenoiseOptions, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS
 
 __all__ = [

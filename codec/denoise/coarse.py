@@ -23,6 +23,7 @@ Floats = npt.NDArray[np.float64]
 Weights = Callable[[Indices], Floats]
 
 BLOCK_SIZE = 500
+"""About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle."""
 OVERLAP = 1.15
 KEEP = 0.10
 RULES = ChainRules(

@@ -18,8 +18,7 @@ from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.normals import fine_step
-from bsm.codec.denoise.options import DenoiseOptions
-from bsm.codec.denoise.recipe import Patient, hand_over
+from bsm.codec.denoise.recipe import DenoiseOptions, Patient, hand_over
 from bsm.codec.denoise.rehearsal import Progress, silent
 from bsm.codec.denoise.safety import judge, keep_good
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter

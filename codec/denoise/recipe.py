@@ -8,13 +8,15 @@ from itertools import islice
 
 import numpy as np
 
+from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
+from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
-from bsm.codec.denoise.coarse import CoarseFilter
+from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.normals import Guide, GuidedFilter, filtered_normals, own_normals, patch_guidance
+from bsm.codec.denoise.normals import Guide, GuidedFilter, filtered_normals, fine_step, own_normals, patch_guidance
 from bsm.codec.denoise.surface import Topology, face_geometry, surface_normals
 from bsm.codec.geometry.metrics import mean_edge_length
 
@@ -22,8 +24,6 @@ GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 LOCAL = "local"
 SIGMA_R = 0.3
 """Width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle."""
-BLOCK_SIZE = 500
-"""About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle."""
 
 HandOver = Callable[[Positions, Positions, Topology], Positions]
 """From noisy and coarse positions, both (n, 3), to those from which the fine step starts (a new array)."""
@@ -51,6 +51,28 @@ HAND_OVERS: dict[str, HandOver] = {
 
 def hand_over(name: str) -> HandOver:
     return named("hand-over", HAND_OVERS, name)
+
+
+@public
+@dataclass(frozen=True, kw_only=True)
+class DenoiseOptions:
+    """How to denoise; the defaults are the paper's coarse-to-fine scheme."""
+
+    hand_over: str = "positions"
+    fine: str = "guided"
+    iterations: int | None = None
+    keep: float = KEEP
+    block_size: int = BLOCK_SIZE
+
+    def __post_init__(self) -> None:
+        hand_over(self.hand_over)
+        fine_step(self.fine)
+        if self.iterations is not None and self.iterations < 0:
+            raise OptionError(f"iterations must not be negative, not {self.iterations}")
+        if not 0.0 < self.keep <= 1.0 or self.block_size < 1:
+            raise OptionError(
+                f"keep must be above 0 and at most 1, block_size positive; not {self.keep}, {self.block_size}"
+            )
 
 
 @dataclass(frozen=True)

@@ -47,21 +47,17 @@ def silent(stage: str) -> None:
     """Nobody wants to know."""
 
 
-def shading(reference: Reference, positions: Positions) -> float:
-    return reference.theta(positions)
-
-
 def shape(reference: Reference, positions: Positions) -> float:
     """Root mean square distance of the vertices from `positions`, shape (n, 3), in mean edges."""
     distance = np.sqrt(np.square(reference.positions - positions).sum(axis=1).mean())
     return float(distance) / mean_edge_length(reference.positions, reference.faces)
 
 
-def both(reference: Reference, positions: Positions) -> float:
-    return shading(reference, positions) * shape(reference, positions)
-
-
-GOALS: dict[str, Goal] = {"shading": shading, "shape": shape, "both": both}
+GOALS: dict[str, Goal] = {
+    "shading": Reference.theta,
+    "shape": shape,
+    "both": lambda reference, positions: reference.theta(positions) * shape(reference, positions),
+}
 
 
 @dataclass(frozen=True, eq=False)

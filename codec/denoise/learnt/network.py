@@ -43,18 +43,6 @@ def silu(values: Singles) -> Singles:
     return np.asarray(values * sigmoid(values))
 
 
-def write_networks(path: Path, networks: list[Network]) -> None:
-    """Networks into a file, in half precision but for the scales."""
-    arrays = {}
-    for stage, network in enumerate(networks):
-        arrays[f"mean{stage}"], arrays[f"scale{stage}"] = network.mean, network.scale
-        for depth, (matrix, shift) in enumerate(network.layers):
-            arrays[f"matrix{stage}.{depth}"] = matrix.astype(np.float16)
-            arrays[f"shift{stage}.{depth}"] = shift.astype(np.float16)
-    with path.open("wb") as file:
-        np.savez_compressed(file, **arrays)  # type: ignore[arg-type]
-
-
 @cache
 def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
     """The networks of a file, the one for the first pass first."""

@@ -8,7 +8,7 @@ import pytest
 from bsm.codec.denoise import automatic, recipe
 from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
-from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, write_networks
+from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.recipe import Patient
 from bsm.codec.denoise.rehearsal import LEARNT_SHARES
@@ -16,6 +16,7 @@ from bsm.codec.denoise.surface import Topology, face_geometry
 from bsm.codec.geometry.metrics import rms_over_edge, theta
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
 from tools.noise import gaussian_along_normals
+from tools.train_denoiser import write_networks
 
 TURN = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
 TURN *= np.sign(np.linalg.det(TURN))
