@@ -12,10 +12,8 @@ import numpy.typing as npt
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.layout import parse_grid
-from bsm.bitstream.container.maps import write_map
-from bsm.bitstream.container.wire import FrameType, write_varint
-from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
-from bsm.bitstream.fields.light import LightEncoder
+from bsm.bitstream.container.wire import FrameType, write_map, write_varint
+from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder, LightEncoder
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import TriangleMesh
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of

@@ -9,8 +9,16 @@ import msgpack
 
 from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Paper, fields_of
-from bsm.bitstream.container.maps import parse_map, write_map
-from bsm.bitstream.container.wire import Cursor, FrameType, parse_frame, write_frame, write_preamble, write_varint
+from bsm.bitstream.container.wire import (
+    Cursor,
+    FrameType,
+    parse_frame,
+    parse_map,
+    write_frame,
+    write_map,
+    write_preamble,
+    write_varint,
+)
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 

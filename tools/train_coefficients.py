@@ -19,28 +19,24 @@ import numpy.typing as npt
 from scipy.optimize import minimize
 
 from bsm.bitstream.coefficients.adaptive import (
-    CoefficientModel,
-    decode_coefficients,
-    encode_coefficients,
-)
-from bsm.bitstream.coefficients.contexts import (
     BINS,
+    EXPECTATIONS,
     NEIGHBOURS,
+    NODES,
+    SELECTORS,
     SITUATIONS,
     UNIT,
     WEIGHT_BITS,
+    CoefficientModel,
+    Experience,
+    Levels,
     Past,
+    decode_coefficients,
+    encode_coefficients,
     look_at_block,
     make_past,
-)
-from bsm.bitstream.coefficients.priors import (
-    EXPECTATIONS,
-    NODES,
-    SELECTORS,
-    Experience,
     shipped_experience,
 )
-from bsm.bitstream.coefficients.trellis import Levels
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.reader import Reader, Signal

@@ -9,19 +9,109 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.attributes.octahedron import canonical_levels
-from bsm.bitstream.attributes.ranges import MOST_COMPONENTS, checked_largest, checked_values
 from bsm.bitstream.entropy.range_coder import Coder
 from bsm.bitstream.errors import MeshError, OptionError
-from bsm.bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
-from bsm.bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, Corners, corners_of, traverse
-from bsm.bitstream.fields.model import MODEL_BYTES, TERMS, ValueModel, make_learners, make_model
+from bsm.bitstream.fields.corners import (
+    BYTES_PER_FACE,
+    BYTES_PER_VERTEX,
+    MODEL_BYTES,
+    TERMS,
+    Corners,
+    Field,
+    FieldDecoder,
+    FieldEncoder,
+    ValueModel,
+    corners_of,
+    make_learners,
+    make_model,
+    traverse,
+)
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]
-Kind = Literal["plain", "texcoord", "normal", "color"]
+LARGEST_SIZE = (1 << 19) - 1
+"""Levels are as large as those of other values may be, at most."""
 
+
+def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
+    """Directions as pairs of integers: points on an octahedron, its lower half folded outwards.
+
+    Q. Meyer et al., "On floating-point normal vectors", EGSR 2010.
+    """
+    if not 1 <= size <= LARGEST_SIZE:
+        raise OptionError(f"the size of an octahedron must be from 1 to {LARGEST_SIZE}, not {size}")
+    given = np.asarray(normals, np.float64)
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise MeshError(f"normals must have shape (n, 3), not {given.shape}")
+    largest = np.abs(given).max(axis=1, keepdims=True)
+    if not (np.isfinite(largest).all() and (largest > 0).all()):
+        raise MeshError("a normal without a direction has no place on an octahedron")
+    scaled = given / largest
+    scaled *= size / np.abs(scaled).sum(axis=1, keepdims=True)
+    points = np.rint(scaled).astype(np.int64)
+    rows = np.arange(len(points))
+    for _ in range(3):  # what rounding has added or taken, where that changes least
+        missing = size - np.abs(points).sum(axis=1)
+        change = np.sign(missing)
+        slack = (np.abs(scaled) - np.abs(points)) * change[:, None]
+        slack[(points == 0) & (change < 0)[:, None]] = -2
+        axis = slack.argmax(axis=1)
+        points[rows, axis] += np.where(scaled[rows, axis] < 0, -change, change)
+    return _folded(points, size)
+
+
+def octahedral_normals(levels: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
+    """The unit vectors, shape (n, 3), of levels, shape (n, 2): twin of `octahedral_levels`."""
+    points = _unfolded(np.asarray(levels, np.int64), size).astype(np.float64)
+    unit: npt.NDArray[np.float64] = points / np.sqrt((points * points).sum(axis=1, keepdims=True))
+    return unit
+
+
+def canonical_levels(levels: npt.ArrayLike, size: int) -> Ints:
+    """The pairs, shape (n, 2), that a decoder gives for the directions of `levels`, shape (n, 2)."""
+    return _folded(_unfolded(np.asarray(levels, np.int64), size), size)
+
+
+def _folded(points: Longs, size: int) -> Ints:
+    flat = points[:, :2]
+    outside = np.where(flat < 0, -1, 1) * (size - np.abs(flat[:, ::-1]))
+    return (np.where(points[:, 2:] < 0, outside, flat) + size).astype(np.int32)
+
+
+def _unfolded(levels: Longs, size: int) -> Longs:
+    flat = levels - size
+    height = size - np.abs(flat).sum(axis=1, keepdims=True)
+    inside = np.where(flat < 0, -1, 1) * (size - np.abs(flat[:, ::-1]))
+    return np.hstack([np.where(height < 0, inside, flat), height])
+
+
+MOST_COMPONENTS = 4
+MOST_LARGEST = (1 << 20) - 1
+"""Values are 0 to at most this."""
+
+
+def checked_largest(largest: npt.ArrayLike) -> Ints:
+    """`largest`, shape (c,), as int32; raises `OptionError`."""
+    top = np.array(largest, np.int64)
+    if top.ndim != 1 or not 1 <= len(top) <= MOST_COMPONENTS or top.min() < 0 or top.max() > MOST_LARGEST:
+        raise OptionError(
+            f"{top.tolist()}: the largest values must be 1 to {MOST_COMPONENTS}, from 0 to {MOST_LARGEST}"
+        )
+    return top.astype(np.int32)
+
+
+def checked_values(values: npt.ArrayLike, largest: Ints) -> npt.NDArray[np.integer]:
+    """`values` as an array of integers, shape (n, c), from 0 to `largest`, shape (c,); raises `MeshError`."""
+    given = np.asarray(values)
+    if given.ndim != 2 or given.shape[1] != len(largest) or given.dtype.kind not in "iu":
+        raise MeshError(f"values must be integers of shape (n, {len(largest)}), not {given.dtype} of {given.shape}")
+    if ((given < 0) | (given > largest)).any():
+        raise MeshError(f"values are outside their range, 0 to {largest}")
+    return given
+
+
+Kind = Literal["plain", "texcoord", "normal", "color"]
 _BASES = 4
 _VALENCES = 6
 
@@ -171,3 +261,57 @@ def _coder_of(kind: Kind, largest: Ints) -> tuple[_Kernel, Longs]:
         start[:guesses, 0] = 8192
         return _kernels.code_texcoords, start
     return _kernels.code_normals, start
+
+
+class _FaceValues(NamedTuple):
+    """State of values on faces; the struct `FaceValues` of `faces.h`."""
+
+    largest: Ints
+    values: Ints
+    gaps: Ints
+    memory: Ints
+
+
+def face_values_charge(faces: int, components: int) -> int:
+    """Bytes of memory that coding values of faces takes at most; its work is linear in `faces`."""
+    return (3 * BYTES_PER_VERTEX + BYTES_PER_FACE + 8 * components) * faces + MODEL_BYTES + (1 << 17)
+
+
+def _field_of_faces(faces: npt.ArrayLike, largest: npt.ArrayLike) -> Field:
+    """What encoder and decoder share."""
+    top = checked_largest(largest)
+    given = np.asarray(faces)
+    corners = corners_of(given, int(given.max()) + 1 if given.size and given.dtype.kind in "iu" else 0)
+    count, components = len(corners.faces), len(top)
+    model = make_model()
+    values = _FaceValues(
+        top,
+        np.zeros((count, components), np.int32),
+        np.zeros((count, components), np.int32),
+        np.zeros((components, 257), np.int32),
+    )
+
+    def code(coder: Coder, first: int, number: int) -> int:
+        return _kernels.code_faces(coder, model, corners, values, first, number)
+
+    return Field(code, np.arange(count, dtype=np.int32), values.values)
+
+
+class FaceValueEncoder(FieldEncoder):
+    """Codes values of faces, in the order of the faces: materials, groups, colours."""
+
+    def __init__(self, faces: npt.ArrayLike, values: npt.ArrayLike, largest: npt.ArrayLike) -> None:
+        given = checked_values(values, checked_largest(largest))
+        field = _field_of_faces(faces, largest)
+        if len(given) != len(field.order):
+            raise MeshError(f"{len(given)} values for {len(field.order)} faces")
+        field.values[:] = given
+        super().__init__(field)
+
+
+class FaceValueDecoder(FieldDecoder):
+    """Twin of `FaceValueEncoder`."""
+
+    def __init__(self, faces: npt.ArrayLike, largest: npt.ArrayLike, limits: Limits = DEFAULT_LIMITS) -> None:
+        limits.check("field_bytes", face_values_charge(len(np.asarray(faces)), len(checked_largest(largest))))
+        super().__init__(_field_of_faces(faces, largest))

@@ -2,23 +2,23 @@
 
 A level is the size of its magnitude in bits (in unary), up to two bits below the leading one, the rest of the bits
 and the sign, these last two as they are. Every other decision is predicted from three expectations of the magnitude
-(see `bitstream.coefficients.contexts`), each with adaptive probabilities of its own, mixed as
+(see `bitstream.coefficients.adaptive`), each with adaptive probabilities of its own, mixed as
 `bitstream.entropy.range_coder` does. Levels stand for points on two grids, by the rule of
-`bitstream.coefficients.trellis`, and zeros and ones are told apart by grid, too. A chain starts from the
-probabilities and weights of `bitstream.coefficients.priors`. All arithmetic is on integers.
+`bitstream.coefficients.adaptive`, and zeros and ones are told apart by grid, too. A chain starts from the
+probabilities and weights of `bitstream.coefficients.adaptive`. All arithmetic is on integers.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.coefficients.contexts import BINS, NEIGHBOURS, Past, copy_past, make_past
-from bsm.bitstream.coefficients.priors import EXPECTATIONS, NODES, SELECTORS, Experience, shipped_experience
-from bsm.bitstream.coefficients.trellis import Levels
+from bsm.bitstream._kernels import priors
 from bsm.bitstream.entropy.range_coder import (
     Bank,
     Coder,
@@ -30,10 +30,126 @@ from bsm.bitstream.entropy.range_coder import (
     start_writing,
 )
 from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.once import cached_property
+
+Magnitudes = npt.NDArray[np.int32]
+NEIGHBOURS = 20
+"""Inputs of an expectation."""
+SITUATIONS = 6
+"""Each has its own weights: first block of a chain or a later one, times coordinate."""
+UNIT = 16
+"""An input of a level of 1; expectations are in 1 / UNIT, too."""
+WEIGHT_BITS = 10
+"""A weight of 1.0 is 1 << WEIGHT_BITS."""
+BINS = 48
+"""Three to the octave."""
+_ABOVE = 8  # rows of zeros in front of the first frequency, as far as any neighbour reaches
+_BEYOND = 3  # and behind the last
+
+
+class Past(NamedTuple):
+    """Magnitudes of a chain's coefficients so far; row _ABOVE is the lowest frequency, each column a coordinate."""
+
+    current: Magnitudes
+    before: Magnitudes
+    usual: Magnitudes
+    blocks: npt.NDArray[np.int64]
+
+
+def make_past(width: int) -> Past:
+    """The past of a chain that has none, for blocks of at most `width` rows."""
+    shape = (_ABOVE + width + _BEYOND, 3)
+    return Past(np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(1, np.int64))
+
+
+def copy_past(past: Past) -> Past:
+    """An independent copy."""
+    return Past(past.current.copy(), past.before.copy(), past.usual.copy(), past.blocks.copy())
+
+
+def look_at_block(past: Past, levels: Magnitudes) -> Magnitudes:
+    """The inputs of the expectations of a block's coefficients, shape (c, 3); the block becomes a part of `past`."""
+    inputs = np.empty((levels.size, NEIGHBOURS), np.int32)
+    _kernels.look_at_block(past, levels, inputs)
+    return inputs
+
+
+def expectation_bin(weights: Magnitudes, inputs: Magnitudes) -> int:
+    """Logarithm of an expectation, in thirds of an octave (each of them linear inside), 0 .. BINS - 1."""
+    return _kernels.bin_of_expectation(weights, inputs)
+
+
+Levels = npt.NDArray[np.int32]
+STATES = 8
+"""A state is the numbers of the last three grids, the latest in the lowest bit (`trellis.h`)."""
+
+
+def points_of_levels(levels: Levels) -> Levels:
+    """Coefficients of a block in half steps, shape (c, 3); levels follow each other row by row."""
+    points = np.empty_like(levels)
+    _kernels.points_of_levels(levels, points)
+    return points
+
+
+EXPECTATIONS = 3
+"""From everything, from the same block alone, from earlier blocks alone; each is a context of its own."""
+NODES = 38
+"""Binary decisions that have a probability of their own, see `bitstream.coefficients.adaptive`."""
+SELECTORS = 2
+"""Sets of mixing weights for each node: first block of a chain, later blocks."""
+_SHAPES = {
+    "expectations": (EXPECTATIONS, SITUATIONS, NEIGHBOURS),
+    "mixing": (SELECTORS * NODES, EXPECTATIONS),
+    "slots": (EXPECTATIONS * BINS * NODES,),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Experience:
+    """Learnt numbers; in a file, the three arrays one behind the other, little-endian, 16 bits a number."""
+
+    expectations: npt.NDArray[np.uint16]
+    mixing: npt.NDArray[np.int16]
+    slots: npt.NDArray[np.uint16]
+
+    def to_bytes(self) -> bytes:
+        """As in the file."""
+        return b"".join(
+            array.astype(kind).tobytes()
+            for array, kind in ((self.expectations, "<u2"), (self.mixing, "<i2"), (self.slots, "<u2"))
+        )
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Experience:
+        """Twin of `to_bytes`."""
+        first = 2 * int(np.prod(_SHAPES["expectations"]))
+        second = first + 2 * int(np.prod(_SHAPES["mixing"]))
+        return cls(
+            np.frombuffer(data[:first], "<u2").reshape(_SHAPES["expectations"]),
+            np.frombuffer(data[first:second], "<i2").reshape(_SHAPES["mixing"]),
+            np.frombuffer(data[second:], "<u2").reshape(_SHAPES["slots"]),
+        )
+
+    @cached_property
+    def first_slots(self) -> npt.NDArray[np.uint32]:
+        """Slots of a fresh bank, shape (EXPECTATIONS * BINS * NODES,)."""
+        stored = self.slots.astype(np.int64)
+        return (((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2)).astype(np.uint32)
+
+    @cached_property
+    def first_weights(self) -> npt.NDArray[np.int32]:
+        """Mixing weights of a fresh bank, shape (SELECTORS * NODES, EXPECTATIONS), 1.0 = 65536."""
+        return self.mixing.astype(np.int32) << 4
+
+
+@cache
+def shipped_experience() -> Experience:
+    """What is known of coefficients before any has come; part of the format."""
+    return Experience.from_bytes(priors())
+
 
 MAX_LEVEL = (1 << 23) - 1
 """Largest magnitude of a quantized coefficient."""
-
 _BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as they are
 
 

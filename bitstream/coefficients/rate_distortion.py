@@ -13,8 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel
-from bsm.bitstream.coefficients.trellis import STATES, Levels
+from bsm.bitstream.coefficients.adaptive import MAX_LEVEL, STATES, CoefficientModel, Levels
 from bsm.bitstream.entropy.range_coder import ONE
 from bsm.bitstream.errors import OptionError
 

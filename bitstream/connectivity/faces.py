@@ -9,39 +9,240 @@ The decoder's numbering is a fixed point: encoding decoded faces gives the same 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.connectivity.conquest import (
-    NO_ROOM,
-    NONSENSE,
-    TURN_BYTES,
-    Conquest,
-    Guide,
-    conquer,
-    enlarge_conquest,
-    make_conquest,
-    make_guide,
-    no_guide,
-)
-from bsm.bitstream.connectivity.halfedges import close_surface
-from bsm.bitstream.connectivity.seams import code_degenerate, code_seams
-from bsm.bitstream.connectivity.valence_model import RARE_HEADER, Models, code_rare, make_models
 from bsm.bitstream.entropy.range_coder import (
+    ONE,
+    Bank,
     Coder,
+    code_unsigned,
     finish_reading,
     finish_writing,
+    make_bank,
     make_room,
     overran,
     start_reading,
     start_writing,
+    unsigned_span,
 )
 from bsm.bitstream.errors import CorruptError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
+
+
+class Surface(NamedTuple):
+    """A closed surface."""
+
+    twin: Ints
+    corner: Ints
+    valence: Ints
+    vertex: Ints
+
+
+def close_surface(faces: Ints, vertex_count: int) -> Surface:
+    """Build the closed surface of faces without repeated corners, shape (m, 3), indices below `vertex_count`."""
+    origin = np.ascontiguousarray(faces, np.int32).reshape(-1)
+    twin = match_halfedges(origin, vertex_count)
+    corner, vertex = _find_fans(origin, twin)
+    return _fill_loops(twin, corner, vertex)
+
+
+def match_halfedges(origin: Ints, vertex_count: int) -> Ints:
+    """Twin of each half-edge, -1 unless its edge has exactly one half-edge in each direction; in linear time."""
+    starts = np.empty(vertex_count + 1, np.int64)
+    by_high, order, twin = (np.empty(origin.size, np.int32) for _ in range(3))
+    _kernels.match_halfedges(origin, starts, by_high, order, twin)
+    return twin
+
+
+def _find_fans(origin: Ints, twin: Ints) -> tuple[Ints, Ints]:
+    corner, vertex = np.empty_like(origin), np.empty_like(origin)
+    count = _kernels.find_fans(origin, twin, corner, vertex)
+    return corner, vertex[:count].copy()
+
+
+def _fill_loops(twin: Ints, corner: Ints, vertex: Ints) -> Surface:
+    """Add a dummy vertex for every boundary loop, and its faces (b, a, dummy) for each boundary half-edge (a, b)."""
+    size = twin.size + 3 * int(np.count_nonzero(twin < 0))
+    full_twin, full_corner = np.empty(size, np.int32), np.empty(size, np.int32)
+    dummies = _kernels.fill_loops(twin, corner, np.empty_like(vertex), full_twin, full_corner)
+    valence = np.bincount(full_corner, minlength=len(vertex) + dummies).astype(np.int32)
+    return Surface(full_twin, full_corner, valence, vertex)
+
+
+_NODE_COLUMNS = 8
+_BUCKETS = 8
+_MADE, _ALIVE, _TAILS = _BUCKETS, _BUCKETS + 1, _BUCKETS + 2
+
+
+class Front(NamedTuple):
+    """Polygons that bound the conquered faces."""
+
+    nodes: Ints
+    heads: Ints
+
+
+def make_front(capacity: int) -> Front:
+    """An empty front for at most `capacity` nodes."""
+    heads = np.full(_TAILS + _BUCKETS, -1, np.int32)
+    heads[_MADE] = heads[_ALIVE] = 0
+    return Front(np.empty((capacity, _NODE_COLUMNS), np.int32), heads)
+
+
+def enlarge_front(front: Front) -> Front:
+    """A front with twice the capacity."""
+    return Front(np.concatenate([front.nodes, np.empty_like(front.nodes)]), front.heads)
+
+
+_VALENCE_CONTEXTS = 14
+_VALENCE_NODES = 16
+_EVENT_CONTEXTS = 3
+_EVENT_SIZE = 4096
+_RARE_UNARY = 2
+_RARE_SPAN = unsigned_span(_RARE_UNARY)
+_RARE_KINDS = 6
+RARE_HEADER = 5 * _RARE_SPAN
+"""First node of the model of the counts at the start of the payload."""
+
+
+class Models(NamedTuple):
+    """Adaptive state of one payload."""
+
+    valence: Bank
+    event: Bank
+    rare: Bank
+    bits: int
+
+
+def make_models(vertex_count: int) -> Models:
+    """Neutral models; the tables grow with the number of vertices, which both sides know."""
+    bits = min(max(int(vertex_count).bit_length() - 2, 6), 12)
+    return Models(
+        make_bank((_VALENCE_CONTEXTS << bits) * _VALENCE_NODES, _VALENCE_NODES, _VALENCE_CONTEXTS, 1023, 16),
+        make_bank(_EVENT_CONTEXTS * _EVENT_SIZE, 1, _EVENT_CONTEXTS, 1023, 16, ONE - ONE // 500, 30),
+        make_bank(_RARE_KINDS * _RARE_SPAN, _RARE_KINDS * _RARE_SPAN, 1),
+        bits,
+    )
+
+
+def code_rare(coder: Coder, models: Models, kind: int, value: int) -> int:
+    """Code an unsigned integer of a rare kind."""
+    return code_unsigned(coder, models.rare, np.zeros(1, np.int64), 0, _RARE_UNARY, value, kind)
+
+
+DONE, NONSENSE, NO_ROOM = range(3)
+"""How a call of `conquer` ends; without room, make some and call again."""
+_DUMMIES, _TURNS, _STEPS, _TALLIES = 3, 4, 5, 8
+TURN_BYTES = 1024
+"""More than one triangle can take."""
+
+
+class Guide(NamedTuple):
+    """What only the encoder knows; a decoder has empty arrays."""
+
+    surface: Surface
+    conquered: npt.NDArray[np.uint8]
+    node: Ints
+    number: Ints
+    fans: Ints
+    faces: Ints
+
+
+class Conquest(NamedTuple):
+    """What both sides know."""
+
+    front: Front
+    vertices: npt.NDArray[np.int64]
+    faces: Ints
+    tallies: npt.NDArray[np.int64]
+
+
+def make_guide(surface: Surface, face_count: int) -> Guide:
+    """For encoding `surface`, of which the first `face_count` faces are real."""
+    halfedges = len(surface.twin)
+    return Guide(
+        surface,
+        np.zeros(halfedges // 3, np.uint8),
+        np.empty(halfedges, np.int32),
+        np.full(len(surface.valence), -1, np.int32),
+        np.empty(len(surface.vertex), np.int32),
+        np.empty(face_count, np.int32),
+    )
+
+
+def no_guide() -> Guide:
+    """The guide of a decoder, which has none."""
+    nothing = np.empty(0, np.int32)
+    return make_guide(Surface(nothing, nothing, nothing, nothing), 0)
+
+
+def make_conquest(face_count: int, fans: int, dummies: int) -> Conquest:
+    """The state before the first triangle."""
+    tallies = np.zeros(_TALLIES, np.int64)
+    tallies[_DUMMIES] = dummies
+    tallies[_TURNS] = 4 * face_count  # each real face has at most three dummy neighbours
+    tallies[_STEPS] = 65536 + 16 * face_count
+    vertices = np.empty((fans + dummies, 2), np.int64)
+    return Conquest(make_front(fans + 16), vertices, np.empty((face_count, 3), np.int32), tallies)
+
+
+def enlarge_conquest(conquest: Conquest) -> Conquest:
+    """State of a conquest with room for more nodes."""
+    return conquest._replace(front=enlarge_front(conquest.front))
+
+
+def conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest) -> int:
+    """Code the surface, from where the last call ran out of room."""
+    return _kernels.conquer(coder, models, guide, conquest)
+
+
+_SLOTS = 32
+
+
+class Seams(NamedTuple):
+    """Working memory for the vertices of fans."""
+
+    vertex: Ints
+    after: Ints
+    before: Ints
+    sibling: Ints
+    latest: Ints
+
+
+def code_seams(coder: Coder, faces: Ints, vertices: Ints) -> tuple[int, Ints]:
+    """Code the vertex of every fan; return the number of vertices, or -1 for nonsense, and the vertices, shape (f,)."""
+    seams = _make_seams(_find_borders(faces, len(vertices)))
+    bank = make_bank(_SLOTS, 1, 1)
+    return _kernels.code_fans(coder, bank, vertices, seams), seams.vertex
+
+
+def _find_borders(faces: Ints, fans: int) -> Ints:
+    """The next fan along the boundary, -1 for a fan inside the surface."""
+    origin = faces.reshape(-1)
+    border = np.flatnonzero(match_halfedges(origin, fans) < 0)
+    after = np.full(fans, -1, np.int32)
+    after[origin[border]] = np.roll(faces, -1, axis=1).reshape(-1)[border]
+    return after
+
+
+def _make_seams(after: Ints) -> Seams:
+    size = len(after)
+    before = np.full(size, -1, np.int32)
+    at_border = np.flatnonzero(after >= 0)
+    before[after[at_border]] = at_border
+    vertex, sibling, latest = (np.empty(size, np.int32) for _ in range(3))
+    return Seams(vertex, after, before, sibling, latest)
+
+
+def code_degenerate(coder: Coder, corners: Ints, count: int) -> int:
+    """Code the corners of degenerate faces, shape (3 * k,), each a vertex below `count` or the next new one."""
+    return _kernels.code_degenerate(coder, corners, count)
+
 
 _FIRST_CAPACITY = 1 << 16
 _FACE_MEMORY, _VERTEX_MEMORY, _FAN_MEMORY = 100, 400, 240

@@ -11,12 +11,94 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream import _kernels
 from bsm.bitstream.connectivity.faces import EncodedConnectivity
-from bsm.bitstream.connectivity.permutation import code_permutation, code_rotations
-from bsm.bitstream.entropy.range_coder import Coder, start_writing
-from bsm.bitstream.errors import CorruptError
+from bsm.bitstream.entropy.range_coder import (
+    Coder,
+    finish_reading,
+    finish_writing,
+    is_reading,
+    make_bank,
+    make_room,
+    overran,
+    signed_span,
+    start_reading,
+    start_writing,
+)
+from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 
 Ints = npt.NDArray[np.int32]
+_UNARY = 6
+_SAME = signed_span(_UNARY)
+_SPAN = _SAME + 1
+_INPUTS = 4
+_CLASSES = 32
+_STEP_BYTES = 128  # more than one entry can take
+
+
+def encode_permutation(order: npt.ArrayLike) -> bytes:
+    """Encode a permutation of 0 .. n - 1, shape (n,), n below 2**24."""
+    values = np.array(order, np.int32)
+    coder = start_writing(0)
+    return finish_writing(code_permutation(coder, values))
+
+
+def decode_permutation(payload: bytes, size: int) -> Ints:
+    """Decode a permutation of `size` entries, shape (size,)."""
+    values = np.zeros(size, np.int32)
+    finish_reading(code_permutation(start_reading(payload), values))
+    return values
+
+
+def encode_rotations(rotations: npt.ArrayLike) -> bytes:
+    """Encode integers 0, 1 and 2, shape (m,); raises `OptionError` on others."""
+    values = np.array(rotations, np.int32)
+    return finish_writing(code_rotations(start_writing(0), values))
+
+
+def decode_rotations(payload: bytes, size: int) -> Ints:
+    """Twin of `encode_rotations`: shape (size,); raises `CorruptError` or `TruncatedError`."""
+    values = np.zeros(size, np.int32)
+    finish_reading(code_rotations(start_reading(payload), values))
+    return values
+
+
+def code_permutation(coder: Coder, values: Ints) -> Coder:
+    """Write the permutation `values`, shape (n,), or read it into `values`; return the coder to go on with."""
+    size = len(values)
+    if not is_reading(coder):
+        if values.ndim != 1 or size >> 24 or not _is_permutation(values):
+            raise OptionError("not a permutation of fewer than 2**24 entries, counted from 0")
+        coder = make_room(coder, _STEP_BYTES * size)
+    bank = make_bank((1 + _CLASSES + 2 * _CLASSES * _CLASSES) * _SPAN, _SPAN, _INPUTS)
+    legal = _kernels.code_steps(coder, bank, values, np.empty(size + 1, np.int32))
+    return _checked(coder, legal, f"a permutation of {size} entries")
+
+
+def code_rotations(coder: Coder, values: Ints) -> Coder:
+    """Write integers 0, 1 and 2, shape (m,), or read them into `values`; as `code_permutation`."""
+    if not is_reading(coder):
+        if values.ndim != 1 or (len(values) and (values.min() < 0 or values.max() > 2)):
+            raise OptionError("rotations of a triangle's corners are 0, 1 or 2")
+        coder = make_room(coder, 4 * len(values))
+    bank = make_bank(3 * (9 + 27), 2, 2)
+    legal = _kernels.code_turns(coder, bank, values)
+    return _checked(coder, legal, f"{len(values)} rotations")
+
+
+def _checked(coder: Coder, legal: int, what: str) -> Coder:
+    if overran(coder):
+        raise TruncatedError(f"the payload of {what} ends too early")
+    if not legal:
+        raise CorruptError(f"the payload is not {what}")
+    return coder
+
+
+def _is_permutation(values: Ints) -> bool:
+    size = len(values)
+    if size and (values.min() < 0 or values.max() >= size):
+        return False
+    return bool((np.bincount(values, minlength=size) == 1).all())
 
 
 @dataclass(frozen=True, eq=False)

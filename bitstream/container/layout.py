@@ -11,7 +11,6 @@ from typing import Any, TypeVar
 
 from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.header import entries_of, header_from_entries, header_to_entries, record_of
-from bsm.bitstream.container.maps import MAX_ENTRIES, parse_map, write_map
 from bsm.bitstream.container.packets import (
     Attribute,
     Block,
@@ -27,7 +26,7 @@ from bsm.bitstream.container.packets import (
     Refinement,
     Values,
 )
-from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
+from bsm.bitstream.container.wire import MAX_ENTRIES, Cursor, FrameType, parse_map, write_map, write_varint
 from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.bitstream.limits import Limits
 

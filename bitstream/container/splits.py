@@ -13,8 +13,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.coefficients.matrices import code_column
 from bsm.bitstream.connectivity.faces import EncodedConnectivity
-from bsm.bitstream.connectivity.order import Arrangement, read_arrangement, write_arrangement
-from bsm.bitstream.connectivity.permutation import code_rotations
+from bsm.bitstream.connectivity.order import Arrangement, code_rotations, read_arrangement, write_arrangement
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.entropy.range_coder import finish_reading, finish_writing, start_reading
 from bsm.bitstream.errors import CorruptError, OptionError

@@ -10,9 +10,16 @@ import numpy.typing as npt
 from bsm.bitstream import _kernels
 from bsm.bitstream.entropy.range_coder import Coder, make_bank
 from bsm.bitstream.errors import MeshError
-from bsm.bitstream.fields.chunks import Field, FieldDecoder, FieldEncoder
-from bsm.bitstream.fields.corners import BYTES_PER_FACE, BYTES_PER_VERTEX, corners_of
-from bsm.bitstream.fields.model import TERMS, make_learners
+from bsm.bitstream.fields.corners import (
+    BYTES_PER_FACE,
+    BYTES_PER_VERTEX,
+    TERMS,
+    Field,
+    FieldDecoder,
+    FieldEncoder,
+    corners_of,
+    make_learners,
+)
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.coefficients.adaptive import STATES, points_of_levels
 from bsm.bitstream.coefficients.matrices import Lead, Prices
-from bsm.bitstream.coefficients.trellis import STATES, points_of_levels
 from bsm.bitstream.errors import NumericError, OptionError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix

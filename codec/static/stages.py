@@ -14,8 +14,7 @@ from types import TracebackType
 from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
 from bsm.bitstream.container.packets import Damaged, Metadata, MetadataValue, Packet
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Buffer, Reader, Signal
-from bsm.bitstream.container.tolerant import TolerantReader
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Buffer, Reader, Signal, TolerantReader
 from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.codec.static.work import Allowance
 

@@ -33,6 +33,9 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+# The finder of an editable install would add the root of the checkout, and with it tools, tests and spec.
+__path__ = [__file__.removesuffix("__init__.py")]
+
 # What type checkers see; the same names as below.
 # fmt: off
 # isort: off

@@ -10,26 +10,25 @@ import numpy as np
 import pytest
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.attributes import faces as face_values
 from bsm.bitstream.attributes import seams as attribute_seams
 from bsm.bitstream.attributes import values
-from bsm.bitstream.attributes.octahedron import octahedral_levels
-from bsm.bitstream.coefficients import adaptive, contexts, matrices, rate_distortion, trellis
+from bsm.bitstream.attributes.values import octahedral_levels
+from bsm.bitstream.coefficients import adaptive, matrices, rate_distortion
 from bsm.bitstream.coefficients.adaptive import CoefficientModel
-from bsm.bitstream.connectivity import conquest, faces, halfedges, partition, permutation, seams
+from bsm.bitstream.connectivity import faces, order, partition
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
 from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
 from bsm.bitstream.container.splits import decode_order, encode_order
 from bsm.bitstream.entropy import range_coder
-from bsm.bitstream.fields import corners, floats, grid, levels, light
+from bsm.bitstream.fields import corners, grid, levels
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
 
 MODULES = (
-    *(adaptive, contexts, matrices, rate_distortion, trellis),
-    *(conquest, faces, halfedges, partition, permutation, seams, range_coder),
-    *(corners, floats, grid, levels, light),
-    *(attribute_seams, face_values, values),
+    *(adaptive, matrices, rate_distortion),
+    *(faces, order, partition, range_coder),
+    *(corners, grid, levels),
+    *(attribute_seams, values),
 )
 
 
@@ -95,12 +94,12 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     payload = grid.GridEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
     places, found = grid.GridDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
     np.testing.assert_array_equal(found, positions[places])
-    payload = light.LightEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
-    places, found = light.LightDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
+    payload = grid.LightEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
+    places, found = grid.LightDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
     np.testing.assert_array_equal(found, positions[places])
-    cells = floats.Cells(*(10 * positions.astype(np.int64) + more for more in (0, 5, 10)))
-    payload = floats.Floats((6, 6, 6)).encode(positions.astype(np.int32), cells, cells.low + 3)
-    found = floats.Floats((6, 6, 6)).decode(payload, positions.astype(np.int32), cells)
+    cells = grid.Cells(*(10 * positions.astype(np.int64) + more for more in (0, 5, 10)))
+    payload = grid.Floats((6, 6, 6)).encode(positions.astype(np.int32), cells, cells.low + 3)
+    found = grid.Floats((6, 6, 6)).decode(payload, positions.astype(np.int32), cells)
     np.testing.assert_array_equal(found, cells.low + 3)
     payload = levels.LevelsEncoder(decoded, positions - 3).chunk(vertices)
     np.testing.assert_array_equal(levels.LevelsDecoder(decoded, vertices).chunk(payload, vertices)[1], positions - 3)
@@ -119,8 +118,8 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     places, found = values.ValueDecoder(decoded, vertices, (126, 126), "normal", positions).chunk(payload, vertices)
     np.testing.assert_array_equal(found, normals[places])
     groups = (np.arange(len(decoded)) // 9)[:, None]
-    payload = face_values.FaceValueEncoder(decoded, groups, groups.max(axis=0)).chunk(len(groups))
-    found = face_values.FaceValueDecoder(decoded, groups.max(axis=0)).chunk(payload, len(groups))[1]
+    payload = values.FaceValueEncoder(decoded, groups, groups.max(axis=0)).chunk(len(groups))
+    found = values.FaceValueDecoder(decoded, groups.max(axis=0)).chunk(payload, len(groups))[1]
     np.testing.assert_array_equal(found, groups)
 
     chosen = rate_distortion.choose_levels(CoefficientModel(60), 300 * given.astype(np.int64), 0.1).levels
@@ -131,9 +130,9 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     matrix = np.zeros_like(chosen)
     matrices.decode_levels(matrices.make_level_bank(), payload, [matrix], [chosen])
     np.testing.assert_array_equal(matrix, chosen)
-    contexts.look_at_block(contexts.make_past(60), chosen)
-    contexts.expectation_bin(np.ones(20, np.int32), np.ones(20, np.int32))
-    trellis.points_of_levels(chosen)
+    adaptive.look_at_block(adaptive.make_past(60), chosen)
+    adaptive.expectation_bin(np.ones(20, np.int32), np.ones(20, np.int32))
+    adaptive.points_of_levels(chosen)
 
     single = {"code_bit", "code_uniform", "code_mixed_bit", "code_signed", "points_of_levels"}
     given_nothing = {"priors"}

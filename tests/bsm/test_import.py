@@ -27,6 +27,13 @@ def test_it_loads_nothing_that_takes_time():
     assert not {"numpy", "scipy", "codec", "bsm.codec.denoise", "bsm.bitstream.container"} & loaded
 
 
+@pytest.mark.parametrize("name", ["tools", "tests", "spec", "examples", "build"])
+def test_nothing_of_a_checkout_but_the_product_is_of_it(name):
+    assert len(bsm.__path__) == 1
+    with pytest.raises(ModuleNotFoundError):
+        importlib.import_module(f"bsm.{name}")
+
+
 def test_a_name_loads_no_more_than_it_needs():
     loaded = set(run("import sys, bsm; bsm.Limits(), bsm.MeshError; print(*sys.modules)").split())
     assert "bsm.bitstream.limits" in loaded

@@ -16,11 +16,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.errors import BsmError
-from bsm.bitstream.fields.chunks import FieldDecoder
-from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder
-from bsm.bitstream.fields.lattice import spread
+from bsm.bitstream.fields.corners import FieldDecoder
+from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder, LightDecoder, LightEncoder, spread
 from bsm.bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder
-from bsm.bitstream.fields.light import LightDecoder, LightEncoder
 from tests.bitstream.fields.fields import KINDS, SOUPS, Chunks, encode, values
 from tools import field_tables
 from tools.measure.grids import rounded, welded

@@ -13,10 +13,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.faces import FaceValueDecoder, FaceValueEncoder
-from bsm.bitstream.attributes.octahedron import canonical_levels
-from bsm.bitstream.attributes.ranges import MOST_LARGEST
-from bsm.bitstream.attributes.values import ValueDecoder, ValueEncoder
+from bsm.bitstream.attributes.values import (
+    MOST_LARGEST,
+    FaceValueDecoder,
+    FaceValueEncoder,
+    ValueDecoder,
+    ValueEncoder,
+    canonical_levels,
+)
 from tests.bitstream.fields.fields import KINDS, SOUPS, encode, values
 from tests.spec.test_reference_fields import damaged, outcome, plain, product
 from tools.measure.grids import rounded, welded

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bsm.bitstream.coefficients.priors import Experience, shipped_experience
+from bsm.bitstream.coefficients.adaptive import Experience, shipped_experience
 from tools.train_coefficients import rounded
 
 

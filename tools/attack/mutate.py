@@ -7,8 +7,7 @@ from random import Random
 
 from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
-from bsm.bitstream.container.maps import parse_map, write_map
-from bsm.bitstream.container.wire import Cursor, FrameType, write_varint
+from bsm.bitstream.container.wire import Cursor, FrameType, parse_map, write_map, write_varint
 from bsm.bitstream.errors import BsmError
 from tools.surgery import Frames, frames_of, header_entries, stream_of
 

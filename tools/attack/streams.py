@@ -13,27 +13,30 @@ import numpy.typing as npt
 from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, encode_seams
 from bsm.bitstream.coefficients.matrices import encode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
-from bsm.bitstream.connectivity.conquest import (
+from bsm.bitstream.connectivity.faces import (
     NO_ROOM,
+    RARE_HEADER,
     TURN_BYTES,
+    EncodedConnectivity,
+    _number_by_appearance,
+    close_surface,
+    code_rare,
+    code_seams,
     conquer,
+    encode_connectivity,
     enlarge_conquest,
     make_conquest,
     make_guide,
+    make_models,
 )
-from bsm.bitstream.connectivity.faces import EncodedConnectivity, _number_by_appearance, encode_connectivity
-from bsm.bitstream.connectivity.halfedges import close_surface
 from bsm.bitstream.connectivity.partition import encode_labels
-from bsm.bitstream.connectivity.seams import code_seams
-from bsm.bitstream.connectivity.valence_model import RARE_HEADER, code_rare, make_models
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.declaration import AS_CODED, CORNER, FACE, OTHERWISE, RECOMPUTED, Declaration
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
-from bsm.bitstream.container.maps import write_map
 from bsm.bitstream.container.splits import Splits, encode_order
-from bsm.bitstream.container.wire import FrameType, write_frame, write_varint
+from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
 from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
 from bsm.bitstream.fields.corners import corners_of
 from bsm.bitstream.fields.levels import LevelsEncoder

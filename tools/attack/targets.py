@@ -8,27 +8,23 @@ from pathlib import Path
 
 import numpy as np
 
-from bsm.bitstream.attributes.faces import FaceValueDecoder
 from bsm.bitstream.attributes.seams import Joins, decode_seams
-from bsm.bitstream.attributes.values import Kind, ValueDecoder
+from bsm.bitstream.attributes.values import FaceValueDecoder, Kind, ValueDecoder
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients
 from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import unpack_coefficients
 from bsm.bitstream.connectivity.faces import decode_connectivity
+from bsm.bitstream.connectivity.order import decode_permutation, decode_rotations
 from bsm.bitstream.connectivity.partition import decode_labels
-from bsm.bitstream.connectivity.permutation import decode_permutation, decode_rotations
 from bsm.bitstream.container.gop import parse_gop_body
 from bsm.bitstream.container.layout import PARSERS
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, TolerantReader
 from bsm.bitstream.container.splits import decode_order
-from bsm.bitstream.container.tolerant import TolerantReader
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError
-from bsm.bitstream.fields.chunks import FieldEncoder
-from bsm.bitstream.fields.corners import corners_of
-from bsm.bitstream.fields.grid import GridDecoder, GridEncoder
+from bsm.bitstream.fields.corners import FieldEncoder, corners_of
+from bsm.bitstream.fields.grid import GridDecoder, GridEncoder, LightDecoder, LightEncoder
 from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
-from bsm.bitstream.fields.light import LightDecoder, LightEncoder
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.decoder import SequenceDecoder

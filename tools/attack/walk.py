@@ -21,8 +21,7 @@ from typing import Any
 
 from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
-from bsm.bitstream.container.maps import MAX_ENTRIES, write_map
-from bsm.bitstream.container.wire import SKIPPABLE_TYPES, FrameType, write_varint
+from bsm.bitstream.container.wire import MAX_ENTRIES, SKIPPABLE_TYPES, FrameType, write_map, write_varint
 from bsm.bitstream.limits import NAMED_LIMITS
 from tools.attack.measure import WEB, Taken, bounds, browser_bounds, decode_all, forget_peak, resident, seconds_of_cpu
 from tools.surgery import Frames, frames_of, stream_of, with_declaration, with_header

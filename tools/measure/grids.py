@@ -18,8 +18,7 @@ from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
 from bsm.bitstream.container.reader import Reader, read_packets
 from bsm.bitstream.container.writer import write_stream
-from bsm.bitstream.fields.grid import GridDecoder, GridEncoder
-from bsm.bitstream.fields.lattice import find_lattice, spread
+from bsm.bitstream.fields.grid import GridDecoder, GridEncoder, find_lattice, spread
 from bsm.files.mesh import read_mesh
 
 CHUNK = 1 << 15

@@ -14,8 +14,7 @@ import zstandard
 from bsm.bitstream.connectivity.faces import decode_connectivity
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container.header import HEADER_FIELDS, Paper
-from bsm.bitstream.container.maps import write_map
-from bsm.bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
+from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions

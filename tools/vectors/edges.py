@@ -10,8 +10,7 @@ from typing import Any
 import zstandard
 
 from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.maps import write_map
-from bsm.bitstream.container.wire import FrameType, write_frame
+from bsm.bitstream.container.wire import FrameType, write_frame, write_map
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.sequence.options import SequenceOptions

@@ -7,13 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients
-from bsm.bitstream.coefficients.trellis import points_of_levels
+from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients, points_of_levels
 from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.maps import write_map
 from bsm.bitstream.container.packets import Header
 from bsm.bitstream.container.reader import Reader
-from bsm.bitstream.container.wire import FrameType, write_frame, write_preamble, write_varint
+from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.attributes.octahedron import canonical_levels, octahedral_normals
+from bsm.bitstream.attributes.values import canonical_levels, octahedral_normals
 from bsm.bitstream.container.declaration import BITS, LEVELS, OCTAHEDRAL, RECOMPUTED, Declaration
 from bsm.bitstream.errors import OptionError, TargetError
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality

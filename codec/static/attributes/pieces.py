@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from bsm.bitstream.attributes.faces import FaceValueDecoder, FaceValueEncoder
-from bsm.bitstream.attributes.ranges import MOST_COMPONENTS
-from bsm.bitstream.attributes.values import Kind, ValueDecoder, ValueEncoder
+from bsm.bitstream.attributes.values import (
+    MOST_COMPONENTS,
+    FaceValueDecoder,
+    FaceValueEncoder,
+    Kind,
+    ValueDecoder,
+    ValueEncoder,
+)
 from bsm.bitstream.container.declaration import COLOR, FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import CorruptError

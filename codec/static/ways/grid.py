@@ -14,10 +14,18 @@ from bsm.bitstream.container.header import EXACT, Header
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import BsmError, CorruptError, NumericError
-from bsm.bitstream.fields.floats import Cells, Floats, Numbers, cells_of, floats_of
-from bsm.bitstream.fields.grid import GridDecoder, GridEncoder
-from bsm.bitstream.fields.lattice import spread
-from bsm.bitstream.fields.light import LightDecoder, LightEncoder
+from bsm.bitstream.fields.grid import (
+    Cells,
+    Floats,
+    GridDecoder,
+    GridEncoder,
+    LightDecoder,
+    LightEncoder,
+    Numbers,
+    cells_of,
+    floats_of,
+    spread,
+)
 from bsm.codec.arrays import Indices, Levels, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.attributes.decoding import ValuesStage, completed

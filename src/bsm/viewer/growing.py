@@ -10,8 +10,7 @@ from typing import BinaryIO
 
 from bsm.bitstream.container.gop import method_of
 from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.maps import parse_map
-from bsm.bitstream.container.wire import MAGIC, FrameType, Tag, parse_tag, parse_varint, write_preamble
+from bsm.bitstream.container.wire import MAGIC, FrameType, Tag, parse_map, parse_tag, parse_varint, write_preamble
 from bsm.bitstream.errors import BsmError, CorruptError
 
 _CHUNK = 1 << 18

@@ -13,10 +13,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.faces import FaceValueDecoder, FaceValueEncoder, face_values_charge
-from bsm.bitstream.attributes.octahedron import canonical_levels, octahedral_levels, octahedral_normals
-from bsm.bitstream.attributes.ranges import MOST_LARGEST
-from bsm.bitstream.attributes.values import Kind, ValueDecoder, ValueEncoder, ring_of_twins, values_charge
+from bsm.bitstream.attributes.values import (
+    MOST_LARGEST,
+    FaceValueDecoder,
+    FaceValueEncoder,
+    Kind,
+    ValueDecoder,
+    ValueEncoder,
+    canonical_levels,
+    face_values_charge,
+    octahedral_levels,
+    octahedral_normals,
+    ring_of_twins,
+    values_charge,
+)
 from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values

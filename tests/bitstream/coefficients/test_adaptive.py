@@ -10,13 +10,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.coefficients.adaptive import (
+    BINS,
     MAX_LEVEL,
+    NEIGHBOURS,
     CoefficientModel,
+    Experience,
     decode_coefficients,
     encode_coefficients,
+    expectation_bin,
+    look_at_block,
+    make_past,
+    shipped_experience,
 )
-from bsm.bitstream.coefficients.contexts import BINS, NEIGHBOURS, expectation_bin, look_at_block, make_past
-from bsm.bitstream.coefficients.priors import Experience, shipped_experience
 from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
 
 HASH = "2a093067f31fc03a6ec865ebc6193347d2b21ff18e6f4903e80cfc3af97c39d0"

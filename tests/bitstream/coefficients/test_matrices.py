@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
+from bsm.bitstream.coefficients.adaptive import points_of_levels
 from bsm.bitstream.coefficients.matrices import PRICED, decode_levels, encode_levels, make_level_bank, price_levels
-from bsm.bitstream.coefficients.trellis import points_of_levels
 from bsm.bitstream.container.gop import (
     MAX_EXPONENT,
     GopBody,

@@ -6,8 +6,7 @@ import zstandard
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
-from bsm.bitstream.entropy.zstd import compress, decompress
+from bsm.bitstream.coefficients.packed import compress, decompress, pack_coefficients, unpack_coefficients
 from bsm.bitstream.errors import CorruptError, OptionError
 
 

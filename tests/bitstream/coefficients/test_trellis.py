@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.coefficients.trellis import STATES, points_of_levels
+from bsm.bitstream.coefficients.adaptive import STATES, points_of_levels
 
 
 def grids_of(levels: list[int]) -> list[int]:

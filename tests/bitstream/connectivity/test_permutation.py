@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.permutation import (
+from bsm.bitstream.connectivity.order import (
     decode_permutation,
     decode_rotations,
     encode_permutation,

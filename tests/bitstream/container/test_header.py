@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Header, Paper, paper_of
 from bsm.bitstream.container.layout import parse_header, write_header
-from bsm.bitstream.container.maps import write_map
+from bsm.bitstream.container.wire import write_map
 from bsm.bitstream.errors import BsmError, CorruptError, LimitError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from tests.bitstream.streams import SMALL_HEADER

@@ -25,8 +25,7 @@ from bsm.bitstream.container.packets import (
     Refinement,
     Values,
 )
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader
-from bsm.bitstream.container.tolerant import TolerantReader
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, TolerantReader
 from bsm.bitstream.container.wire import write_frame, write_preamble, write_varint
 from bsm.bitstream.container.writer import Writer, write_stream
 from bsm.bitstream.errors import (

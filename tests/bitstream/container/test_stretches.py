@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.container.stretches import parse_stretches, write_stretches
+from bsm.bitstream.container.gop import parse_stretches, write_stretches
 from bsm.bitstream.container.wire import Cursor
 from bsm.bitstream.errors import CorruptError
 

@@ -4,8 +4,7 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.container import wire
 from bsm.bitstream.container.packets import Block, Connectivity, Damaged, End
-from bsm.bitstream.container.reader import Signal
-from bsm.bitstream.container.tolerant import SCAN_BYTES, SCAN_FACTOR, TolerantReader
+from bsm.bitstream.container.reader import SCAN_BYTES, SCAN_FACTOR, Signal, TolerantReader
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.errors import BsmError

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from hypothesis import strategies as st
 
-from bsm.bitstream.fields.chunks import FieldDecoder, FieldEncoder
+from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
 from tests.shapes import Faces, grid_faces
 
 Ints = npt.NDArray[np.int32]

@@ -16,8 +16,7 @@ from hypothesis import strategies as st
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.fields.corners import corners_of, traverse
-from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder, grid_charge
-from bsm.bitstream.fields.lattice import find_lattice, spread
+from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder, find_lattice, grid_charge, spread
 from bsm.bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder, levels_charge
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values

@@ -16,8 +16,7 @@ from bsm.bitstream import _kernels
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.entropy.range_coder import start_writing
 from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
-from bsm.bitstream.fields.grid import MOST_LARGEST, GridEncoder, grid_charge
-from bsm.bitstream.fields.light import LightDecoder, LightEncoder
+from bsm.bitstream.fields.grid import MOST_LARGEST, GridEncoder, LightDecoder, LightEncoder, grid_charge
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import KINDS, SOUPS, decode, encode, values
 from tests.shapes import grid_faces

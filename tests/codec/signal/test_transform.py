@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from bsm.bitstream.coefficients.trellis import points_of_levels
+from bsm.bitstream.coefficients.adaptive import points_of_levels
 from bsm.codec.basis.orthogonal_iteration import hash_columns
 from bsm.codec.signal.transform import placed, project, reconstruct, targets
 

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from bsm.bitstream.container.maps import MAX_ENTRIES
+from bsm.bitstream.container.wire import MAX_ENTRIES
 from bsm.codec.geometry.mesh import Metadata
 
 Value: TypeAlias = "str | int | float | bytes"
