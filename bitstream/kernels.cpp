@@ -2,25 +2,11 @@
 #include "bitstream/kernel.hpp"
 
 extern "C" {
-#include "bitstream/attributes/faces.h"
-#include "bitstream/attributes/seams.h"
-#include "bitstream/attributes/values.h"
-#include "bitstream/coefficients/adaptive.h"
-#include "bitstream/coefficients/matrices.h"
-#include "bitstream/coefficients/priors.h"
-#include "bitstream/coefficients/rate_distortion.h"
-#include "bitstream/coefficients/trellis.h"
-#include "bitstream/connectivity/appearance.h"
-#include "bitstream/connectivity/conquest.h"
-#include "bitstream/connectivity/halfedges.h"
-#include "bitstream/connectivity/partition.h"
-#include "bitstream/connectivity/permutation.h"
-#include "bitstream/connectivity/seams.h"
-#include "bitstream/entropy/symbols.h"
-#include "bitstream/fields/grid.h"
-#include "bitstream/fields/levels.h"
-#include "bitstream/fields/floats.h"
-#include "bitstream/fields/light.h"
+#include "bitstream/attributes/attributes.h"
+#include "bitstream/coefficients/coefficients.h"
+#include "bitstream/connectivity/connectivity.h"
+#include "bitstream/entropy/entropy.h"
+#include "bitstream/fields/fields.h"
 }
 
 BSM_STRUCT(Coder, Longs, Bytes)

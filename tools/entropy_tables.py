@@ -23,7 +23,7 @@ COUNT_BITS = 10
 
 _HEAD = """\
 /* Written by `python -m tools.entropy_tables`, which says how; do not edit. */
-#include "bitstream/entropy/tables.h"
+#include "bitstream/entropy/entropy.h"
 """
 
 

@@ -21,7 +21,7 @@ SHAPE = ((1, 16, 1), (2, 4, 1), (4, 3, 2), (1, 1, 1), (1, 1, 3))
 
 _HEAD = """\
 /* Written by `python -m tools.field_tables`, which says how; do not edit. */
-#include "bitstream/fields/tables.h"
+#include "bitstream/fields/fields.h"
 """
 
 

@@ -1,5 +1,5 @@
 /* Values of faces, predicted from coded faces beside them and from the face before (specification, A 7). */
-#include "bitstream/attributes/faces.h"
+#include "bitstream/attributes/attributes.h"
 
 enum { SIDES = 3, MEMORIES = 256 };
 

@@ -1,5 +1,5 @@
 /* Normals on an octahedron, predicted from the surface (specification, A 6). */
-#include "bitstream/attributes/places.h"
+#include "bitstream/attributes/attributes.h"
 
 enum { AXES = 3, PAIR = 2, CORNERS_SEEN = 64, FARTHEST = 1 << 24, RIGHT_ANGLE = 1 << 12 };
 

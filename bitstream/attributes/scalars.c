@@ -1,5 +1,5 @@
 /* Colours and other numbers, predicted from coded neighbours (specification, A 4). */
-#include "bitstream/attributes/places.h"
+#include "bitstream/attributes/attributes.h"
 
 typedef struct { /* of the components of this vertex so far */
     int32_t hits, gap[MOST_COMPONENTS], off[MOST_COMPONENTS]; /* off: value less mean of the neighbours */

@@ -1,5 +1,5 @@
 /* Edges across which an attribute changes, and the corners that share a value (specification, A 3 and A 4). */
-#include "bitstream/attributes/seams.h"
+#include "bitstream/attributes/attributes.h"
 
 enum {
     NO_SEAM, SEAM, OPEN, UNKNOWN, /* an edge, as the corner that faces it has it; OPEN: no corner faces it from beyond */

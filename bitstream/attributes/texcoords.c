@@ -1,5 +1,5 @@
 /* Texture coordinates, predicted from the shapes of the triangles (specification, A 5). */
-#include "bitstream/attributes/places.h"
+#include "bitstream/attributes/attributes.h"
 
 enum { AXES = 2, WHOLE = 1 << 16, NARROW = 1 << 14, MOST_RATIO = 8 * WHOLE };
 

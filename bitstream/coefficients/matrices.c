@@ -1,8 +1,6 @@
 /* Levels of a sequence, in matrices of frequencies by components (specification, S 4). */
-#include "bitstream/coefficients/matrices.h"
+#include "bitstream/coefficients/coefficients.h"
 
-#include "bitstream/coefficients/trellis.h"
-#include "bitstream/entropy/integers.h"
 
 enum {
     UNARY = 14,

@@ -3,9 +3,8 @@
  * For each state of the trellis the best way there survives, by squared error and price times bits. Bits are those that
  * adaptive.c would spend with the model in its present state; each survivor has its own neighbours as contexts.
  */
-#include "bitstream/coefficients/rate_distortion.h"
+#include "bitstream/coefficients/coefficients.h"
 
-#include "bitstream/coefficients/trellis.h"
 
 enum {
     STATES = TRELLIS_STATES,

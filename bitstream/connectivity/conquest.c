@@ -3,9 +3,8 @@
  * An encoder has a guide, which tells each third vertex; without one, the coder's payload does. Whatever a payload
  * says, indices stay inside: a node is made by add_node, a vertex by add_vertex, a face by emit, each of which counts.
  */
-#include "bitstream/connectivity/conquest.h"
+#include "bitstream/connectivity/connectivity.h"
 
-#include "bitstream/connectivity/halfedges.h"
 
 enum { VERTICES, REAL, FACES, DUMMIES, TURNS, STEPS, START, LATEST, TALLIES };
 enum {

@@ -2,7 +2,7 @@
  *
  * Only the twins are for a decoder, too: they tell the boundary of the faces (C 7.1).
  */
-#include "bitstream/connectivity/halfedges.h"
+#include "bitstream/connectivity/connectivity.h"
 
 INLINE int32_t low_end(const int32_t *origin, int32_t h) {
     return (int32_t)least(origin[h], origin[next_halfedge(h)]);
@@ -126,4 +126,24 @@ int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twi
         dummies++;
     }
     return dummies;
+}
+
+/* The numbers that a decoder gives vertices: in the order of their first appearance (specification, C 7.2 and C 8.1). */
+
+/* The distinct values in the order of their first appearance, and the number of each value there, -1 if it does not
+ * occur; both arrays have an entry for each possible value. Returns how many there are. */
+int64_t number_by_appearance(ConstInts sequence, Ints order, Ints number) {
+    int64_t size = number.size;
+    if (order.size != size || size > INT32_MAX) return MISUSED;
+    for (int64_t v = 0; v < size; v++) number.data[v] = -1;
+    int32_t count = 0;
+    for (int64_t i = 0; i < sequence.size; i++) {
+        int32_t value = sequence.data[i];
+        if (value < 0 || value >= size) return MISUSED;
+        if (number.data[value] < 0) {
+            number.data[value] = count;
+            order.data[count++] = value;
+        }
+    }
+    return count;
 }

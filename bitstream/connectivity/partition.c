@@ -1,5 +1,5 @@
 /* The part of each vertex, by those of its neighbours that are known already (specification, C 10). */
-#include "bitstream/connectivity/partition.h"
+#include "bitstream/connectivity/connectivity.h"
 
 enum {
     CANDIDATES = 4,

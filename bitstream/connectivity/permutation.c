@@ -1,7 +1,6 @@
 /* Permutations and corner rotations (specification, C 9.2 to C 9.4). */
-#include "bitstream/connectivity/permutation.h"
+#include "bitstream/connectivity/connectivity.h"
 
-#include "bitstream/entropy/integers.h"
 
 enum {
     UNARY = 6,

@@ -1,5 +1,5 @@
 /* Which fans are the same vertex (specification, C 7.2 to C 7.5), and faces that repeat a corner (C 8). */
-#include "bitstream/connectivity/seams.h"
+#include "bitstream/connectivity/connectivity.h"
 
 enum {
     CANDIDATES = 8,

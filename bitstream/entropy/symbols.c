@@ -1,7 +1,6 @@
 /* Single symbols, for the few that are coded one by one (specification, C 1 to C 3). */
-#include "bitstream/entropy/symbols.h"
+#include "bitstream/entropy/entropy.h"
 
-#include "bitstream/entropy/integers.h"
 
 enum { MOST_UNARY = 1 << 10, MOST_VALUE = 1 << 25 };
 

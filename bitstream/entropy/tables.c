@@ -1,5 +1,5 @@
 /* Written by `python -m tools.entropy_tables`, which says how; do not edit. */
-#include "bitstream/entropy/tables.h"
+#include "bitstream/entropy/entropy.h"
 
 const uint16_t SQUASH[5760] = {
     1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,

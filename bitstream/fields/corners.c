@@ -1,5 +1,5 @@
 /* The corners of a mesh, and the order in which a grid is coded (specification, V 1, V 2). */
-#include "bitstream/fields/corners.h"
+#include "bitstream/fields/fields.h"
 
 enum { MOST_CORNERS = 1 << 30, QUEUES = 4 };
 

@@ -1,8 +1,6 @@
 /* Positions on a grid, vertex after vertex, predicted from coded neighbours (specification, V 7 to V 10). */
-#include "bitstream/fields/grid.h"
+#include "bitstream/fields/fields.h"
 
-#include "bitstream/fields/learner.h"
-#include "bitstream/fields/seen.h"
 
 enum {
     AXES = 3,

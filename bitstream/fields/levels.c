@@ -1,7 +1,6 @@
 /* Levels that refine a mesh, vertex after vertex, predicted from coded neighbours (specification, V 11). */
-#include "bitstream/fields/levels.h"
+#include "bitstream/fields/fields.h"
 
-#include "bitstream/fields/learner.h"
 
 enum {
     AXES = 3,

@@ -1,5 +1,5 @@
 /* Written by `python -m tools.field_tables`, which says how; do not edit. */
-#include "bitstream/fields/tables.h"
+#include "bitstream/fields/fields.h"
 
 const int32_t SURVIVAL[1025] = {
     35, 35, 36, 36, 36, 37, 37, 38, 38, 38, 39, 39, 40, 40, 40, 41,

@@ -5,7 +5,7 @@
  */
 #include "codec/sequence/row_prediction.h"
 
-#include "bitstream/coefficients/trellis.h"
+#include "bitstream/coefficients/coefficients.h"
 
 /* Go through all rows: fills `decoded`. `factor`, `row` and `expected`, of the shape of `moments` and as long as its rows,
  * are scratch. */

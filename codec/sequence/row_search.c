@@ -5,8 +5,7 @@
  */
 #include "codec/sequence/row_search.h"
 
-#include "bitstream/coefficients/matrices.h"
-#include "bitstream/coefficients/trellis.h"
+#include "bitstream/coefficients/coefficients.h"
 
 enum { STATES = TRELLIS_STATES, BIT_UNIT = 256, LARGEST_LEVEL = (1 << 23) - 1 };
 #define NEVER __builtin_inf()

@@ -1,14 +1,99 @@
+/* Faces: the front of a conquest, its model, and the kernels of this room. */
+#ifndef BSM_CONNECTIVITY_H
+#define BSM_CONNECTIVITY_H
+
+#include "bitstream/entropy/entropy.h"
+
+/* The front of the conquest: closed polygons of nodes, and buckets by free degree (specification, C 5.2 to C 5.4).
+ *
+ * See front.py for what a node is. A node that was closed has the free degree DEAD.
+ */
+/* As Python keeps it: a row per node, of eight columns; first node of each bucket or -1, how many nodes were made, how
+ * many of these are not closed, last node of each bucket. */
+typedef struct {
+    Ints2 nodes;
+    Ints heads;
+} Front;
+
+typedef struct {
+    int32_t vertex, free;    /* free degree */
+    int32_t next, previous;  /* in the polygon */
+    int32_t gate;            /* half-edge on the far side of the edge to the next node (encoder only) */
+    int32_t apex;            /* vertex behind that edge */
+    int32_t up, down;        /* within the bucket */
+} Node;
+
+enum { DEAD = -1, BUCKETS = 8, MADE = BUCKETS, ALIVE, TAILS, HEADS = TAILS + BUCKETS, NODE_COLUMNS = 8 };
+
+typedef struct {
+    Node *nodes;
+    int64_t capacity;
+    int32_t *heads;
+} Polygons;
+
+/* False for arrays that are no front. */
+INLINE bool open_front(Polygons *front, Front given) {
+    *front = (Polygons){(Node *)given.nodes.data, given.nodes.rows, given.heads.data};
+    return given.nodes.columns == NODE_COLUMNS && given.nodes.rows <= INT32_MAX && given.heads.size == HEADS && front->heads[MADE] >= 0
+        && front->heads[MADE] <= front->capacity;
+}
+
+INLINE int bucket_of(int32_t free) { return free < BUCKETS - 1 ? free : BUCKETS - 1; }
+
+INLINE void enter_bucket(Polygons *front, int32_t node) {
+    int bucket = bucket_of(front->nodes[node].free);
+    int32_t last = front->heads[TAILS + bucket];
+    front->nodes[node].up = last;
+    front->nodes[node].down = -1;
+    if (last >= 0) front->nodes[last].down = node;
+    else front->heads[bucket] = node;
+    front->heads[TAILS + bucket] = node;
+}
+
+INLINE void leave_bucket(Polygons *front, int32_t node) {
+    int bucket = bucket_of(front->nodes[node].free);
+    int32_t up = front->nodes[node].up, down = front->nodes[node].down;
+    if (up >= 0) front->nodes[up].down = down;
+    else front->heads[bucket] = down;
+    if (down >= 0) front->nodes[down].up = up;
+    else front->heads[TAILS + bucket] = up;
+}
+
+/* Make a node that is not linked to any other yet and has no gate; the caller has seen to the capacity. */
+INLINE int32_t add_node(Polygons *front, int32_t vertex, int32_t free) {
+    int32_t node = front->heads[MADE]++;
+    front->heads[ALIVE]++;
+    front->nodes[node] = (Node){.vertex = vertex, .free = free, .next = node, .previous = node, .apex = vertex};
+    enter_bucket(front, node);
+    return node;
+}
+
+/* Make a polygon edge. */
+INLINE void link_nodes(Polygons *front, int32_t node, int32_t following) {
+    front->nodes[node].next = following;
+    front->nodes[following].previous = node;
+}
+
+/* Change the free degree of a node that is not closed; DEAD closes it. */
+INLINE void set_free(Polygons *front, int32_t node, int32_t free) {
+    leave_bucket(front, node);
+    front->nodes[node].free = free;
+    if (free == DEAD) front->heads[ALIVE]--;
+    else enter_bucket(front, node);
+}
+
+/* The node to go on with, -1 if there is none. */
+INLINE int32_t first_node(const Polygons *front) {
+    for (int bucket = 0; bucket < BUCKETS; bucket++)
+        if (front->heads[bucket] >= 0) return front->heads[bucket];
+    return -1;
+}
+
 /* The probability model of connectivity: contexts of valences and events, and the rarer symbols (specification, C 4.1,
  * C 6.9 to C 6.11).
  *
  * All functions serve both directions, by the coder they are given, and look only at what a decoder knows.
  */
-#ifndef BSM_VALENCE_MODEL_H
-#define BSM_VALENCE_MODEL_H
-
-#include "bitstream/connectivity/front.h"
-#include "bitstream/entropy/integers.h"
-
 enum {
     VALENCE_CONTEXTS = 14,
     VALENCE_NODES = 16, /* slots of a context: one line of the cache */
@@ -148,5 +233,58 @@ static inline int64_t code_valence(RangeCoder *coder, const ValenceModel *model,
         if (code_valence_bit(coder, model, v - 2, valence == v)) return v;
     return LAST_UNARY + 1 + code_rare(coder, model, RARE_VALENCE, valence - LAST_UNARY - 1);
 }
+
+/* The conquest: triangle by triangle over a closed surface (specification, C 6). See conquest.py. */
+typedef struct {
+    ConstInts twin, corner, valence, vertex;
+} Surface;
+
+/* What only the encoder knows; a decoder has empty arrays. */
+typedef struct {
+    Surface surface;
+    Bytes conquered;
+    Ints node, number, fans, faces;
+} Guide;
+
+/* What both sides know; tallies: vertices, real vertices and faces so far; dummies, triangles and steps along the front
+ * still allowed; first face that the encoder may have left; label of the latest real vertex. */
+typedef struct {
+    Front front;
+    Longs2 vertices;
+    Ints2 faces;
+    Longs tallies;
+} Conquest;
+
+/* How a call ends; without room, make some and call again. */
+enum { CONQUEST_DONE, CONQUEST_NONSENSE, CONQUEST_NO_ROOM };
+
+int64_t conquer(Coder coder, Models models, Guide guide, Conquest conquest);
+
+/* Half-edges of a triangle list: number 3 i + k runs from corner k of face i to corner k + 1. */
+INLINE int32_t next_halfedge(int32_t h) { return h % 3 != 2 ? h + 1 : h - 2; }
+INLINE int32_t previous_halfedge(int32_t h) { return h % 3 != 0 ? h - 1 : h + 2; }
+
+int64_t match_halfedges(ConstInts origin, Longs starts, Ints by_high, Ints order, Ints twin);
+int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex);
+int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twin, Ints full_corner);
+
+/* The part of each vertex. See partition.py. */
+int64_t code_labels(Coder coder, Bank bank, ConstInts offsets, ConstInts neighbours, Ints labels, int64_t parts);
+
+/* Permutations and rotations. See permutation.py. */
+int64_t code_steps(Coder coder, Bank bank, Ints values, Ints tree);
+int64_t code_turns(Coder coder, Bank bank, Ints values);
+
+/* Fans that are the same vertex, and faces that repeat a corner. See seams.py. */
+/* As Python keeps it: an entry per fan, and -1 for what is not there or not known. */
+typedef struct {
+    Ints vertex, after, before, sibling, latest;
+} Seams;
+
+int64_t code_fans(Coder coder, Bank bank, ConstInts known, Seams seams);
+int64_t code_degenerate(Coder coder, Ints corners, int64_t count);
+
+/* Numbering by first appearance. */
+int64_t number_by_appearance(ConstInts sequence, Ints order, Ints number);
 
 #endif

@@ -1,0 +1,127 @@
+/* Values of attributes: where they are, what foretells them, and the kernels of this room. */
+#ifndef BSM_ATTRIBUTES_H
+#define BSM_ATTRIBUTES_H
+
+#include "bitstream/fields/fields.h"
+
+/* Values of attributes on vertices. See values.py, values.c, and for each kind scalars.c, texcoords.c, normals.c. */
+enum {
+    MOST_COMPONENTS = 4,
+    VALENCES = 6,
+    BASES = 4, /* numbers of known edges that are told apart: 0 to 3 or more */
+};
+
+/* As Python keeps it; n vertices of c components. */
+typedef struct {
+    ConstInts largest;   /* c: values of each component are 0 .. largest, below 2^20 */
+    ConstInts order;     /* n: vertices as they are coded */
+    ConstInts twin;      /* n: the next vertex at the same place, in a ring */
+    ConstInts2 geometry; /* n x 3: where the vertices are; or 0 x 3, if that is not known */
+    Ints2 values;        /* n x c */
+    Ints2 gaps;          /* n x c: value less guess, in 1/16 */
+    Longs2 sums;         /* n x (c + 1): values of the known neighbours, added, and how many they are */
+    Longs2 seen;         /* c x words: bit v of a component tells that it has taken the value v */
+    Longs2 learners;
+    Ints2 directions;    /* normals: n x 12, their own, and what the surface tells */
+    Longs chart;         /* texture coordinates: 2, see texcoords.c */
+} Values;
+
+typedef struct { /* what codes a vertex needs to know */
+    RangeCoder coder;
+    ValueModel model;
+    Corners corners;
+    Values values;
+} Work;
+
+/* Code vertex v; `last` is the one before it, or -1. False if a value is none. */
+typedef bool CodeVertex(Work *work, int32_t v, int32_t last);
+
+int64_t code_vertices(Coder given, Work *work, int64_t learners, int64_t first, int64_t count, CodeVertex *code_vertex);
+void keep_value(const Values *values, int32_t v, int component, int32_t value);
+
+int64_t expect_normals(Corners corners, Values values);
+int64_t code_scalars(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
+int64_t code_texcoords(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
+int64_t code_normals(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count);
+
+INLINE int32_t value_at(const Values *g, int32_t v, int j) { return g->values.data[g->values.columns * v + j]; }
+INLINE int32_t near_seen(const Values *g, int j, int32_t v) {
+    return nearest_seen(g->seen.data + j * g->seen.columns, g->seen.columns, v);
+}
+INLINE int32_t gap_at(const Values *g, int32_t v, int j) { return g->gaps.data[g->gaps.columns * v + j]; }
+
+/* A learnt sum that tells a value, and one that tells how far off that will be (specification, A 4.5). */
+enum { TERMS = 7, HINTS = 4 };
+
+typedef struct { /* all in 1/16 */
+    Learner *guess, *size;
+    int32_t term[TERMS], hint[HINTS]; /* filled by the kind; hint 0 is what to expect if there is nothing else */
+    int32_t shift, typical;           /* value less base; size of its error */
+} Forecast;
+
+INLINE int32_t limited(int64_t term) { return within(term, -MOST_TERM, MOST_TERM); }
+
+/* The learners of a component: one for each number of bases and valence, then one for each number of bases. */
+INLINE void choose_learners(Forecast *f, const Values *g, int components, int j, int number, int valence) {
+    Learner *learners = (Learner *)g->learners.data;
+    f->guess = learners + (j * BASES + number) * VALENCES + valence;
+    f->size = learners + components * BASES * VALENCES + j * BASES + number;
+}
+
+INLINE void foresee(Forecast *f, int32_t far, bool informed) {
+    for (int i = 0; i < TERMS; i++) f->term[i] = limited(f->term[i]);
+    for (int i = 0; i < HINTS; i++) f->hint[i] = limited(f->hint[i]);
+    f->shift = foretell(f->guess, TERMS, f->term, far);
+    f->typical = f->hint[0];
+    if (informed) f->typical = within(foretell(f->size, HINTS, f->hint, far), f->hint[0] / 8 + 1, far);
+}
+
+/* The value was `error` above the base; returns by how much it was above the guess. */
+INLINE int32_t take(Forecast *f, int32_t error) {
+    int32_t gap = error - f->shift;
+    learn(f->guess, TERMS, f->term, error, f->typical);
+    learn(f->size, HINTS, f->hint, (int32_t)least(size_of(gap), 8 * (int64_t)f->typical + 64), f->typical);
+    return gap;
+}
+
+INLINE int64_t learners_of(int components) { return components * BASES * (VALENCES + 1); }
+
+/* What is known around a vertex before its values. See places.c. */
+enum { MOST_BASES = 8, MOST_TWINS = 8 };
+
+/* An edge of the vertex's triangles of which both ends are known. */
+typedef struct {
+    int32_t a, b, c, tip; /* c: the known vertex behind it, or -1; tip: its corner */
+    int32_t error;
+} Base;
+
+typedef struct {
+    Around around;
+    int bases, number, valence; /* number: of bases, capped */
+    Base base[MOST_BASES];      /* best-behaved first */
+    int32_t twin;               /* the known vertex at this place that was coded last, or -1 */
+    int32_t error;              /* mean size of the gaps around, or -1 */
+} Place;
+
+void survey(const Work *work, int32_t v, Place *place);
+int32_t balance(const Work *work, const Around *around, int component, int32_t otherwise);
+int32_t fold_at(const Work *work, int32_t v, const Base *base, int component);
+int32_t gap_classes(const Work *work, const Place *place, int component, int32_t unit);
+int64_t square_root(uint64_t x);
+
+/* Values of attributes on faces. See faces.py and faces.c. */
+/* As Python keeps it; m faces of c components. */
+typedef struct {
+    ConstInts largest; /* c: values of each component are 0 .. largest, below 2^20 */
+    Ints2 values;      /* m x c */
+    Ints2 gaps;        /* m x c: value less guess, in 1/16 */
+    Ints2 memory;      /* c x 257: what came last in each of 256 contexts, and one more than the greatest so far */
+} FaceValues;
+
+int64_t code_faces(Coder coder, ValueModel model, Corners corners, FaceValues values, int64_t first, int64_t count);
+
+/* Edges across which an attribute changes, and the corners that share a value. See seams.py. */
+int64_t code_edges(Coder coder, Bank bank, Corners corners, Bytes seams, ConstBytes others, Ints2 ends);
+int64_t join_corners(Corners corners, ConstBytes seams, Ints joined, Ints first);
+
+#endif

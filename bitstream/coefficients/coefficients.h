@@ -1,0 +1,197 @@
+/* Quantized coefficients: what surrounds them, and the kernels of this room. */
+#ifndef BSM_COEFFICIENTS_H
+#define BSM_COEFFICIENTS_H
+
+#include "bitstream/entropy/entropy.h"
+
+/* What surrounds a coefficient, and what that lets expect (specification, M 9.3 to M 9.5, M 9.7). See contexts.py. */
+enum {
+    NEIGHBOURS = 20,
+    SITUATIONS = 6,
+    UNIT = 16,
+    WEIGHT_BITS = 10,
+    BINS = 48,
+    CEILING = 1 << 15,
+    ABOVE = 8,  /* rows of zeros in front of the first frequency, as far as any neighbour reaches */
+    BEYOND = 3, /* and behind the last */
+    MEMORY = 8, /* blocks over which the usual magnitudes are averaged */
+};
+
+/* As Python keeps it: magnitudes in the present block and the one before, their running mean, number of blocks. */
+typedef struct {
+    Ints2 current, before, usual;
+    Longs blocks;
+} Past;
+
+/* Three magnitudes of row 0, and so on; the rows around them may be read. */
+typedef struct {
+    int32_t *now, *before, *usual;
+    int64_t width;
+    int64_t *blocks;
+} Chain;
+
+/* False for arrays that are no past, or one of fewer rows. */
+INLINE bool open_past(Chain *chain, Past past, int64_t rows) {
+    int64_t padded = past.current.rows;
+    if (past.before.rows != padded || past.usual.rows != padded || padded < ABOVE + BEYOND + rows
+        || past.current.columns != 3 || past.before.columns != 3 || past.usual.columns != 3 || past.blocks.size != 1
+        || past.blocks.data[0] < 0)
+        return false;
+    *chain = (Chain){past.current.data + 3 * ABOVE, past.before.data + 3 * ABOVE, past.usual.data + 3 * ABOVE,
+        padded - ABOVE - BEYOND, past.blocks.data};
+    return true;
+}
+
+/* Number of the weights for a coefficient. */
+INLINE int situation(const Chain *chain, int coordinate) { return coordinate + (*chain->blocks == 0 ? 3 : 0); }
+
+/* What is remembered of a level. */
+INLINE int32_t remembered(int64_t level) { return (int32_t)least(level < 0 ? -level : level, CEILING); }
+
+/* The inputs of the expectations of coefficient `d` of a row (M 9.4). `now`, `before` and `usual` are that row of three;
+ * known are all rows above it, and the coordinates before its own in its row. */
+INLINE void look_around(
+    const int32_t *now, const int32_t *before, const int32_t *usual, int64_t row, int d, int32_t *out) {
+    int e = d == 2 ? 0 : d + 1, f = d == 0 ? 2 : d - 1;
+    const int32_t *n = now, *b = before, *u = usual;
+    out[0] = 16 * n[d - 3];
+    out[1] = 16 * n[d - 6];
+    out[2] = 16 * n[d - 9];
+    out[3] = 8 * (n[d - 12] + n[d - 15]);
+    out[4] = 4 * (n[d - 18] + n[d - 21] + 2 * n[d - 24]);
+    out[5] = d > 0 ? 16 * n[d - 1] : 0;
+    out[6] = d > 1 ? 16 * n[d - 2] : 0;
+    out[7] = 8 * (n[e - 3] + n[f - 3]);
+    out[8] = 4 * (n[e - 6] + n[f - 6] + n[e - 9] + n[f - 9]);
+    out[9] = 16 * b[d];
+    out[10] = 8 * (b[d - 3] + b[d + 3]);
+    out[11] = 4 * (b[d - 6] + b[d + 6] + b[d - 9] + b[d + 9]);
+    out[12] = 8 * (b[e] + b[f]);
+    out[13] = 4 * (b[e - 3] + b[f - 3] + b[e + 3] + b[f + 3]);
+    out[14] = u[d];
+    out[15] = (u[d - 3] + u[d + 3]) >> 1;
+    out[16] = (u[e] + u[f]) >> 1;
+    out[17] = UNIT;
+    out[18] = (int32_t)(16 * UNIT / (row + 1));
+    out[19] = (int32_t)(64 * UNIT / ((row + 1) * (row + 1)));
+}
+
+/* Logarithm of an expectation, in thirds of an octave (each of them linear inside), 0 .. BINS - 1 (M 9.5). */
+INLINE int expectation_bin(const int32_t *weights, const int32_t *inputs) {
+    int64_t total = 0;
+    for (int i = 0; i < NEIGHBOURS; i++) total += (int64_t)weights[i] * inputs[i];
+    total >>= WEIGHT_BITS;
+    if (total < 1) return 0;
+    int octave = 63 - __builtin_clzll((unsigned long long)total);
+    int64_t fraction = (3 * (total - (INT64_C(1) << octave))) >> octave;
+    return (int)least(3 * octave + fraction, BINS - 1);
+}
+
+/* Make the present block the one before, and start the next (M 9.7). */
+INLINE void close_block(Chain *chain) {
+    int32_t share = (int32_t)least(*chain->blocks + 1, MEMORY);
+    for (int64_t i = 0; i < 3 * chain->width; i++) {
+        int32_t change = UNIT * chain->now[i] - chain->usual[i];
+        chain->before[i] = chain->now[i];
+        chain->usual[i] += change / share - (change % share < 0); /* rounded down */
+        chain->now[i] = 0;
+    }
+    ++*chain->blocks;
+}
+
+int64_t look_at_block(Past past, ConstInts2 levels, Ints2 inputs);
+int64_t bin_of_expectation(ConstInts weights, ConstInts inputs);
+
+/* How a level becomes decisions: nodes and contexts (specification, M 9.5, M 9.6). */
+enum {
+    EXPECTATIONS = 3, /* from everything, from the same block alone, from earlier blocks alone */
+    NODES = 38,
+    SELECTORS = 2, /* first block of a chain, later blocks */
+    LEVEL_SLOTS = EXPECTATIONS * BINS * NODES,
+    LARGEST_SIZE = 23, /* bits of a magnitude */
+    MAX_LEVEL = (1 << LARGEST_SIZE) - 1,
+    SIZE_NODES = 14, /* magnitudes of more bits share the last */
+    GRID_NODES = 2,  /* whether it is zero, or one, is another question on the odd grid */
+    BIT_SIZES = 9,   /* magnitudes of more bits share the nodes of this size */
+    FIRST_NODES = SIZE_NODES + GRID_NODES - 2,
+    SECOND_NODES = FIRST_NODES + BIT_SIZES + 1 - 2 * 3,
+};
+
+/* Node of the decision whether the magnitude of a level on a grid has more than `size` bits. */
+INLINE int size_node(int size, int grid) {
+    if (grid && size < GRID_NODES) return SIZE_NODES + size;
+    return size < SIZE_NODES - 1 ? size : SIZE_NODES - 1;
+}
+
+/* Node of the bit below the leading one of `size` bits, from 2 on. */
+INLINE int first_bit_node(int size) { return FIRST_NODES + (size < BIT_SIZES ? size : BIT_SIZES); }
+
+/* Node of the bit below `first`, for `size` from 3 on. */
+INLINE int second_bit_node(int size, int first) { return SECOND_NODES + 2 * (size < BIT_SIZES ? size : BIT_SIZES) + first; }
+
+/* Weights of all expectations, a row for each expectation and situation. */
+INLINE bool are_expectations(ConstInts2 weights) {
+    return weights.rows == EXPECTATIONS * SITUATIONS && weights.columns == NEIGHBOURS;
+}
+
+/* The contexts of a coefficient with these inputs, in this situation. */
+INLINE void set_contexts(ConstInts2 expectations, int situation, const int32_t *inputs, int64_t *contexts) {
+    for (int i = 0; i < EXPECTATIONS; i++) {
+        const int32_t *weights = expectations.data + (i * SITUATIONS + situation) * NEIGHBOURS;
+        contexts[i] = NODES * (BINS * i + expectation_bin(weights, inputs));
+    }
+}
+
+/* First of the weight sets. */
+INLINE int64_t level_selector(const Chain *chain) { return *chain->blocks == 0 ? 0 : NODES; }
+
+/* Adaptive coding of quantized coefficients. See adaptive.py. */
+int64_t code_block(Coder coder, Bank bank, Past past, ConstInts2 expectations, Ints2 levels);
+
+/* Dependent quantization: which of two grids a level is on (specification, M 9.11). */
+enum { TRELLIS_STATES = 8 };
+
+/* Number of the grid that the next level is on. */
+INLINE int trellis_grid(int state) { return state & 1; }
+
+/* State after `level`. */
+INLINE int trellis_following(int state, int32_t level) {
+    return ((state << 1) & (TRELLIS_STATES - 1)) | ((state ^ (state >> 1) ^ (state >> 2) ^ level) & 1);
+}
+
+/* Point, in half steps, that `level` stands for. */
+INLINE int32_t trellis_point(int state, int32_t level) {
+    if (level > 0) return 2 * level - trellis_grid(state);
+    return level < 0 ? 2 * level + trellis_grid(state) : level;
+}
+
+/* Coefficients of the levels of a block, for half steps of this size. */
+INLINE void values_of_levels(const int32_t *levels, int64_t count, double half_step, double *values) {
+    int state = 0;
+    for (int64_t i = 0; i < count; i++) {
+        values[i] = (double)trellis_point(state, levels[i]) * half_step;
+        state = trellis_following(state, levels[i]);
+    }
+}
+
+void points_of_levels(ConstInts2 levels, Ints2 points);
+
+/* Entropy coding of a sequence's levels. See matrices.py. */
+enum { PRICED = 6 }; /* magnitudes whose prices are told */
+
+int64_t code_matrix(
+    Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, int64_t stair, int64_t turn,
+    int64_t few, Longs slow);
+int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
+    int64_t stair, int64_t turn, int64_t few, Longs slow, ConstLongs costs, Shorts prices);
+
+/* Choosing levels by what they cost. See rate_distortion.py. */
+int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, ConstLongs2 targets, double price,
+    ConstLongs costs, Ints2 ways, Bytes2 origins, Ints2 levels, Doubles kept);
+
+/* The learnt numbers that adaptive coefficients start from: the bytes of spec/priors.bin, which the build turns into C. */
+#define PRIORS_BYTES 12120
+
+extern const unsigned char PRIORS[PRIORS_BYTES];
+
+#endif
