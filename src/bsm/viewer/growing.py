@@ -97,9 +97,10 @@ class Growing:
         if tag.type == FrameType.METADATA:
             self._metadata.append(place)
         if tag.type == FrameType.HEADER:
-            fields = dict(parse_map(bytes(self._data[tag.payload : tag.checksum])))
+            run = dict(parse_map(bytes(self._data[tag.payload : tag.checksum]))).get(HEADER_FIELDS["run"].key)
+            again = isinstance(run, (list, tuple)) and len(run) > 1  # it has the mesh of an earlier run
             self._entry = None
-            self._head = [] if fields.get(HEADER_FIELDS["again"].key) else [place, *self._metadata]
+            self._head = [] if again else [place, *self._metadata]
         elif tag.type == FrameType.GOP:
             first = parse_varint(self._data, tag.payload)
             if first is None or first[1] >= tag.checksum:
