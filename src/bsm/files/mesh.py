@@ -34,7 +34,7 @@ MESH_FORMATS = ("npz", "vtp", *_PLAIN)
 USD_FORMATS = ("usd", "usda", "usdc", "usdz")
 """Read with usd-core."""
 WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "ply", "stl", "vtp")
-"""What we write; GLB with trimesh."""
+"""What we write."""
 _HEAD = 1 << 16
 """Bytes in which a file tells of its size, if it does."""
 READERS = ("bsm", "openmesh", "trimesh")
