@@ -67,11 +67,11 @@ class Coding(Protocol):
 
     @property
     def step(self) -> float:
-        """Of quantization, in BSM units."""
+        """Step of quantization, in BSM units."""
 
     @property
     def bits(self) -> int:
-        """Of a packed coefficient; 0: adaptive."""
+        """Bits of a packed coefficient; 0: adaptive."""
 
     @property
     def coarser(self) -> int:
