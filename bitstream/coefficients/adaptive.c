@@ -10,7 +10,7 @@ int64_t look_at_block(Past past, ConstInts2 levels, Ints2 inputs) {
     for (int64_t i = 0; i < 3 * levels.rows; i++) {
         int64_t row = i / 3, at = 3 * row;
         int32_t *out = inputs.data + NEIGHBOURS * i;
-        look_around(chain.now + at, chain.before + at, chain.usual + at, row, (int)(i - at), out);
+        gather_inputs(chain.now + at, chain.before + at, chain.usual + at, row, (int)(i - at), out);
         chain.now[i] = remembered(levels.data[i]);
     }
     close_block(&chain);
@@ -80,7 +80,7 @@ KERNEL int64_t code_block(Coder given, Bank bank, Past past, ConstInts2 expectat
         for (int d = 0; d < 3; d++) {
             int32_t inputs[NEIGHBOURS];
             int64_t contexts[EXPECTATIONS];
-            look_around(now, before, usual, row, d, inputs);
+            gather_inputs(now, before, usual, row, d, inputs);
             set_contexts(expectations, situation(&chain, d), inputs, contexts);
             int32_t *level = levels.data + 3 * row + d;
             *level = code_level(&coder, &mixer, contexts, selector, trellis_grid(state), *level);

@@ -50,7 +50,7 @@ INLINE int32_t remembered(int64_t level) { return (int32_t)least(level < 0 ? -le
 
 /* The inputs of the expectations of coefficient `d` of a row (M 9.4). `now`, `before` and `usual` are that row of three;
  * known are all rows above it, and the coordinates before its own in its row. */
-INLINE void look_around(
+INLINE void gather_inputs(
     const int32_t *now, const int32_t *before, const int32_t *usual, int64_t row, int d, int32_t *out) {
     int e = d == 2 ? 0 : d + 1, f = d == 0 ? 2 : d - 1;
     const int32_t *n = now, *b = before, *u = usual;

@@ -104,7 +104,7 @@ KERNEL int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, Cons
         for (int state = 0; state < STATES; state++) {
             if (old[state].cost == NEVER) continue;
             int32_t inputs[NEIGHBOURS];
-            look_around(old[state].near + 3 * ABOVE, chain.before + 3 * row, chain.usual + 3 * row, row, d, inputs);
+            gather_inputs(old[state].near + 3 * ABOVE, chain.before + 3 * row, chain.usual + 3 * row, row, d, inputs);
             set_contexts(expectations, situation(&chain, d), inputs, prices.contexts);
             for (int node = 0; node < NODES; node++) prices.probability[node] = 0;
             int grid = trellis_grid(state);
