@@ -2,6 +2,7 @@
 
 look        bytes, distance and visible share of presets and options, against Draco at the same look
 theta       bytes at a mean angle of normals, against Draco's
+nmsve       bytes at a visual error (NMSVE), against Draco's
 contract    what presets give, checked by themselves and by surfaces, against Draco's bytes
 grids       whole files with exact positions on a grid, against Draco's
 attributes  what attributes take, against Draco's
@@ -22,6 +23,7 @@ from tools.command import dispatch
 COMMANDS = {
     "look": "look:main",
     "theta": "presets:theta_command",
+    "nmsve": "presets:nmsve_command",
     "contract": "presets:contract_command",
     "grids": "grids:main",
     "attributes": "attributes:main",

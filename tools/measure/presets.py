@@ -25,7 +25,7 @@ import numpy as np
 from bsm.bitstream.errors import BsmError, MeshError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Original, theta
+from bsm.codec.geometry.metrics import Original, Reference, decibel, theta
 from bsm.codec.geometry.surface_distance import surface_distance
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
@@ -106,6 +106,22 @@ def thetas(path: Path, args: argparse.Namespace) -> Iterator[Row]:
         yield Row(label, text, ratio)
 
 
+def visuals(path: Path, args: argparse.Namespace) -> Iterator[Row]:
+    """Rows of `nmsve`."""
+    mesh = joined(path)
+    reference = Reference(mesh.positions, mesh.faces)
+    curve = sorted(
+        (decibel(reference.nmsve(draco_positions(mesh, bits))), len(draco_bytes(mesh, bits))) for bits in range(5, 18)
+    )
+    for wanted in args.db:
+        attempt = Encoder(mesh, EncodeOptions(contract=None, target=Target("nmsve_db", wanted), threads=1)).search()
+        reached = attempt.comparison.nmsve_db
+        size = float(np.interp(reached, *zip(*curve, strict=True)))
+        yield Row(
+            f"{wanted:g} dB", f"{reached:7.2f} dB  {attempt.size:7d} bytes, Draco {size:7.0f}", attempt.size / size
+        )
+
+
 def contracts(path: Path, args: argparse.Namespace) -> Iterator[Row]:
     """Rows of `contract`."""
     for preset in args.preset:
@@ -146,6 +162,13 @@ def theta_command() -> None:
     parser.add_argument("--theta", nargs="*", type=float, default=[3.0])
     parser.add_argument("--draco-bits", type=int, default=11, choices=range(6, 17))
     _print_table(thetas, parser.parse_args())
+
+
+def nmsve_command() -> None:
+    """Print the table of `nmsve`."""
+    parser = _parser()
+    parser.add_argument("--db", nargs="*", type=float, default=[-45.0, -50.0, -55.0, -60.0])
+    _print_table(visuals, parser.parse_args())
 
 
 def contract_command() -> None:
