@@ -131,7 +131,7 @@ class Bounds:
         return contract.worded(farther, angle * contract.angle, look * contract.look, visual * contract.visual)
 
     def _shares(self, positions: Matrix) -> tuple[float, float, float]:
-        """Of the bounds on distances, on the angle of normals, and on the visual error."""
+        """Shares of the bounds on distances, on the angle of normals, and on the visual error."""
         contract, measures = self.contract, self.measures
         moved = np.sqrt(np.square(positions - measures.prepared.positions).sum(axis=1))
         farther = float(np.divide(moved, self.reaches, out=np.zeros_like(moved), where=moved > 0.0).max(initial=0.0))

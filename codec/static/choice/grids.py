@@ -66,7 +66,7 @@ class Gridded:
         return self._candidate(grid, places - least)
 
     def counted(self, step: float) -> Candidate:
-        """The same, with places that are counted from where the mesh's unit begins: shorter to write."""
+        """A grid of this step with places that are counted from where the mesh's unit begins: shorter to write."""
         held = single(step * self._prepared.units.scale)
         places = np.floor(self._prepared.mesh.positions / held + 0.5).astype(np.int32)
         least = places.min(axis=0)
