@@ -113,7 +113,7 @@ class Search:
         return f"a look of {look.distance:.3g}, {100.0 * look.visible:.3g} % of the pixels differ visibly,"
 
     def _ways(self, bounds: Bounds, look: float) -> Iterator[Way]:
-        """Those that may be smallest; blocks never are where a surface is flat but for sharp edges."""
+        """Ways that may be smallest; blocks never are where a surface is flat but for sharp edges."""
         prepared, options = self._prepared, self._options
         character, seen = self._measures.shaper.character, bounds.contract.look < math.inf
         if prepared.has_low_frequencies and not options.quick and not (character.is_model and seen):
