@@ -32,7 +32,7 @@ PAGES = tuple(
 )
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "src/bsm/SERVICE.md", *PAGES)
 PROGRAMS = r"(?:bsm|python3?|pytest|mkdocs|ruff|\.ci/run|\.venv|eval|cat)"
-BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.attack"
+BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.attack|tools\.measure house"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
 HELP_ONLY = r"tools\.release|s3://|bsm view|tools\.blender|tools\.charges|tools\.vectors|tools\.train_coefficients"
