@@ -2,7 +2,7 @@
 #ifdef KERNEL_LEVELS
 
 #include "codec/basis/basis.h"
-#include "codec/sequence/shown.h"
+#include "codec/sequence/kernels.h"
 #include "codec/signal/signal.h"
 
 #define CHOOSE(result, name, parameters, arguments)                                                                    \

@@ -172,7 +172,7 @@ def test_imports_follow_the_arrows(name):
         ("bsm.codec.static.choice.plan", "from bsm.codec.static.encoder import encode", False),
         ("bsm.codec.geometry.mesh", "from . import graph", False),
         ("bsm.codec.denoise.probe", "import scipy.sparse", True),
-        ("bsm.codec.sequence.watch", "import scipy.sparse", False),
+        ("bsm.codec.sequence.step_search", "import scipy.sparse", False),
         ("bsm.cli", "import bsm.codec.geometry.mesh, bsm.bitstream.container.reader, matplotlib", True),
         ("bsm.cli", "import tools.attack", False),
         ("spec.reference", "from bsm.codec.geometry.mesh import TriangleMesh", False),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from hashlib import sha256
 from types import MappingProxyType
 
 import numpy as np
@@ -19,18 +20,15 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Matrix, Order
 from bsm.codec.choices import check_mapping
-from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.sequence.attributes import Bound, Mover, moved, with_fields
 from bsm.codec.sequence.decoder import decode_sequence
-from bsm.codec.sequence.first_frame_encoding import Opening
+from bsm.codec.sequence.frames import Group, next_group, require_same
 from bsm.codec.sequence.gop import GopEncoder, silent
-from bsm.codec.sequence.gop_encoding import Coded, Gops, finest_step
-from bsm.codec.sequence.groups import Group, next_group, require_same
-from bsm.codec.sequence.joining import JoinedRun, joined_runs
-from bsm.codec.sequence.moving_encoding import Bound, Mover, moved, with_fields
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.runs import Cutter, Frame, Run
-from bsm.codec.sequence.runs_encoding import Meshes, OpenedMesh
+from bsm.codec.sequence.run_encoding import EncodedGops, RunEncoder, finest_step
+from bsm.codec.sequence.runs import Cutter, Frame, JoinedRun, Run, Shelf, joined_runs
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import qualities
@@ -39,7 +37,8 @@ from bsm.codec.static.encoder import PROMISED_SIZES
 from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
-from bsm.codec.static.ways.block_coder import Progress
+from bsm.codec.static.ways.block_coder import CodedBlock, Progress
+from bsm.codec.static.work import Allowance
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +173,7 @@ class SequenceEncoder:
         return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, faces))
 
     def _chunks(self, frames: Iterable[Frame], options: SequenceOptions, progress: Progress | None) -> Iterator[bytes]:
-        tell: Progress = silent
+        steps: Progress = silent
         shelf = Meshes(options)
         writer = Writer()
         number = 0
@@ -184,9 +183,9 @@ class SequenceEncoder:
         for index, run in enumerate(runs):
             if not index:
                 gops = -(-self._count // options.together(len(run.joined.first)))
-                tell = _Rounds(progress if gops else None, 1 + gops)
+                steps = _Rounds(progress if gops else None, 1 + gops)
                 yield writer.start()
-            for packet in self._run(run, index, shelf, options, tell):
+            for packet in self._run(run, index, shelf, options, steps):
                 yield writer.write(packet)
             number = run.first + self._done
         if not self.run_starts:
@@ -205,7 +204,7 @@ class SequenceEncoder:
             yield replace(run, mesh=replace(run.mesh, attributes=own))
 
     def _run(
-        self, run: JoinedRun, index: int, shelf: Meshes, options: SequenceOptions, tell: Progress
+        self, run: JoinedRun, index: int, shelf: Meshes, options: SequenceOptions, progress: Progress
     ) -> Iterator[packets.Packet]:
         """The packets of a run; `_done` grows by its frames."""
         self.run_starts.append(run.first)
@@ -216,42 +215,38 @@ class SequenceEncoder:
         frames = (frame[prepared.coding_order] for frame in run.frames)
         longest = options.together(len(prepared.positions))
         group = next_group(frames, longest, prepared, run.moving)
-        gops = Gops(prepared, options, self._count, tell)
+        encoder = RunEncoder(prepared, options, self._count, progress)
         if opened is None:
             more = len(group) == longest and run.first + longest != self._count
             carried, movers = self._carried(run, prepared, options, group, more=more)
-            moving = [mover.start for mover in movers]
-            coded = gops.first(group, shelf.allowance, moving)
-            yield from self._opened(run, index, prepared, coded.opening, carried)
+            gops = encoder.first(group, shelf.allowance, [mover.start for mover in movers])
+            yield from self._opened(run, index, prepared, gops.first_frame.header, gops.first_frame.blocks, carried)
         else:
-            movers = opened.movers
-            opening = opened.coded.opening
-            fresh = Coded(opening, GopEncoder(opening.setting, replace(options, step=opened.coded.encoder.step)), ())
-            coded = gops.next(group, 0, fresh)
+            movers, before = opened.movers, opened.gops
+            fresh = GopEncoder(before.first_frame.setting, replace(options, step=before.encoder.step))
+            gops = encoder.next(group, 0, EncodedGops(before.first_frame, fresh, ()))
+            mesh = before.first_frame.header
             yield Header(
-                vertices=opening.header.vertices,
-                faces=opening.header.faces,
-                sequence=(self._count, longest),
-                run=(index, opened.run),
+                vertices=mesh.vertices, faces=mesh.faces, sequence=(self._count, longest), run=(index, opened.run)
             )
-        opening = coded.opening
+        first_frame = gops.first_frame
         for track, mover in enumerate(movers, 1):
-            mover.begin(coded.encoder, opening.setting, track)
+            mover.begin(gops.encoder, first_frame.setting, track)
         numbers = [mover.number for mover in movers]
         still = {name: values[0] for name, values in group.moving.items() if name not in {one.name for one in movers}}
         while len(group):
-            for body in with_fields(coded.bodies, movers, group.moving):
-                opening.admit(body, self._done)
+            for body in with_fields(gops.bodies, movers, group.moving):
+                first_frame.admit(body, self._done)
                 yield packets.Gop(run.first + self._done, write_gop_body(body, index, numbers))
                 self._done += body.frames
                 self.samples += body.frames * len(self.vertex_order)
             del group  # before the next one is read
             group = next_group(frames, longest, prepared, run.moving)
             if len(group):
-                coded = gops.next(group, self._done, coded)
+                gops = encoder.next(group, self._done, gops)
                 require_same(still, group)
-        self.notes = tuple(dict.fromkeys((*self.notes, *(mover.said for mover in movers))))
-        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, coded, movers), run)
+        self.notes = tuple(dict.fromkeys((*self.notes, *(mover.note for mover in movers))))
+        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, gops, movers), run)
 
     def _prepared(self, joined: JoinedMesh, options: SequenceOptions) -> Prepared:
         joined.mesh.require_sizes(*PROMISED_SIZES)
@@ -286,15 +281,79 @@ class SequenceEncoder:
         return carried, movers
 
     def _opened(
-        self, run: JoinedRun, index: int, prepared: Prepared, opening: Opening, carried: tuple[PreparedAttribute, ...]
+        self,
+        run: JoinedRun,
+        index: int,
+        prepared: Prepared,
+        header: Header,
+        blocks: list[CodedBlock],
+        carried: tuple[PreparedAttribute, ...],
     ) -> Iterator[packets.Packet]:
         """What comes before the GOPs of a run with a mesh of its own."""
-        said = (one.said for one in carried if not one.declaration.moves)
-        self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *said)))
-        body = (*prepared.before_blocks, *(block.packet for block in opening.blocks))
-        draft = Draft(replace(opening.header, run=(index,) if index else ()), body, run.given.positions)
+        notes = (one.said for one in carried if not one.declaration.moves)
+        self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *notes)))
+        body = (*prepared.before_blocks, *(block.packet for block in blocks))
+        draft = Draft(replace(header, run=(index,) if index else ()), body, run.given.positions)
         draft = with_attributes(draft, carried, {} if index else self._metadata)
         yield from (draft.header, *draft.body)
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedMesh:
+    """A mesh that a run has had: the run that brought it, what was coded of it last, and what encodes what moves."""
+
+    run: int
+    prepared: Prepared
+    gops: EncodedGops
+    movers: tuple[Mover, ...]
+
+
+class Meshes:
+    """The meshes that runs have had, as far as decoders keep them, see `Shelf`, and what decoders may still do."""
+
+    def __init__(self, options: SequenceOptions) -> None:
+        self.allowance = Allowance(NAMED_LIMITS[options.limits]())
+        self._shelf: Shelf[OpenedMesh] = Shelf(self.allowance)
+        self._known: dict[bytes, tuple[int, TriangleMesh]] = {}  # the run that brought a mesh, and that, by its faces
+
+    def again(self, begun: JoinedRun) -> OpenedMesh | None:
+        """What is kept of the mesh of a run that begins; None: it is to be sent."""
+        run, before = self._known.get(_digest(begun), (-1, begun.given))
+        opened = self._shelf.take(run) if run in self._shelf else None
+        if opened is not None:
+            moving = {mover.name for mover in opened.movers}
+            others = (one for one in before.attributes if one.name not in moving)
+            opened = opened if all(has(begun.given.attributes, one) for one in others) else None
+        if opened is None:
+            self._shelf.make_room()
+            return None
+        allowance = opened.gops.first_frame.allowance
+        allowance.follow(self.allowance)
+        allowance.show(opened.gops.first_frame.header.vertices)  # the first GOP does, at least
+        return opened
+
+    def keep(self, opened: OpenedMesh, ended: JoinedRun) -> None:
+        """Take note that a run of this mesh has ended."""
+        first_frame = opened.gops.first_frame
+        first_frame.setting.dictionaries.release()
+        self.allowance.follow(first_frame.allowance)
+        if opened.run not in self._shelf:
+            self._shelf.put(opened.run, opened)
+        self._shelf.leave(opened.run)
+        given = TriangleMesh(ended.given.positions, ended.given.faces, ended.given.attributes)
+        self._known[_digest(ended)] = opened.run, given
+
+
+def _digest(run: JoinedRun) -> bytes:
+    """What runs of the same faces, joins and attributes have in common, whatever the values of those that can move."""
+    mesh, moving = run.given, {one.name for one in run.moving}
+    found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
+    for one in mesh.attributes:
+        found.update(repr((one.name, one.domain, one.semantic, one.values.dtype, one.values.shape)).encode())
+        found.update(b"" if one.name in moving else one.values.tobytes())
+        if one.indices is not None:
+            found.update(one.indices.tobytes())
+    return found.digest()
 
 
 def _orders(joined: JoinedMesh, prepared: Prepared) -> tuple[Order, Order]:

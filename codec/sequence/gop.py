@@ -6,7 +6,6 @@ differ from the first frame by.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import replace
@@ -20,32 +19,30 @@ from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.sequence.dictionaries import Part
 from bsm.codec.sequence.history import FrameHistory, Inherited, begin_part, held_cosines
-from bsm.codec.sequence.level_writer import ROUNDS, WEIGHT, LevelWriter
-from bsm.codec.sequence.row_prediction import (
-    Loop,
+from bsm.codec.sequence.row_prediction import ROUNDS, WEIGHT, LevelWriter, Loop
+from bsm.codec.sequence.temporal import (
     basis_leads,
     basis_of,
+    frames_of,
+    learn_basis,
+    projection,
     spectrum_of,
     trajectories,
 )
-from bsm.codec.sequence.shown import shown_frames
-from bsm.codec.sequence.temporal import learn_basis, projection
 from bsm.codec.sequence.tracks import Setting, Track, split_columns
 from bsm.codec.static.ways.block_coder import Progress
 
 if TYPE_CHECKING:
     from bsm.codec.sequence.options import SequenceOptions
 
-Frame: TypeAlias = tuple[Matrix, ...]
+Fields: TypeAlias = tuple[Matrix, ...]
 """Positions, shape (n, 3), and of each attribute that moves what it differs from the first frame by, shape (n, d)."""
 
-SINGLE = 14
-"""Bytes of the GOP of a single frame besides its levels, about."""
+OVERHEAD = 14
+"""Bytes of a GOP besides its levels, about."""
 LIKE = 0.5
 """Where frames that were kept are nearer than this, in squares and times what the latest one is, those to come start
 from them."""
-TRIED = 8
-"""Frames that are coded one by one before that is given up as dearer than a basis."""
 
 
 def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
@@ -62,7 +59,7 @@ def decode_basis(field: GopField, frames: int) -> Matrix:
 
 
 def silent(done: int, blocks: int) -> None:
-    """Nobody is told."""
+    """No progress is reported."""
 
 
 class GopEncoder:
@@ -80,7 +77,7 @@ class GopEncoder:
     def _begin(self) -> None:
         self.inherited: Inherited | None = None
         self._history = FrameHistory(self._track)
-        self._shown: list[Matrix] = []
+        self._kept: list[Matrix] = []
 
     @property
     def step(self) -> float:
@@ -106,7 +103,7 @@ class GopEncoder:
         return twin
 
     def stay(self, frames: int, method: GopMethod) -> None:
-        """Take note that nothing is told of so many frames, which then are the first one, or that before."""
+        """Take note that so many frames are not coded, and so the first one, or that before."""
         if method.has_basis:
             self.inherited = Inherited(self._before(method))
             for known, around in zip(self._track.known, self._track.around, strict=True):
@@ -119,7 +116,7 @@ class GopEncoder:
         history.expect(frames)
         levels = [np.zeros_like(levels) for levels in history.levels]
         history.commit(levels, [history.base(k) for k in range(len(levels))])
-        self._shown = []
+        self._kept = []
 
     def method_with_basis(self, together: int) -> GopMethod:
         """The method of the next GOP with a basis, where so many may hang together."""
@@ -141,72 +138,37 @@ class GopEncoder:
 
     def encode_next(self, frames: Matrix, progress: Progress, *, key: bool) -> GopField:
         """Encode frames, shape (T, n, d), without a basis of their own."""
-        return self._next(frames, self._step, progress, key=key, brief=False)
+        self.inherited = None
+        if key:
+            self._begin()
+        history, width, columns = self._history, self._track.width, self._track.width * len(frames)
+        back = self._nearest(frames)
+        history.expect(len(frames), back)
+        basis = held_cosines(width, len(frames))
+        wanted = trajectories(frames) @ basis.reshape(-1, columns)
+        field = np.zeros_like(wanted)
+        writer, coded = LevelWriter(history.bank, columns, self.rounds), []
+        for k, part in enumerate(self._parts):
+            ends = field[part.site.around]
+            loop, known, base = history.begin(k, ends, self._step)
+            change = writer.write(loop, known, part.difference(wanted, field) - base, self._step, history.levels[k])
+            coded.append(np.vstack((ends, base + change)))
+            part.place(field, base + change)
+            progress(k + 1, len(self._parts))
+        payload = writer.finish()
+        history.commit(writer.levels, coded)
+        self.latest = np.array(list(frames_of(field, 0, basis)))
+        self._kept = [*self.latest[::-1], *self._kept][: self._track.kept]
+        return GopField(width, self._step, columns, np.empty(0, np.int32), b"", payload, back)
 
     def encode_learnt(
         self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress
     ) -> tuple[GopField, float]:
         """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them."""
-        field, error = self._transformed(frames, np.tile(weights, self._track.width), method, progress)
-        return field, error + WEIGHT * 8.0 * (field.size + SINGLE)
-
-    def encode_singles(self, frames: Matrix, weights: Matrix, most: float = math.inf) -> tuple[GopField, ...]:
-        """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), one by one."""
-        fields: list[GopField] = []
-        cost = 0.0
-        for frame, weight in zip(frames, weights, strict=True):
-            fields.append(
-                self._next(frame[None], float(np.float32(self._step / weight)), silent, key=not fields, brief=True)
-            )
-            assert self.latest is not None
-            error = float(np.square(weight * (self.latest[0] - frame)).sum()) / self._step**2
-            cost += error + WEIGHT * 8.0 * (fields[-1].size + SINGLE)
-            if cost > most * (len(fields) / len(frames) if len(fields) >= TRIED else 1.0):
-                return ()
-        return tuple(fields)
-
-    def _next(self, frames: Matrix, step: float, progress: Progress, *, key: bool, brief: bool) -> GopField:
-        self.inherited = None
-        if key:
-            self._begin()
-        history, width, columns = self._history, self._track.width, self._track.width * len(frames)
-        back = self._likest(frames)
-        history.expect(len(frames), back, brief=brief)
-        basis = held_cosines(width, len(frames))
-        wanted = trajectories(frames) @ basis.reshape(-1, columns)
-        field = np.zeros_like(wanted)
-        writer, told = LevelWriter(history.bank, columns, self.rounds), []
-        for k, part in enumerate(self._parts):
-            ends = field[part.site.around]
-            loop, known, base = history.begin(k, ends, step)
-            change = writer.write(loop, known, part.difference(wanted, field) - base, step, history.levels[k])
-            told.append(np.vstack((ends, base + change)))
-            part.place(field, base + change)
-            progress(k + 1, len(self._parts))
-        payload = writer.finish()
-        history.commit(writer.levels, told)
-        self.latest = np.array(list(shown_frames(field, 0, basis)))
-        self._shown = [*self.latest[::-1], *self._shown][: self._track.kept]
-        return GopField(width, step, columns, np.empty(0, np.int32), b"", payload, back, brief)
-
-    def _likest(self, frames: Matrix) -> int:
-        """How far before them the kept frames are that they are so like that it is better to start from these."""
-        count = len(frames)
-        backs = range(count, len(self._shown) + 1)
-        if not backs:
-            return 0
-        off = [sum(_apart(frames[t], self._shown[back - 1 - t]) for t in range(count)) for back in backs]
-        latest = sum(_apart(frame, self._shown[0]) for frame in frames)
-        best = int(np.argmin(off))
-        return backs[best] if off[best] < LIKE * latest else 0
-
-    def _transformed(
-        self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress
-    ) -> tuple[GopField, float]:
-        """Encode frames, shape (T, n, d), the columns of whose trajectories count by `weights`, shape (dT,)."""
+        weights = np.tile(weights, self._track.width)
         motion = trajectories(frames)
         motion *= weights
-        body = self._learnt(motion, weights)
+        body = self._basis(motion, weights)
         basis = decode_basis(body, len(frames)) * weights[:, None]
         wanted = motion @ projection(basis)
         energy = np.vdot(motion, motion)
@@ -222,11 +184,23 @@ class GopEncoder:
             part.place(field, differences)
             self.inherited.keep(ends, differences)
             progress(k + 1, len(self._parts))
+        coded = replace(body, levels=writer.finish())
         left = energy - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
         error = float(left + _energy(wanted - field, basis)) / self._step**2
-        return replace(body, levels=writer.finish()), error
+        return coded, error + WEIGHT * 8.0 * (coded.size + OVERHEAD)
 
-    def _learnt(self, motion: Matrix, weights: Matrix) -> GopField:
+    def _nearest(self, frames: Matrix) -> int:
+        """How far before them the kept frames are that they are so like that it is better to start from these."""
+        count = len(frames)
+        backs = range(count, len(self._kept) + 1)
+        if not backs:
+            return 0
+        off = [sum(_apart(frames[t], self._kept[back - 1 - t]) for t in range(count)) for back in backs]
+        latest = sum(_apart(frame, self._kept[0]) for frame in frames)
+        best = int(np.argmin(off))
+        return backs[best] if off[best] < LIKE * latest else 0
+
+    def _basis(self, motion: Matrix, weights: Matrix) -> GopField:
         """The temporal basis of weighted trajectories, shape (n, dT), without the levels of parts."""
         width = self._track.width
         basis = learn_basis(motion, self._step, MAX_EXPONENT)
@@ -253,32 +227,32 @@ class GopDecoder:
         """Take note that frames are missing here."""
         self._histories = self._inherited = None
 
-    def decode(self, body: GopBody) -> Iterator[Frame]:
+    def decode(self, body: GopBody) -> Iterator[Fields]:
         """The frames of a GOP; all that its levels can have wrong is raised before the first of them."""
-        return self._transformed(body) if body.method.has_basis else self._next(body)
+        return self._decode_learnt(body) if body.method.has_basis else self._decode_next(body)
 
-    def _next(self, body: GopBody) -> Iterator[Frame]:
+    def _decode_next(self, body: GopBody) -> Iterator[Fields]:
         if body.method is GopMethod.KEY_FRAME:
             self._histories = [FrameHistory(track) for track in self._tracks]
         histories = self._histories
         self.forget()  # until all has gone well
         if histories is None:
             raise CorruptError("a frame refers to one that is not there")
-        told = list(zip(histories, body.fields, strict=True))
+        fields = list(zip(histories, body.fields, strict=True))
         read = []
-        for history, field in told:
+        for history, field in fields:
             history.expect(body.frames, field.back, brief=field.brief)
             levels = self.setting.empty_levels(field.width * body.frames)
             if field.components:
                 decode_levels(history.bank, field.levels, levels, history.levels)
             read.append(levels)
-        found: list[list[Matrix]] = [[np.empty(0)] * len(self.setting.sites) for _ in told]
+        found: list[list[Matrix]] = [[np.empty(0)] * len(self.setting.sites) for _ in fields]
 
         columns = [track.width * body.frames for track in self._tracks]
 
         def decoded(k: int, around: Matrix) -> Matrix:
             for own, levels, ends, (history, field) in zip(
-                found, read, split_columns(around, columns), told, strict=True
+                found, read, split_columns(around, columns), fields, strict=True
             ):
                 own[k] = history.base(k)
                 if field.components:
@@ -287,16 +261,16 @@ class GopDecoder:
             return np.hstack([own[k][len(around) :] for own in found])
 
         placed, places = self.setting.field(sum(columns), decoded), np.cumsum([0, *columns[:-1]])
-        for levels, own, (history, _) in zip(read, found, told, strict=True):
+        for levels, own, (history, _) in zip(read, found, fields, strict=True):
             history.commit(levels, own)
         self._histories = histories
         batches = (
-            shown_frames(placed, int(place), held_cosines(track.width, body.frames))
+            frames_of(placed, int(place), held_cosines(track.width, body.frames))
             for track, place in zip(self._tracks, places, strict=True)
         )
         return zip(*batches, strict=True)
 
-    def _transformed(self, body: GopBody) -> Iterator[Frame]:
+    def _decode_learnt(self, body: GopBody) -> Iterator[Fields]:
         setting = self.setting
         before = [None] * len(self._tracks) if body.method is GopMethod.LEARNT else self._inherited
         self.forget()  # until all has gone well
@@ -315,9 +289,9 @@ class GopDecoder:
         found = [Inherited() for _ in self._tracks]
 
         def decoded(k: int, around: Matrix) -> Matrix:
-            told = zip(self._tracks, before, found, body.fields, read, split_columns(around, widths), strict=True)
+            each = zip(self._tracks, before, found, body.fields, read, split_columns(around, widths), strict=True)
             differences = []
-            for track, earlier, own, field, levels, ends in told:
+            for track, earlier, own, field, levels, ends in each:
                 if field.components:
                     loop, known = begin_part(track, earlier, k, ends, field.step)
                     differences.append(loop.decode(known, levels[k], field.step))
@@ -329,7 +303,7 @@ class GopDecoder:
         components, places = setting.field(sum(widths), decoded), np.cumsum([0, *widths[:-1]])
         self._inherited = found
         batches = (
-            shown_frames(components, int(first), basis.reshape(own.width, body.told, own.components)[:, body.places])
+            frames_of(components, int(first), basis.reshape(own.width, body.told, own.components)[:, body.places])
             for own, first, basis in zip(body.fields, places, bases, strict=True)
         )
         return zip(*batches, strict=True)

@@ -10,11 +10,9 @@ from bsm.bitstream.coefficients.matrices import make_level_bank
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Levels, Matrix
-from bsm.codec.sequence.row_prediction import Loop, time_cosines
-from bsm.codec.sequence.tracks import Track, lags
-
-INHERITED = 24
-"""Components of a GOP that those of the next one are predicted from: what moved comes again, mixed in another way."""
+from bsm.codec.sequence.row_prediction import Loop
+from bsm.codec.sequence.temporal import time_cosines
+from bsm.codec.sequence.tracks import INHERITED, Track, lags
 
 
 class Inherited:
@@ -92,12 +90,12 @@ class FrameHistory:
         twin._kept = self._kept
         return twin
 
-    def commit(self, levels: list[Levels], told: list[Matrix]) -> None:
+    def commit(self, levels: list[Levels], coded: list[Matrix]) -> None:
         """Make frames the latest: their levels, shapes (c_i, dT), and what they are as of `base`."""
         self.levels = levels
-        shown = [spread.reshape(len(spread), len(self._cosines), self._track.width) for spread in told]
+        spectra = [part.reshape(len(part), len(self._cosines), self._track.width) for part in coded]
         latest = self._cosines[::-1][: self._track.kept]
-        fresh = [[np.tensordot(spread, cosines, (1, 0)) for spread in shown] for cosines in latest]
+        fresh = [[np.tensordot(part, cosines, (1, 0)) for part in spectra] for cosines in latest]
         self._kept = [*fresh, *self._kept][: self._track.kept]
 
 

@@ -1,21 +1,41 @@
-"""Choosing the temporal basis of a GOP: the encoder's own business."""
+"""The temporal transform: a basis over time for the frames of a GOP, as it is learnt and coded, and frames of it.
+
+Columns of a basis are at right angles to each other, and coded as what is free in them: the vectors of reflections.
+
+References
+----------
+A. S. Householder, "Unitary triangularization of a nonsymmetric matrix", 1958; T. Joffrain et al., "Accumulating
+Householder transformations, revisited", 2006 (many reflections at once).
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.codec.arrays import Matrix
-from bsm.codec.sequence.row_prediction import OCTAVE
+from bsm.bitstream.coefficients.adaptive import points_of_levels
+from bsm.bitstream.coefficients.matrices import Lead
+from bsm.codec import _kernels
+from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.basis.orthogonal_iteration import cosine_columns
 
+OCTAVE = 4
+"""Exponents of the steps of a basis are in units of 1 / OCTAVE octaves."""
 WORTH = 0.4
 """A component is kept if its energy is above WORTH * dT * step^2: below, it costs more than it brings. 0.35 and 0.5
 cost 0.3 % more, 0.8 costs 1 %."""
 PRECISION = 1.0
 """Error of a column of the basis, times the root of the energy that it multiplies, in steps. A bit of the basis and one
 of the components are worth the same from 1 to 1.4; the finer, the less the error changes from frame to frame."""
+TOGETHER = 32
+"""Reflections that are made at once: fewer take longer, more take more memory."""
+LEAST = 1e-9
+"""Of a column's length on the diagonal, at least: below 0 it would be another reflection."""
+BATCH = 8
+"""Frames that are reconstructed at a time, as many as a vector of the kernel has numbers."""
 FINEST_EXPONENT = OCTAVE * 23 - 1
 """With a finer step the levels of a column of length one could not be coded."""
 
@@ -42,3 +62,90 @@ def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
 def projection(basis: Matrix) -> Matrix:
     """Pseudo-inverse of a decoded basis, transposed, shape (dT, r), as the basis has it."""
     return np.ascontiguousarray(np.linalg.pinv(basis).T)
+
+
+def basis_leads(width: int) -> list[Lead]:
+    """Leads of the levels of a basis, one for each of so many numbers: column i has i levels that are not free."""
+    return [(coordinate + 1, width) for coordinate in range(width)]
+
+
+def trajectories(frames: Matrix) -> Matrix:
+    """Frames, shape (T, n, d), as a matrix of its own, shape (n, dT)."""
+    frame_last = frames.transpose(1, 2, 0)
+    matrix = np.empty(frame_last.shape)  # of a single frame, reshaping would give the frame itself
+    matrix[...] = frame_last
+    return matrix.reshape(len(matrix), -1)
+
+
+def time_cosines(frames: int) -> Matrix:
+    """The orthonormal cosine transform (DCT-II), shape (T, T): row t, column frequency."""
+    columns = cosine_columns(frames, 0, frames) * np.sqrt(2.0 / frames)
+    columns[:, :1] = np.sqrt(1.0 / frames)
+    return np.asarray(columns)
+
+
+def basis_steps(exponents: npt.NDArray[np.int32]) -> Matrix:
+    """Quantization step of each component of a learnt basis, shape (r,): 2^(-exponent / OCTAVE)."""
+    return np.exp2(-exponents.astype(np.float64) / OCTAVE)
+
+
+def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32], width: int) -> Matrix:
+    """What is free in a basis, shape (dT, r), d being `width`, as cosines over time in steps: shape (d, T, r)."""
+    rows, components = basis.shape
+    cosines = time_cosines(rows // width).T @ basis.reshape(width, rows // width, components)
+    free = free_of(cosines.transpose(1, 0, 2).reshape(rows, components)) / basis_steps(exponents)
+    return np.ascontiguousarray(free.reshape(rows // width, width, components).transpose(1, 0, 2))
+
+
+def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
+    """The basis, shape (dT, r), that levels, shape (d, T, r), stand for; its columns are at right angles."""
+    width, frames, components = levels.shape
+    points = np.array([points_of_levels(np.ascontiguousarray(matrix)) for matrix in levels])
+    free = (0.5 * points * basis_steps(exponents)).transpose(1, 0, 2).reshape(width * frames, components)
+    basis = time_cosines(frames) @ columns_of(free).reshape(frames, width, components).transpose(1, 0, 2)
+    return np.ascontiguousarray(basis.reshape(width * frames, components))
+
+
+def free_of(columns: Matrix) -> Matrix:
+    """What is free in columns, shape (n, r) with r <= n: zeros above the diagonal, and nothing negative on it."""
+    if not columns.size:
+        return columns.copy()
+    packed, factors = np.linalg.qr(columns, mode="raw")  # vectors are 1 on the diagonal, where lengths stand instead
+    lengths = np.diagonal(packed)
+    # Of a diagonal that rounding has made 0 the length tells the sign: where it is reflected, it is the other one.
+    negative = np.where(factors > 0.0, lengths > 0.0, lengths < 0.0)
+    free = np.tril(packed.T, -1) * (-lengths * factors) * np.where(negative, -1.0, 1.0)
+    np.fill_diagonal(free, np.maximum(np.abs(lengths * (1.0 - factors)), LEAST * np.abs(lengths)))
+    return np.asarray(free)
+
+
+def columns_of(free: Matrix) -> Matrix:
+    """Columns at right angles, shape (n, r), of what is free in them; zeros are columns of nothing."""
+    columns = free.copy()
+    for first in reversed(range(0, free.shape[1], TOGETHER)):
+        own = slice(first, first + TOGETHER)
+        vectors = free[:, own].copy()
+        diagonal, lengths = np.diagonal(vectors[first:]), np.sqrt(np.square(vectors).sum(axis=0))
+        np.fill_diagonal(vectors[first:], diagonal + np.where(diagonal < 0.0, -lengths, lengths))
+        products = vectors.T @ vectors
+        halves = 0.5 * np.diagonal(products)
+        turned = np.triu(products, 1) + np.diag(np.where(halves > 0.0, halves, 1.0))
+        wanted = vectors.T @ columns[:, first:]
+        wanted[:, : len(turned)] = np.triu(wanted[:, : len(turned)], 1)
+        columns[:, first:] -= vectors @ np.linalg.solve(turned, wanted)
+    return columns
+
+
+def frames_of(field: Matrix, first: int, basis: Matrix) -> Iterator[Matrix]:
+    """The frames, each of shape (n, d), of some columns of a field over a temporal basis."""
+    width, frames, components = basis.shape
+    for start in range(0, frames, BATCH):
+        part = basis[:, start : start + BATCH]
+        count = part.shape[1]
+        weights = np.zeros((components, width, BATCH))
+        weights[:, :, :count] = part.transpose(2, 0, 1)
+        frames_now = np.empty((count, len(field), width))
+        _kernels.show_frames(
+            field, first, weights.reshape(components, width * BATCH), frames_now.reshape(count * len(field), width)
+        )
+        yield from frames_now

@@ -2,23 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations_with_replacement
 
 import numpy as np
 
+from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.codec.arrays import Faces, Levels, Matrix
-from bsm.codec.sequence.bending import BENDING_COLUMNS, Bending
+from bsm.codec.basis.cost import solve_cost
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
+from bsm.codec.sequence.temporal import BATCH
 from bsm.codec.static.rules import Scheme
-from bsm.codec.static.work import Allowance
+from bsm.codec.static.work import LEVEL, Allowance
 
 KEPT, MOST_KEPT, LEAST_KEPT = 1 << 19, 64, 2
 """Positions that low-delay frames may refer to, about, and frames at most and at least, of attributes always."""
 LAGS = (1, 2, 3, 5, 8, 13, 21, 34)
 """How far before the latest frame those lie that help to predict the next ones, of those that are kept."""
+INHERITED = 24
+"""Components of a GOP that those of the next one are predicted from: what moved comes again, mixed in another way."""
 TRACK_MEMORY = 40.0
 """Bytes of a number of a vertex in the first frame of an attribute that moves."""
+
+
+FRAME, SHOWN = 2.5e4, 11.0 / 3.0
+"""Of a field of a frame, and of a number of a vertex in it."""
+PART, ANOTHER = 6e4, 2.5e4
+"""Of a part in a GOP, whatever its size, and of another field there."""
+LOOP, AROUND = 66.0, 10.0
+"""Of a column in a row of a closed loop, and of a vertex around that it begins with."""
+INHERITED_LOOP, INHERITED_AROUND = 90.0, 10.0
+"""What these cost more where components of the GOP before are known."""
+REFERRED = 1.1
+"""Of two columns that are known of low-delay frames, in a row, and of a vertex around."""
 
 
 def frames_kept(vertices: int) -> int:
@@ -29,6 +46,38 @@ def frames_kept(vertices: int) -> int:
 def lags(kept: int) -> tuple[int, ...]:
     """`LAGS`, where so many frames are kept."""
     return tuple(lag for lag in LAGS if lag < kept)
+
+
+SQUARES, CUBES = 0.5, 0.3
+"""How much powers count beside positions; half and twice cost 0.2 to 0.5 %."""
+SMALLEST = 2.0**-24
+"""Added to the squared radius of a part, in BSM units."""
+PRODUCTS = tuple(
+    (factor, axes)
+    for degree, factor in ((2, SQUARES), (3, CUBES))
+    for axes in combinations_with_replacement(range(3), degree)
+)
+BENDING_COLUMNS = 3 + len(PRODUCTS)
+
+
+@dataclass(frozen=True, eq=False)
+class Bending:
+    """The powers that belong to a part."""
+
+    centre: Matrix
+    radius: float
+
+    @classmethod
+    def of(cls, positions: Matrix) -> Bending:
+        """How a part bends that has the positions, shape (n_i, 3), in its first frame, in BSM units."""
+        centre = positions.mean(axis=0)
+        return cls(centre, float(np.sqrt(np.square(positions - centre).sum() / len(positions) + SMALLEST)))
+
+    def columns(self, positions: Matrix) -> Matrix:
+        """Positions, shape (m, 3), and behind them their squares and cubes about the part: shape (m, 19)."""
+        own = (positions - self.centre) / self.radius
+        powers = [factor * self.radius * own[:, list(axes)].prod(axis=1) for factor, axes in PRODUCTS]
+        return np.column_stack([positions, *powers])
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +105,41 @@ class Setting:
     def sites(self) -> tuple[Site, ...]:
         """The parts of the mesh."""
         return self.dictionaries.sites
+
+    def fits(self, body: GopBody, received: int) -> bool:
+        """Whether there is room for a GOP of so many bytes."""
+        return self.dictionaries.fits(*self._memory(body), received)
+
+    def reserve(self, body: GopBody) -> float:
+        """Make room for a GOP; its work."""
+        return self.dictionaries.reserve(*self._memory(body)) + self._work(body)
+
+    def _memory(self, body: GopBody) -> tuple[float, float]:
+        """Bytes for decoding a GOP, and besides for a part: levels, coefficients in the loop, and what becomes of them."""
+        around = sum(len(site.around) for site in self.sites)
+        return gop_memory(self.vertices, body, around), 48.0 * self.dictionaries.largest * _columns(body)
+
+    def _work(self, body: GopBody) -> float:
+        """Work of the levels, loops and fields of a GOP, and of its frames, for the user's vertices."""
+        frames, sites = body.frames, self.sites
+        more = body.method is GopMethod.LEARNT_NEXT
+        loop, around = (LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND) if more else (LOOP, AROUND)
+        others = sum(not body.method.has_basis or field.components > 0 for field in body.fields[1:])
+        fields = sum(_part_work(site, _columns(body), loop, around) for site in sites)
+        work = (PART + ANOTHER * others) * len(sites) + fields + frames * FRAME * len(body.fields)
+        if not body.method.has_basis:
+            rows = sum(site.width + len(site.around) for site in sites)
+            work += REFERRED * rows * sum(count**2 for count in self._references(body))
+        for field in body.fields:
+            width, columns = field.width, field.components
+            basis = frames * width * columns * (10.0 + 2.0 * columns) if body.method.has_basis else 0.0
+            work += basis + frames * width * (self.given * SHOWN + self.vertices * columns / 15.0)
+        return work
+
+    def _references(self, body: GopBody) -> Iterator[int]:
+        """Columns that are known of the frames that low-delay ones refer to, of each field."""
+        for track, field in zip(self.tracks, body.fields, strict=True):
+            yield field.width * (2 + (1 if field.brief else len(lags(track.kept))) + (field.back > 0))
 
     def empty_levels(self, columns: int) -> list[Levels]:
         """Levels of all parts, each of shape (c_i, columns), to be read."""
@@ -111,3 +195,30 @@ def make_setting(
 def split_columns(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
     """A matrix of all fields' columns, shape (m, sum of widths), as those of each."""
     return np.split(matrix, np.cumsum(widths)[:-1], axis=1)
+
+
+def gop_memory(vertices: int, body: GopBody, around: int = 0) -> float:
+    """Bytes for decoding a GOP, besides those of one part after the other: levels, components, a few frames."""
+    width = sum(field.width for field in body.fields)
+    frames = (16.0 * min(body.frames, BATCH) + 32.0) * width
+    bases = (field.components * (40.0 * field.width * body.frames + 24.0 * field.components) for field in body.fields)
+    if body.method.has_basis:
+        needed = INHERITED if body.method is GopMethod.LEARNT_NEXT else 0
+        kept = sum(min(field.components, INHERITED) + needed for field in body.fields)
+        left = 8.0 * kept * (vertices + around)
+    else:
+        left = 24.0 * frames_kept(vertices) * (vertices + around)
+        left += width * (4.0 * body.frames * vertices + 8.0 * (body.frames + 4.0) * around)
+    return vertices * (12.0 * _columns(body) + frames) + sum(bases) + left
+
+
+def _columns(body: GopBody) -> int:
+    if body.method.has_basis:
+        return sum(field.components for field in body.fields)
+    return sum(field.width * body.frames for field in body.fields)
+
+
+def _part_work(site: Site, columns: int, loop: float, around: float) -> float:
+    rows, width = len(site.vertices), site.width
+    loops = columns * (width * (LEVEL + loop) + len(site.around) * around)
+    return loops + solve_cost(site.fronts, columns) + rows * (width * (1.0 + 0.1 * columns) + 20.0 * columns)

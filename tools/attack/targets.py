@@ -29,7 +29,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.decoder import SequenceDecoder
 from bsm.codec.sequence.events import FrameEvent
-from bsm.codec.sequence.row_prediction import basis_leads
+from bsm.codec.sequence.temporal import basis_leads
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.events import BlockEvent
 from bsm.files.mesh import MESH_FORMATS, read_mesh

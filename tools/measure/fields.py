@@ -23,7 +23,7 @@ from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.watch import Shading
+from bsm.codec.sequence.step_search import Shading
 from bsm.codec.static.attributes.quality import MOVING
 from bsm.files.formats.npz import read_arrays
 

@@ -8,7 +8,7 @@ import pytest
 from bsm.bitstream.coefficients.matrices import PRICED, decode_levels, encode_levels, make_level_bank
 from bsm.bitstream.errors import OptionError
 from bsm.codec.sequence import level_writer
-from bsm.codec.sequence.level_writer import LevelWriter
+from bsm.codec.sequence.row_prediction import LevelWriter
 from bsm.codec.sequence.row_prediction import Loop
 
 ROWS, COLUMNS, KNOWN, STEP = 80, 30, 3, 0.01

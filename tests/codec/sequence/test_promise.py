@@ -14,9 +14,9 @@ from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.promise import PROMISES, Promise
+from bsm.codec.sequence.options import PROMISES, Promise
 from bsm.codec.sequence.targets import SequenceTarget, flicker_of
-from bsm.codec.sequence.watch import Shading, Sight, Watch
+from bsm.codec.sequence.step_search import Shading, Sight, Watch
 from tests.motion import bending
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bsm.codec.sequence.reflections import columns_of, free_of
+from bsm.codec.sequence.temporal import columns_of, free_of
 
 
 def right_angled(rows, columns):

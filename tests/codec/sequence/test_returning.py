@@ -15,8 +15,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.promise import Promise
-from bsm.codec.sequence.returning import SAME, same_frames, told_frames
+from bsm.codec.sequence.options import Promise
+from bsm.codec.sequence.frames import SAME, same_frames, told_frames
 from tests.motion import bending
 
 STEP = 0.002

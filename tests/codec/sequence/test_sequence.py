@@ -31,7 +31,7 @@ from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.history import FrameHistory
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.promise import Promise
+from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode

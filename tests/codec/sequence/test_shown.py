@@ -5,7 +5,7 @@ import pytest
 
 from bsm.codec import _kernels
 from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.codec.sequence.shown import BATCH, shown_frames
+from bsm.codec.sequence.temporal import BATCH, shown_frames
 
 
 @pytest.mark.parametrize("vertices", [0, 1, 4, 37])

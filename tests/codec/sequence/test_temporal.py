@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bsm.codec.sequence.row_prediction import OCTAVE, trajectories
+from bsm.codec.sequence.temporal import OCTAVE, trajectories
 from bsm.codec.sequence.temporal import FINEST_EXPONENT, PRECISION, WORTH, learn_basis, projection
 
 ROWS, COLUMNS, STEP = 400, 24, 0.01

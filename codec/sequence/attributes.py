@@ -1,4 +1,4 @@
-"""Attributes that move, each value in each frame as near as is asked; the twin of `codec.sequence.moving`."""
+"""Attributes that move: values of vertices that change from frame to frame, each as near as is asked."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.gop import GopBody, GopField, GopMethod, still
-from bsm.bitstream.errors import OptionError, TargetError
-from bsm.codec.arrays import Matrix
+from bsm.bitstream.errors import NumericError, OptionError, TargetError
+from bsm.codec.arrays import Matrix, Order
 from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.sequence.frames import distinct_frames
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
-from bsm.codec.sequence.moving import beyond_one, changed
-from bsm.codec.sequence.returning import told_frames
 from bsm.codec.sequence.tracks import Setting
 from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.attributes.levels import Values, restored
@@ -35,6 +35,52 @@ MARGIN = 1e-6
 FIRST_FRAME = 0.5
 """Bound of the first frame, as a part of that of the others."""
 LARGEST = 1e100
+
+
+@dataclass(frozen=True, eq=False)
+class MovingAttribute:
+    """An attribute that moves, as a decoder knows it before the first GOP."""
+
+    number: int
+    declaration: Declaration
+    first: Values | None
+    rows: Order
+
+    @property
+    def width(self) -> int:
+        """Numbers d of a vertex."""
+        return self.declaration.components
+
+    @property
+    def start(self) -> Matrix:
+        """What GOPs build upon, shape (n, d)."""
+        return np.zeros((self.declaration.rows, self.width)) if self.first is None else beyond_one(self.first)
+
+    def in_frame(self, attribute: Attribute, change: Matrix) -> Attribute:
+        """The attribute in a frame, given in another, that differs from the first one by `change`, shape (n, d)."""
+        assert self.first is not None
+        return replace(attribute, values=changed(self.first, change)[self.rows])
+
+
+def beyond_one(first: Values) -> Matrix:
+    """What the values of the first frame, shape (n, d), have beyond those of vertex 0, which may be large."""
+    wide = first.astype(np.float64)
+    return np.asarray(wide - wide[:1])
+
+
+def changed(first: Values, change: Matrix) -> Values:
+    """Values, shape (n, d), that differ from the first frame's by so much; integers are the nearest of their kind."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        values = first.astype(np.float64) + change
+        if not np.isfinite(values).all():
+            raise NumericError("values of an attribute that moves are not finite")
+        if first.dtype.kind == "f":
+            values = values.astype(first.dtype)
+            if not np.isfinite(values).all():
+                raise NumericError("values of an attribute that moves are beyond the range of their kind")
+            return values
+    kind = np.iinfo(first.dtype)
+    return np.rint(values).clip(kind.min, kind.max).astype(first.dtype)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +117,7 @@ class Bound:
 
     @property
     def of_first(self) -> Quality:
-        """What is asked of the first frame, which all others are told from."""
+        """What is asked of the first frame, which all others differ from."""
         assert self.amount is not None
         amount = self.amount if self._is_rms else FIRST_FRAME * self.amount
         return Quality("bound", amount) if amount > 0.0 else Quality("exact")
@@ -116,7 +162,7 @@ def moved(one: PreparedAttribute) -> PreparedAttribute:
 
 
 class Mover:
-    """Encodes what GOPs of a run tell of one attribute."""
+    """Encodes one attribute in the GOPs of a run."""
 
     def __init__(self, number: int, carried: PreparedAttribute, given: Values, bound: Bound) -> None:
         self.number = number
@@ -134,7 +180,7 @@ class Mover:
         return beyond_one(self.first)
 
     @property
-    def said(self) -> str:
+    def note(self) -> str:
         """What has become of it."""
         if self.bound.amount is None:
             return self._carried.said
@@ -145,8 +191,8 @@ class Mover:
         self._setting, self._track = setting, setting.tracks[number]
         self._encoder = positions.beside(self._track)
 
-    def told(self, bodies: Sequence[GopBody], values: Values) -> list[GopField]:
-        """What each GOP tells, of all their values, shape (T, n, d)."""
+    def fields(self, bodies: Sequence[GopBody], values: Values) -> list[GopField]:
+        """Of each GOP, which together have all these values, shape (T, n, d)."""
         if self.bound.amount is None and (values != self._given).any():
             known = np.concatenate([self._given[None], values])
             self.bound = self.bound.over(known)
@@ -187,7 +233,7 @@ class Mover:
         return TargetError(f"{self.name!r} moves, and cannot be kept {self.bound}: {why}")
 
     def _attempt(self, encoder: GopEncoder, body: GopBody, values: Values) -> tuple[GopField, list[Matrix]]:
-        """What is told with a step, and what a decoder makes of it: the changes of each frame, shape (n, d)."""
+        """A field, and what a decoder makes of it: the changes of each frame, shape (n, d)."""
         wanted = values.astype(np.float64) - self.first
         try:
             if not body.method.has_basis:
@@ -196,8 +242,8 @@ class Mover:
                 assert encoder.latest is not None
                 return field, list(encoder.latest)
             before = encoder.inherited
-            told, shown = told_frames(body.places)
-            field, _ = encoder.encode_learnt(wanted[told], np.sqrt(np.bincount(shown)), body.method, silent)
+            distinct, places = distinct_frames(body.places)
+            field, _ = encoder.encode_learnt(wanted[distinct], np.sqrt(np.bincount(places)), body.method, silent)
         except OptionError as error:
             raise self._refusal(f"{error}") from error
         decoder = GopDecoder(self._setting, [self._track], [before] if before else None)
@@ -207,8 +253,8 @@ class Mover:
 def with_fields(
     bodies: Sequence[GopBody], movers: Sequence[Mover], values: Mapping[str, Values]
 ) -> tuple[GopBody, ...]:
-    """GOPs that tell of positions, and now of attributes, too: `values` are of all frames, shape (T, k, c)."""
-    told = [mover.told(bodies, values[mover.name]) for mover in movers]
+    """GOPs of positions, and now of attributes, too: `values` are of all frames, shape (T, k, c)."""
+    each = [mover.fields(bodies, values[mover.name]) for mover in movers]
     return tuple(
-        replace(body, fields=(*body.fields, *(fields[number] for fields in told))) for number, body in enumerate(bodies)
+        replace(body, fields=(*body.fields, *(fields[number] for fields in each))) for number, body in enumerate(bodies)
     )

@@ -1,8 +1,7 @@
 /* Frames of the components of a field (specification, S 7.1): each of its coordinates in as many frames as a vector has
  * numbers. */
-#include "codec/sequence/shown.h"
-
 #include "codec/basis/vectors.h"
+#include "codec/sequence/kernels.h"
 
 /* Some vertices from v on, and some coordinates side by side, of which the first is in `column` of the weights. */
 INLINE void show_vertices(const int rows, const int vectors, ConstDoubles2 field, int64_t first, ConstDoubles2 weights,

@@ -1,4 +1,4 @@
-"""Looking after promises: the step that is just fine enough for every frame. The encoder's own business."""
+"""The widest step with which every frame keeps a promise; no part of the format."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.level_writer import ROUNDS
-from bsm.codec.sequence.promise import Promise
+from bsm.codec.sequence.options import Promise
+from bsm.codec.sequence.row_prediction import ROUNDS
 from bsm.codec.static.targets import COARSEST_STEP
 
 KNOTS = 10
@@ -37,12 +37,12 @@ EVENING, SMOOTHNESS = 0.8, 2.0
 change quickly are dear in the temporal basis."""
 WIDEST = 1.0
 """Logarithm of the largest weight, and of one over the smallest."""
-_TRIES = 20
+TRIES = 20
 _PIXEL = 4 * 14
 """Bytes of a `LookMetric` for each pixel of its pictures' side, squared."""
 
 
-class Attempt(Protocol):
+class Candidate(Protocol):
     """Frames that were encoded with some step."""
 
     @property
@@ -50,107 +50,121 @@ class Attempt(Protocol):
         """What the decoder makes of them, shape (T, n, 3)."""
 
 
-Found = TypeVar("Found", bound=Attempt)
+Found = TypeVar("Found", bound=Candidate)
 
 
-class Watch:
-    """Looks at the frames of a GOP."""
+def secant(excess: Callable[[float], float], first: float, finest: float, slack: float) -> None:
+    """Try steps, to come to about the widest one whose excess, a logarithm, is at most 0 and above -slack."""
+    low, high = math.log(finest), math.log(COARSEST_STEP)
+    at = min(max(math.log(first), low), high)
+    kept: tuple[float, float] | None = None  # the logarithm of the step, and the excess
+    broken: tuple[float, float] | None = None
+    before: tuple[float, float] | None = None
+    for tries in range(TRIES):
+        value = excess(math.exp(at))
+        if value <= 0.0 and (kept is None or at > kept[0]):
+            kept = at, value
+        elif value > 0.0 and (broken is None or at < broken[0]):
+            broken = at, value
+        if kept is None and at <= low:
+            return
+        if kept is not None and (kept[1] > -slack * (1 + tries / 4) or at >= high):
+            return
+        slope = SLOPE
+        if before is not None and before[0] != at:
+            slope = min(max((value - before[1]) / (at - before[0]), SLOPES[0]), SLOPES[1])
+        before = at, value
+        at -= (min(value, 3.0) + slack / 2) / slope
+        if kept is not None and broken is not None:
+            room = broken[0] - kept[0]
+            if room < slack / 4:
+                return
+            at = min(max(at, kept[0] + 0.1 * room), broken[0] - 0.1 * room)
+        at = min(max(at, low), high)
+
+
+class StepSearch:
+    """Looks for the widest step with which the frames of a GOP keep a promise."""
 
     def __init__(self, frames: Positions, faces: Faces, promise: Promise, scale: float, threads: int | None) -> None:
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
         self._reach = promise.reach(scale)
-        self._lookers: dict[int, LookMetric | None] = {}
+        self._metrics: dict[int, LookMetric | None] = {}
         self._room = KEPT
         self._knots: list[int] = []
         if promise.look < math.inf:
             self._shading = Shading(frames.shape[1], faces)
             self._knots = np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist()
 
-    def settle(self, attempt: Callable[[float, Matrix | None, int], Found], first: float, finest: float) -> Found:
-        """What keeps the promise in every frame with little to spare."""
-        low, high = math.log(finest), math.log(COARSEST_STEP)
-        at = min(max(math.log(first), low), high)
-        weights = None
-        if self._knots and len(self._frames) > 1:
-            sight = self._see(attempt(math.exp(at), None, ROUGH).decoded)
-            weights = _evening(sight.shares)
-            at = min(max(at - (min(sight.excess, 3.0) + SLACK / 2) / SLOPE, low), high)
-        slack = SLACK if len(self._frames) > 1 else SLACK_OF_ONE
-        kept: tuple[float, Sight, Found] | None = None  # the first is the logarithm of the step
-        broken: tuple[float, float] | None = None  # that, and the excess
-        before: tuple[float, float] | None = None
-        for tries in range(_TRIES):
-            found = attempt(math.exp(at), weights, ROUNDS)
-            sight = self._see(found.decoded)
-            excess = sight.excess
-            if excess <= 0.0 and (kept is None or at > kept[0]):
-                kept = at, sight, found
-            elif excess > 0.0 and (broken is None or at < broken[0]):
-                broken = at, excess
-            if kept is None and at <= low:
-                break
-            if kept is not None and (kept[1].excess > -slack * (1 + tries / 4) or at >= high):
-                break
-            slope = SLOPE
-            if before is not None and before[0] != at:
-                slope = min(max((excess - before[1]) / (at - before[0]), SLOPES[0]), SLOPES[1])
-            before = at, excess
-            at -= (min(excess, 3.0) + slack / 2) / slope
-            if kept is not None and broken is not None:
-                room = broken[0] - kept[0]
-                if room < slack / 4:
-                    break
-                at = min(max(at, kept[0] + 0.1 * room), broken[0] - 0.1 * room)
-            at = min(max(at, low), high)
-        if kept is None:
-            raise self._refusal(math.exp(at))
-        at, sight, found = kept
-        for _ in range(_TRIES):
-            self._look_at_doubtful(sight, found.decoded)
-            if sight.excess <= 0.0:
+    def run(self, encode: Callable[[float, Matrix | None, int], Found], first: float, finest: float) -> Found:
+        """What keeps the promise in every frame with little to spare; `encode` takes step, weights and rounds."""
+        weights: Matrix | None = None
+        many = len(self._frames) > 1
+        slack = SLACK if many else SLACK_OF_ONE
+        first = min(max(first, finest), COARSEST_STEP)
+        if self._knots and many:
+            measured = self._measure(encode(first, None, ROUGH).decoded)
+            weights = _evening(measured.shares)
+            first = _finer(first, measured.excess, slack)
+        kept: tuple[float, Measured, Found] | None = None
+        least = math.inf
+
+        def excess(step: float) -> float:
+            nonlocal kept, least
+            least = min(least, step)
+            found = encode(step, weights, ROUNDS)
+            measured = self._measure(found.decoded)
+            if measured.excess <= 0.0 and (kept is None or step > kept[0]):
+                kept = step, measured, found
+            return measured.excess
+
+        secant(excess, first, finest, slack)
+        for _ in range(TRIES if kept else 0):
+            assert kept is not None
+            step, measured, found = kept
+            self._draw_doubtful(measured, found.decoded)
+            if measured.excess <= 0.0:
                 return found
-            if at <= low:
+            least = step
+            if step <= finest:
                 break
-            at = max(at - (sight.excess + slack / 2) / SLOPE, low)
-            found = attempt(math.exp(at), weights, ROUNDS)
-            sight = self._see(found.decoded)
-        raise self._refusal(math.exp(at))
+            step = max(_finer(step, measured.excess, slack), finest)
+            found = encode(step, weights, ROUNDS)
+            kept = step, self._measure(found.decoded), found
+        raise TargetError(f"{self._promise} in every frame cannot be kept, not even with a step of {least:.2g}")
 
-    def _refusal(self, step: float) -> TargetError:
-        return TargetError(f"{self._promise} in every frame cannot be kept, not even with a step of {step:.2g}")
-
-    def _see(self, decoded: Positions) -> Sight:
+    def _measure(self, decoded: Positions) -> Measured:
         """How the frames look, by those all over the GOP, and, if all is well there, a few that may be the worst."""
         pairs = list(zip(self._frames, decoded, strict=True))
         farthest = math.sqrt(max(float(np.square(a - b).sum(axis=1).max()) for a, b in pairs)) / self._reach
         if not self._knots:
-            return Sight(farthest, np.zeros(0), {})
+            return Measured(farthest, np.zeros(0), {})
         errors = np.array([self._shading.error(self._shading.normals(a), b) for a, b in pairs]).clip(1e-12)
-        sight = Sight(farthest, errors, {index: self._look(index, decoded) for index in self._knots})
+        measured = Measured(farthest, errors, {index: self._look(index, decoded) for index in self._knots})
         for _ in range(MORE):
-            index = sight.doubtful
-            if index is None or sight.excess > 0.0 or sight.most[index] < 1.0 - 2.0 * SLACK:
+            index = measured.doubtful
+            if index is None or measured.excess > 0.0 or measured.most[index] < 1.0 - 2.0 * SLACK:
                 break
-            sight.drawn[index] = self._look(index, decoded)
-        return sight
+            measured.drawn[index] = self._look(index, decoded)
+        return measured
 
-    def _look_at_doubtful(self, sight: Sight, decoded: Positions) -> None:
-        while sight.excess <= 0.0 and (index := sight.doubtful) is not None and sight.most[index] > 1.0:
-            sight.drawn[index] = self._look(index, decoded)
+    def _draw_doubtful(self, measured: Measured, decoded: Positions) -> None:
+        while measured.excess <= 0.0 and (index := measured.doubtful) is not None and measured.most[index] > 1.0:
+            measured.drawn[index] = self._look(index, decoded)
 
     def _look(self, index: int, decoded: Positions) -> float:
         """Share of the bound; 0 for a frame of which nothing is seen."""
-        if index not in self._lookers:
-            looker = self._looker(index)
-            held = _PIXEL * looker.pixels**2 if looker else 0
+        if index not in self._metrics:
+            metric = self._metric(index)
+            held = _PIXEL * metric.pixels**2 if metric else 0
             if held <= self._room:
                 self._room -= held
-                self._lookers[index] = looker
+                self._metrics[index] = metric
         else:
-            looker = self._lookers[index]
-        return 0.0 if looker is None else looker.look(decoded[index]).moving / self._promise.look
+            metric = self._metrics[index]
+        return 0.0 if metric is None else metric.look(decoded[index]).moving / self._promise.look
 
-    def _looker(self, index: int) -> LookMetric | None:
+    def _metric(self, index: int) -> LookMetric | None:
         """None for a frame of which nothing is seen."""
         try:
             return LookMetric(TriangleMesh(self._frames[index], self._faces), threads=self._threads)
@@ -159,7 +173,7 @@ class Watch:
 
 
 @dataclass(eq=False)
-class Sight:
+class Measured:
     """What is known of the frames of one attempt, in shares of their bounds."""
 
     farthest: float
@@ -174,12 +188,12 @@ class Sight:
     @property
     def shares(self) -> Matrix:
         """Looks of all frames, shape (T,): of those not drawn what is expected."""
-        return self._judged(0.0)
+        return self._expected(0.0)
 
     @property
     def most(self) -> Matrix:
         """What the looks may be, shape (T,)."""
-        return self._judged(DEVIATIONS)
+        return self._expected(DEVIATIONS)
 
     @property
     def doubtful(self) -> int | None:
@@ -188,7 +202,7 @@ class Sight:
         most[list(self.drawn)] = 0.0
         return int(most.argmax()) if most.any() else None
 
-    def _judged(self, deviations: float) -> Matrix:
+    def _expected(self, deviations: float) -> Matrix:
         """Looks, so many standard deviations above what is expected."""
         shares = self.errors.copy()
         seen = np.array(sorted(index for index, share in self.drawn.items() if share > 0.0), np.int64)
@@ -207,6 +221,11 @@ class Sight:
         for index, share in self.drawn.items():
             shares[index] = share
         return shares
+
+
+def _finer(step: float, excess: float, slack: float) -> float:
+    """A step that is expected to take so much excess away."""
+    return step * math.exp(-(min(excess, 3.0) + slack / 2.0) / SLOPE)
 
 
 def _evening(shares: Matrix) -> Matrix:

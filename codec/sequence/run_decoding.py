@@ -1,4 +1,4 @@
-"""GOPs of a run, as they come; the twin of `codec.sequence.gop_encoding`."""
+"""A run: its first frame, and its GOPs as they come; the twin of `codec.sequence.run_encoding`."""
 
 from __future__ import annotations
 
@@ -13,21 +13,85 @@ from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.codec.arrays import Matrix
+from bsm.codec.blocks.overlap import Blend
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.cost import gop_cost, gop_memory, loop_memory
-from bsm.codec.sequence.course import Course, DecoderRequest
-from bsm.codec.sequence.events import FrameEvent, Item
-from bsm.codec.sequence.gop import Frame, GopDecoder
-from bsm.codec.sequence.moving import MovingAttribute
-from bsm.codec.sequence.tracks import make_setting
-from bsm.codec.static.events import HeaderEvent, unreadable
+from bsm.codec.sequence.attributes import MovingAttribute
+from bsm.codec.sequence.events import Course, DecoderRequest, FrameEvent, Item
+from bsm.codec.sequence.gop import Fields, GopDecoder
+from bsm.codec.sequence.tracks import gop_memory, make_setting
+from bsm.codec.static.attributes.decoding import AttributeDecoders, without_positions
+from bsm.codec.static.events import AttributeEvent, HeaderEvent, LossEvent, unreadable
 from bsm.codec.static.preamble_decoding import Structure
 from bsm.codec.static.stages import Arrival, Ended, Stage, misplaced
+from bsm.codec.static.ways.block_coder import FRAME, ChainDecoder
 
 Result = TypeVar("Result")
 
 
-class Gops:
+class FirstFrameStage:
+    """The faces are known; blocks of a run's first frame come, which is coded as a static mesh is."""
+
+    def __init__(self, structure: Structure, request: DecoderRequest, course: Course) -> None:
+        self._structure = structure
+        self._request = request
+        self._course = course
+        self._blend = Blend(structure.header.vertices)
+        self._chain = ChainDecoder(structure.scheme, 0, structure.allowance)
+        self._next = 0
+        self._carried = AttributeDecoders(structure)
+
+    def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
+        count = self._structure.scheme.blocks.count
+        match arrival:
+            case packets.Block():
+                self._add(arrival)
+                return self
+            case packets.Values() if self._next == count:
+                queue.append(self._values(arrival))
+                return self
+            case packets.Damaged() if self._next < count:
+                raise unreadable(arrival)
+            case packets.Damaged(type=FrameType.VALUES):
+                queue.append(LossEvent(None, unreadable(arrival)))
+                return self
+        if self._next < count:
+            raise CorruptError(f"the first frame ends after {self._next} of {count} blocks")
+        moving = tuple(self._moving())
+        gops = GopStage(self._structure, self._blend.all_positions(), moving, self._request, self._course)
+        return gops.accept(arrival, queue)
+
+    def _values(self, packet: packets.Values) -> AttributeEvent | LossEvent:
+        try:
+            event = self._carried.add(packet, without_positions)
+        except BsmError as error:
+            if not self._request.tolerant:
+                raise
+            return LossEvent(None, error)
+        self._request.attributes[:] = self._carried.attributes(None)
+        return event
+
+    def _moving(self) -> Iterator[MovingAttribute]:
+        for number, declaration, first, rows in self._carried.moving():
+            if declaration.rows != self._structure.header.vertices:
+                raise CorruptError(f"attribute {declaration.name!r} moves, and what no face uses has values of it")
+            if first is None and not self._request.tolerant:
+                raise CorruptError(f"attribute {declaration.name!r} moves, and not all of its first values have come")
+            yield MovingAttribute(number, declaration, first, rows)
+
+    def _add(self, packet: packets.Block) -> None:
+        """Decode the next block."""
+        if packet.index != self._next:
+            raise CorruptError(f"block {packet.index} of the first frame where block {self._next} belongs")
+        self._structure.allowance.keep(0.0, len(packet.data) + FRAME)
+        scheme = self._structure.scheme
+        if scheme.chain_of(packet.index) != self._chain.number:
+            self._chain = ChainDecoder(scheme, scheme.chain_of(packet.index), self._structure.allowance)
+        decoded = self._chain.decode(packet)
+        self._blend.add(decoded.vertices, decoded.positions, decoded.weights)
+        self._next += 1
+
+
+class GopStage:
     """The first frame of a run is known, shape (n, 3), in BSM units; GOPs come, also of later runs of its mesh."""
 
     def __init__(
@@ -139,17 +203,12 @@ class Gops:
             self._decoder = GopDecoder(setting)
         return self._decoder
 
-    def _frames(self, decoder: GopDecoder, body: GopBody, received: int) -> Iterator[Frame]:
+    def _frames(self, decoder: GopDecoder, body: GopBody, received: int) -> Iterator[Fields]:
         """`_decoded`, if that is allowed."""
-        vertices, dictionaries = self._structure.header.vertices, decoder.setting.dictionaries
-        again = dictionaries.reserve(
-            gop_memory(vertices, body, dictionaries.sites), loop_memory(dictionaries.largest, body)
-        )
-        cost = gop_cost(dictionaries.sites, vertices, decoder.setting.given, body)
-        self._structure.allowance.spend(again + cost, received)
+        self._structure.allowance.spend(decoder.setting.reserve(body), received)
         return self._decoded(decoder, body)
 
-    def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Frame]:
+    def _decoded(self, decoder: GopDecoder, body: GopBody) -> Iterator[Fields]:
         """Frames of a GOP, or nothing of it where no frame of it is wanted and none that is depends on it."""
         if body.method.begins:
             self._skipped.clear()
@@ -161,19 +220,20 @@ class Gops:
         self._skipped.clear()
         return decoder.decode(body)
 
-    def _events(self, first: int, frames: Iterator[Frame]) -> Iterator[FrameEvent]:
+    def _events(self, first: int, frames: Iterator[Fields]) -> Iterator[FrameEvent]:
         numbering, units = self._structure.numbering, self._structure.units
         for index, (positions, *changes) in enumerate(frames, first):
             if index >= self._request.start:
                 yield FrameEvent(
-                    index, numbering.arranged(units.back(positions)), numbering.faces, self._shown(changes)
+                    index, numbering.arranged(units.back(positions)), numbering.faces, self._in_frame(changes)
                 )
 
-    def _shown(self, changes: list[Matrix]) -> tuple[Attribute, ...]:
+    def _in_frame(self, changes: list[Matrix]) -> tuple[Attribute, ...]:
         """The attributes of a frame in which those that move differ so much from the first, shapes (n, d)."""
         moved = {one.declaration.name: (one, change) for one, change in zip(self._moving, changes, strict=True)}
         return tuple(
-            moved[one.name][0].shown(one, moved[one.name][1]) if one.name in moved else one for one in self._attributes
+            moved[one.name][0].in_frame(one, moved[one.name][1]) if one.name in moved else one
+            for one in self._attributes
         )
 
     def _lose(self, error: BsmError) -> None:

@@ -1,4 +1,4 @@
-"""The frames of each GOP, as a run gives them."""
+"""The frames of a GOP, and which of them come again: what loops, stands still or turns back is coded once."""
 
 from __future__ import annotations
 
@@ -11,9 +11,13 @@ import numpy as np
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.returning import same_frames
 from bsm.codec.static.attributes.levels import Values
 from bsm.codec.static.preamble_encoding import Prepared
+
+SAME = 1 / 64, 1 / 4
+"""How far a frame that comes again may be off, in steps: the root mean square of coordinates, and each of them."""
+LOOKED_AT = 32
+"""Coordinates that most frames differ in."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,3 +64,28 @@ def require_same(still: Mapping[str, Values], group: Group) -> None:
     for name, values in still.items():
         if (group.moving[name] != values).any():
             raise OptionError(f"{name!r} moves, and floats that do cannot be exact; ask for a bound")
+
+
+def same_frames(frames: Positions, moving: Sequence[Values], step: float) -> Order:
+    """The first frame that each one is the same as, far below what `step` leaves, shape (T,)."""
+    rows = frames.reshape(len(frames), -1)
+    glimpses = np.ascontiguousarray(rows[:, :: max(1, rows.shape[1] // LOOKED_AT)])
+    same = np.arange(len(frames))
+    for number in range(1, len(frames)):
+        alike = np.abs(glimpses[:number] - glimpses[number]).max(axis=1) <= SAME[1] * step
+        for other in np.flatnonzero(alike & (same[:number] == np.arange(number))):
+            if _same(rows[other] - rows[number], step) and all((own[other] == own[number]).all() for own in moving):
+                same[number] = other
+                break
+    return same
+
+
+def _same(difference: Matrix, step: float) -> bool:
+    mean, most = (share * step for share in SAME)
+    return bool(difference @ difference <= len(difference) * mean**2 and np.abs(difference).max() <= most)
+
+
+def distinct_frames(same: Order) -> tuple[Order, Order]:
+    """One of all that are the `same`, shape (T,): their numbers, shape (Q,), and which of them each is, shape (T,)."""
+    _, distinct, places = np.unique(same, return_index=True, return_inverse=True)
+    return distinct, places

@@ -1,0 +1,22 @@
+/* Kernels of sequences. */
+#ifndef BSM_SEQUENCE_KERNELS_H
+#define BSM_SEQUENCE_KERNELS_H
+
+#include "bitstream/kernel.h"
+
+/* The constants of row_prediction.py. */
+typedef struct {
+    double forgetting, ridge, noise, around;
+    int64_t dense_rows, renewal;
+} PredictionRules;
+
+void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 moments, double step, PredictionRules rules,
+    Doubles mean, Doubles row);
+void follow_rows(ConstDoubles2 known, ConstInts2 levels, Doubles2 decoded, Doubles2 moments, double step,
+    PredictionRules rules, Doubles2 factor, Doubles row, Doubles expected);
+void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts prices, double weight, Ints2 levels,
+    Doubles2 decoded, Doubles2 moments, double step, PredictionRules rules, Doubles2 factor, Doubles row,
+    Doubles2 expected, Doubles2 values, Ints2 ways, Bytes2 origins);
+int64_t LEVEL(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames);
+
+#endif

@@ -1,0 +1,295 @@
+"""A run: its first frame and its GOPs, in the way that costs least; the twin of `codec.sequence.run_decoding`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bsm.bitstream.container.gop import GopBody, GopMethod
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.errors import OptionError
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.arrays import Matrix, Order, Positions
+from bsm.codec.sequence.frames import Group, distinct_frames
+from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
+from bsm.codec.sequence.history import Inherited
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.row_prediction import LARGEST_LEVEL, ROUNDS
+from bsm.codec.sequence.step_search import StepSearch
+from bsm.codec.sequence.tracks import Setting, gop_memory, make_setting
+from bsm.codec.signal.chain import ChainRules
+from bsm.codec.signal.transform import smallest_step
+from bsm.codec.static.admission import admit, as_of_decoders
+from bsm.codec.static.assembly import blended
+from bsm.codec.static.coding import Adaptive
+from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.rules import STIFFNESS, Scheme
+from bsm.codec.static.units import single
+from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, encode_blocks
+from bsm.codec.static.work import Allowance
+
+FIRST_STEP = 0.3
+"""Of the first frame, in steps of the others, which follow from it; 0.4 costs 0.5 % more, with low delay 1 to 3 %."""
+
+FIRST_FRAME = ChainRules(
+    exact=False,
+    key_interval=0,
+    power=3,
+    iterations=2,
+    key_iterations=2,
+    shift=2.0**-5,
+    stiffness=STIFFNESS,
+)
+"""The first frame is one chain; the dictionaries of its key block and those of all parts start from cosines alike."""
+
+HARDLY_CUT = 256
+"""So many frames are one GOP: in no sequence seen did two cost less."""
+
+TOGETHER = 4
+"""GOPs with a basis of which each but the first refers to the one before; who comes late waits no longer than that."""
+
+FINEST_STEP = 2e-5
+"""Below, a search does not look."""
+
+NEAR = 0.8, 1.15
+"""A first frame will do for steps so many times that for which it was coded."""
+
+
+@dataclass(frozen=True, eq=False)
+class FirstFrame:
+    """Everything before the GOPs but the connectivity: the first frame, coded as a static mesh is."""
+
+    header: Header
+    blocks: list[CodedBlock]
+    setting: Setting
+    allowance: Allowance
+    limits: str
+
+    def has_room(self, body: GopBody) -> bool:
+        """Whether decoders have the memory for a GOP, with attributes that move about as positions do."""
+        (positions,) = body.fields
+        others = (
+            replace(positions, width=track.width, components=-(-positions.components * track.width // 3))
+            for track in self.setting.tracks[1:]
+        )
+        return self.setting.fits(replace(body, fields=(positions, *others)), _received(body))
+
+    def admit(self, body: GopBody, number: int) -> None:
+        """Do the sums of decoders for a GOP from frame `number` on, or raise `OptionError` if they would refuse it."""
+        vertices, allowance, received = self.setting.vertices, self.allowance, _received(body)
+        allowance.keep(0.0, received)
+        allowance.show(vertices * (body.frames if number else body.frames - 1))
+        with as_of_decoders(self.limits):
+            allowance.limits.check("sequence_bytes", gop_memory(vertices, body))
+            allowance.spend(self.setting.reserve(body), received)
+
+
+def _received(body: GopBody) -> int:
+    return sum(field.size for field in body.fields)
+
+
+def encode_first_frame(
+    prepared: Prepared,
+    options: SequenceOptions,
+    frames: int,
+    progress: Progress,
+    before: Allowance,
+    moving: Sequence[Matrix] = (),
+) -> FirstFrame:
+    """Code the first frame, which all others of a run build upon; `frames` as for `SequenceEncoder`."""
+    finest = smallest_step(prepared.size)
+    step = options.first_step or max(FIRST_STEP * options.step, finest)
+    if step < finest:
+        raise OptionError(f"first_step = {step:g} is too fine for blocks of {prepared.size}, try {finest:.1e}")
+    width = max(1, round(options.keep * prepared.size))
+    scheme = Scheme(prepared.blocks, replace(FIRST_FRAME, whole=width), Adaptive(width, single(step)))
+    blocks = encode_blocks(scheme, prepared.positions, threads=options.threads, progress=progress)
+    header = Header(
+        vertices=prepared.graph.size,
+        faces=len(prepared.mesh.faces),
+        block_size=prepared.size,
+        coefficients=width,
+        center=prepared.units.center,
+        scale=prepared.units.scale,
+        sequence=(frames, options.together(prepared.graph.size)),
+        **scheme.fields(),
+    )
+    positions = blended(prepared.graph.size, (block.decoded for block in blocks))
+    allowance = Allowance(NAMED_LIMITS[options.limits]())
+    allowance.follow(before)
+    allowance.show(header.vertices)  # the first GOP does, at least
+    with as_of_decoders(options.limits):
+        admit(allowance, prepared, blocks)
+        allowance.keep(0.0, sum(len(block.packet.data) + FRAME for block in blocks))
+        allowance.limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
+        setting = make_setting(
+            scheme,
+            prepared.mesh.faces,
+            positions,
+            given=prepared.given,
+            width=width,
+            threads=options.threads,
+            allowance=allowance,
+            moving=moving,
+        )
+    return FirstFrame(header, blocks, setting, allowance, options.limits)
+
+
+@dataclass(frozen=True, eq=False)
+class EncodedGops:
+    """GOPs of some frames, with the encoder behind them, and what it inherited before them."""
+
+    first_frame: FirstFrame
+    encoder: GopEncoder
+    bodies: tuple[GopBody, ...]
+    inherited: Inherited | None = None
+
+    @property
+    def decoded(self) -> Positions:
+        """What the decoder makes of them, shape (T, n, 3), in BSM units; not kept, since it is large."""
+        if self.encoder.low_delay and self.encoder.latest is not None:
+            return self.encoder.latest
+        setting = self.first_frame.setting
+        decoder = GopDecoder(setting, setting.tracks[:1], [self.inherited] if self.inherited else None)
+        frames = np.empty((sum(body.frames for body in self.bodies), setting.vertices, 3))
+        for number, (frame,) in enumerate(frame for body in self.bodies for frame in decoder.decode(body)):
+            frames[number] = frame
+        return frames
+
+
+class RunEncoder:
+    """Encodes the GOPs of a run, each with the step that keeps the options' promise in it, if there is one."""
+
+    def __init__(self, prepared: Prepared, options: SequenceOptions, count: int, progress: Progress) -> None:
+        self._prepared, self._options = prepared, options
+        self._count, self._progress = count, progress
+
+    def first(self, group: Group, before: Allowance, moving: Sequence[Matrix]) -> EncodedGops:
+        """The first frame, with values that move, shapes (n, d), as of `make_setting`, and the first GOP."""
+        first_frame: FirstFrame | None = None
+        coded_for = 0.0
+
+        def encode(trial: _Trial, progress: Progress) -> EncodedGops:
+            nonlocal first_frame, coded_for
+            if first_frame is None or not NEAR[0] <= trial.step / coded_for <= NEAR[1]:
+                coded_for = trial.step
+                fitting = replace(self._options, step=trial.step)
+                first_frame = encode_first_frame(self._prepared, fitting, self._count, progress, before, moving)
+            return _encoded(first_frame, GopEncoder(first_frame.setting, self._options), trial, group, 0, progress)
+
+        return self._kept(encode, group.positions, None)
+
+    def next(self, group: Group, number: int, before: EncodedGops) -> EncodedGops:
+        """The GOP behind another; its first frame has this number."""
+
+        def encode(trial: _Trial, progress: Progress) -> EncodedGops:
+            return _encoded(before.first_frame, before.encoder.copy(), trial, group, number, progress)
+
+        return self._kept(encode, group.positions, before.encoder.step)
+
+    def _kept(
+        self, encode: Callable[[_Trial, Progress], EncodedGops], frames: Positions, step: float | None
+    ) -> EncodedGops:
+        """What keeps the promise, near the `step` of the GOP before, if there is one."""
+        prepared, options, promise = self._prepared, self._options, self._options.promise
+        if promise is None:
+            return encode(_Trial(options.step if step is None else step), self._progress)
+        search = StepSearch(frames, prepared.mesh.faces, promise, prepared.units.scale, options.threads)
+        cut: bool | None = None
+
+        def attempt(step: float, weights: Matrix | None, rounds: int) -> EncodedGops:
+            nonlocal cut
+            found = encode(_Trial(step, weights, cut, rounds), silent)
+            cut = len(found.bodies) > 1  # as the first attempt was, so are the others
+            return found
+
+        found = search.run(attempt, step or promise.first_step, finest_step(frames, options))
+        blocks = len(found.first_frame.blocks)
+        for _ in range(2 if step is None else 1):
+            self._progress(blocks, blocks)
+        return found
+
+
+def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) -> float:
+    """The finest step to try for frames, each of shape (n, 3): levels can be coded if all motion is one component."""
+    scale = float(np.linalg.norm(np.ptp(frames[0], axis=0))) or 1.0
+    middle, longest = frames[0].mean(axis=0), options.longest(len(frames[0]))
+    most = 0.0
+    for first in range(0, len(frames), longest):
+        energies = np.zeros(len(frames[0]))
+        for frame in frames[first : first + longest]:
+            energies += np.square(frame - middle).sum(axis=1)
+        most = max(most, float(np.sort(energies)[-2 * options.block_size :].sum()))
+    return max(FINEST_STEP, 2.0 * float(np.sqrt(most)) / scale / LARGEST_LEVEL)
+
+
+@dataclass(frozen=True, eq=False)
+class _Trial:
+    """How to encode frames; `cut`: whether as several GOPs, None: as costs less."""
+
+    step: float
+    weights: Matrix | None = None
+    cut: bool | None = None
+    rounds: int = ROUNDS
+
+
+def _encoded(
+    first_frame: FirstFrame, encoder: GopEncoder, trial: _Trial, group: Group, number: int, progress: Progress
+) -> EncodedGops:
+    """Encode the next frames, of which the first has this number."""
+    encoder.step, encoder.rounds = trial.step, trial.rounds
+    frames = group.positions
+    if encoder.low_delay:
+        key = encoder.is_key(number, frames.shape[1])
+        method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
+        field = encoder.encode_next(frames, progress, key=key)
+        return EncodedGops(first_frame, encoder, (GopBody(method, len(frames), (field,)),))
+    weights = np.ones(len(frames)) if trial.weights is None else trial.weights
+    learnt = _learnt(first_frame, encoder, frames, weights, group.same(encoder.step), trial.cut, progress)
+    return EncodedGops(first_frame, learnt.encoder, learnt.bodies, encoder.inherited)
+
+
+@dataclass(frozen=True, eq=False)
+class _Learnt:
+    """GOPs with a basis, the encoder behind them, and their cost."""
+
+    bodies: tuple[GopBody, ...]
+    encoder: GopEncoder
+    cost: float
+
+
+def _learnt(
+    first_frame: FirstFrame,
+    encoder: GopEncoder,
+    frames: Positions,
+    weights: Matrix,
+    same: Order,
+    cut: bool | None,
+    progress: Progress,
+) -> _Learnt:
+    """Frames as one GOP, or as more where that costs less or decoders would lack the memory."""
+    half = len(frames) // 2
+    whole: _Learnt | None = None
+    if not (cut and half):
+        whole = _whole(encoder.copy(), frames, weights, same, progress)
+        has_room = first_frame.has_room(*whole.bodies)
+        if not half or (has_room and (cut is not None or len(frames) <= HARDLY_CUT)):
+            return whole
+        if not has_room:
+            whole = None
+    first = _learnt(first_frame, encoder, frames[:half], weights[:half], same[:half], False, silent)
+    second = _learnt(first_frame, first.encoder, frames[half:], weights[half:], same[half:], False, silent)
+    halves = _Learnt(first.bodies + second.bodies, second.encoder, first.cost + second.cost)
+    return halves if whole is None or halves.cost < whole.cost else whole
+
+
+def _whole(encoder: GopEncoder, frames: Positions, weights: Matrix, same: Order, progress: Progress) -> _Learnt:
+    """Frames as one GOP, with one of those that are the same."""
+    kept, places = distinct_frames(same)
+    method = encoder.method_with_basis(TOGETHER)
+    again = len(kept) < len(frames)
+    weights = np.sqrt(np.bincount(places, weights**2)) if again else weights
+    field, cost = encoder.encode_learnt(frames[kept] if again else frames, weights, method, progress)
+    return _Learnt((GopBody(method, len(frames), (field,), places if again else None),), encoder, cost)
