@@ -79,7 +79,7 @@ class SequenceOptions:
     ----------
     low_delay : int
         Send so many frames at a time as soon as they are there: 1 is every frame as it comes, 8 take a fifth fewer
-        bytes. 0: long groups of frames, each by a temporal transform or frame by frame, whatever costs less.
+        bytes. 0: long groups of frames, each by a temporal transform.
     step : float
         Quantization step, relative to the bounding box's diagonal of the first frame.
     first_step : float, optional

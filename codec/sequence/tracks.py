@@ -115,7 +115,7 @@ class Setting:
         return self.dictionaries.reserve(*self._memory(body)) + self._work(body)
 
     def _memory(self, body: GopBody) -> tuple[float, float]:
-        """Bytes for decoding a GOP, and besides for a part: levels, coefficients in the loop, and what becomes of them."""
+        """Bytes for decoding a GOP, and for a part besides: levels, coefficients in the loop, what becomes of them."""
         around = sum(len(site.around) for site in self.sites)
         return gop_memory(self.vertices, body, around), 48.0 * self.dictionaries.largest * _columns(body)
 

@@ -75,8 +75,7 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
 
 def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
     """The options for a sequence that keywords ask for."""
-    from bsm.codec.sequence.options import SequenceOptions
-    from bsm.codec.sequence.options import PROMISES, Promise
+    from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
     from bsm.codec.sequence.targets import SequenceTarget
 
     name = "balanced" if preset is None else preset

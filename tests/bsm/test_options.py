@@ -7,8 +7,7 @@ import pytest
 
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.denoise import DenoiseOptions
-from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.options import PROMISES, Promise
+from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions

@@ -16,7 +16,7 @@ from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.dictionaries import SPARE, Dictionaries, Part, find_sites
-from bsm.codec.sequence.first_frame_encoding import FIRST_FRAME
+from bsm.codec.sequence.run_encoding import FIRST_FRAME
 from bsm.codec.static.work import Allowance
 from tests.shapes import patch, torus
 

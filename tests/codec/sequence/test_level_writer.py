@@ -7,9 +7,8 @@ import pytest
 
 from bsm.bitstream.coefficients.matrices import PRICED, decode_levels, encode_levels, make_level_bank
 from bsm.bitstream.errors import OptionError
-from bsm.codec.sequence import level_writer
-from bsm.codec.sequence.row_prediction import LevelWriter
-from bsm.codec.sequence.row_prediction import Loop
+from bsm.codec.sequence import row_prediction
+from bsm.codec.sequence.row_prediction import LevelWriter, Loop
 
 ROWS, COLUMNS, KNOWN, STEP = 80, 30, 3, 0.01
 
@@ -53,7 +52,7 @@ def test_a_copy_is_independent() -> None:
 
 def written(weight: float, monkeypatch: pytest.MonkeyPatch) -> tuple[int, float]:
     """Bytes and squared error in steps."""
-    monkeypatch.setattr(level_writer, "WEIGHT", weight)
+    monkeypatch.setattr(row_prediction, "WEIGHT", weight)
     writer, error = LevelWriter(make_level_bank(), COLUMNS), 0.0
     for seed in range(4):
         known, targets = rows_of(seed, 0.3)

@@ -14,7 +14,7 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import parse_gop_body
 from bsm.bitstream.container.reader import Reader, Signal
 from bsm.codec.arrays import Matrix, Positions
-from bsm.codec.sequence import first_frame_encoding
+from bsm.codec.sequence import run_encoding
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.sequence.gop import GopDecoder
 from bsm.codec.sequence.options import SequenceOptions
@@ -75,13 +75,13 @@ def test_a_decoder_whose_first_frame_is_a_little_off_agrees(
     monkeypatch: pytest.MonkeyPatch, low_delay: int, keep: float, crumpled: bool
 ) -> None:
     seen: list[tuple[tuple, dict, Matrix]] = []
-    real = first_frame_encoding.make_setting
+    real = run_encoding.make_setting
 
     def spy(scheme, faces, first_frame, **rest):  # type: ignore[no-untyped-def]
         seen.append(((scheme, faces), rest, first_frame))
         return real(scheme, faces, first_frame, **rest)
 
-    monkeypatch.setattr(first_frame_encoding, "make_setting", spy)
+    monkeypatch.setattr(run_encoding, "make_setting", spy)
     options = SequenceOptions(keep=keep, low_delay=low_delay, block_size=200, threads=1)
     data = encode_sequence(*waving(6, crumpled), options)
     ((arguments, rest, first_frame),) = seen

@@ -13,10 +13,9 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.options import PROMISES, Promise
+from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
+from bsm.codec.sequence.step_search import Measured, Shading, StepSearch
 from bsm.codec.sequence.targets import SequenceTarget, flicker_of
-from bsm.codec.sequence.step_search import Shading, Sight, Watch
 from tests.motion import bending
 
 
@@ -92,13 +91,13 @@ def test_a_frame_that_looks_worse_than_its_neighbours_is_found() -> None:
 
 def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn: list[int] = []
-    make = Watch._looker
+    make = StepSearch._metric
 
-    def noted(watch: Watch, index: int) -> LookMetric | None:
+    def noted(search: StepSearch, index: int) -> LookMetric | None:
         drawn.append(index)
-        return make(watch, index)
+        return make(search, index)
 
-    monkeypatch.setattr(Watch, "_looker", noted)
+    monkeypatch.setattr(StepSearch, "_metric", noted)
     positions, faces = bending(60)
     positions[23] += 0.01 * np.random.default_rng(0).standard_normal(positions[23].shape)
     _, original, decoded, found = kept(positions, faces, Promise(0.02, 1.0))
@@ -110,18 +109,18 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
 def test_what_a_frame_may_look_like_grows_with_the_way_to_those_that_were_drawn() -> None:
     errors = np.full(41, 2.0)
     drawn = {0: 0.4, 10: 0.5, 20: 0.4, 30: 0.5, 40: 0.4}
-    sight = Sight(0.3, errors, dict(drawn))
+    measured = Measured(0.3, errors, dict(drawn))
     for index, share in drawn.items():
-        assert sight.shares[index] == sight.most[index] == share
-    assert sight.shares[5] == pytest.approx(np.sqrt(0.4 * 0.5))  # halfway, in logarithms
-    spare = sight.most / sight.shares
+        assert measured.shares[index] == measured.most[index] == share
+    assert measured.shares[5] == pytest.approx(np.sqrt(0.4 * 0.5))  # halfway, in logarithms
+    spare = measured.most / measured.shares
     assert 1.0 < spare[9] < spare[7] < spare[5] < 2.0
-    assert sight.doubtful is not None and sight.doubtful % 10 in range(3, 8)
+    assert measured.doubtful is not None and measured.doubtful % 10 in range(3, 8)
     worse = np.where(np.arange(41) == 33, 8.0, errors)  # a frame whose normals are far off is the one to be drawn
-    assert Sight(0.3, worse, dict(drawn)).doubtful == 33
-    assert sight.excess == pytest.approx(np.log(0.5))
-    assert Sight(0.9, errors[:1], {0: 0.2}).excess == pytest.approx(np.log(0.9))
-    assert Sight(0.9, errors[:1], {0: 0.2}).doubtful is None
+    assert Measured(0.3, worse, dict(drawn)).doubtful == 33
+    assert measured.excess == pytest.approx(np.log(0.5))
+    assert Measured(0.9, errors[:1], {0: 0.2}).excess == pytest.approx(np.log(0.9))
+    assert Measured(0.9, errors[:1], {0: 0.2}).doubtful is None
 
 
 def test_a_moving_look_is_what_pictures_differ_by() -> None:

@@ -1,4 +1,4 @@
-"""Frames that come again are told of once."""
+"""Frames that come again are coded once."""
 
 from __future__ import annotations
 
@@ -14,9 +14,8 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
-from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.options import Promise
-from bsm.codec.sequence.frames import SAME, same_frames, told_frames
+from bsm.codec.sequence.frames import SAME, distinct_frames, same_frames
+from bsm.codec.sequence.options import Promise, SequenceOptions
 from tests.motion import bending
 
 STEP = 0.002
@@ -109,8 +108,8 @@ def test_which_frames_are_the_same() -> None:
     assert same_frames(frames, [np.arange(5)[:, None, None] // 4], STEP).tolist() == [0, 1, 0, 3, 4]
     frames[4, 123, 1] += 1.1 * most * STEP
     assert same_frames(frames, [], STEP).tolist() == [0, 1, 0, 3, 4]
-    told, shown = told_frames(np.array([0, 1, 0, 3, 1]))
-    assert told.tolist() == [0, 1, 3] and shown.tolist() == [0, 1, 0, 2, 1]
+    distinct, places = distinct_frames(np.array([0, 1, 0, 3, 1]))
+    assert distinct.tolist() == [0, 1, 3] and places.tolist() == [0, 1, 0, 2, 1]
 
 
 def test_low_delay_sends_every_frame() -> None:

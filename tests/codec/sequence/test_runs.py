@@ -15,8 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.events import FrameEvent
-from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.options import Promise
+from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.runs import KEPT_MESHES
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, HeaderEvent, LossEvent

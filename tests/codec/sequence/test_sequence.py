@@ -23,15 +23,13 @@ from bsm.bitstream.errors import (
 )
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.metrics import kg_error
-from bsm.codec.sequence import gop_encoding, tracks
+from bsm.codec.sequence import run_encoding, tracks
 from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.dictionaries import Dictionaries
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.events import FrameEvent
-from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.history import FrameHistory
-from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.options import Promise
+from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode
@@ -471,13 +469,6 @@ def test_gops_end_earlier_where_decoders_lack_the_memory(monkeypatch):
         encoded(positions, faces, gop=32)
 
 
-def innovative(frames):
-    """A torus of which every vertex wanders by chance: nothing that a few components could tell."""
-    positions, faces = bending(1)
-    steps = 0.01 * np.random.default_rng(4).normal(size=(frames, *positions.shape[1:]))
-    return positions + np.cumsum(steps, axis=0), faces
-
-
 def methods_of(data):
     reader = Reader()
     reader.receive_data(data)
@@ -487,31 +478,6 @@ def methods_of(data):
         if isinstance(packet, Gop):
             found.append(packet.data[0])
     return found
-
-
-def test_frames_are_sent_one_by_one_where_that_costs_less(monkeypatch):
-    positions, faces = innovative(18)
-    data, wanted = encoded(positions, faces, gop=9)
-    assert methods_of(data) == 2 * [1, *8 * [2]]
-    decoded, _ = decode_sequence(data)
-    late = [event for event in events_of(data, start=12) if isinstance(event, FrameEvent)]
-    np.testing.assert_array_equal([event.positions for event in late], decoded[12:])
-    assert methods_of(encoded(*bending(18), gop=9)[0]) == [0, 3]
-    monkeypatch.setattr(GopEncoder, "encode_singles", lambda *_: ())
-    other, _ = encoded(positions, faces, gop=9)
-    assert methods_of(other) == [0, 3]
-    assert len(data) < 0.95 * len(other)
-    assert kg_error(wanted, decoded) < 1.1 * kg_error(wanted, decode_sequence(other)[0])
-
-
-def test_frames_that_are_sent_one_by_one_keep_promises():
-    positions, faces = innovative(12)
-    options = SequenceOptions(block_size=100, promise=Promise(0.002), threads=1)
-    encoder = SequenceEncoder(faces, options, len(positions))
-    data = b"".join(encoder.chunks(positions))
-    assert methods_of(data) == [1, *11 * [2]]
-    wrong = np.linalg.norm(decode_sequence(data)[0] - positions[:, encoder.vertex_order], axis=2).max()
-    assert 0.7 * 0.002 < wrong / np.linalg.norm(np.ptp(positions[0], axis=0)) <= 0.002
 
 
 def many_ways(frames, *, change):
@@ -539,7 +505,7 @@ def test_long_motion_is_one_gop_or_two_whatever_costs_less(monkeypatch):
     assert size < 0.8 * firsts_and_bytes(*lasting, gop=150)[1]
     firsts, size = firsts_and_bytes(*changing)
     assert firsts == [0, 150]
-    monkeypatch.setattr(gop_encoding, "HARDLY_CUT", 300)
+    monkeypatch.setattr(run_encoding, "HARDLY_CUT", 300)
     assert size < 0.9 * firsts_and_bytes(*changing)[1]
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from bsm.codec import _kernels
 from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.codec.sequence.temporal import BATCH, shown_frames
+from bsm.codec.sequence.temporal import BATCH, frames_of
 
 
 @pytest.mark.parametrize("vertices", [0, 1, 4, 37])
@@ -15,7 +15,7 @@ def test_frames_are_components_times_the_basis(vertices, first, components, widt
     field = hash_columns(vertices, 20)
     basis = hash_columns(width * frames, components).reshape(width, frames, components)
     expected = np.einsum("vk,dtk->tvd", field[:, first : first + components], basis)
-    shown = np.array(list(shown_frames(field, first, basis))).reshape(frames, vertices, width)
+    shown = np.array(list(frames_of(field, first, basis))).reshape(frames, vertices, width)
     assert np.allclose(shown, expected, atol=1e-14)
 
 

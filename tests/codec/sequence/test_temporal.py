@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bsm.codec.sequence.temporal import OCTAVE, trajectories
-from bsm.codec.sequence.temporal import FINEST_EXPONENT, PRECISION, WORTH, learn_basis, projection
+from bsm.codec.sequence.temporal import FINEST_EXPONENT, OCTAVE, PRECISION, WORTH, learn_basis, projection, trajectories
 
 ROWS, COLUMNS, STEP = 400, 24, 0.01
 
