@@ -116,7 +116,8 @@ def visuals(path: Path, args: argparse.Namespace) -> Iterator[Row]:
     for wanted in args.db:
         attempt = Encoder(mesh, EncodeOptions(contract=None, target=Target("nmsve_db", wanted), threads=1)).search()
         reached = attempt.comparison.nmsve_db
-        size = float(np.interp(reached, *zip(*curve, strict=True)))
+        levels, sizes = np.array(curve).T
+        size = float(np.interp(reached, levels, sizes))
         yield Row(
             f"{wanted:g} dB", f"{reached:7.2f} dB  {attempt.size:7d} bytes, Draco {size:7.0f}", attempt.size / size
         )
