@@ -170,7 +170,7 @@ def test_a_lost_attribute_costs_only_itself(kind: type) -> None:
 def test_a_lost_gop_costs_its_frames() -> None:
     data, _ = encoded(FRAMES, gop=3)
     found, whole = decoded(frames_without(data, packets.Gop, 1), tolerant=True), decoded(data)
-    assert 6 <= len(found) < 9
+    assert 3 <= len(found) < 9  # others refer to it
     for event in found:
         for one, other in zip(event.attributes, whole[event.index].attributes, strict=True):
             np.testing.assert_array_equal(one.values, other.values)
