@@ -98,7 +98,7 @@ class Contract:
             broken.append(f"no vertex farther than {self.farthest * farther:.4g}")
         if angle > self.angle:
             broken.append(f"normals {angle:.4g} degrees wrong on average")
-        if look > self.look:
+        if self.look < look < math.inf:  # infinite: nobody looked
             broken.append(f"a look of {look:.3g}")
         if visual > self.visual:
             broken.append(f"a visual error of {decibel(visual):.6g} dB")

@@ -20,6 +20,27 @@ def to_pyvista(mesh: Any) -> Any:
 
     Vertices are split where corners differ, in texture coordinates for instance. Normals and texture coordinates are
     the active ones.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        As `bsm.encode` takes it.
+
+    Returns
+    -------
+    pyvista.PolyData
+
+    Raises
+    ------
+    DependencyError
+        If pyvista is missing.
+
+    Examples
+    --------
+    >>> import bsm.pyvista
+    >>> surface = bsm.pyvista.to_pyvista("spot.bsm")
+    >>> "height" in surface.point_data, "label" in surface.cell_data
+    (True, True)
     """
     try:
         import pyvista
@@ -41,7 +62,28 @@ def to_pyvista(mesh: Any) -> Any:
 
 
 def from_pyvista(mesh: Any) -> TriangleMesh:
-    """A surface of pyvista as a mesh, with point data, cell data and field data."""
+    """A surface of pyvista as a mesh, with point data, cell data and field data.
+
+    Parameters
+    ----------
+    mesh : pyvista.PolyData
+        Its polygons are cut into triangles.
+
+    Returns
+    -------
+    TriangleMesh
+
+    Raises
+    ------
+    ArgumentError
+        If this is no mesh.
+
+    Examples
+    --------
+    >>> import bsm.pyvista, pyvista
+    >>> bsm.pyvista.from_pyvista(pyvista.Sphere())
+    TriangleMesh(842 vertices, 1680 faces, Normals)
+    """
     return as_mesh(mesh)
 
 
@@ -51,12 +93,45 @@ def read(path: str, **keywords: Any) -> Any:
 
 
 def write(mesh: Any, path: str | os.PathLike[str], **keywords: Any) -> None:
-    """What `save` of a `pyvista.PolyData` calls for a stream."""
+    """What `save` of a `pyvista.PolyData` calls for a stream.
+
+    Parameters
+    ----------
+    mesh : pyvista.PolyData
+        The surface.
+    path : path
+        A name that ends in .bsm.
+    **keywords
+        Those of `bsm.encode`.
+
+    Raises
+    ------
+    BsmError
+        As `bsm.encode`.
+
+    Examples
+    --------
+    >>> import bsm.pyvista, pyvista
+    >>> bsm.pyvista.write(pyvista.Sphere(), "sphere.bsm", preset="fine")
+    """
     save(from_pyvista(mesh), path, **keywords)
 
 
 class SequenceReader:
-    """A sequence for pyvista, with its times, as readers of pyvista have them."""
+    """A sequence for pyvista, with its times, as readers of pyvista have them.
+
+    Parameters
+    ----------
+    path : path
+        Of a stream; one of a mesh has one time.
+
+    Examples
+    --------
+    >>> import bsm.pyvista
+    >>> reader = bsm.pyvista.SequenceReader("dance.bsm")
+    >>> reader.number_time_points, reader.at(0.1).n_points > 1000
+    (6, True)
+    """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         from bsm.libraries.vtk import Playback

@@ -33,6 +33,26 @@ def to_trimesh(mesh: Any) -> Any:
     """A mesh as a `trimesh.Trimesh`.
 
     Vertices are split where corners differ, in texture coordinates for instance; nothing is merged.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        As `bsm.encode` takes it.
+
+    Returns
+    -------
+    trimesh.Trimesh
+
+    Raises
+    ------
+    ArgumentError
+        If this is no mesh.
+
+    Examples
+    --------
+    >>> import bsm.trimesh
+    >>> bsm.trimesh.to_trimesh("bunny.bsm").is_watertight
+    True
     """
     return _library.Trimesh(**arguments_of(as_mesh(mesh)))
 
@@ -41,6 +61,27 @@ def to_scene(mesh: Any) -> Any:
     """A mesh as a `trimesh.Scene`, with a geometry for each part that it was made of, under its name.
 
     Parts are what the whole numbers of the face attribute ``part`` say; without it all is one part.
+
+    Parameters
+    ----------
+    mesh : mesh, pair of arrays, or path
+        As `bsm.encode` takes it.
+
+    Returns
+    -------
+    trimesh.Scene
+
+    Raises
+    ------
+    ArgumentError
+        If this is no mesh.
+
+    Examples
+    --------
+    >>> import bsm.trimesh, trimesh
+    >>> scene = trimesh.Scene({"box": trimesh.creation.box(), "ball": trimesh.creation.icosphere()})
+    >>> sorted(bsm.trimesh.to_scene(bsm.decode(bsm.encode(scene))).geometry)
+    ['ball', 'box']
     """
     whole = as_mesh(mesh)
     scene = _library.Scene()
@@ -52,7 +93,28 @@ def to_scene(mesh: Any) -> Any:
 
 
 def from_trimesh(mesh: Any) -> TriangleMesh:
-    """A mesh of trimesh, or the parts of a scene where it shows them, with what they show."""
+    """A mesh of trimesh, or the parts of a scene where it shows them, with what they show.
+
+    Parameters
+    ----------
+    mesh : trimesh.Trimesh or trimesh.Scene
+        Colours, texture coordinates, materials and other values go along.
+
+    Returns
+    -------
+    TriangleMesh
+
+    Raises
+    ------
+    MeshError
+        If it has no faces.
+
+    Examples
+    --------
+    >>> import bsm.trimesh, trimesh
+    >>> bsm.trimesh.from_trimesh(trimesh.creation.box())
+    TriangleMesh(8 vertices, 12 faces)
+    """
     found = joined(mesh, DEFAULT_LIMITS) if isinstance(mesh, _library.Scene) else polygons_of(mesh)
     return found.checked(DEFAULT_LIMITS).mesh
 

@@ -23,7 +23,27 @@ USUAL_RATE = 24.0
 
 
 class Playback:
-    """The frames of a stream in any order; going on by one costs one frame, going back begins anew."""
+    """The frames of a stream in any order; going on by one costs one frame, going back begins anew.
+
+    Parameters
+    ----------
+    path : str
+        Of a sequence, or of a mesh, which is one frame.
+
+    Attributes
+    ----------
+    count : int
+        Number of frames.
+    rate : float
+        Frames per second; 0: it is a mesh.
+
+    Examples
+    --------
+    >>> from bsm.vtk import Playback
+    >>> playback = Playback("dance.bsm")
+    >>> playback.count, playback.mesh(3).faces.shape[1]
+    (6, 3)
+    """
 
     def __init__(self, path: str) -> None:
         self._path = path
@@ -104,7 +124,17 @@ def fill(output: Any, mesh: TriangleMesh) -> None:
 
 
 class StreamSource(VTKPythonAlgorithmBase):  # type: ignore[misc]
-    """A source for pipelines of VTK: a stream's mesh, or that of the time that is asked for."""
+    """A source for pipelines of VTK: a stream's mesh, or that of the time that is asked for.
+
+    Examples
+    --------
+    >>> from bsm.vtk import StreamSource
+    >>> source = StreamSource()
+    >>> source.SetFileName("dance.bsm")
+    >>> made = source.Update()
+    >>> source.GetOutputDataObject(0).GetNumberOfPolys() > 1000
+    True
+    """
 
     def __init__(self) -> None:
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
