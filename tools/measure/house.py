@@ -1,6 +1,7 @@
 """How large the house is, beside what it may be: `python -m tools.measure house`; the exit code is 1 above a limit.
 
-Of the files that git knows, in lines as `wc` counts them. A limit is raised only by a commit that says why.
+Of the files that git knows, in lines as `wc` counts them. A limit is lowered by whoever makes the house smaller, and raised
+only by a commit that says why.
 """
 
 from __future__ import annotations
@@ -29,18 +30,18 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 33_000,
-    "all Python, lines": 68_000,
-    "product modules": 240,
-    "product C files and headers": 90,
-    "docstring lines of the product, percent": 12.0,
+    "product Python, lines": 36_300,
+    "all Python, lines": 79_200,
+    "product modules": 245,
+    "product C files and headers": 74,
+    "docstring lines of the product, percent": 13.4,
     "header fields": 19,
-    "fields of EncodeOptions": 21,
-    "settings of --set": 12,
+    "fields of EncodeOptions": 28,
+    "settings of --set": 19,
     "words of spec/*.md": 25_000,
     "words of the core": 11_000,
-    "tuned constants of the search": 60,
-    "files that encoding a mesh walks through": 70,
+    "tuned constants of the search": 97,
+    "files that encoding a mesh walks through": 76,
 }
 
 
