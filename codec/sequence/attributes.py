@@ -192,7 +192,7 @@ class Mover:
         self._encoder = positions.beside(self._track)
 
     def fields(self, bodies: Sequence[GopBody], values: Values) -> list[GopField]:
-        """Of each GOP, which together have all these values, shape (T, n, d)."""
+        """Fields of each GOP, which together have all these values, shape (T, n, d)."""
         if self.bound.amount is None and (values != self._given).any():
             known = np.concatenate([self._given[None], values])
             self.bound = self.bound.over(known)

@@ -1,7 +1,7 @@
 """How large the house is, beside what it may be: `python -m tools.measure house`; the exit code is 1 above a limit.
 
-Of the files that git knows, in lines as `wc` counts them. A limit is lowered by whoever makes the house smaller, and raised
-only by a commit that says why.
+Of the files that git knows, in lines as `wc` counts them. A limit is lowered by whoever makes the house smaller,
+and raised only by a commit that says why.
 """
 
 from __future__ import annotations
