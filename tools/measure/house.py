@@ -129,7 +129,8 @@ def walked() -> set[str]:
             bsm.encode(path, threads=1)
         finally:
             sys.setprofile(None)
-    return {name for name in found if Path(name).is_relative_to(package) or Path(name).is_relative_to(ROOT)}
+    homes = (package, *(ROOT / name for name in PRODUCT))
+    return {name for name in found if any(Path(name).is_relative_to(home) for home in homes)}
 
 
 def main() -> int:
