@@ -252,6 +252,10 @@ class Encoder:
         with as_of_decoders(self.options.limits):
             return self._judged(self._dressed(self._spectral.base(step, progress).draft))
 
+    def seen(self, attempt: Attempt) -> str:
+        """What is visible of an attempt, in words."""
+        return self._search(Contract(WIDEST), None).seen(attempt.draft)
+
     def _judged(self, draft: Draft) -> Attempt:
         decoded = self._prepared.units.into(draft.decoded)
         return Attempt(draft, self._reference.compare(decoded))

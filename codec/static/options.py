@@ -193,6 +193,11 @@ class EncodeOptions:
         return self.contract
 
     @property
+    def looks_as_it_comes(self) -> bool:
+        """Whether a bound or a target alone is asked for, and no look."""
+        return not self.is_grid and not self.says_how and (self.promise is None or self.promise.look == math.inf)
+
+    @property
     def grade(self) -> Grade:
         """How well attributes are kept that nothing is said of."""
         if self.is_grid:

@@ -111,3 +111,13 @@ def test_help_says_what_presets_promise():
         else:
             look = f"{options.contract.look:g}" if np.isfinite(options.contract.look) else "any"
             assert look in part and f"{100 * options.contract.farthest:g} %" in part
+
+
+@pytest.mark.parametrize("words", [["--max-error", "1%"], ["--nmsve-db", "-40"]])
+def test_who_asks_for_a_bound_alone_is_told_what_is_visible(words, tmp_path, capsys):
+    write_mesh(tmp_path / "a.npz", torus(40, 24))
+    command = ["encode", str(tmp_path / "a.npz"), "-f", "-o", str(tmp_path / "b.bsm"), *words]
+    assert main([*command, "--preset", "none"]) == 0
+    assert "no look is promised: a look of " in capsys.readouterr().err
+    assert main(command) == 0
+    assert "no look is promised" not in capsys.readouterr().err

@@ -110,7 +110,7 @@ class Search:
         if metric is None:
             return "nothing that can be seen"
         look = metric.look(self._prepared.units.into(draft.decoded))
-        return f"a look of {look.distance:.3g}, {100.0 * look.visible:.3g} % of the pixels differ visibly,"
+        return f"a look of {look.distance:.3g}, {100.0 * look.visible:.3g} % of the pixels differ visibly"
 
     def _ways(self, bounds: Bounds, look: float) -> Iterator[Way]:
         """Ways that may be smallest; blocks never are where a surface is flat but for sharp edges."""

@@ -97,6 +97,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         *encoder.notes,
         *(["left out: materials, images"] if left_out else []),
         *([f"{images} of the bytes are images, as they are"] if images else []),
+        *([f"no look is promised: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
     ]
     vertices, faces, size, error = result.header.vertices, len(encoder.mesh.faces), result.size, result.comparison
     taken, bpv = size_of(job.input), 8 * size / vertices
