@@ -110,6 +110,8 @@ def _denoised() -> bytes:
     import bsm
     from bsm.evaluation.render import bounds_of, render
     from bsm.evaluation.sample import knot
+
+    sys.path.append(str(ROOT))  # mkdocs runs this file alone
     from tools.noise import gaussian_along_normals
 
     sample = knot(8000)
