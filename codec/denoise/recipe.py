@@ -56,7 +56,34 @@ def hand_over(name: str) -> HandOver:
 @public
 @dataclass(frozen=True, kw_only=True)
 class DenoiseOptions:
-    """How to denoise; the defaults are the paper's coarse-to-fine scheme."""
+    """How to denoise; the defaults are the paper's coarse-to-fine scheme.
+
+    Parameters
+    ----------
+    hand_over : str
+        "positions" (the paper's: the fine step sees the coarse mesh), "heights" (the same, but no vertex slides
+        along the surface), "normals" (the noisy mesh, after a pass guided by the coarse mesh's normals) or "none" (no
+        coarse step).
+    fine : str
+        Name of the fine step, see `codec.denoise.normals.FINE_STEPS`.
+    iterations : int, optional
+        Of the fine step; None: the method's own number, 0: only the coarse step.
+    keep : float
+        Fraction of each block's frequencies that the coarse step keeps.
+    block_size : int
+        Vertices of a block before overlap, about.
+
+    Raises
+    ------
+    OptionError
+        If a name is unknown or a number outside its range.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> own = bsm.DenoiseOptions(hand_over="normals", fine="guided", iterations=10)
+    >>> clean = bsm.denoise("scan.ply", own)
+    """
 
     hand_over: str = "positions"
     fine: str = "guided"
