@@ -34,7 +34,7 @@ DOCUMENTS = ("README.md", "CONTRIBUTING.md", "spec/README.md", "src/bsm/SERVICE.
 PROGRAMS = r"(?:bsm|python3?|pytest|mkdocs|ruff|\.ci/run|\.venv|eval|cat)"
 BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.attack|tools\.measure house"
 """What .ci/run itself does, or is."""
-NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bsm bench"
+NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bunny_34834|bsm bench"
 HELP_ONLY = r"tools\.release|s3://|bsm view|tools\.blender|tools\.charges|tools\.vectors|tools\.train_coefficients"
 """What would change the repository, and does so in tests of its own, needs machines of others, or takes time."""
 PLACES = {
@@ -80,14 +80,11 @@ BLOCKS = [(name, block) for name in DOCUMENTS for block in blocks(name)]
 COMMANDS = [(name, command) for name in DOCUMENTS for command in commands(name)]
 
 
-@pytest.fixture(scope="module", params=["made", pytest.param("real", marks=pytest.mark.real)])
-def folder(request, tmp_path_factory):
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
     """A folder with the meshes that the documents speak of, and programs that they call."""
-    if request.param == "real":
-        mesh = _small_real_mesh(request.getfixturevalue("meshes"))
-    else:
-        mesh = knot(1200)
-    folder = tmp_path_factory.mktemp(request.param)
+    mesh = knot(1200)
+    folder = tmp_path_factory.mktemp("made")
     declare_entry_points(folder / "site")
     write_mesh(folder / "spot.obj", painted(mesh))
     for name in ("bunny.ply", "a.ply", "b.obj", "c.stl"):
@@ -96,9 +93,10 @@ def folder(request, tmp_path_factory):
     write_mesh(folder / "scan.ply", TriangleMesh(noisy, mesh.faces))
     frames = np.array([mesh.positions * (1 + 0.1 * np.sin(t)) for t in range(6)])
     np.savez(folder / "dance.npz", positions=frames, faces=mesh.faces)
-    (folder / "capture").mkdir()
-    for number, shape in enumerate((mesh, mesh, knot(300))):
-        write_mesh(folder / f"capture/{number}.ply", shape)
+    for name in ("capture", "scans"):
+        (folder / name).mkdir()
+        for number, shape in enumerate((mesh, mesh, knot(300))):
+            write_mesh(folder / f"{name}/{number}.ply", shape)
     (folder / "painted").mkdir()
     for number, frame in enumerate(frames):
         shades = np.full((len(frame), 3), 40 * number, np.uint8)
@@ -115,13 +113,6 @@ def folder(request, tmp_path_factory):
         (folder / "bin" / name).chmod(0o755)
     passed(run(folder, "bsm encode -q bunny.ply spot.obj && bsm decode -q spot.bsm -o scene.glb"))
     return folder
-
-
-def _small_real_mesh(meshes):
-    from bsm.files.mesh import read_mesh
-
-    smallest = min((meshes / "static").glob("*.ply"), key=lambda path: path.stat().st_size)
-    return read_mesh(smallest).mesh.without_isolated_vertices()[0]
 
 
 def run(folder, script, timeout=300):
@@ -157,8 +148,6 @@ def filled(command):
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "block"), BLOCKS, ids=[f"{n}-{b[:30]}" for n, b in BLOCKS])
 def test_blocks(name, block, folder):
-    if name in PAGES and folder.name.startswith("real"):
-        pytest.skip("pages are tried on what is made")
     if re.search(BY_CI, block):
         assert block.strip() in _run_by_ci()
     elif is_python(block):
@@ -189,8 +178,6 @@ def _run_by_ci():
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "command"), COMMANDS)
 def test_commands(name, command, folder):
-    if name in PAGES and folder.name.startswith("real"):
-        pytest.skip("pages are tried on what is made")
     if re.search(BY_CI, command):
         pytest.skip("run by CI itself")
     if re.search(f"{NEEDS_FOLDER}|{HELP_ONLY}", command) or re.fullmatch(r"bsm [a-z]+", command):
