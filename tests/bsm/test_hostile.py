@@ -51,7 +51,7 @@ EXPECTED = {
     "made_negative_index.off": "MeshError",
     "made_index_out_of_range.ply": "MeshError",
     "made_truncated.ply": "TruncatedError",
-    "made_huge_count.ply": "TruncatedError",
+    "made_huge_count.ply": "LimitError",
     "draco_inf_nan.obj": "MeshError",
     "draco_int_point_cloud.ply": "MeshError",
     "trimesh_empty.stl": "MeshError",

@@ -133,8 +133,8 @@ def test_real_meshes(reference, meshes: Path, name: str, bits: int):
     assert outcome(plain(reference.LightReader(faces.tolist(), len(grid), largest)), light) == expected
     levels = (grid - rounded(positions * np.float32(0.999), bits)) % 5 - 2
     chunks = encode(LevelsEncoder(faces, levels), len(grid), 700)[:2]
-    expected = outcome(product(LevelsDecoder(faces, len(grid), 3)), chunks)
-    assert outcome(plain(reference.LevelsReader(faces.tolist(), len(grid), 3)), chunks) == expected
+    expected = outcome(product(LevelsDecoder(faces, len(grid))), chunks)
+    assert outcome(plain(reference.LevelsReader(faces.tolist(), len(grid))), chunks) == expected
 
 
 def test_positions_of_a_lattice(reference):
