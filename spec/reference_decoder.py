@@ -199,7 +199,7 @@ FIELDS = {
     "run": (18, [0, 2], 0, COUNT, []),
     "paper": (19, (0, 8), 0.0, 2.0**30, []),
 }
-PAPER = {  # F 4: name: (low, high, what holds where there is no `paper`)
+PAPER = {  # F 4: name: (low, high, what holds where there is no `paper`); of a sequence S 1.1
     "bits": (0, 32, 0),
     "coarser": (0, 30, 0),
     "exact": (0, 1, 0),
@@ -209,6 +209,7 @@ PAPER = {  # F 4: name: (low, high, what holds where there is no `paper`)
     "shift": (2.0**-30, 2.0**30, 2.0**-7),
     "springs": (0, 1, 1),
 }
+OF_SEQUENCES = {"iterations": 2, "shift": 2.0**-5}
 STIFFNESS = 8.0  # M 7.3
 
 
@@ -300,12 +301,11 @@ def unfold(h):
     require(h["run"] != [0], "run 0 is stored")
     require(h["again"] is None or h["again"] < h["number"], "the mesh of a run that has not been")
     require(len(h["paper"]) in (0, 8), "paper is not eight numbers")
-    for (name, (low, high, default)), value in zip(PAPER.items(), h["paper"] or [None] * 8):
-        value = default if value is None else value
+    law = {name: default for name, (_, _, default) in PAPER.items()} | (OF_SEQUENCES if h["sequence"] else {})
+    for (name, (low, high, _)), value in zip(PAPER.items(), h["paper"] or law.values()):
         require(low <= value <= high and (name == "shift" or value == int(value)), f"{name} is out of range")
         h[name] = value if name == "shift" else int(value)
-    stored = h["paper"] and all(h[name] == default for name, (_, _, default) in PAPER.items())
-    require(not stored, "paper is stored although it is the law's")
+    require(not h["paper"] or any(h[name] != law[name] for name in law), "paper is stored although it is the law's")
 
 
 class Packets(dict):

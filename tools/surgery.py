@@ -8,7 +8,7 @@ from typing import Any
 import msgpack
 
 from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Paper, fields_of
+from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, Paper, fields_of
 from bsm.bitstream.container.wire import (
     Cursor,
     FrameType,
@@ -72,7 +72,8 @@ def _set_parts(entries: dict[int, Any], changes: dict[str, Any]) -> None:
         changed = {place: changes[part] for place, part in enumerate(parts) if part in changes}
         if changed:
             key = HEADER_FIELDS[name].key
-            usual = [float(getattr(Paper(), part)) for part in parts] if name == "paper" else [0, 1]
+            law = LAW_OF_SEQUENCES if HEADER_FIELDS["sequence"].key in entries else LAW
+            usual = [float(getattr(law, part)) for part in parts] if name == "paper" else [0, 1]
             numbers = list(entries.get(key, usual))
             for place, value in changed.items():
                 numbers[place] = usual[place] if value is None else type(usual[place])(value)

@@ -13,7 +13,7 @@ from typing import Any
 
 from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.grammar import FOLLOWERS
-from bsm.bitstream.container.header import Field, Header, Paper, defaults_of, fields_of
+from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Field, Header, Paper, defaults_of, fields_of
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
 
@@ -88,6 +88,8 @@ def source() -> str:
     """The module."""
     granted = [f"    {name}: {_number(value)}," for name, value in limits_there(Limits()).items()]
     magic = ", ".join(map(str, (*MAGIC, VERSION)))
+    changed = dict(vars(LAW_OF_SEQUENCES).items() - vars(LAW).items())
+    others = ", ".join(f"{camel(name)}: {_number(changed[name])}" for name in sorted(changed))
     return (
         "\n\n".join(
             [
@@ -104,6 +106,8 @@ def source() -> str:
                 ),
                 _fields("HEADER_FIELDS", Header, "Fields of the header (F 4.4)."),
                 _fields("PAPER_FIELDS", Paper, "Numbers of `paper`, by places, and the law's constants (F 4)."),
+                "/** What holds in their place for a sequence (S 1.1). */\n"
+                f"export const PAPER_OF_SEQUENCES = {{ {others} }} as const;",
                 _fields("DECLARATION_FIELDS", Declaration, "Fields of what an attribute declares (D 1)."),
                 "\n".join(
                     ["/** Limits that are Python's (M 14.1). */", "export const LIMITS = {", *granted, "} as const;"]

@@ -103,7 +103,7 @@ class Layer:
 
 @dataclass(frozen=True, kw_only=True)
 class Paper:
-    """How blocks are coded as in the paper; the defaults are the constants of the law."""
+    """How blocks are coded as in the paper; the defaults are the law's constants for static meshes."""
 
     bits: int = integer(0, 0, 32, default=0)
     """Of a packed coefficient, q_c; 0: coefficients are adaptive."""
@@ -125,15 +125,15 @@ class Paper:
     def __post_init__(self) -> None:
         normalise_fields(self, "paper")
 
-    def entry(self) -> tuple[float, ...]:
+    def entry(self, law: Paper) -> tuple[float, ...]:
         """What a header stores of it; empty: nothing, it is what the law says."""
-        return () if self == Paper() else tuple(float(getattr(self, name)) for name in fields_of(Paper))
+        return () if self == law else tuple(float(getattr(self, name)) for name in fields_of(Paper))
 
 
-def paper_of(entry: tuple[float, ...]) -> Paper:
+def paper_of(entry: tuple[float, ...], law: Paper) -> Paper:
     """Twin of `Paper.entry`; raises `OptionError`."""
     if not entry:
-        return Paper()
+        return law
     if not all(item.is_integer() for item in (*entry[:6], *entry[7:])):
         raise OptionError(f"paper = {entry} has numbers that are not whole")
     names = zip(fields_of(Paper).items(), entry, strict=True)
@@ -186,8 +186,18 @@ class Header:
         problem = contradiction(self)
         if problem:
             raise OptionError(f"header contradicts itself: {problem}")
-        if self.paper and paper_of(self.paper) == Paper():
+        if self.paper and self.constants == self.law:
             raise OptionError("header field paper says what holds without it")
+
+    @property
+    def law(self) -> Paper:
+        """The constants that hold without `paper`."""
+        return LAW_OF_SEQUENCES if self.sequence else LAW
+
+    @property
+    def constants(self) -> Paper:
+        """How blocks are coded."""
+        return paper_of(self.paper, self.law)
 
     @property
     def layer(self) -> Layer | None:
@@ -241,6 +251,10 @@ def normalise_fields(record: Any, what: str) -> None:
         if problem:
             raise OptionError(f"{what} field {name} {problem}")
         object.__setattr__(record, name, value)
+
+
+LAW, LAW_OF_SEQUENCES = Paper(), Paper(iterations=2, shift=2.0**-5)
+"""Constants of static meshes, and of the first frames of sequences."""
 
 
 def contradiction(header: Header) -> str | None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bsm.bitstream.container.gop import GopBody, GopMethod
-from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.header import LAW_OF_SEQUENCES, Header
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Matrix, Order, Positions
@@ -19,13 +19,12 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL, ROUNDS
 from bsm.codec.sequence.step_search import StepSearch
 from bsm.codec.sequence.tracks import Setting, gop_memory, make_setting
-from bsm.codec.signal.chain import ChainRules
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.admission import admit, as_of_decoders
 from bsm.codec.static.assembly import blended
 from bsm.codec.static.coding import Adaptive
 from bsm.codec.static.preamble_encoding import Prepared
-from bsm.codec.static.rules import STIFFNESS, Scheme
+from bsm.codec.static.rules import Scheme, rules_of
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, encode_blocks
 from bsm.codec.static.work import Allowance
@@ -33,15 +32,7 @@ from bsm.codec.static.work import Allowance
 FIRST_STEP = 0.3
 """Of the first frame, in steps of the others, which follow from it; 0.4 costs 0.5 % more, with low delay 1 to 3 %."""
 
-FIRST_FRAME = ChainRules(
-    exact=False,
-    key_interval=0,
-    power=3,
-    iterations=2,
-    key_iterations=2,
-    shift=2.0**-5,
-    stiffness=STIFFNESS,
-)
+FIRST_FRAME = rules_of(LAW_OF_SEQUENCES)
 """The first frame is one chain; the dictionaries of its key block and those of all parts start from cosines alike."""
 
 HARDLY_CUT = 256

@@ -23,7 +23,7 @@ from bsm.bitstream.coefficients.adaptive import (
 )
 from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
 from bsm.bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
-from bsm.bitstream.container.header import Header, paper_of
+from bsm.bitstream.container.header import Header
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Integers, Matrix
 from bsm.codec.basis.dynamic_size import DynamicSize
@@ -153,7 +153,7 @@ class Adaptive:
 
 def coding_of(header: Header) -> Coding:
     """The way in which a stream's blocks are coded."""
-    paper = paper_of(header.paper)
+    paper = header.constants
     if paper.bits:
         return Packed(header.coefficients, paper.bits, header.step, paper.coarser)
     return Adaptive(header.coefficients, header.step)

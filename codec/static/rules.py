@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from bsm.bitstream.container.header import Header, Paper, paper_of
+from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, Paper
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal.chain import AS_SPECIFIED, ChainRules, Trial
 from bsm.codec.static.coding import Coding, coding_of
@@ -51,7 +51,7 @@ class Scheme:
             "blocks": self.blocks.count,
             "step": coding.step,
             "key_interval": rules.key_interval,
-            "paper": paper.entry(),
+            "paper": paper.entry(LAW_OF_SEQUENCES if rules.whole else LAW),
         }
 
 
@@ -62,14 +62,19 @@ def scheme_of(header: Header, blocks: Blocks, trial: Trial = AS_SPECIFIED) -> Sc
 
 def chain_rules(header: Header) -> ChainRules:
     """What a header says about chains and dictionaries."""
-    paper = paper_of(header.paper)
+    whole = header.coefficients if header.gop_frames else 0
+    return rules_of(header.constants, header.key_interval, whole)
+
+
+def rules_of(paper: Paper, key_interval: int = 0, whole: int = 0) -> ChainRules:
+    """Chains and dictionaries by some constants."""
     return ChainRules(
         exact=bool(paper.exact),
-        key_interval=header.key_interval,
+        key_interval=key_interval,
         power=paper.power,
         iterations=paper.iterations,
         key_iterations=paper.key_iterations,
         shift=paper.shift,
         stiffness=STIFFNESS if paper.springs else 0.0,
-        whole=header.coefficients if header.gop_frames else 0,
+        whole=whole,
     )

@@ -13,7 +13,7 @@ import zstandard
 
 from bsm.bitstream.connectivity.faces import decode_connectivity
 from bsm.bitstream.connectivity.partition import encode_labels
-from bsm.bitstream.container.header import HEADER_FIELDS, Paper
+from bsm.bitstream.container.header import HEADER_FIELDS, LAW
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.encoder import encode
@@ -26,7 +26,7 @@ from tools.vectors.meshes import patch, shuffled, together, torus
 KINDS = ("format", "unsupported", "corrupt", "truncated", "limit", "numeric")
 HEADER, CONNECTIVITY, PARTITION, ORDER, BLOCK = FrameType.HEADER, 3, 4, 5, FrameType.BLOCK
 METADATA, GOP, END = FrameType.METADATA, FrameType.GOP, FrameType.END
-PAPER = tuple(vars(Paper()).values())
+PAPER = tuple(vars(LAW).values())
 
 
 _NARROW = {"bits": 7}

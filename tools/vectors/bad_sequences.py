@@ -236,6 +236,11 @@ BAD_SEQUENCES: dict[str, Bad] = {
     "bad-sequence-run-number": Bad("a run that is not the next", "corrupt", _run(run=[2])),
     "bad-sequence-run-frames": Bad("a run that announces other frames", "corrupt", _run(frames=9)),
     "bad-sequence-run-static": Bad("a static mesh behind a run", "corrupt", _run(run=None, sequence=None)),
+    "bad-sequence-paper-default": Bad(
+        "paper as the law has it for sequences",
+        "corrupt",
+        lambda: with_header(_base("learnt"), paper=[0.0, 0.0, 0.0, 3.0, 2.0, 2.0, 2.0**-5, 1.0]),
+    ),
     "bad-sequence-run-zero": Bad("run 0 is stored", "corrupt", lambda: with_header(_base("runs"), run=[0])),
     "bad-sequence-gop-zero": Bad("GOPs of no frames", "corrupt", lambda: with_header(_base("learnt"), gop_frames=0)),
     "bad-sequence-refinement": Bad(

@@ -9,6 +9,7 @@ import numpy as np
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
+from tools.surgery import with_header
 from tools.vectors.good import Good
 from tools.vectors.meshes import torus
 
@@ -22,6 +23,10 @@ def _sequence(probes: str, frames: int, **options: object) -> Good:
         return encode_sequence(positions, meshes[0].faces, SequenceOptions(**{**vars(BASE), **options}))
 
     return Good(probes, make)
+
+
+def _by_the_paper() -> bytes:
+    return with_header(_sequence("", 4).make(), power=2, iterations=3, shift=2.0**-7)
 
 
 def _swaying(probes: str, frames: int, period: int, **options: object) -> Good:
@@ -121,5 +126,6 @@ SEQUENCES: dict[str, Good] = {
     "good-sequence-moving-low-delay": _moving("the same, frame by frame", *[8] * 7, low_delay=1, gop=5),
     "good-sequence-moving-runs": _moving("the same, and a mesh that returns", 6, 6, 5, 5, 6, 6, 6, gop=2),
     "good-sequence-moving-together": _moving("the same, a few frames at a time", *[8] * 7, low_delay=3),
+    "good-sequence-paper": Good("other constants than those of sequences", _by_the_paper),
     "good-sequence-overlap": _sequence("overlapping blocks of the first frame", 3, overlap=1.3, keep=0.5),
 }

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from bsm.bitstream.container.header import paper_of
 from bsm.bitstream.container.wire import VERSION
 from bsm.bitstream.limits import Limits
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
@@ -134,7 +133,7 @@ def _rate_lines(summary: dict[str, Any]) -> list[str]:
     if summary["frames"]:
         return []
     rates = f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for positions"
-    packed = paper_of(summary["header"]["paper"]).bits
+    packed, *_ = summary["header"]["paper"] or (0,)
     return [f"{rates}, {summary['bpv_paper']:.3f} by the paper's formula" if packed else rates]
 
 

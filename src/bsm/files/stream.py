@@ -12,7 +12,6 @@ import numpy.typing as npt
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import frames_of_gop
-from bsm.bitstream.container.header import paper_of
 from bsm.bitstream.container.layout import write_attribute, write_metadata
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, read_packets
 from bsm.bitstream.container.wire import MAGIC
@@ -122,7 +121,7 @@ class StreamInfo:
     @property
     def bits_per_coefficient(self) -> float:
         """q_c: as declared for packed coefficients, on average for adaptive ones."""
-        if bits := paper_of(self.header.paper).bits:
+        if bits := self.header.constants.bits:
             return bits
         return 8 * self.coefficient_bytes / (3 * max(1, sum(self.coefficients)))
 

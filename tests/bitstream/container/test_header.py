@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, Header, Paper, paper_of
+from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, Header, Paper
 from bsm.bitstream.container.layout import parse_header, write_header
 from bsm.bitstream.container.wire import write_map
 from bsm.bitstream.errors import BsmError, CorruptError, LimitError, OptionError, UnsupportedError
@@ -84,18 +84,26 @@ PAPERS = st.builds(
     PAPERS,
 )
 def test_round_trip(changes, sequence, paper):
-    header = replace(SMALL_HEADER, **changes, sequence=sequence, paper=paper.entry())
+    law = LAW_OF_SEQUENCES if sequence else LAW
+    header = replace(SMALL_HEADER, **changes, sequence=sequence, paper=paper.entry(law))
     assert parse(write_header(header), Limits(frames=2**31, gop_frames=2**31)) == header
-    assert paper_of(header.paper) == paper
+    assert header.constants == paper
     assert (header.frames, header.gop_frames) == (sequence or (0, 0))
 
 
 def test_known_bytes_of_paper():
-    packed = replace(SMALL_HEADER, paper=Paper(bits=12, exact=1, springs=0).entry())
+    packed = replace(SMALL_HEADER, paper=Paper(bits=12, exact=1, springs=0).entry(LAW))
     # 19: 12.0, 0.0, 1.0, 3.0, 1.0, 2.0, 2^-7, 0.0
     numbers = "ca41400000ca00000000ca3f800000ca40400000ca3f800000ca40000000ca3c000000ca00000000"
     assert write_header(packed).hex() == "86016402ccbe0303043c050a1398" + numbers
-    assert Paper().entry() == () and paper_of(()) == Paper()
+
+
+@pytest.mark.parametrize(("sequence", "law"), [((), LAW), ((3, 3), LAW_OF_SEQUENCES)])
+def test_constants_of_the_law_are_not_stored(sequence, law):
+    header = replace(SMALL_HEADER, sequence=sequence)
+    assert header.constants == law and law.entry(law) == ()
+    with pytest.raises(OptionError, match="what holds without it"):
+        replace(header, paper=law.entry(Paper(bits=1)))
 
 
 @pytest.mark.parametrize(
@@ -171,7 +179,7 @@ def test_a_layer_round_trips(layer):
         {"smoothing": 1.0},
         {"sequence": (0, 1)},
         {"refinement": (0.5, 1.0)},
-        {"paper": Paper(bits=12).entry()},
+        {"paper": Paper(bits=12).entry(LAW)},
         {"light": 2},
     ],
 )
@@ -212,7 +220,7 @@ def test_noise_is_a_typed_error_or_a_header(noise):
 @given(st.data())
 def test_a_changed_byte_is_a_typed_error_or_another_header(data):
     payload = bytearray(
-        write_header(replace(SMALL_HEADER, center=(0.1, 0.2, 0.3), sequence=(7, 7), paper=Paper(bits=9).entry()))
+        write_header(replace(SMALL_HEADER, center=(0.1, 0.2, 0.3), sequence=(7, 7), paper=Paper(bits=9).entry(LAW)))
     )
     index = data.draw(st.integers(0, len(payload) - 1))
     payload[index] ^= data.draw(st.integers(1, 255))

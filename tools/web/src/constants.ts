@@ -75,6 +75,9 @@ export const PAPER_FIELDS = {
     springs: { key: 7, type: "int", low: 0, high: 1, default: 1 },
 } satisfies Record<string, Field>;
 
+/** What holds in their place for a sequence (S 1.1). */
+export const PAPER_OF_SEQUENCES = { iterations: 2, shift: 0.03125 } as const;
+
 /** Fields of what an attribute declares (D 1). */
 export const DECLARATION_FIELDS = {
     name: { key: 1, type: "string", low: 1, high: 255 },

@@ -1,5 +1,5 @@
 /** The header: fields, legal values, contradictions (specification, F 4). */
-import { HEADER_FIELDS, PAPER_FIELDS } from "./constants";
+import { HEADER_FIELDS, PAPER_FIELDS, PAPER_OF_SEQUENCES } from "./constants";
 import { CorruptError } from "./errors";
 import { checkLimit, type Limits } from "./limits";
 import { checkBlocks, checkAgain, readPaper } from "./rules";
@@ -13,6 +13,7 @@ type Stored = Record<"vertices" | "faces" | "blocks" | "blockSize" | "coefficien
 export type Paper = Readonly<Record<keyof typeof PAPER_FIELDS, number>>;
 
 const LAW = Object.fromEntries(Object.entries(PAPER_FIELDS).map(([name, field]) => [name, field.default])) as unknown as Paper;
+const LAW_OF_SEQUENCES: Paper = { ...LAW, ...PAPER_OF_SEQUENCES };
 
 /** What a decoder must know before anything else; the names are those of the specification. */
 export interface Header extends Omit<Stored, "sequence" | "run" | "paper"> {
@@ -45,7 +46,8 @@ export function parseHeader(payload: Uint8Array, limits: Limits): Header {
     const { sequence, run, paper, ...fields } = parseFields(payload, FIELDS, "header") as unknown as Stored;
     const saysMore = (names: readonly (keyof Stored)[]): boolean => !Object.entries({ sequence, run, paper, ...fields }).every(([name, content]) => names.includes(name as keyof Stored) || same(content, FIELDS[name as keyof Stored].default));
     const [frames = 0, gopFrames = 0] = sequence;
-    const header = { ...fields, frames, gopFrames, run: run[0] ?? 0, again: run[1], paper: paper.length > 0 ? readPaper(paper) : LAW };
+    const law = gopFrames > 0 ? LAW_OF_SEQUENCES : LAW;
+    const header = { ...fields, frames, gopFrames, run: run[0] ?? 0, again: run[1], paper: paper.length > 0 ? readPaper(paper, law) : law };
     refuse("more vertices than the corners of its faces", header.vertices > 3 * header.faces);
     refuse("a sequence that is not frames and a length for GOPs", sequence.length > 0 && gopFrames === 0);
     refuse("a run of a static mesh", run.length > 0 && gopFrames === 0);

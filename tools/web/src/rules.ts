@@ -3,14 +3,14 @@ import { PAPER_FIELDS } from "./constants";
 import { mostCopies, refuse, type Header, type Paper } from "./header";
 
 /** The field `paper`: numbers in the place of the law's constants. */
-export function readPaper(numbers: number[]): Paper {
+export function readPaper(numbers: number[], law: Paper): Paper {
     const fields = Object.entries(PAPER_FIELDS);
     refuse(`a paper of ${numbers.length} numbers`, numbers.length !== fields.length);
     for (const [name, { key, type, low, high }] of fields) {
         const value = numbers[key];
         refuse(`a paper with ${name} = ${value}`, value < low || value > high || (type === "int" && value % 1 !== 0));
     }
-    refuse("a paper that says what the law says", fields.every(([, { key, default: law }]) => numbers[key] === law));
+    refuse("a paper that says what the law says", fields.every(([name, { key }]) => numbers[key] === law[name as keyof Paper]));
     return Object.fromEntries(fields.map(([name, { key }]) => [name, numbers[key]])) as unknown as Paper;
 }
 
