@@ -1,0 +1,92 @@
+#include "engine/assembly.h"
+
+#include "codec/blocks/blocks.h"
+#include "codec/signal/signal.h"
+#include "codec/static/units.h"
+
+enum { DEGREE = 5, POWERS = DEGREE - 1 };
+
+bool begin_assembly(Assembly *assembly, int64_t vertices, Arena *arena) {
+    *assembly = (Assembly){{zero_doubles2(arena, vertices, 3), zero_doubles(arena, vertices)}, zero_bytes(arena, vertices), false};
+    return fine(arena->context);
+}
+
+void add_block(Assembly *assembly, const DecodedBlock *block) {
+    add_copies(assembly->blend.sums, assembly->blend.weights, block->vertices, block->positions, block->weights);
+}
+
+void lose_block(Assembly *assembly, const Blocks *blocks, int64_t index) {
+    ConstInts members = members_of(blocks, index, size_of_block(blocks, index));
+    for (int64_t i = 0; i < members.size; i++) assembly->lost.data[members.data[i]] = 1;
+    assembly->lossy = true;
+}
+
+/* p_2 to p_5 (M 12.3), by divided differences. */
+static void filter_polynomial(double amount, double *powers) {
+    static const double NODES_OF[POWERS] = {0.4, 0.9, 1.4, 1.8};
+    double table[POWERS], before[POWERS];
+    for (int i = 0; i < POWERS; i++) {
+        table[i] = -amount / (1.0 + amount * NODES_OF[i] * NODES_OF[i]);
+        powers[i] = 0.0;
+    }
+    for (int level = 1; level < POWERS; level++)
+        for (int i = POWERS - 1; i >= level; i--) table[i] = (table[i] - table[i - 1]) / (NODES_OF[i] - NODES_OF[i - level]);
+    for (int i = POWERS - 1; i >= 0; i--) {
+        memcpy(before, powers, sizeof before);
+        for (int k = 0; k < POWERS; k++) {
+            double product = NODES_OF[i] * before[k];
+            powers[k] = (k > 0 ? before[k - 1] : table[i]) - product;
+        }
+    }
+}
+
+bool blend_all(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch, Doubles2 *positions) {
+    int64_t n = graph->size;
+    Mark mark = mark_of(scratch);
+    *positions = take_doubles2(arena, n, 3);
+    bool smoothing = header->smoothing > 0.0;
+    Doubles2 blended = smoothing ? take_doubles2(scratch, n, 3) : *positions;
+    Doubles room = take_doubles(scratch, smoothing ? 6 * n + 2 : 0);
+    if (fine(arena->context)) {
+        for (int64_t i = 0; i < 3 * n; i++) {
+            double weight = assembly->blend.weights.data[i / 3];
+            blended.data[i] = weight > 0.0 ? assembly->blend.sums.data[i] / weight : 0.0;
+        }
+        double powers[POWERS];
+        filter_polynomial(header->smoothing, powers);
+        if (smoothing) smooth_all(graph->offsets, graph->neighbours, const_doubles2(blended), (ConstDoubles){powers, POWERS}, room, *positions);
+    }
+    release_to(scratch, mark);
+    return fine(arena->context);
+}
+
+/* Mark what has a neighbour with a mark, so many times. */
+static bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch) {
+    Bytes before = take_bytes(scratch, marks.size);
+    if (failed(scratch->context)) return false;
+    for (; rings > 0; rings--) {
+        memcpy(before.data, marks.data, (size_t)marks.size);
+        for (int64_t v = 0; v < graph->size; v++)
+            for (int64_t i = graph->offsets.data[v]; i < graph->offsets.data[v + 1]; i++) marks.data[v] |= before.data[graph->neighbours.data[i]];
+    }
+    return true;
+}
+
+bool mark_whole(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch, Bytes *whole) {
+    *whole = (Bytes){NULL, 0};
+    if (!assembly->lossy) return true;
+    Mark mark = mark_of(scratch);
+    *whole = take_bytes(arena, graph->size);
+    if (fine(arena->context)) {
+        memcpy(whole->data, assembly->lost.data, (size_t)graph->size);
+        spread_marks(graph, *whole, header->smoothing > 0.0 ? DEGREE + 1 : 1, scratch);
+        for (int64_t v = 0; v < graph->size; v++) whole->data[v] = !whole->data[v];
+    }
+    release_to(scratch, mark);
+    return fine(arena->context);
+}
+
+bool into_unit(Context *context, const Header *header, Doubles2 positions) {
+    return back_into_unit(const_doubles2(positions), header->scale, (ConstDoubles){header->center, 3}, positions)
+        || FAIL(context, NUMERIC, "positions are not finite in the unit of the mesh");
+}

@@ -1,0 +1,72 @@
+/* Blocks to positions: what the blocks of a chain know of those before them (specification, M 7 to M 12). */
+#ifndef BSMDEC_CHAIN_H
+#define BSMDEC_CHAIN_H
+
+#include "bitstream/coefficients/coefficients.h"
+#include "engine/charges.h"
+#include "engine/coding.h"
+
+/* C and D^-1 of L + diagonal. */
+typedef struct {
+    Doubles values, inverse;
+} Factor;
+
+/* How a dictionary is iterated: z, t, and at most how many columns that gives (M 8.4, M 8.7). */
+typedef struct {
+    int64_t power, iterations, most;
+} Schedule;
+
+/* U of a patch that follows none (M 8.3 to M 8.5), of `width` columns, in `arena`; `held` is the factor of L + springs + shift,
+ * or NULL. */
+bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs, const Factor *held,
+    int64_t width, Arena *arena, Arena *scratch, Doubles2 *dictionary);
+/* U of a patch whose predecessor has as many rows, and the dictionary `previous`. */
+bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor, Doubles2 previous,
+    int64_t width, Arena *arena, Arena *scratch, Doubles2 *dictionary);
+bool factorize_patch(Context *context, const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor);
+/* Columns that follow from L, of a block of so many rows (M 8.7). */
+INLINE int64_t iterated_columns(const Header *header, int64_t rows) {
+    return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 2) / 3 : rows;
+}
+INLINE int64_t solving_space(int64_t rows, int64_t columns) { return (rows + 4) * (columns + 8) + 7; }
+
+/* Sums of weight times position, and weights. */
+typedef struct {
+    Doubles2 sums;
+    Doubles weights;
+} Blended;
+
+/* One chain after the other: memory of the mesh, and of a chain. */
+typedef struct {
+    Context *context;
+    const Header *header;
+    const Graph *graph;
+    const Blocks *blocks;
+    Arena chain, subspaces[2]; /* what the coder has learnt; the present dictionary, and the next */
+    int present;
+    Doubles2 subspace;         /* of the block before; no rows if there is none */
+    bool knows;                /* whether blocks know of others' positions */
+    Blended known;
+    Bytes inside;
+    int64_t number, first, next;
+    Bank bank;
+    Past past;
+    Ints2 expectations;
+} Chains;
+
+/* A block's own reconstruction, in BSM units; its arrays live until `scratch` is released. */
+typedef struct {
+    int64_t index;
+    ConstInts vertices;
+    ConstDoubles2 positions;
+    ConstDoubles weights;
+} DecodedBlock;
+
+bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, Arena *arena);
+void end_chains(Chains *chains);
+bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch, DecodedBlock *decoded);
+
+/* zstd (F 6.2): exactly `size` bytes. */
+bool unpack_zstd(Context *context, Span frame, uint8_t *content, int64_t size, Arena *scratch);
+
+#endif

@@ -1,0 +1,67 @@
+/* What decoding costs, in nanoseconds of a processor core and in bytes (specification, M 14.2, M 14.3): codec/static/work.py
+ * and codec/basis/cost.py, term for term. */
+#ifndef BSMDEC_CHARGES_H
+#define BSMDEC_CHARGES_H
+
+#include "engine/mesh.h"
+
+INLINE double above_zero(double x) { return x > 0.0 ? x : 0.0; }
+INLINE double mesh_work(double n, double m, double bytes) {
+    return 140 * n + 85 * m + 700 * above_zero(m / 2 - n) + 400 * bytes;
+}
+INLINE double mesh_memory(double n, double m) { return 200 * n + 60 * m; }
+INLINE double order_work(double n, double m, double bytes) { return 500 * n + 750 * m + 100 * bytes; }
+INLINE double order_memory(double n, double m) { return 32 * n + 60 * m; }
+INLINE double labels_work(double n, double ends, double bytes) { return 300 * n + 30 * ends + 100 * bytes; }
+INLINE double partition_work(double n, double ends, int64_t blocks, double copies) {
+    return (n + ends) * (4.0 * (64 - __builtin_clzll((uint64_t)blocks)) + 20) + 2 * n + 100 * (double)blocks + 30 * copies;
+}
+static const double COPY_MEMORY = 4;
+INLINE double block_work(double rows, double edges, double levels) { return 1.45e5 + 600 * rows + 25 * edges + 90 * levels; }
+INLINE double chain_work(double n) { return 2 * n < 4e6 ? 2 * n : 4e6; }
+static const double BLOCK_FRAME_BYTES = 5;
+
+INLINE double grid_work(double n, double m) { return 1650 * n + 150 * m; }
+INLINE double light_work(double n, double m) { return 200 * n + 40 * m; }
+INLINE double grid_chunk_work(double bytes) { return 3.5e4 + 800 * bytes; }
+INLINE double light_chunk_work(double bytes) { return 3.5e4 + 120 * bytes; }
+INLINE double floats_work(double n, double span) { return 400 * n + 4 * span; }
+INLINE double chunk_work(double bytes) { return 8e4 + 800 * bytes; }
+INLINE double layer_work(double n, double m, double axes) { return n * (400 + 230 * axes) + 130 * m; }
+static const double VALUE_MODEL_BYTES = 4.0 * (6 * 512 * 66 + 7 * (32 + 2 * 512)), LEVEL_MODEL_BYTES = 4.0 * (2 * 5 * 512 * 32);
+INLINE double grid_charge(double n, double m) { return 84 * n + 48 * m + VALUE_MODEL_BYTES + (1 << 20); }
+INLINE double grid_memory(double n, double m) { return 80 * n + grid_charge(n, m); }
+INLINE double levels_charge(double n, double m) { return (24 + 36) * n + 48 * m + LEVEL_MODEL_BYTES + (1 << 17); }
+INLINE double layer_memory(double n, double m) { return (28 + 48 * 3) * n + levels_charge(n, m); }
+
+/* Dictionaries: columns count as they are computed, in vectors of eight. */
+INLINE double whole_columns(int64_t columns) { return (double)((columns + 7) / 8 * 8); }
+INLINE double solve_work(const Fronts *fronts, int64_t columns) {
+    return 50 + fronts->sums.data[0] * (0.6 * (double)((columns + 31) / 32) + 0.035 * whole_columns(columns));
+}
+INLINE double factor_work(const Fronts *fronts) { return fronts->sums.data[1] / 14 + 40.0 * (double)fronts->rows.size + 4000; }
+INLINE double onorm_work(double rows, int64_t columns) {
+    double c = whole_columns(columns);
+    return rows * (3 + 0.5 * c + c * c / 29) + 1500;
+}
+INLINE double reflection_work(double rows, double columns) { return 0.35 * rows * columns * columns + 4000; }
+INLINE double dictionary_work(const Fronts *fronts, int64_t columns, double power, double iterations) {
+    double rows = (double)fronts->rows.size;
+    return 5 * rows * whole_columns(columns) + iterations * (power * solve_work(fronts, columns) + onorm_work(rows, columns));
+}
+INLINE double careful_work(const Fronts *fronts, int64_t columns, double steps) {
+    return steps * (solve_work(fronts, columns) + 1.1 * onorm_work((double)fronts->rows.size, columns));
+}
+INLINE double completion_work(double rows, double first, double columns) {
+    double more = above_zero(columns - first);
+    return (first * first * first / 3 + more * first * (first + rows)) / 15 + 2 * rows * columns + 1500;
+}
+INLINE double ground_work(const Fronts *fronts, int64_t columns) {
+    return factor_work(fronts) + solve_work(fronts, 3) + 1.5 * (double)fronts->rows.size * (double)columns;
+}
+INLINE double patch_memory(const Fronts *fronts, int64_t columns) {
+    double rows = (double)fronts->rows.size, c = whole_columns(columns), size = fronts->places.data[fronts->places.size - 1];
+    return 8 * (6 * rows * c + 2 * c * c + size) + 500 * rows;
+}
+
+#endif

@@ -1,0 +1,30 @@
+/* What entropy-coded payloads are read with (specification, C 1 to C 3): the kernels' coder and banks, of a decoder's memory. */
+#ifndef BSMDEC_CODING_H
+#define BSMDEC_CODING_H
+
+#include "bitstream/entropy/entropy.h"
+#include "engine/wire.h"
+
+/* A payload that is read; it must not be moved, for `coder` points into it. */
+typedef struct {
+    Context *context;
+    int64_t state[CODER_STATES];
+    Coder coder;
+} Reading;
+
+bool begin_reading(Context *context, Span payload, Reading *reading);
+/* Whether more was read than any payload of this length can hold (C 1.6). */
+bool ran_over(const Reading *reading);
+/* The error that nonsense is: truncated if the payload is over. */
+bool nonsense(const Reading *reading, const char *what);
+/* Whether the payload was read exactly to its end (C 1.5). */
+bool finish_reading(const Reading *reading);
+
+/* What a bank starts from; 0 is what most have: limit 255, rate 14, probability 1 / 2. */
+typedef struct {
+    int64_t slots, selectors;
+    int inputs, limit, rate, probability, trust;
+} BankPlan;
+Bank make_bank(Arena *arena, BankPlan plan);
+
+#endif

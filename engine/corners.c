@@ -1,0 +1,52 @@
+/* What all fields of integers begin with: corners, orders, models (specification, V 1 to V 6). */
+#include "engine/fields.h"
+
+enum { MODEL_SLOTS = CONTEXTS * CONTEXT_SIZE * VALUE_NODES, UNLEARNT_HIT = 1 << 28, SLOT_WEIGHT = 6000 };
+
+static void fill_ints(Ints ints, int32_t value) {
+    for (int64_t i = 0; i < ints.size; i++) ints.data[i] = value;
+}
+
+bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners) {
+    int64_t size = 3 * faces.rows;
+    Mark mark = mark_of(scratch);
+    *corners = (Corners){faces, zero_ints(arena, vertices + 1), zero_ints(arena, size), take_ints(arena, size), take_ints(arena, vertices)};
+    Ints room = take_ints(scratch, vertices + size);
+    if (fine(context)) {
+        fill_ints(corners->opposite, -1);
+        fill_ints(room, -1);
+        for (int64_t v = 0; v < vertices; v++) corners->rank.data[v] = (int32_t)v;
+        link_corners(*corners, room);
+    }
+    release_to(scratch, mark);
+    return fine(context);
+}
+
+bool order_mesh(Context *context, Corners *corners, Arena *arena, Arena *scratch, Ints *order) {
+    int64_t vertices = corners->rank.size;
+    Mark mark = mark_of(scratch);
+    *order = take_ints(arena, vertices);
+    Ints2 room = take_ints2(scratch, 3, vertices);
+    if (fine(context)) order_vertices(*corners, *order, room);
+    release_to(scratch, mark);
+    return fine(context);
+}
+
+ValueModel make_value_model(Arena *arena) {
+    ValueModel model = {take_words(arena, MODEL_SLOTS), take_words(arena, PREDICTIONS * HIT_CONTEXTS),
+        zero_ints2(arena, VALUE_NODES + WEIGHT_SETS * KINDS, VALUE_INPUTS), zero_ints2(arena, PREDICTIONS * SCALE_CONTEXTS, 2)};
+    if (failed(arena->context)) return model;
+    for (int64_t i = 0; i < model.slots.size; i++) model.slots.data[i] = 1u << 31;
+    for (int64_t i = 0; i < model.hits.size; i++) model.hits.data[i] = UNLEARNT_HIT;
+    for (int row = 0; row < VALUE_NODES; row++)
+        for (int i = 0; i < VALUE_INPUTS - 1; i++)
+            model.weights.data[row * VALUE_INPUTS + i] = i < PREDICTIONS ? ONE * 9 / (8 * PREDICTIONS) : SLOT_WEIGHT;
+    return model;
+}
+
+Longs2 make_learners(Arena *arena, int64_t count) { return zero_longs2(arena, count, LEARNER_COLUMNS); }
+
+bool check_chunk_done(const Reading *reading, int64_t done, int64_t count) {
+    if (ran_over(reading) || done < count) return nonsense(reading, "a value is out of its range");
+    return finish_reading(reading);
+}

@@ -1,0 +1,144 @@
+/* Positions on a grid (specification, V 7 to V 10, V 12, V 15, V 16). */
+#include "engine/fields.h"
+
+enum { AXES = 3, SUM_LEARNERS = 48, SIZE_LEARNERS = 12, FLOAT_SLOTS = 27 };
+static const int64_t NO_FLOAT = INT64_C(1) << 40;
+
+/* Of the largest axis. */
+static int32_t most_of(const Header *header) {
+    int32_t most = 0;
+    for (int j = 0; j < AXES; j++) most = header->grid[j] > most ? header->grid[j] : most;
+    return most;
+}
+
+static bool charge(Context *context, const Header *header) {
+    double n = (double)header->vertices, m = (double)header->faces, span = most_of(header);
+    bool light = header->light == LIGHT;
+    if (!keep(context, grid_memory(n, m), 0) || !spend(context, light ? light_work(n, m) : grid_work(n, m), 0)
+        || !WITHIN(context, field_bytes, grid_charge(n, m)))
+        return false;
+    return header->light != EXACT_FLOATS || (keep(context, 24 * (span + 1), 0) && spend(context, floats_work(n, span), 0));
+}
+
+static void begin_full(GridField *field, Arena *arena, Arena *scratch) {
+    int64_t n = field->header->vertices, words = most_of(field->header) / 64 + 1;
+    if (!order_mesh(field->context, &field->corners, arena, scratch, &field->order)) return;
+    field->model = make_value_model(arena);
+    Longs2 learners = make_learners(arena, SUM_LEARNERS + SIZE_LEARNERS);
+    field->grid = (Grid){const_ints(field->largest), const_ints(field->order), field->values, zero_ints2(arena, n, AXES),
+        zero_longs2(arena, n, 4), zero_longs2(arena, AXES, words), learners};
+    for (int64_t k = 0; fine(field->context) && k < SUM_LEARNERS + SIZE_LEARNERS; k++) {
+        start_learner(learners, k, 0, 49152);
+        if (k >= SUM_LEARNERS) start_learner(learners, k, 1, 8192);
+    }
+}
+
+static void begin_light(GridField *field, Arena *arena) {
+    field->order = field->corners.rank;
+    field->light = (Light){const_ints(field->largest), field->values, zero_ints2(arena, field->header->vertices, AXES), take_words(arena, LIGHT_SLOTS)};
+    for (int64_t i = 0; fine(field->context) && i < LIGHT_SLOTS; i++) field->light.slots.data[i] = 1u << 31;
+}
+
+static void begin_floats(GridField *field, Arena *arena) {
+    int64_t span = most_of(field->header) + 1;
+    field->floats = (Floats){take_words(arena, FLOAT_SLOTS), zero_longs(arena, AXES), take_longs2(arena, AXES, span)};
+    if (failed(field->context)) return;
+    for (int64_t i = 0; i < FLOAT_SLOTS; i++) field->floats.slots.data[i] = 1u << 31;
+    for (int64_t i = 0; i < AXES * span; i++) field->floats.known.data[i] = NO_FLOAT;
+}
+
+bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena, Arena *scratch) {
+    int64_t n = header->vertices;
+    *field = (GridField){.context = context, .header = header, .faces = faces};
+    if (!charge(context, header) || !link_mesh(context, faces, n, arena, scratch, &field->corners)) return false;
+    field->largest = take_ints(arena, AXES);
+    field->values = zero_ints2(arena, n, AXES);
+    field->positions = zero_doubles2(arena, n, AXES);
+    if (failed(context)) return false;
+    memcpy(field->largest.data, header->grid, sizeof header->grid);
+    if (header->light == LIGHT) begin_light(field, arena);
+    else begin_full(field, arena, scratch);
+    if (header->light == EXACT_FLOATS) begin_floats(field, arena);
+    return fine(context);
+}
+
+static bool decode_values(GridField *field, int64_t first, int64_t count, Span payload) {
+    Reading reading;
+    if (!begin_reading(field->context, payload, &reading)) return false;
+    int64_t done = field->header->light == LIGHT ? code_light(reading.coder, field->corners, field->light, first, count)
+                                                 : code_grid(reading.coder, field->model, field->corners, field->grid, first, count);
+    return check_chunk_done(&reading, done, count);
+}
+
+/* V 12. */
+static bool place_values(GridField *field, ConstInts vertices) {
+    const Header *header = field->header;
+    double spoiled = 0.0;
+    for (int64_t i = 0; i < vertices.size; i++)
+        for (int j = 0; j < AXES; j++) {
+            int64_t at = AXES * (int64_t)vertices.data[i] + j, value = field->values.data[at];
+            int64_t cell = header->points > 0 ? (2 * value * header->cells + header->points) / (2 * header->points) : value;
+            double product = (double)(cell + header->corner[j]) * header->scale;
+            field->positions.data[at] = product + header->center[j];
+            spoiled += field->positions.data[at] * 0.0;
+        }
+    return spoiled == 0.0 || FAIL(field->context, NUMERIC, "positions are not finite in the unit of the mesh");
+}
+
+/* Numbers of floats in their order (V 16.1). */
+static int64_t number_of(double value) {
+    float single = (float)value;
+    uint32_t bits;
+    memcpy(&bits, &single, sizeof bits);
+    return bits >> 31 ? (int64_t)INT32_MAX - (int64_t)bits : (int64_t)bits;
+}
+
+static double float_of(int64_t number) {
+    uint32_t bits = (uint32_t)(number < 0 ? (int64_t)INT32_MAX - number : number);
+    float single;
+    memcpy(&single, &bits, sizeof single);
+    return single;
+}
+
+/* Which float of the cell of its value each coordinate is (V 16). */
+static bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scratch) {
+    const Header *header = field->header;
+    int64_t count = vertices.size;
+    Ints2 values = take_ints2(scratch, count, AXES);
+    Longs2 low = take_longs2(scratch, count, AXES), near = take_longs2(scratch, count, AXES), high = take_longs2(scratch, count, AXES);
+    Longs2 chosen = zero_longs2(scratch, count, AXES);
+    Reading reading;
+    if (failed(field->context) || !begin_reading(field->context, payload, &reading)) return false;
+    for (int64_t i = 0; i < AXES * count; i++) {
+        int j = (int)(i % AXES);
+        int32_t value = values.data[i] = field->values.data[AXES * (int64_t)vertices.data[i / AXES] + j];
+        double down = (value - 0.5) * header->scale, middle = value * header->scale, up = (value + 0.5) * header->scale;
+        low.data[i] = number_of(down + header->center[j]);
+        near.data[i] = number_of(middle + header->center[j]);
+        high.data[i] = number_of(up + header->center[j]);
+    }
+    int64_t done = code_floats(reading.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near), const_longs2(high), chosen);
+    if (!check_chunk_done(&reading, done, count)) return false;
+    double spoiled = 0.0;
+    for (int64_t i = 0; i < AXES * count; i++) {
+        double place = float_of(chosen.data[i]);
+        field->positions.data[AXES * (int64_t)vertices.data[i / AXES] + i % AXES] = place;
+        spoiled += place * 0.0;
+    }
+    return spoiled == 0.0 || FAIL(field->context, NUMERIC, "positions are not finite in the unit of the mesh");
+}
+
+bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch) {
+    Context *context = field->context;
+    double bytes = (double)payload.size;
+    if (!spend(context, field->header->light == LIGHT ? light_chunk_work(bytes) : grid_chunk_work(bytes), bytes)) return false;
+    if (first != field->coded)
+        return FAIL(context, CORRUPT, "positions from number # on are missing; others depend on them", field->coded);
+    bool exact = field->header->light == EXACT_FLOATS;
+    Cursor cursor = {context, payload};
+    Span values = exact ? take_span(&cursor, take_varint(&cursor)) : payload;
+    if (failed(context) || !decode_values(field, first, count, values)) return false;
+    field->coded += count;
+    ConstInts vertices = {field->order.data + first, count};
+    return exact ? place_floats(field, vertices, take_rest(&cursor), scratch) : place_values(field, vertices);
+}

@@ -1,0 +1,52 @@
+/* What a stream says before anything else, and what it declares of attributes (specification, F 4, F 10, D 1). */
+#ifndef BSMDEC_HEADER_H
+#define BSMDEC_HEADER_H
+
+#include "engine/maps.h"
+
+/* How blocks are coded; only the paper's codec has other than the law's constants (F 10). */
+typedef struct {
+    int bits, coarser, exact, power, iterations, key_iterations, springs;
+    double shift;
+} Paper;
+
+enum { LIGHT = 1, EXACT_FLOATS = 2 };
+
+typedef struct {
+    int64_t vertices, faces, blocks, block_size, coefficients, key_interval, attributes;
+    double step, center[3], scale, smoothing;
+    bool refined, on_grid, is_sequence;
+    double refinement[2]; /* step and ratio */
+    int32_t grid[3];
+    int64_t cells, points, corner[3]; /* of a lattice, 0 without */
+    bool counted;                     /* there is a corner */
+    int light;
+    int64_t frames, gop_frames, run, again; /* `again`: the run whose mesh this one has, or -1 */
+    Paper paper;
+} Header;
+
+bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
+
+/* Blocks of a chain (M 10.1). */
+INLINE int64_t chain_length(const Header *header) { return header->key_interval > 0 ? header->key_interval : header->blocks; }
+
+enum { LEVELS, OCTAHEDRAL, BITS, RECOMPUTED };
+enum { MOST_WORDS = 8, MOST_NAME = 255 };
+
+/* An attribute, but for its values. */
+typedef struct {
+    char name[MOST_NAME + 1];
+    int name_size, domain, origin, semantic, kind, components, coding, words;
+    int64_t rows, seams_of;
+    uint32_t largest[MOST_WORDS];
+    double offset[MOST_WORDS], step[MOST_WORDS]; /* one of each for every word */
+    bool leans, moves;
+} Declaration;
+
+bool parse_declaration(Context *context, Span payload, Arena *scratch, Declaration *declaration);
+/* Whether the user is given values by vertices. */
+INLINE bool is_by_vertex(const Declaration *d) {
+    return (d->domain == BSMDEC_VERTEX && d->origin == 0) || (d->domain == BSMDEC_CORNER && d->origin == 1);
+}
+
+#endif

@@ -1,0 +1,87 @@
+/* Levels that refine what blocks decoded to (specification, V 11, M 17). */
+#include "codec/signal/signal.h"
+#include "engine/fields.h"
+
+enum { AXES = 3, LEARNERS = 12, LEVEL_SLOTS_ALL = 2 * 5 * 512 * 32, LEVEL_SELECTORS = 2 * 32, LEVEL_INPUTS = 5, LEVEL_RATE = 16, BENT_BY = 2 };
+
+static Doubles2 rows_of(Doubles2 all, int64_t first, int64_t count) {
+    return (Doubles2){all.data + first * all.columns, count, all.columns};
+}
+
+bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch) {
+    int64_t n = header->vertices;
+    double size = (double)n, m = (double)faces.rows;
+    *layer = (Layer){.context = context, .header = header, .faces = faces, .base = base, .whole = whole};
+    if (!keep(context, layer_memory(size, m), 0) || !spend(context, layer_work(size, m, AXES), 0)
+        || !WITHIN(context, field_bytes, levels_charge(size, m)) || !link_mesh(context, faces, n, arena, scratch, &layer->corners))
+        return false;
+    layer->bank = make_bank(arena, (BankPlan){.slots = LEVEL_SLOTS_ALL, .selectors = LEVEL_SELECTORS, .inputs = LEVEL_INPUTS, .rate = LEVEL_RATE});
+    layer->levels = (Levels){zero_ints2(arena, n, AXES), zero_ints2(arena, n, AXES), zero_ints2(arena, n, AXES), make_learners(arena, LEARNERS)};
+    layer->positions = take_doubles2(arena, n, AXES);
+    layer->frames = take_doubles2(arena, n, AXES * AXES);
+    if (failed(context)) return false;
+    for (int k = 0; k < LEARNERS; k++) {
+        start_learner(layer->levels.learners, k, 0, 52000);
+        if (k % 4 > 0) start_learner(layer->levels.learners, k, 1, 28000);
+    }
+    memcpy(layer->positions.data, base.data, (size_t)(n * AXES) * sizeof(double));
+    local_frames(const_doubles2(base), faces, layer->frames);
+    return true;
+}
+
+/* Levels of some vertices, 0 for those that are not marked. */
+static ConstInts2 marked_levels(const Layer *layer, Bytes marked, int64_t first, int64_t count, Arena *scratch) {
+    ConstInts2 levels = {layer->levels.levels.data + AXES * first, count, AXES};
+    if (marked.size == 0) return levels;
+    Ints2 some = zero_ints2(scratch, count, AXES);
+    for (int64_t v = 0; fine(layer->context) && v < count; v++)
+        if (marked.data[first + v]) memcpy(some.data + AXES * v, levels.data + AXES * v, AXES * sizeof(int32_t));
+    return const_ints2(some);
+}
+
+/* Vertices whose steps follow from whole ones alone. */
+static Bytes fit_vertices(const Layer *layer, Arena *scratch) {
+    Bytes fit = layer->whole;
+    for (int round = 0; fit.size > 0 && round < BENT_BY; round++) {
+        Bytes next = take_bytes(scratch, fit.size);
+        if (failed(layer->context)) return fit;
+        memcpy(next.data, fit.data, (size_t)fit.size);
+        for (int64_t f = 0; f < layer->faces.rows; f++) {
+            const int32_t *face = layer->faces.data + 3 * f;
+            if (!(fit.data[face[0]] && fit.data[face[1]] && fit.data[face[2]])) next.data[face[0]] = next.data[face[1]] = next.data[face[2]] = 0;
+        }
+        fit = next;
+    }
+    return fit;
+}
+
+/* Move vertices along the surface by steps that follow from all heights (M 17.4). */
+static bool slide(Layer *layer, Arena *scratch) {
+    int64_t n = layer->positions.rows;
+    const double *refinement = layer->header->refinement;
+    Doubles2 room = take_doubles2(scratch, n, 8), upright = take_doubles2(scratch, n, AXES);
+    Doubles steps = take_doubles(scratch, n);
+    Bytes fit = fit_vertices(layer, scratch);
+    ConstInts2 some = marked_levels(layer, fit, 0, n, scratch);
+    if (failed(layer->context)) return false;
+    memcpy(upright.data, layer->base.data, (size_t)(n * AXES) * sizeof(double));
+    add_heights(upright, const_doubles2(layer->frames), const_ints2(layer->levels.levels), refinement[0]);
+    tangent_steps(const_doubles2(upright), layer->faces, refinement[0], refinement[1], room, steps);
+    add_slides(layer->positions, const_doubles2(layer->frames), some, const_doubles(steps));
+    return true;
+}
+
+bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch) {
+    Context *context = layer->context;
+    Reading reading;
+    if (!spend(context, chunk_work((double)payload.size), (double)payload.size)) return false;
+    if (first != layer->coded) return FAIL(context, CORRUPT, "the layer lacks the vertices before #: the rest is lost", first);
+    if (!begin_reading(context, payload, &reading)) return false;
+    int64_t done = code_levels(reading.coder, layer->bank, layer->corners, layer->levels, first, count);
+    if (!check_chunk_done(&reading, done, count)) return false;
+    layer->coded += count;
+    ConstInts2 some = marked_levels(layer, layer->whole, first, count, scratch);
+    if (failed(context)) return false;
+    add_heights(rows_of(layer->positions, first, count), const_doubles2(rows_of(layer->frames, first, count)), some, layer->header->refinement[0]);
+    return layer->coded < layer->positions.rows || slide(layer, scratch);
+}

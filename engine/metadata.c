@@ -1,0 +1,89 @@
+/* What authors say of their meshes, each name once. */
+#include "engine/reader.h"
+
+struct Branch {
+    int64_t bit;       /* the first in which the names on both sides differ; behind its end a name is a 0, then a 1 */
+    void *side[2];     /* branches, or sayings with their lowest bit set */
+};
+
+/* Bit `bit` of a name that is followed by a length of its own: no name begins another then. */
+static int bit_of(Span name, int64_t bit) {
+    int64_t byte = bit / 9;
+    if (byte >= name.size) return 0;
+    return bit % 9 == 0 ? 1 : name.data[byte] >> (8 - bit % 9) & 1;
+}
+
+static Saying *saying_of(void *node) { return (Saying *)((char *)node - 1); }
+static bool is_saying(const void *node) { return (uintptr_t)node & 1; }
+
+static Saying *nearest(const Metadata *metadata, Span name) {
+    void *node = metadata->root;
+    while (node != NULL && !is_saying(node)) {
+        Branch *branch = node;
+        node = branch->side[bit_of(name, branch->bit)];
+    }
+    return node != NULL ? saying_of(node) : NULL;
+}
+
+/* The first bit in which two names differ; -1 for the same name. */
+static int64_t difference(Span a, Span b) {
+    int64_t common = least(a.size, b.size), byte = 0;
+    while (byte < common && a.data[byte] == b.data[byte]) byte++;
+    if (byte == a.size && byte == b.size) return -1;
+    int64_t bit = 9 * byte;
+    while (bit_of(a, bit) == bit_of(b, bit)) bit++;
+    return bit;
+}
+
+bool knows_name(const Metadata *metadata, Span name) {
+    const Saying *saying = nearest(metadata, name);
+    return saying != NULL && difference(saying->name, name) < 0;
+}
+
+static Span copied(Arena *arena, Span bytes) {
+    uint8_t *copy = take_memory(arena, bytes.size + 1, 1);
+    if (copy == NULL) return (Span){NULL, 0};
+    if (bytes.size > 0) memcpy(copy, bytes.data, (size_t)bytes.size);
+    copy[bytes.size] = 0;
+    return (Span){copy, bytes.size};
+}
+
+static bool list_saying(Metadata *metadata, Saying *saying) {
+    if (metadata->count == metadata->room) {
+        int64_t room = 2 * metadata->room + 16;
+        Saying **said = take_memory(&metadata->arena, room, sizeof *said);
+        if (said == NULL) return false;
+        if (metadata->count > 0) memcpy(said, metadata->said, (size_t)metadata->count * sizeof *said);
+        metadata->said = said;
+        metadata->room = room;
+    }
+    metadata->said[metadata->count++] = saying;
+    return true;
+}
+
+/* Take note of an entry whose name is not known yet. */
+bool add_saying(Metadata *metadata, const Value *key, const Value *value) {
+    Arena *arena = &metadata->arena;
+    Saying *saying = take_memory(arena, 1, sizeof *saying), *beside = nearest(metadata, key->bytes);
+    if (saying == NULL) return false;
+    Span name = copied(arena, key->bytes), bytes = copied(arena, value->bytes);
+    *saying = (Saying){name, value->kind, value->whole, value->number, bytes};
+    Branch *branch = beside != NULL ? take_memory(arena, 1, sizeof *branch) : NULL;
+    if (failed(arena->context) || !list_saying(metadata, saying)) return false;
+    void *leaf = (char *)saying + 1;
+    if (branch == NULL) {
+        metadata->root = leaf;
+        return true;
+    }
+    branch->bit = difference(beside->name, name);
+    void **place = &metadata->root;
+    while (!is_saying(*place) && ((Branch *)*place)->bit < branch->bit) {
+        Branch *above = *place;
+        place = &above->side[bit_of(name, above->bit)];
+    }
+    int side = bit_of(name, branch->bit);
+    branch->side[side] = leaf;
+    branch->side[!side] = *place;
+    *place = branch;
+    return true;
+}

@@ -1,0 +1,178 @@
+/* ORDER: vertices and faces as they were given (specification, F 9, C 9). */
+#include "bitstream/coefficients/coefficients.h"
+#include "bitstream/connectivity/connectivity.h"
+#include "engine/charges.h"
+#include "engine/coding.h"
+#include "engine/levels.h"
+
+enum { MOST_GIVEN = 1 << 24, STEP_UNARY = 6, STEP_SPAN = SIGNED_SPAN(STEP_UNARY) + 1, STEP_INPUTS = 4, CLASSES = 32, TURN_SLOTS = 108 };
+enum { FIRST, COPY, LOOSE };
+
+static bool read_permutation(Reading *reading, Arena *scratch, Ints values) {
+    Bank bank = make_bank(scratch, (BankPlan){.slots = (1 + CLASSES + 2 * CLASSES * CLASSES) * STEP_SPAN, .selectors = STEP_SPAN, .inputs = STEP_INPUTS});
+    Ints tree = take_ints(scratch, values.size + 1);
+    if (failed(reading->context)) return false;
+    bool legal = code_steps(reading->coder, bank, values, tree);
+    return (legal && !ran_over(reading)) || nonsense(reading, "a payload is not a permutation");
+}
+
+static bool read_turns(Reading *reading, Arena *scratch, Ints values) {
+    Bank bank = make_bank(scratch, (BankPlan){.slots = TURN_SLOTS, .selectors = 2, .inputs = 2});
+    if (failed(reading->context)) return false;
+    bool legal = code_turns(reading->coder, bank, values);
+    return (legal && !ran_over(reading)) || nonsense(reading, "a payload is not numbers from 0 to 2");
+}
+
+/* Whole numbers, as a matrix of one column (F 9.3). */
+static bool read_column(Reading *reading, Arena *scratch, Ints values) {
+    Bank bank = make_level_bank(scratch);
+    Longs slow = take_longs(scratch, 1);
+    if (failed(reading->context)) return false;
+    code_matrix(reading->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, 0, 1, 0, values.size, 1, slow);
+    return !ran_over(reading) || nonsense(reading, "");
+}
+
+/* Corner k of a face, of the three in ascending order. */
+static int32_t sorted_corner(const int32_t *face, int k) {
+    int32_t a = face[0], b = face[1], c = face[2], t;
+    if (a > b) t = a, a = b, b = t;
+    if (b > c) t = b, b = c, c = t;
+    if (a > b) t = a, a = b, b = t;
+    return k == 0 ? a : k == 1 ? b : c;
+}
+
+/* Faces by their largest corner, then the middle one, then the smallest, stably (C 9.5): sorted by the last first. */
+static bool suggest(ConstInts2 faces, int64_t vertices, Arena *scratch, Ints *order) {
+    int64_t m = faces.rows;
+    Ints from = take_ints(scratch, m), to = take_ints(scratch, m), ends = take_ints(scratch, vertices + 1);
+    if (failed(scratch->context)) return false;
+    for (int64_t f = 0; f < m; f++) from.data[f] = (int32_t)f;
+    for (int k = 0; k < 3; k++) {
+        memset(ends.data, 0, (size_t)(vertices + 1) * sizeof *ends.data);
+        for (int64_t f = 0; f < m; f++) ends.data[sorted_corner(faces.data + 3 * f, k) + 1]++;
+        for (int64_t v = 0; v < vertices; v++) ends.data[v + 1] += ends.data[v];
+        for (int64_t i = 0; i < m; i++) to.data[ends.data[sorted_corner(faces.data + 3 * (int64_t)from.data[i], k)]++] = from.data[i];
+        Ints swapped = from;
+        from = to;
+        to = swapped;
+    }
+    *order = from;
+    return true;
+}
+
+/* Where the values of each number below `count` are in an array whose entries below 0 count for nothing. */
+static bool invert(ConstInts values, int64_t count, Arena *arena, Ints *starts, Ints *members) {
+    *starts = zero_ints(arena, count + 2);
+    *members = take_ints(arena, values.size);
+    if (failed(arena->context)) return false;
+    int32_t *ends = starts->data + 1;
+    for (int64_t i = 0; i < values.size; i++)
+        if (values.data[i] >= 0) ends[values.data[i] + 1]++;
+    for (int64_t k = 0; k < count; k++) ends[k + 1] += ends[k];
+    for (int64_t i = 0; i < values.size; i++)
+        if (values.data[i] >= 0) members->data[ends[values.data[i]]++] = (int32_t)i;
+    return true;
+}
+
+/* The faces and corners that the user had (C 9.6); `numbers` are those of vertices. */
+static void arrange(ConstInts2 faces, Ints numbers, Ints order, Ints places, Ints turns, Ints2 arranged, Ints corners) {
+    for (int64_t rank = 0; rank < faces.rows; rank++) {
+        int64_t face = order.data[rank], place = places.data[rank];
+        int32_t renumbered[3];
+        int first = 0;
+        for (int k = 0; k < 3; k++) renumbered[k] = numbers.data[faces.data[3 * face + k]];
+        for (int k = 1; k < 3; k++)
+            if (renumbered[k] < renumbered[first]) first = k;
+        first += turns.data[place];
+        for (int k = 0; k < 3; k++) {
+            arranged.data[3 * place + k] = renumbered[(first + k) % 3];
+            corners.data[3 * place + k] = (int32_t)(3 * face + (first + k) % 3);
+        }
+    }
+}
+
+/* What each given vertex is, as C 9 numbers vertices, -1 for a loose one (F 9.2, F 9.3). */
+static bool read_sources(Reading *reading, int64_t vertices, int64_t copies, Arena *scratch, Ints met) {
+    Context *context = reading->context;
+    Ints kinds = zero_ints(scratch, met.size), back = zero_ints(scratch, copies);
+    if (failed(context) || !read_turns(reading, scratch, kinds) || !read_column(reading, scratch, back)) return false;
+    int64_t counted[3] = {0}, known = 0, copied = 0;
+    for (int64_t i = 0; i < met.size; i++) counted[kinds.data[i]]++;
+    if (counted[FIRST] != vertices || counted[COPY] != copies)
+        return FAIL(context, CORRUPT, "the kinds of given vertices are not as many as was said");
+    for (int64_t i = 0; i < met.size; i++) {
+        int64_t vertex = -1;
+        if (kinds.data[i] == FIRST) vertex = known++;
+        if (kinds.data[i] == COPY) {
+            int64_t behind = back.data[copied++];
+            vertex = known - 1 - behind;
+            if (behind < 0 || vertex < 0) return FAIL(context, CORRUPT, "a given vertex is a copy of one that does not come before it");
+        }
+        met.data[i] = (int32_t)vertex;
+    }
+    return true;
+}
+
+/* Corners as given vertices (F 9.4): the copies of vertex v are `members` from starts[v] on. */
+static bool read_corners(Reading *reading, int64_t copies, Ints starts, Ints members, Arena *scratch, Ints2 faces) {
+    Ints steps = zero_ints(scratch, 3 * faces.rows), visits = zero_ints(scratch, starts.size);
+    if (failed(reading->context) || (copies > 0 && !read_column(reading, scratch, steps))) return false;
+    for (int64_t i = 0; i < 3 * faces.rows; i++) {
+        int64_t v = faces.data[i], count = starts.data[v + 1] - starts.data[v];
+        if (steps.data[i] < 0 || steps.data[i] >= count) return FAIL(reading->context, CORRUPT, "a corner names a copy that there is not");
+        faces.data[i] = members.data[starts.data[v] + (visits.data[v]++ + steps.data[i]) % count];
+    }
+    return true;
+}
+
+static bool read_order(Reading *reading, ConstInts2 faces, int64_t vertices, int64_t copies, int64_t loose, Arena *arena, Arena *scratch, Numbering *numbering) {
+    Context *context = reading->context;
+    int64_t m = faces.rows;
+    Ints numbers = zero_ints(scratch, vertices), places = zero_ints(scratch, m), turns = zero_ints(scratch, m), order;
+    Ints2 arranged = take_ints2(arena, m, 3), renumbered = take_ints2(scratch, m, 3);
+    Ints corners = take_ints(arena, 3 * m), source = take_ints(arena, vertices + copies + loose), starts, members, coded;
+    if (failed(context) || !read_permutation(reading, scratch, numbers) || !read_permutation(reading, scratch, places)
+        || !read_turns(reading, scratch, turns))
+        return false;
+    for (int64_t i = 0; i < 3 * m; i++) renumbered.data[i] = numbers.data[faces.data[i]];
+    if (!suggest(const_ints2(renumbered), vertices, scratch, &order) || !invert(const_ints(numbers), vertices, scratch, &starts, &coded)) return false;
+    arrange(faces, numbers, order, places, turns, arranged, corners);
+    if (copies + loose > 0) {
+        if (!read_sources(reading, vertices, copies, scratch, source) || !invert(const_ints(source), vertices, scratch, &starts, &members)
+            || !read_corners(reading, copies, starts, members, scratch, arranged))
+            return false;
+        for (int64_t i = 0; i < source.size; i++) source.data[i] = source.data[i] < 0 ? -1 : coded.data[source.data[i]];
+    } else {
+        memcpy(source.data, coded.data, (size_t)vertices * sizeof *coded.data);
+    }
+    *numbering = (Numbering){.size = source.size, .faces = const_ints2(arranged), .source = const_ints(source), .corners = const_ints(corners),
+        .is_split = copies + loose > 0};
+    return true;
+}
+
+bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *header, Arena *arena, Arena *scratch, Numbering *numbering) {
+    double n = (double)header->vertices, m = (double)header->faces, bytes = (double)data.size;
+    Cursor cursor = {context, data};
+    if (!keep(context, order_memory(n, m), bytes) || !spend(context, order_work(n, m, bytes), bytes)) return false;
+    int64_t copies = take_varint(&cursor), loose = take_varint(&cursor), size = header->vertices + copies + loose;
+    if (failed(context) || !WITHIN(context, vertices, size)) return false;
+    if (header->vertices + copies > 3 * faces.rows || size >= MOST_GIVEN)
+        return FAIL(context, CORRUPT, "# copies of # vertices, and # in no face", copies, header->vertices, loose);
+    Span bytes_of_loose = take_span(&cursor, 24 * loose);
+    Doubles2 positions = take_doubles2(arena, loose, 3);
+    if (failed(context)) return false;
+    for (int64_t i = 0; i < 3 * loose; i++) {
+        uint64_t bits = little_endian(bytes_of_loose.data + 8 * i, 8);
+        memcpy(positions.data + i, &bits, sizeof bits);
+        if (!(positions.data[i] - positions.data[i] == 0.0)) return FAIL(context, CORRUPT, "a vertex that no face uses is not at a finite place");
+    }
+    Reading reading;
+    Mark mark = mark_of(scratch);
+    bool done = begin_reading(context, take_rest(&cursor), &reading)
+        && read_order(&reading, faces, header->vertices, copies, loose, arena, scratch, numbering) && finish_reading(&reading);
+    release_to(scratch, mark);
+    if (!done) return false;
+    numbering->loose = const_doubles2(positions);
+    if (loose > 0 && header->gop_frames > 0) return FAIL(context, CORRUPT, "a sequence of frames with vertices in no face");
+    return true;
+}

@@ -1,0 +1,214 @@
+/* The stages of one mesh: faces, blocks or grids, refinements, attributes (specification, F 3.8, F 8.3). */
+#include "engine/decoder.h"
+
+static bool behind_positions(const Mesh *mesh) { return mesh->has_layer || mesh->values_begun; }
+
+void end_mesh(Mesh *mesh) {
+    if (mesh->has_chains) end_chains(&mesh->chains);
+    release_all(&mesh->arena);
+}
+
+bool bear(bsmdec *decoder, int64_t block, bool anywhere) {
+    Context *context = &decoder->context;
+    bsmdec_status status = context->error.status;
+    if (!decoder->tolerant || !anywhere || status == BSMDEC_NO_MEMORY || status == BSMDEC_OK) return false;
+    locate(&context->error, decoder->reader.offset, -1, block);
+    if (decoder->loss_count == decoder->loss_room) {
+        int64_t room = 2 * decoder->loss_room + 16;
+        bsmdec_error error = take_error(context), *losses = host_take(context, (size_t)room * sizeof *losses);
+        if (losses == NULL) return false;
+        if (decoder->loss_count > 0) memcpy(losses, decoder->losses, (size_t)decoder->loss_count * sizeof *losses);
+        host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *losses);
+        decoder->losses = losses;
+        decoder->loss_room = room;
+        context->error = error;
+    }
+    decoder->losses[decoder->loss_count++] = take_error(context);
+    if (block >= 0 && decoder->mesh.has_chains) lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, block);
+    return tell(decoder, BSMDEC_LOSS, block);
+}
+
+static bool begin_mesh(bsmdec *decoder, const Header *header) {
+    Context *context = &decoder->context;
+    if (header->gop_frames > 0) return FAIL(context, UNSUPPORTED, "sequences are unknown to this decoder");
+    decoder->mesh = (Mesh){.header = *header, .arena = arena_of(context)};
+    decoder->has_mesh = true;
+    return tell(decoder, BSMDEC_HEADER, header->run);
+}
+
+static bool accept_connectivity(bsmdec *decoder, Span data) {
+    Context *context = &decoder->context;
+    Mesh *mesh = &decoder->mesh;
+    const Header *header = &mesh->header;
+    double n = (double)header->vertices, m = (double)header->faces, bytes = (double)data.size;
+    if (!decode_connectivity(context, data, header, &mesh->arena, &decoder->scratch, &mesh->faces)) return false;
+    context->spent.vertices += header->vertices;
+    mesh->has_faces = true;
+    mesh->numbering = (Numbering){.size = header->vertices, .faces = const_ints2(mesh->faces)};
+    return keep(context, mesh_memory(n, m), bytes) && spend(context, mesh_work(n, m, bytes), bytes);
+}
+
+static bool graph_of(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (!mesh->has_graph)
+        mesh->has_graph = make_graph(&decoder->context, mesh->faces, mesh->header.vertices, &mesh->arena, &decoder->scratch, &mesh->graph);
+    return mesh->has_graph;
+}
+
+static bool accept_partition(bsmdec *decoder, Span data) {
+    Context *context = &decoder->context;
+    Mesh *mesh = &decoder->mesh;
+    if (!graph_of(decoder)) return false;
+    double n = (double)mesh->graph.size, ends = (double)mesh->graph.neighbours.size, bytes = (double)data.size;
+    mesh->labels = zero_ints(&mesh->arena, mesh->graph.size);
+    return fine(context) && spend(context, labels_work(n, ends, bytes), bytes)
+        && decode_labels(context, data, &mesh->graph, mesh->header.blocks, &decoder->scratch, mesh->labels);
+}
+
+static bool announce(bsmdec *decoder) {
+    if (decoder->mesh.announced) return true;
+    decoder->mesh.announced = true;
+    return tell(decoder, BSMDEC_CONNECTIVITY, 0);
+}
+
+/* Blocks, and all that takes them in, when they are first needed. */
+static bool build(bsmdec *decoder) {
+    Context *context = &decoder->context;
+    Mesh *mesh = &decoder->mesh;
+    if (mesh->has_chains) return true;
+    if (!graph_of(decoder) || !make_blocks(context, &mesh->header, &mesh->graph, mesh->labels, &mesh->arena, &decoder->scratch, &mesh->blocks)
+        || !begin_assembly(&mesh->assembly, mesh->graph.size, &mesh->arena))
+        return false;
+    mesh->has_chains = begin_chains(&mesh->chains, context, &mesh->header, &mesh->graph, &mesh->blocks, &mesh->arena);
+    return mesh->has_chains && announce(decoder);
+}
+
+/* Give up the blocks before `index` that did not come. */
+static bool skip_to(bsmdec *decoder, int64_t index) {
+    Mesh *mesh = &decoder->mesh;
+    for (; mesh->next_block < index; mesh->next_block++) {
+        FAIL(&decoder->context, CORRUPT, "the frame of the block is missing");
+        locate(&decoder->context.error, -1, -1, mesh->next_block);
+        if (!bear(decoder, mesh->next_block, mesh->header.gop_frames == 0)) return false;
+    }
+    return true;
+}
+
+static bool accept_block(bsmdec *decoder, const Packet *packet) {
+    Mesh *mesh = &decoder->mesh;
+    DecodedBlock block;
+    if (!build(decoder) || !skip_to(decoder, packet->index)) return false;
+    mesh->next_block++;
+    if (!decode_block(&mesh->chains, packet->index, packet->coefficients, packet->data, &decoder->scratch, &block))
+        return bear(decoder, packet->index, mesh->header.gop_frames == 0);
+    add_block(&mesh->assembly, &block);
+    return tell(decoder, BSMDEC_BLOCK, packet->index);
+}
+
+static bool begun_grid(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (mesh->has_grid) return true;
+    mesh->has_grid = begin_grid(&mesh->grid, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena, &decoder->scratch);
+    return mesh->has_grid && announce(decoder);
+}
+
+static bool accept_grid(bsmdec *decoder, const Packet *packet) {
+    Mesh *mesh = &decoder->mesh;
+    if (!begun_grid(decoder)) return false;
+    if (mesh->grid.broken) return true;
+    if (decode_grid(&mesh->grid, packet->first, packet->count, packet->data, &decoder->scratch)) return tell(decoder, BSMDEC_BLOCK, mesh->chunks++);
+    mesh->grid.broken = true;
+    return bear(decoder, -1, true);
+}
+
+static bool begun_layer(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    Doubles2 base;
+    Bytes whole;
+    if (mesh->has_layer) return true;
+    if (!build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
+    end_chains(&mesh->chains);
+    mesh->has_layer = blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &base)
+        && mark_whole(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &whole)
+        && begin_layer(&mesh->layer, &decoder->context, &mesh->header, const_ints2(mesh->faces), base, whole, &mesh->arena, &decoder->scratch);
+    return mesh->has_layer;
+}
+
+static bool accept_refinement(bsmdec *decoder, const Packet *packet) {
+    Mesh *mesh = &decoder->mesh;
+    if (!begun_layer(decoder)) return false;
+    if (decode_layer(&mesh->layer, packet->first, packet->count, packet->data, &decoder->scratch))
+        return tell(decoder, BSMDEC_REFINEMENT, packet->first + packet->count);
+    mesh->layer.lossy = true;
+    return bear(decoder, -1, true);
+}
+
+static bool take_in(bsmdec *decoder, const Packet *packet) {
+    const uint32_t EARLY = 1u << CONNECTIVITY_FRAME | 1u << PARTITION_FRAME | 1u << ORDER_FRAME | 1u << BLOCK_FRAME;
+    Context *context = &decoder->context;
+    Mesh *mesh = &decoder->mesh;
+    /* Behind a loss the grammar does not know what came before it. */
+    if (behind_positions(mesh) && EARLY >> packet->type & 1) return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
+    switch (packet->type) {
+        case HEADER_FRAME: return begin_mesh(decoder, packet->header);
+        case METADATA_FRAME: return tell(decoder, BSMDEC_METADATA, decoder->reader.metadata.count);
+        case CONNECTIVITY_FRAME: return accept_connectivity(decoder, packet->data);
+        case PARTITION_FRAME: return accept_partition(decoder, packet->data);
+        case ORDER_FRAME:
+            return decode_order(context, packet->data, const_ints2(mesh->faces), &mesh->header, &mesh->arena, &decoder->scratch, &mesh->numbering);
+        case BLOCK_FRAME: return accept_block(decoder, packet);
+        case GRID_FRAME: return accept_grid(decoder, packet);
+        case REFINEMENT_FRAME: return accept_refinement(decoder, packet);
+        case END_FRAME: return accept_end(decoder);
+        default: return FAIL(context, UNSUPPORTED, "frames of type # are unknown to this decoder", packet->type);
+    }
+}
+
+bool accept_packet(bsmdec *decoder, const Packet *packet) {
+    Mark mark = mark_of(&decoder->scratch);
+    bool done = take_in(decoder, packet);
+    release_to(&decoder->scratch, mark);
+    return done;
+}
+
+bool accept_damage(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    Damage *damage = &decoder->reader.damage;
+    bool started = mesh->has_chains || mesh->has_grid;
+    bool bearable = started || (mesh->has_faces && (damage->type == BLOCK_FRAME || damage->type == ATTRIBUTE_FRAME));
+    decoder->context.error = damage->why;
+    decoder->context.error.status = BSMDEC_CORRUPT;
+    locate(&decoder->context.error, decoder->reader.damaged_offset, -1, -1);
+    if (mesh->has_grid) mesh->grid.broken = true;
+    if (mesh->has_layer && !mesh->values_begun && damage->type != VALUES_FRAME) mesh->layer.lossy = true;
+    return bearable && bear(decoder, -1, true);
+}
+
+/* All positions, in the unit of the mesh. */
+static bool finish_positions(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    Doubles2 positions;
+    if (mesh->has_grid) {
+        decoder->positions = const_doubles2(mesh->grid.positions);
+        return true;
+    }
+    if (mesh->has_layer) {
+        positions = take_doubles2(&decoder->shown, mesh->graph.size, 3);
+        if (failed(&decoder->context)) return false;
+        memcpy(positions.data, mesh->layer.positions.data, (size_t)(3 * mesh->graph.size) * sizeof(double));
+    } else if (!blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &decoder->shown, &decoder->scratch, &positions)) {
+        return false;
+    }
+    decoder->positions = const_doubles2(positions);
+    return into_unit(&decoder->context, &mesh->header, positions);
+}
+
+/* Nothing follows. */
+bool accept_end(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (!decoder->has_mesh || !mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
+    if (mesh->header.on_grid ? !begun_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
+    if (!finish_positions(decoder)) return false;
+    decoder->has_positions = decoder->ended = true;
+    return tell(decoder, BSMDEC_END, 0);
+}

@@ -1,0 +1,95 @@
+"""bsmdec by ctypes: what a stream decodes to, or the status of its error."""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+from ctypes import POINTER, Structure, byref, c_char, c_char_p, c_int, c_int64, c_size_t, c_void_p
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from tools.amalgamate import amalgamated, interface
+
+FLAGS = ("-std=gnu11", "-O2", "-ffp-contract=off", "-fPIC", "-shared")
+HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, END_OF_STREAM, ERROR = range(1, 12)
+
+
+class Event(Structure):
+    _fields_ = [("type", c_int), ("index", c_int64), ("vertices", c_int64), ("faces", c_int64)]
+
+
+class Failure(Structure):
+    _fields_ = [
+        ("status", c_int),
+        ("offset", c_int64),
+        ("frame", c_int64),
+        ("block", c_int64),
+        ("message", c_char * 160),
+    ]
+
+
+class Options(Structure):
+    _fields_ = [("limits", c_void_p), ("allocator", c_void_p), ("tolerant", c_int)]
+
+
+@dataclass
+class Decoded:
+    """What came of a stream: arrays by name, or a status that is not 0."""
+
+    status: int = 0
+    message: str = ""
+    arrays: dict[str, npt.NDArray[Any]] = field(default_factory=dict)
+    losses: int = 0
+
+
+def build(folder: Path, *flags: str) -> ctypes.CDLL:
+    """The library, compiled from one file."""
+    (folder / "bsmdec.c").write_text(amalgamated())
+    (folder / "bsmdec.h").write_text(interface())
+    target = folder / "bsmdec.so"
+    subprocess.run(["cc", *FLAGS, *flags, str(folder / "bsmdec.c"), "-o", str(target), "-lm"], check=True)
+    library = ctypes.CDLL(str(target))
+    library.bsmdec_open.restype = c_void_p
+    library.bsmdec_last_error.restype = POINTER(Failure)
+    for name in ("close", "push", "finish", "next", "faces", "positions", "last_error"):
+        getattr(library, f"bsmdec_{name}").argtypes = {
+            "push": [c_void_p, c_char_p, c_size_t],
+            "next": [c_void_p, POINTER(Event)],
+            "faces": [c_void_p, c_void_p, c_size_t],
+            "positions": [c_void_p, c_void_p, c_size_t],
+        }.get(name, [c_void_p])
+    return library
+
+
+def decode(library: ctypes.CDLL, stream: bytes, *, tolerant: bool = False, pieces: int = 0) -> Decoded:
+    """Decode a stream, given at once or so many bytes at a time."""
+    decoder = library.bsmdec_open(byref(Options(None, None, tolerant)))
+    try:
+        found, event = Decoded(), Event()
+        for start in range(0, len(stream), pieces or max(len(stream), 1)):
+            piece = stream[start : start + (pieces or len(stream))]
+            library.bsmdec_push(decoder, piece, len(piece))
+            while pieces and library.bsmdec_next(decoder, byref(event)) == 0 and event.type != 0:
+                _take(library, decoder, event, found)
+        library.bsmdec_finish(decoder)
+        while library.bsmdec_next(decoder, byref(event)) == 0 and event.type not in (0, END_OF_STREAM):
+            _take(library, decoder, event, found)
+        error = library.bsmdec_last_error(decoder).contents
+        found.status, found.message = error.status, error.message.decode()
+        return found
+    finally:
+        library.bsmdec_close(decoder)
+
+
+def _take(library: ctypes.CDLL, decoder: Any, event: Event, found: Decoded) -> None:
+    if event.type == LOSS:
+        found.losses += 1
+    if event.type == END:
+        faces, positions = np.zeros((event.faces, 3), np.uint32), np.zeros((event.vertices, 3))
+        assert library.bsmdec_faces(decoder, faces.ctypes.data, faces.size) == 0
+        assert library.bsmdec_positions(decoder, positions.ctypes.data, positions.size) == 0
+        found.arrays = {"positions": positions, "faces": faces.astype(np.int32)}

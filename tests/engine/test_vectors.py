@@ -1,0 +1,30 @@
+"""The decoder in C, compiled from one file, against all test vectors."""
+
+from __future__ import annotations
+
+import ctypes
+from pathlib import Path
+
+import pytest
+
+from tests.engine.decoding import build, decode
+from tools.vectors.store import Vector, read_manifest
+
+STATUS = {"format": 3, "corrupt": 4, "unsupported": 5, "limit": 6, "numeric": 7, "truncated": 12}
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
+    return build(tmp_path_factory.mktemp("bsmdec"), "-w")
+
+
+@pytest.mark.parametrize("vector", read_manifest(), ids=lambda vector: vector.name)
+def test_vector(library: ctypes.CDLL, vector: Vector) -> None:
+    found = decode(library, Path(vector.stream).read_bytes())
+    if found.status == STATUS["unsupported"] and vector.error != "unsupported":
+        pytest.skip(found.message)
+    assert found.status == STATUS.get(vector.error or "", 0), found.message
+    if vector.error is None:
+        arrays = dict(found.arrays)
+        complaint = vector.complaint(arrays.pop("positions"), arrays.pop("faces"), arrays)
+        assert complaint is None, complaint

@@ -1,0 +1,138 @@
+"""One file of C for the decoder: `python -m tools.amalgamate FOLDER` writes bsmdec.c and bsmdec.h there.
+
+All headers come first, then all sources; names that several files use for themselves get a suffix in each, and what
+is not the library's interface is static.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+FOLDERS = ("bitstream", "codec/basis", "codec/blocks", "codec/signal", "codec/sequence")
+FILES = ("codec/geometry/graph.c", "codec/static/units.c")
+INTERFACE = "engine/bsmdec.h"
+_OWN = re.compile(r'^#include "([^"]+)"\n', re.MULTILINE)
+_PROTOTYPE = re.compile(r"^(?=(?:u?int\d+_t|void|bool|double|[A-Z]\w+) [^=;{]*\([^;{]*\);)", re.MULTILINE)
+_FUNCTION = re.compile(
+    r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:const )?\w+ \**(?:LEVEL\()?(\w+)\)?\(", re.MULTILINE
+)
+_BARE = re.compile(
+    r"^(?=(?:KERNEL |OFTEN )*(?:u?int\d+_t|void|bool|double|float|[A-Z]\w+) "
+    r"\**(?!bsmdec_)(?:LEVEL\()?\w+\)?\([^;{]*\) \{)",
+    re.MULTILINE,
+)
+_TYPE = re.compile(r"^(?:typedef .*?|\} )(\w+);$", re.MULTILINE)
+_CONSTANTS = re.compile(r"enum \{(.*?)\}", re.DOTALL)
+_VARIABLES = re.compile(r"^static const [^=;({]*?(\w+)(?:\[[^=;]*)? = (.*?);$", re.MULTILINE | re.DOTALL)
+_MACRO = re.compile(r"^\s*#\s*define (\w+)", re.MULTILINE)
+
+
+def sources() -> list[str]:
+    """The files of the library, kernels first, by their paths in the repository."""
+    kernels = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.c"))]
+    engine = sorted((ROOT / "engine").glob("*.c"))
+    return [str(path.relative_to(ROOT)) for path in [*kernels, *(ROOT / name for name in FILES), *engine]]
+
+
+def priors() -> str:
+    """The learnt numbers of the specification as C."""
+    numbers = ",".join(map(str, (ROOT / "spec/priors.bin").read_bytes()))
+    return f"const unsigned char PRIORS[PRIORS_BYTES] = {{{numbers}}};\n"
+
+
+def _read(path: str) -> str:
+    return (ROOT / path).read_text()
+
+
+def _bare(text: str) -> str:
+    """Without comments."""
+    return re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
+
+
+def _headers(path: str, seen: dict[str, str]) -> None:
+    """Note the headers that a file asks for, each behind those that it asks for itself."""
+    for name in _OWN.findall(_read(path)):
+        if name not in seen and name != INTERFACE:
+            seen[name] = ""
+            _headers(name, seen)
+            del seen[name]
+            seen[name] = _OWN.sub("", _read(name))
+
+
+def _names(text: str) -> set[str]:
+    """Names of file scope that a text defines."""
+    bare = _bare(text)
+    constants = [
+        item for body in _CONSTANTS.findall(bare) for item in re.findall(r"(\w+)\s*(?:=[^,]*)?(?:,|$)", body.strip())
+    ]
+    variables = [
+        name for name, rest in _VARIABLES.findall(bare) for name in [name, *re.findall(r", (\w+)(?:\[[^=]*)? =", rest)]
+    ]
+    return {*_FUNCTION.findall(bare), *_TYPE.findall(bare), *constants, *variables}
+
+
+def _private(text: str) -> str:
+    """A header or a source whose names nobody else sees."""
+    text = text.replace("extern INSIDE const", "static const").replace("extern const", "static const")
+    return _BARE.sub(
+        "static ", _PROTOTYPE.sub("static ", re.sub(r"^const (?=.*\[)", "static const ", text, flags=re.MULTILINE))
+    )
+
+
+def _apart(texts: dict[str, str], seen_by: dict[str, dict[str, str]]) -> None:
+    """Give types that several headers name alike other names, in all but the first of these and where they are seen."""
+    first: dict[str, str] = {}
+    for header in [path for path in texts if path.endswith(".h")]:
+        for name in sorted(_TYPE.findall(_bare(texts[header]))):
+            if first.setdefault(name, header) != header:
+                for path in [header, *(path for path, headers in seen_by.items() if header in headers)]:
+                    texts[path] = re.sub(rf"\b{name}\b", f"{name}_{Path(header).stem}", texts[path])
+
+
+def amalgamated() -> str:
+    """The source of the whole library; it includes bsmdec.h."""
+    files, seen_by = sources(), dict[str, dict[str, str]]()
+    headers: dict[str, str] = {}
+    for path in files:
+        _headers(path, headers)
+        _headers(path, seen_by.setdefault(path, {}))
+    texts = headers | {path: _OWN.sub("", _read(path)) for path in files}
+    _apart(texts, seen_by)
+    headers = {path: texts[path] for path in headers}
+    own = {path: _names(texts[path]) for path in files}
+    shared = {name for text in headers.values() for name in re.findall(r"\w+", _bare(text))}
+    count = Counter(name for names in own.values() for name in names)
+    pieces = ['#include "bsmdec.h"\n', '#pragma GCC diagnostic ignored "-Wunused-function"\n']
+    pieces += [_private(text) for text in headers.values()]
+    for path in files:
+        text = texts[path]
+        macros = _MACRO.findall(text)
+        suffix = re.sub(r"\W", "_", path[:-2])
+        clashing = sorted(name for name in own[path] if count[name] > 1 or name in shared)
+        pieces.append(f"\n/* {path} */\n")
+        pieces += [f'#pragma push_macro("{name}")\n#undef {name}\n' for name in [*clashing, *macros]]
+        pieces += [f"#define {name} {name}_{suffix}\n" for name in clashing]
+        pieces.append(_private(text))
+        pieces += [f'#pragma pop_macro("{name}")\n' for name in [*clashing, *macros]]
+    return "".join([*pieces, _private(priors())])
+
+
+def interface() -> str:
+    """The header of the library."""
+    return _read(INTERFACE)
+
+
+def main() -> None:
+    """Write both files."""
+    folder = Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "bsmdec.c").write_text(amalgamated())
+    (folder / "bsmdec.h").write_text(interface())
+
+
+if __name__ == "__main__":
+    main()
