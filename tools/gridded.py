@@ -13,7 +13,8 @@ from bsm.bitstream.connectivity.faces import EncodedConnectivity, decode_connect
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.layout import parse_grid
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
-from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder, LightEncoder
+from bsm.bitstream.fields.corners import MOST_LARGEST, FieldDecoder, FieldEncoder
+from bsm.bitstream.fields.grid import grid_field, light_field
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import TriangleMesh
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
@@ -37,7 +38,7 @@ def gridded(coded: EncodedConnectivity, values: Ints, counts: Iterable[int], **f
 def grid_frames(faces: Ints, values: Ints, counts: Iterable[int], largest: Sequence[int], light: int) -> Frames:
     """GRID frames of so many vertices each."""
     frames, first = [], 0
-    encoder = (LightEncoder if light else GridEncoder)(faces, values, largest)
+    encoder = FieldEncoder((light_field if light else grid_field)(faces, len(values), largest), values)
     for count in counts:
         frames.append((int(FrameType.GRID), write_varint(first) + write_varint(count) + encoder.chunk(count)))
         first += count
@@ -52,7 +53,7 @@ def lightened(stream: bytes, *counts: int) -> bytes:
     data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
     faces = decode_connectivity(data, vertices, of_faces)
     chunks = [parse_grid(payload, DEFAULT_LIMITS) for kind, payload in frames if kind == FrameType.GRID]
-    decoder, values = GridDecoder(faces, vertices, largest), np.zeros((vertices, 3), np.int32)
+    decoder, values = FieldDecoder(grid_field(faces, vertices, largest)), np.zeros((vertices, 3), np.int32)
     for chunk in chunks:
         known, coded = decoder.chunk(chunk.data, chunk.count)
         values[known] = coded

@@ -3,30 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import Coder
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.fields.corners import (
     BYTES_PER_FACE,
     BYTES_PER_VERTEX,
     MODEL_BYTES,
     TERMS,
-    Corners,
     Field,
-    FieldDecoder,
-    FieldEncoder,
-    ValueModel,
+    State,
+    checked_largest,
     corners_of,
     make_learners,
     make_model,
     traverse,
 )
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]
@@ -87,29 +84,7 @@ def _unfolded(levels: Longs, size: int) -> Longs:
 
 
 MOST_COMPONENTS = 4
-MOST_LARGEST = (1 << 20) - 1
-"""Values are 0 to at most this."""
-
-
-def checked_largest(largest: npt.ArrayLike) -> Ints:
-    """`largest`, shape (c,), as int32; raises `OptionError`."""
-    top = np.array(largest, np.int64)
-    if top.ndim != 1 or not 1 <= len(top) <= MOST_COMPONENTS or top.min() < 0 or top.max() > MOST_LARGEST:
-        raise OptionError(
-            f"{top.tolist()}: the largest values must be 1 to {MOST_COMPONENTS}, from 0 to {MOST_LARGEST}"
-        )
-    return top.astype(np.int32)
-
-
-def checked_values(values: npt.ArrayLike, largest: Ints) -> npt.NDArray[np.integer]:
-    """`values` as an array of integers, shape (n, c), from 0 to `largest`, shape (c,); raises `MeshError`."""
-    given = np.asarray(values)
-    if given.ndim != 2 or given.shape[1] != len(largest) or given.dtype.kind not in "iu":
-        raise MeshError(f"values must be integers of shape (n, {len(largest)}), not {given.dtype} of {given.shape}")
-    if ((given < 0) | (given > largest)).any():
-        raise MeshError(f"values are outside their range, 0 to {largest}")
-    return given
-
+COLUMNS = range(1, MOST_COMPONENTS + 1)
 
 Kind = Literal["plain", "texcoord", "normal", "color"]
 _BASES = 4
@@ -117,7 +92,7 @@ _VALENCES = 6
 
 
 class _Values(NamedTuple):
-    """State of values on vertices; the struct `Values` of `values.h`."""
+    """State of values on vertices; the struct `Values` of `attributes.h`."""
 
     largest: Ints
     order: Ints
@@ -132,88 +107,48 @@ class _Values(NamedTuple):
     chart: Longs
 
 
-_Kernel = Callable[[Coder, ValueModel, Corners, _Values, int, int], int]
-
-
 def values_charge(vertices: int, faces: int, components: int, kind: Kind) -> int:
     """Bytes of memory that coding values of vertices takes at most; its work is linear in `vertices` + `faces`."""
     per_vertex = BYTES_PER_VERTEX + 60 + 16 * components + (48 if kind == "normal" else 0)
     return per_vertex * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (components << 17) + (1 << 17)
 
 
-def _field_of(
+def values_field(
     faces: npt.ArrayLike,
     vertices: int,
     largest: npt.ArrayLike,
-    kind: Kind,
-    geometry: npt.ArrayLike | None,
-    places: npt.ArrayLike | None,
+    kind: Kind = "plain",
+    geometry: npt.ArrayLike | None = None,
+    places: npt.ArrayLike | None = None,
 ) -> Field:
-    """What encoder and decoder share."""
-    top = checked_largest(largest)
-    kernel, start = _coder_of(kind, top)
-    corners = corners_of(faces, vertices)
+    """Values of vertices; `geometry`, shape (n, 3), foretells some kinds, and so do vertices of the same `places`."""
+    top = checked_largest(largest, COLUMNS)
+    kernel, weights = _coder_of(kind, top)
     components = len(top)
-    model = make_model()
-    values = _Values(
-        top,
-        traverse(corners),
-        ring_of_twins(places, vertices),
-        _checked_geometry(geometry, vertices),
-        np.zeros((vertices, components), np.int32),
-        np.zeros((vertices, components), np.int32),
-        np.zeros((vertices, components + 1), np.int64),
-        np.zeros((components, int(top.max()) // 64 + 1), np.int64),
-        make_learners(start),
-        np.zeros((vertices if kind == "normal" else 0, 12), np.int32),
-        np.array([0, 16 * int(top[0])], np.int64),
-    )
-    if kind == "normal":
-        _kernels.expect_normals(corners, values)
 
-    def code(coder: Coder, first: int, count: int) -> int:
-        return kernel(coder, model, corners, values, first, count)
+    def start() -> State:
+        corners = corners_of(faces, vertices)
+        model = make_model()
+        values = _Values(
+            top,
+            traverse(corners),
+            ring_of_twins(places, vertices),
+            _checked_geometry(geometry, vertices),
+            np.zeros((vertices, components), np.int32),
+            np.zeros((vertices, components), np.int32),
+            np.zeros((vertices, components + 1), np.int64),
+            np.zeros((components, int(top.max()) // 64 + 1), np.int64),
+            make_learners(weights),
+            np.zeros((vertices if kind == "normal" else 0, 12), np.int32),
+            np.array([0, 16 * int(top[0])], np.int64),
+        )
+        if kind == "normal":
+            _kernels.expect_normals(corners, values)
+        return State(lambda coder, *rows: kernel(coder, model, corners, values, *rows), values.order, values.values)
 
-    return Field(code, values.order, values.values)
-
-
-class ValueEncoder(FieldEncoder):
-    """Codes values of vertices."""
-
-    def __init__(
-        self,
-        faces: npt.ArrayLike,
-        values: npt.ArrayLike,
-        largest: npt.ArrayLike,
-        kind: Kind = "plain",
-        geometry: npt.ArrayLike | None = None,
-        places: npt.ArrayLike | None = None,
-    ) -> None:
-        top = checked_largest(largest)
-        given = checked_values(values, top)
-        field = _field_of(faces, len(given), largest, kind, geometry, places)
-        if kind == "normal" and (canonical_levels(given, int(top[0]) // 2) != given).any():
-            raise MeshError("levels of normals must be those that octahedral_levels makes, one pair for each direction")
-        field.values[:] = given
-        super().__init__(field)
-
-
-class ValueDecoder(FieldDecoder):
-    """Twin of `ValueEncoder`."""
-
-    def __init__(
-        self,
-        faces: npt.ArrayLike,
-        vertices: int,
-        largest: npt.ArrayLike,
-        kind: Kind = "plain",
-        geometry: npt.ArrayLike | None = None,
-        places: npt.ArrayLike | None = None,
-        limits: Limits = DEFAULT_LIMITS,
-    ) -> None:
-        components = len(checked_largest(largest))
-        limits.check("field_bytes", values_charge(vertices, len(np.asarray(faces)), components, kind))
-        super().__init__(_field_of(faces, vertices, largest, kind, geometry, places))
+    charge = values_charge(vertices, len(np.asarray(faces)), components, kind)
+    canonical = partial(canonical_levels, size=int(top[0]) // 2) if kind == "normal" else None
+    return Field(np.zeros_like(top), top, charge, start, canonical)
 
 
 def ring_of_twins(places: npt.ArrayLike | None, vertices: int) -> Ints:
@@ -243,7 +178,7 @@ def _checked_geometry(geometry: npt.ArrayLike | None, vertices: int) -> Ints:
     return np.array(given, np.int32, order="C")
 
 
-def _coder_of(kind: Kind, largest: Ints) -> tuple[_Kernel, Longs]:
+def _coder_of(kind: Kind, largest: Ints) -> tuple[Callable[..., int], Longs]:
     """The kernel of a kind, and the weights from which its learners start (A 4 to A 6)."""
     plain = kind in ("plain", "color")
     components = MOST_COMPONENTS if plain else 2
@@ -264,7 +199,7 @@ def _coder_of(kind: Kind, largest: Ints) -> tuple[_Kernel, Longs]:
 
 
 class _FaceValues(NamedTuple):
-    """State of values on faces; the struct `FaceValues` of `faces.h`."""
+    """State of values on faces; the struct `FaceValues` of `attributes.h`."""
 
     largest: Ints
     values: Ints
@@ -277,41 +212,25 @@ def face_values_charge(faces: int, components: int) -> int:
     return (3 * BYTES_PER_VERTEX + BYTES_PER_FACE + 8 * components) * faces + MODEL_BYTES + (1 << 17)
 
 
-def _field_of_faces(faces: npt.ArrayLike, largest: npt.ArrayLike) -> Field:
-    """What encoder and decoder share."""
-    top = checked_largest(largest)
-    given = np.asarray(faces)
-    corners = corners_of(given, int(given.max()) + 1 if given.size and given.dtype.kind in "iu" else 0)
-    count, components = len(corners.faces), len(top)
-    model = make_model()
-    values = _FaceValues(
-        top,
-        np.zeros((count, components), np.int32),
-        np.zeros((count, components), np.int32),
-        np.zeros((components, 257), np.int32),
-    )
+def face_values_field(faces: npt.ArrayLike, largest: npt.ArrayLike) -> Field:
+    """Values of faces, in the order of the faces: materials, groups, colours."""
+    given, top = np.asarray(faces), checked_largest(largest, COLUMNS)
+    components = len(top)
 
-    def code(coder: Coder, first: int, number: int) -> int:
-        return _kernels.code_faces(coder, model, corners, values, first, number)
+    def start() -> State:
+        corners = corners_of(given, int(given.max()) + 1 if given.size and given.dtype.kind in "iu" else 0)
+        count = len(corners.faces)
+        model = make_model()
+        values = _FaceValues(
+            top,
+            np.zeros((count, components), np.int32),
+            np.zeros((count, components), np.int32),
+            np.zeros((components, 257), np.int32),
+        )
+        return State(
+            lambda coder, *rows: _kernels.code_faces(coder, model, corners, values, *rows),
+            np.arange(count, dtype=np.int32),
+            values.values,
+        )
 
-    return Field(code, np.arange(count, dtype=np.int32), values.values)
-
-
-class FaceValueEncoder(FieldEncoder):
-    """Codes values of faces, in the order of the faces: materials, groups, colours."""
-
-    def __init__(self, faces: npt.ArrayLike, values: npt.ArrayLike, largest: npt.ArrayLike) -> None:
-        given = checked_values(values, checked_largest(largest))
-        field = _field_of_faces(faces, largest)
-        if len(given) != len(field.order):
-            raise MeshError(f"{len(given)} values for {len(field.order)} faces")
-        field.values[:] = given
-        super().__init__(field)
-
-
-class FaceValueDecoder(FieldDecoder):
-    """Twin of `FaceValueEncoder`."""
-
-    def __init__(self, faces: npt.ArrayLike, largest: npt.ArrayLike, limits: Limits = DEFAULT_LIMITS) -> None:
-        limits.check("field_bytes", face_values_charge(len(np.asarray(faces)), len(checked_largest(largest))))
-        super().__init__(_field_of_faces(faces, largest))
+    return Field(np.zeros_like(top), top, face_values_charge(len(given), components), start)

@@ -1,4 +1,4 @@
-"""What both sides know of a mesh before its values: corners, the corners beyond edges, and the order of coding."""
+"""Integers on vertices or faces: what both sides know of a mesh before them, and the one pair that codes all kinds."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from bsm.bitstream.entropy.range_coder import (
     start_writing,
 )
 from bsm.bitstream.errors import CorruptError, MeshError, OptionError, TruncatedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 MOST_FACES = (1 << 30) // 3
@@ -67,73 +68,124 @@ def traverse(corners: Corners) -> Ints:
 
 
 Kernel = Callable[[Coder, int, int], int]
-"""Codes rows of a field from a number in its order on, so many, as far as it can; returns how many."""
+"""Codes rows from a number in their order on, so many, as far as it can; returns how many."""
+MOST_LARGEST = (1 << 20) - 1
+"""Values from 0 on are at most this."""
 _ROOM = 1024
-_BYTES_PER_ROW = 4
 
 
-@dataclass(frozen=True, eq=False)
-class Field:
-    """Integers of vertices or faces, with what codes them."""
+class State(NamedTuple):
+    """A field under way: what codes it, its rows as they are coded, and their values."""
 
     code: Kernel
     order: Ints
     values: Ints
 
 
+@dataclass(frozen=True, eq=False)
+class Field:
+    """One kind of integers on vertices or faces: range of each column, bytes of memory to code it, how that begins."""
+
+    low: Ints
+    high: Ints
+    charge: int
+    start: Callable[[], State]
+    canonical: Callable[[Ints], Ints] | None = None
+    """What a decoder makes of values, where several mean the same."""
+
+
 class _FieldCoder:
     """What encoder and decoder share: how far they are."""
 
-    def __init__(self, field: Field) -> None:
-        self._field = field
+    def __init__(self, state: State) -> None:
+        self._state = state
         self._next = 0
 
     @property
     def order(self) -> Ints:
         """Vertices or faces in the order in which they are coded, shape (n,); it follows from the faces of the mesh."""
-        return self._field.order
+        return self._state.order
 
     @property
     def coded(self) -> int:
         """How many of them are coded."""
         return self._next
 
-    def _take(self, count: int) -> range:
-        if not 0 < count <= len(self.order) - self._next:
-            raise OptionError(f"a chunk of {count} where {len(self.order) - self._next} are left")
-        return range(self._next, self._next + count)
+    def _take(self, count: int) -> slice:
+        first, left = self._next, len(self.order) - self._next
+        if not 0 < count <= left:
+            raise OptionError(f"a chunk of {count} where {left} are left")
+        self._next = len(self.order)  # nothing comes behind an error
+        return slice(first, first + count)
 
 
 class FieldEncoder(_FieldCoder):
     """Codes the values of a field."""
 
+    def __init__(self, field: Field, values: npt.ArrayLike) -> None:
+        given, columns = np.asarray(values), len(field.high)
+        if given.ndim != 2 or given.shape[1] != columns or given.dtype.kind not in "iu":
+            raise MeshError(f"values must be integers of shape (n, {columns}), not {given.dtype} of {given.shape}")
+        if ((given < field.low) | (given > field.high)).any():
+            raise MeshError(f"values are outside their range, {field.low} to {field.high}")
+        if field.canonical is not None and (field.canonical(given) != given).any():
+            raise MeshError("values are not those that a decoder makes of them")
+        super().__init__(field.start())
+        if len(given) != len(self.order):
+            raise MeshError(f"{len(given)} values where there are {len(self.order)} vertices or faces")
+        self._state.values[:] = given
+
     def chunk(self, count: int) -> bytes:
         """Code the next `count` of `order`; raises `OptionError` if there are fewer."""
-        end = self._take(count).stop
-        coder = start_writing(_ROOM + _BYTES_PER_ROW * count)
-        while self._next < end:
-            coder = make_room(coder, _ROOM + _BYTES_PER_ROW * (end - self._next))
-            self._next += self._field.code(coder, self._next, end - self._next)
-        return finish_writing(coder)
+        rows = self._take(count)
+        payload = write_rows(self._state.code, rows.start, count)
+        self._next = rows.stop
+        return payload
 
 
 class FieldDecoder(_FieldCoder):
     """Twin of `FieldEncoder`."""
 
+    def __init__(self, field: Field, limits: Limits = DEFAULT_LIMITS) -> None:
+        limits.check("field_bytes", field.charge)
+        super().__init__(field.start())
+
     def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
         """Decode the next `count` of `order`."""
-        places = self._take(count)
-        self._next = len(self.order)
-        coder = start_reading(payload)
-        done = self._field.code(coder, places.start, count)
-        if overran(coder):
-            raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {count} values")
-        if done < count:
-            raise CorruptError(f"number {done} of a payload of {count} has a value out of range")
-        finish_reading(coder)
-        self._next = places.stop
-        rows = self.order[places.start : places.stop].copy()
-        return rows, self._field.values[rows]
+        rows = self._take(count)
+        read_rows(self._state.code, payload, rows.start, count)
+        self._next = rows.stop
+        which = self.order[rows].copy()
+        return which, self._state.values[which]
+
+
+def write_rows(code: Kernel, first: int, count: int, row_bytes: int = 4) -> bytes:
+    """Code rows of usually so many bytes."""
+    coder, end = start_writing(_ROOM + row_bytes * count), first + count
+    while first < end:
+        coder = make_room(coder, _ROOM + row_bytes * (end - first))
+        first += code(coder, first, end - first)
+    return finish_writing(coder)
+
+
+def read_rows(code: Kernel, payload: bytes, first: int, count: int) -> None:
+    """Twin of `write_rows`."""
+    coder = start_reading(payload)
+    done = code(coder, first, count)
+    if overran(coder):
+        raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {count} values")
+    if done < count:
+        raise CorruptError(f"number {done} of a payload of {count} has a value out of range")
+    finish_reading(coder)
+
+
+def checked_largest(largest: npt.ArrayLike, columns: range) -> Ints:
+    """The largest value of each of so many columns, as int32; raises `OptionError`."""
+    top = np.array(largest, np.int64)
+    if top.ndim != 1 or len(top) not in columns or top.min() < 0 or top.max() > MOST_LARGEST:
+        some = f"{columns[0]} to {columns[-1]}" if len(columns) > 1 else f"{columns[0]}"
+        raise OptionError(f"the largest values must be {some}, from 0 to {MOST_LARGEST}, not {top.tolist()}")
+    return top.astype(np.int32)
 
 
 PREDICTIONS = 7

@@ -2,36 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import (
-    Coder,
-    finish_reading,
-    finish_writing,
-    make_room,
-    overran,
-    start_reading,
-    start_writing,
-)
-from bsm.bitstream.errors import CorruptError, MeshError, OptionError, TruncatedError
+from bsm.bitstream.errors import OptionError
 from bsm.bitstream.fields.corners import (
     BYTES_PER_FACE,
     BYTES_PER_VERTEX,
     MODEL_BYTES,
     TERMS,
     Field,
-    FieldDecoder,
-    FieldEncoder,
+    Kernel,
+    State,
+    checked_largest,
     corners_of,
     make_learners,
     make_model,
+    read_rows,
     traverse,
+    write_rows,
 )
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 _SAMPLES = (4, 32)
 _AT_ONCE = 1 << 20
@@ -73,12 +67,10 @@ def _fits(values: npt.NDArray[np.int64], count: npt.NDArray[np.int64], cells: in
 
 Ints = npt.NDArray[np.int32]
 AXES = 3
-MOST_LARGEST = (1 << 20) - 1
-"""Values of an axis are 0 to at most this."""
 
 
 class _Grid(NamedTuple):
-    """State of a grid; the struct `Grid` of `grid.h`."""
+    """State of a grid; the struct of that name in `fields.h`, and so are those below."""
 
     largest: Ints
     order: Ints
@@ -94,61 +86,27 @@ def grid_charge(vertices: int, faces: int) -> int:
     return (BYTES_PER_VERTEX + 60) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 20)
 
 
-def largest_of(largest: npt.ArrayLike) -> Ints:
-    """The largest values of the axes, shape (3,), checked; raises `OptionError` as `GridEncoder`."""
-    top = np.array(largest, np.int64)
-    if top.shape != (AXES,) or top.min() < 0 or top.max() > MOST_LARGEST:
-        raise OptionError(f"the largest values of a grid must be {AXES} from 0 to {MOST_LARGEST}, not {top.tolist()}")
-    return top.astype(np.int32)
+def grid_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
+    """Positions on a grid, in as few bytes as can be."""
+    top = checked_largest(largest, range(AXES, AXES + 1))
 
+    def start() -> State:
+        corners = corners_of(faces, vertices)
+        model = make_model()
+        grid = _Grid(
+            top,
+            traverse(corners),
+            np.zeros((vertices, AXES), np.int32),
+            np.zeros((vertices, AXES), np.int32),
+            np.zeros((vertices, 4), np.int64),
+            np.zeros((AXES, int(top.max()) // 64 + 1), np.int64),
+            make_learners(_start_of_learners()),
+        )
+        return State(
+            lambda coder, *rows: _kernels.code_grid(coder, model, corners, grid, *rows), grid.order, grid.values
+        )
 
-def _grid_of(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
-    """What encoder and decoder share."""
-    top = largest_of(largest)
-    corners = corners_of(faces, vertices)
-    model = make_model()
-    grid = _Grid(
-        top,
-        traverse(corners),
-        np.zeros((vertices, AXES), np.int32),
-        np.zeros((vertices, AXES), np.int32),
-        np.zeros((vertices, 4), np.int64),
-        np.zeros((AXES, int(top.max()) // 64 + 1), np.int64),
-        make_learners(_start_of_learners()),
-    )
-
-    def code(coder: Coder, first: int, count: int) -> int:
-        return _kernels.code_grid(coder, model, corners, grid, first, count)
-
-    return Field(code, grid.order, grid.values)
-
-
-class GridEncoder(FieldEncoder):
-    """Codes positions on a grid, in as few bytes as can be."""
-
-    _field_of = staticmethod(_grid_of)
-
-    def __init__(self, faces: npt.ArrayLike, positions: npt.ArrayLike, largest: npt.ArrayLike) -> None:
-        given = np.asarray(positions)
-        if given.ndim != 2 or given.shape[1] != AXES or given.dtype.kind not in "iu":
-            raise MeshError(f"positions on a grid must be integers of shape (n, {AXES})")
-        field = self._field_of(faces, len(given), largest)
-        if ((given < 0) | (given > np.asarray(largest))).any():
-            raise MeshError(f"positions are outside their grid, 0 to {np.asarray(largest)}")
-        field.values[:] = given
-        super().__init__(field)
-
-
-class GridDecoder(FieldDecoder):
-    """Twin of `GridEncoder`."""
-
-    _field_of = staticmethod(_grid_of)
-
-    def __init__(
-        self, faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike, limits: Limits = DEFAULT_LIMITS
-    ) -> None:
-        limits.check("field_bytes", grid_charge(vertices, len(np.asarray(faces))))
-        super().__init__(self._field_of(faces, vertices, largest))
+    return Field(np.zeros_like(top), top, grid_charge(vertices, len(np.asarray(faces))), start)
 
 
 def _start_of_learners() -> npt.NDArray[np.int64]:
@@ -164,47 +122,33 @@ _SLOTS_OF_SIZE = 12 * 12 + 3 + 4
 
 
 class _Light(NamedTuple):
-    """State of a light grid; the struct `Light` of `light.h`."""
-
     largest: Ints
     values: Ints
     gaps: Ints
     slots: npt.NDArray[np.uint32]
 
 
-def _light_of(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
-    """What encoder and decoder share (V 15)."""
-    top = largest_of(largest)
-    corners = corners_of(faces, vertices)
-    light = _Light(
-        top,
-        np.zeros((vertices, AXES), np.int32),
-        np.zeros((vertices, AXES), np.int32),
-        np.full(_SIZES * _SLOTS_OF_SIZE, 1 << 31, np.uint32),
-    )
+def light_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
+    """Positions on a grid that are quick to decode (V 15), which takes less than `grid_charge`."""
+    full = grid_field(faces, vertices, largest)
 
-    def code(coder: Coder, first: int, count: int) -> int:
-        return _kernels.code_light(coder, corners, light, first, count)
+    def start() -> State:
+        corners = corners_of(faces, vertices)
+        light = _Light(
+            full.high,
+            np.zeros((vertices, AXES), np.int32),
+            np.zeros((vertices, AXES), np.int32),
+            np.full(_SIZES * _SLOTS_OF_SIZE, 1 << 31, np.uint32),
+        )
+        return State(lambda coder, *rows: _kernels.code_light(coder, corners, light, *rows), corners.rank, light.values)
 
-    return Field(code, corners.rank, light.values)
-
-
-class LightEncoder(GridEncoder):
-    """Codes positions on a grid so that they are quick to decode; all else as `GridEncoder`."""
-
-    _field_of = staticmethod(_light_of)
-
-
-class LightDecoder(GridDecoder):
-    """Twin of `LightEncoder`; `grid_charge` is more than it takes."""
-
-    _field_of = staticmethod(_light_of)
+    return replace(full, start=start)
 
 
 Numbers = npt.NDArray[np.int64]
 _SLOTS = 9
 _NO_FLOAT = 1 << 40
-_ROOM, _BYTES_PER_ROW = 1024, 16
+_BYTES_PER_ROW = 16
 
 
 def ordered(values: npt.ArrayLike) -> Numbers:
@@ -236,7 +180,7 @@ def cells_of(values: Ints, origin: npt.NDArray[np.float64], step: float) -> Cell
 
 
 class Floats:
-    """What is learnt of floats, from frame to frame; the struct `Floats` of `floats.h`."""
+    """What is learnt of floats, from frame to frame."""
 
     def __init__(self, largest: tuple[int, ...]) -> None:
         self._state = (
@@ -254,23 +198,16 @@ class Floats:
         """Code the numbers of floats, shape (k, 3), each in its cell, of values of a grid, shape (k, 3)."""
         if ((floats < cells.low) | (floats >= cells.high)).any():
             raise OptionError("a float is not in the cell of its value")
-        coder, done = start_writing(_ROOM), 0
-        while done < len(values):
-            coder = make_room(coder, _ROOM + _BYTES_PER_ROW * (len(values) - done))
-            done += self._code(coder, values[done:], Cells(*(numbers[done:] for numbers in cells)), floats[done:])
-        return finish_writing(coder)
+        return write_rows(self._kernel(values, cells, floats), 0, len(values), _BYTES_PER_ROW)
 
     def decode(self, payload: bytes, values: Ints, cells: Cells) -> Numbers:
         """Twin of `encode`: returns the numbers of the floats, shape (k, 3)."""
         floats = np.zeros(values.shape, np.int64)
-        coder = start_reading(payload)
-        done = self._code(coder, values, cells, floats)
-        if overran(coder):
-            raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {len(values)} floats")
-        if done < len(values):
-            raise CorruptError(f"number {done} of {len(values)} is in a cell without floats")
-        finish_reading(coder)
+        read_rows(self._kernel(values, cells, floats), payload, 0, len(values))
         return floats
 
-    def _code(self, coder: Coder, values: Ints, cells: Cells, floats: Numbers) -> int:
-        return _kernels.code_floats(coder, self._state, np.ascontiguousarray(values), *cells, floats)
+    def _kernel(self, values: Ints, cells: Cells, floats: Numbers) -> Kernel:
+        given, numbers = np.ascontiguousarray(values), (*cells, floats)
+        return lambda coder, first, _: _kernels.code_floats(
+            coder, self._state, given[first:], *(each[first:] for each in numbers)
+        )

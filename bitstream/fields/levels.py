@@ -8,19 +8,16 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import Coder, make_bank
-from bsm.bitstream.errors import MeshError
+from bsm.bitstream.entropy.range_coder import make_bank
 from bsm.bitstream.fields.corners import (
     BYTES_PER_FACE,
     BYTES_PER_VERTEX,
     TERMS,
     Field,
-    FieldDecoder,
-    FieldEncoder,
+    State,
     corners_of,
     make_learners,
 )
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 Ints = npt.NDArray[np.int32]
 
@@ -36,7 +33,7 @@ MODEL_BYTES = 4 * _SLOTS
 
 
 class _Levels(NamedTuple):
-    """State of levels; the struct `Levels` of `levels.h`."""
+    """The struct `Levels` of `fields.h`."""
 
     levels: Ints
     gaps: Ints
@@ -49,44 +46,20 @@ def levels_charge(vertices: int, faces: int) -> int:
     return (BYTES_PER_VERTEX + 12 * AXES) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 17)
 
 
-def _levels_of(faces: npt.ArrayLike, vertices: int) -> Field:
-    """What encoder and decoder share."""
-    corners = corners_of(faces, vertices)
-    model = make_bank(_SLOTS, _SORTS * _NODES, _INPUTS, rate=_RATE)
-    shape = vertices, AXES
-    levels = _Levels(
-        np.zeros(shape, np.int32),
-        np.zeros(shape, np.int32),
-        np.zeros(shape, np.int32),
-        make_learners(_start_of_learners()),
-    )
+def levels_field(faces: npt.ArrayLike, vertices: int) -> Field:
+    """Levels, vertices in the order of their numbers."""
+    top = np.full(AXES, MOST_LEVEL, np.int32)
 
-    def code(coder: Coder, first: int, count: int) -> int:
-        return _kernels.code_levels(coder, model, corners, levels, first, count)
+    def start() -> State:
+        corners = corners_of(faces, vertices)
+        model = make_bank(_SLOTS, _SORTS * _NODES, _INPUTS, rate=_RATE)
+        given, gaps, means = np.zeros((3, vertices, AXES), np.int32)
+        levels = _Levels(given, gaps, means, make_learners(_start_of_learners()))
+        return State(
+            lambda coder, *rows: _kernels.code_levels(coder, model, corners, levels, *rows), corners.rank, levels.levels
+        )
 
-    return Field(code, np.arange(vertices, dtype=np.int32), levels.levels)
-
-
-class LevelsEncoder(FieldEncoder):
-    """Codes levels, vertices in the order of their numbers."""
-
-    def __init__(self, faces: npt.ArrayLike, levels: npt.ArrayLike) -> None:
-        given = np.asarray(levels)
-        if given.ndim != 2 or given.shape[1] != AXES or given.dtype.kind not in "iu":
-            raise MeshError("levels must be integers of shape (n, 3)")
-        if ((given < -MOST_LEVEL) | (given > MOST_LEVEL)).any():
-            raise MeshError(f"levels must be at most {MOST_LEVEL} in magnitude; choose a larger step")
-        field = _levels_of(faces, given.shape[0])
-        field.values[:] = given
-        super().__init__(field)
-
-
-class LevelsDecoder(FieldDecoder):
-    """Twin of `LevelsEncoder`."""
-
-    def __init__(self, faces: npt.ArrayLike, vertices: int, limits: Limits = DEFAULT_LIMITS) -> None:
-        limits.check("field_bytes", levels_charge(vertices, len(np.asarray(faces))))
-        super().__init__(_levels_of(faces, vertices))
+    return Field(-top, top, levels_charge(vertices, len(np.asarray(faces))), start)
 
 
 def _start_of_learners() -> npt.NDArray[np.int64]:

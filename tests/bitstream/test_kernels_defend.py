@@ -23,6 +23,7 @@ from bsm.bitstream.entropy import range_coder
 from bsm.bitstream.fields import corners, grid, levels
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces
+from tests.bitstream.fields.fields import decode, encode, field_of
 
 MODULES = (
     *(adaptive, matrices, rate_distortion),
@@ -91,36 +92,28 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     np.testing.assert_array_equal(decode_labels(payload, graph.offsets, graph.neighbours, int(labels[-1]) + 1), labels)
 
     positions = np.arange(3 * vertices).reshape(vertices, 3) % 7
-    payload = grid.GridEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
-    places, found = grid.GridDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
-    np.testing.assert_array_equal(found, positions[places])
-    payload = grid.LightEncoder(decoded, positions, (6, 6, 6)).chunk(vertices)
-    places, found = grid.LightDecoder(decoded, vertices, (6, 6, 6)).chunk(payload, vertices)
-    np.testing.assert_array_equal(found, positions[places])
     cells = grid.Cells(*(10 * positions.astype(np.int64) + more for more in (0, 5, 10)))
     payload = grid.Floats((6, 6, 6)).encode(positions.astype(np.int32), cells, cells.low + 3)
     found = grid.Floats((6, 6, 6)).decode(payload, positions.astype(np.int32), cells)
     np.testing.assert_array_equal(found, cells.low + 3)
-    payload = levels.LevelsEncoder(decoded, positions - 3).chunk(vertices)
-    np.testing.assert_array_equal(levels.LevelsDecoder(decoded, vertices).chunk(payload, vertices)[1], positions - 3)
     linked = corners.corners_of(decoded, vertices)
     torn = attribute_seams.find_seams(linked, given % 5)
     payload = attribute_seams.encode_seams(linked, torn)
     np.testing.assert_array_equal(attribute_seams.decode_seams(payload, linked), torn)
     assert attribute_seams.Joins(linked, torn).faces.shape == decoded.shape
-    for kind, offered in {"plain": positions, "texcoord": positions[:, :2]}.items():
-        payload = values.ValueEncoder(decoded, offered, offered.max(axis=0), kind, positions).chunk(vertices)
-        decoder = values.ValueDecoder(decoded, vertices, offered.max(axis=0), kind, positions)
-        places, found = decoder.chunk(payload, vertices)
-        np.testing.assert_array_equal(found, offered[places])
     normals = octahedral_levels(positions - 3.5, 63)
-    payload = values.ValueEncoder(decoded, normals, (126, 126), "normal", positions).chunk(vertices)
-    places, found = values.ValueDecoder(decoded, vertices, (126, 126), "normal", positions).chunk(payload, vertices)
-    np.testing.assert_array_equal(found, normals[places])
-    groups = (np.arange(len(decoded)) // 9)[:, None]
-    payload = values.FaceValueEncoder(decoded, groups, groups.max(axis=0)).chunk(len(groups))
-    found = values.FaceValueDecoder(decoded, groups.max(axis=0)).chunk(payload, len(groups))[1]
-    np.testing.assert_array_equal(found, groups)
+    for name, offered in {
+        "grid": positions,
+        "light": positions,
+        "levels": positions,
+        "plain": positions,
+        "texcoord": positions[:, :2],
+        "normal": normals,
+        "faces": (np.arange(len(decoded)) // 9)[:, None],
+    }.items():
+        largest = [126, 126] if name == "normal" else offered.max(axis=0)
+        field = field_of(name, decoded, vertices, largest, positions)
+        np.testing.assert_array_equal(decode(field, encode(field, offered)), offered)
 
     chosen = rate_distortion.choose_levels(CoefficientModel(60), 300 * given.astype(np.int64), 0.1).levels
     payload = adaptive.encode_coefficients(CoefficientModel(60), chosen)

@@ -16,9 +16,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.errors import BsmError
-from bsm.bitstream.fields.corners import FieldDecoder
-from bsm.bitstream.fields.grid import MOST_LARGEST, GridDecoder, GridEncoder, LightDecoder, LightEncoder, spread
-from bsm.bitstream.fields.levels import MOST_LEVEL, LevelsDecoder, LevelsEncoder
+from bsm.bitstream.fields.corners import MOST_LARGEST, FieldDecoder
+from bsm.bitstream.fields.grid import grid_field, light_field, spread
+from bsm.bitstream.fields.levels import MOST_LEVEL, levels_field
 from tests.bitstream.fields.fields import KINDS, SOUPS, Chunks, encode, values
 from tools import field_tables
 from tools.measure.grids import rounded, welded
@@ -86,11 +86,11 @@ def test_grids(reference, mesh, largest, kind, seed, chunk, data):
     if not vertices:
         return
     positions = values(vertices, (0, 0, 0), largest, kind, seed)
-    encoder = GridEncoder(faces, positions, largest)
-    chunks = encode(encoder, vertices, chunk)
-    assert reference.Mesh(faces.tolist(), vertices, True).order == encoder.order.tolist()
+    field = grid_field(faces, vertices, largest)
+    chunks = encode(field, positions, chunk)
+    assert reference.Mesh(faces.tolist(), vertices, True).order == FieldDecoder(field).order.tolist()
     for payloads in (chunks, damaged(chunks, data)):
-        expected = outcome(product(GridDecoder(faces, vertices, largest)), payloads)
+        expected = outcome(product(FieldDecoder(field)), payloads)
         assert outcome(plain(reference.GridReader(faces.tolist(), vertices, list(largest))), payloads) == expected
 
 
@@ -100,9 +100,10 @@ def test_light_grids(reference, mesh, largest, kind, seed, chunk, data):
     faces, vertices = mesh
     if not vertices:
         return
-    chunks = encode(LightEncoder(faces, values(vertices, (0, 0, 0), largest, kind, seed), largest), vertices, chunk)
+    field = light_field(faces, vertices, largest)
+    chunks = encode(field, values(vertices, (0, 0, 0), largest, kind, seed), chunk)
     for payloads in (chunks, damaged(chunks, data)):
-        expected = outcome(product(LightDecoder(faces, vertices, largest)), payloads)
+        expected = outcome(product(FieldDecoder(field)), payloads)
         assert outcome(plain(reference.LightReader(faces.tolist(), vertices, list(largest))), payloads) == expected
 
 
@@ -112,9 +113,10 @@ def test_levels(reference, mesh, most, kind, seed, chunk, data):
     faces, vertices = mesh
     if not vertices:
         return
-    chunks = encode(LevelsEncoder(faces, values(vertices, [-most] * 3, [most] * 3, kind, seed)), vertices, chunk)
+    field = levels_field(faces, vertices)
+    chunks = encode(field, values(vertices, [-most] * 3, [most] * 3, kind, seed), chunk)
     for payloads in (chunks, damaged(chunks, data)):
-        expected = outcome(product(LevelsDecoder(faces, vertices)), payloads)
+        expected = outcome(product(FieldDecoder(field)), payloads)
         assert outcome(plain(reference.LevelsReader(faces.tolist(), vertices)), payloads) == expected
 
 
@@ -125,15 +127,17 @@ def test_real_meshes(reference, meshes: Path, name: str, bits: int):
     positions, faces = welded(str(meshes / "static" / f"{name}.ply"))
     grid = rounded(positions, bits)
     largest = grid.max(axis=0).tolist()
-    chunks = encode(GridEncoder(faces, grid, largest), len(grid), 700)[:2]
-    expected = outcome(product(GridDecoder(faces, len(grid), largest)), chunks)
+    field = grid_field(faces, len(grid), largest)
+    chunks = encode(field, grid, 700)[:2]
+    expected = outcome(product(FieldDecoder(field)), chunks)
     assert outcome(plain(reference.GridReader(faces.tolist(), len(grid), largest)), chunks) == expected
-    light = encode(LightEncoder(faces, grid, largest), len(grid), 700)
-    expected = outcome(product(LightDecoder(faces, len(grid), largest)), light)
+    field = light_field(faces, len(grid), largest)
+    light = encode(field, grid, 700)
+    expected = outcome(product(FieldDecoder(field)), light)
     assert outcome(plain(reference.LightReader(faces.tolist(), len(grid), largest)), light) == expected
     levels = (grid - rounded(positions * np.float32(0.999), bits)) % 5 - 2
-    chunks = encode(LevelsEncoder(faces, levels), len(grid), 700)[:2]
-    expected = outcome(product(LevelsDecoder(faces, len(grid))), chunks)
+    chunks = encode(levels_field(faces, len(grid)), levels, 700)[:2]
+    expected = outcome(product(FieldDecoder(levels_field(faces, len(grid)))), chunks)
     assert outcome(plain(reference.LevelsReader(faces.tolist(), len(grid))), chunks) == expected
 
 

@@ -13,14 +13,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.values import (
-    MOST_LARGEST,
-    FaceValueDecoder,
-    FaceValueEncoder,
-    ValueDecoder,
-    ValueEncoder,
-    canonical_levels,
-)
+from bsm.bitstream.attributes.values import canonical_levels, face_values_field, values_field
+from bsm.bitstream.fields.corners import MOST_LARGEST, FieldDecoder
 from tests.bitstream.fields.fields import KINDS, SOUPS, encode, values
 from tests.spec.test_reference_fields import damaged, outcome, plain, product
 from tools.measure.grids import rounded, welded
@@ -39,7 +33,7 @@ def reference():
     sys.path.remove(str(SPEC))
 
 
-def lists_of(decoder: FaceValueDecoder) -> Callable[[bytes, int], Any]:
+def lists_of(decoder: FieldDecoder) -> Callable[[bytes, int], Any]:
     return lambda payload, count: decoder.chunk(payload, count)[1].tolist()
 
 
@@ -75,9 +69,10 @@ def test_values(reference, mesh, kind, shape, data, values_kind, seed, chunk):
         given_values = canonical_levels(given_values, most // 2)
     places = np.random.default_rng(seed).integers(0, data.draw(st.sampled_from([1, vertices, 3 * vertices])), vertices)
     at = geometry(vertices, shape, seed)
-    chunks = encode(ValueEncoder(faces, given_values, largest, kind, at, places), vertices, chunk)
+    field = values_field(faces, vertices, largest, kind, at, places)
+    chunks = encode(field, given_values, chunk)
     for payloads in (chunks, damaged(chunks, data)):
-        expected = outcome(product(ValueDecoder(faces, vertices, largest, kind, at, places)), payloads)
+        expected = outcome(product(FieldDecoder(field)), payloads)
         reader = reference.ValueReader(
             faces.tolist(), vertices, list(largest), kind, None if at is None else at.tolist(), places.tolist()
         )
@@ -91,14 +86,11 @@ def test_values_of_faces(reference, mesh, components, most, kind, seed, chunk, d
     if not len(faces):
         return
     largest = (most,) * components
-    chunks = encode(
-        FaceValueEncoder(faces, values(len(faces), [0] * components, largest, kind, seed), largest), len(faces), chunk
-    )
+    field = face_values_field(faces, largest)
+    chunks = encode(field, values(len(faces), [0] * components, largest, kind, seed), chunk)
     for payloads in (chunks, damaged(chunks, data)):
-        decoder, reader = FaceValueDecoder(faces, largest), reference.FaceReader(faces.tolist(), list(largest))
-        expected = outcome(lists_of(decoder), payloads)
-
-        assert outcome(rows_of(reader), payloads) == expected
+        expected = outcome(lists_of(FieldDecoder(field)), payloads)
+        assert outcome(rows_of(reference.FaceReader(faces.tolist(), list(largest))), payloads) == expected
 
 
 @pytest.mark.slow
@@ -112,7 +104,8 @@ def test_a_real_mesh(reference, meshes: Path, kind: str):
     given_values = (rounded(positions, 8)[:, :components] * (most // 256 or 1)).clip(0, most)
     given_values = canonical_levels(given_values, 127) if kind == "normal" else given_values
     places = np.arange(len(at))
-    chunks = encode(ValueEncoder(faces, given_values, (most,) * components, kind, at, places), len(at), 700)[:2]
-    expected = outcome(product(ValueDecoder(faces, len(at), (most,) * components, kind, at, places)), chunks)
+    field = values_field(faces, len(at), (most,) * components, kind, at, places)
+    chunks = encode(field, given_values, 700)[:2]
+    expected = outcome(product(FieldDecoder(field)), chunks)
     reader = reference.ValueReader(faces.tolist(), len(at), [most] * components, kind, at.tolist(), places.tolist())
     assert outcome(plain(reader), chunks) == expected

@@ -38,8 +38,8 @@ from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
 from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
 from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
-from bsm.bitstream.fields.corners import corners_of
-from bsm.bitstream.fields.levels import LevelsEncoder
+from bsm.bitstream.fields.corners import FieldEncoder, corners_of
+from bsm.bitstream.fields.levels import levels_field
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import derive_partition, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
@@ -205,7 +205,7 @@ def _layers(rows: int, columns: int, chunk: int) -> bytes:
         _faces(coded),
         *_blocks(blocks, 1),
     ]
-    encoder = LevelsEncoder(coded.faces, np.zeros((size, 3), np.int32))
+    encoder = FieldEncoder(levels_field(coded.faces, size), np.zeros((size, 3), np.int32))
     for first in range(0, size, chunk):
         count = min(chunk, size - first)
         place = write_varint(first) + write_varint(count)

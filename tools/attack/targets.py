@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from bsm.bitstream.attributes.seams import Joins, decode_seams
-from bsm.bitstream.attributes.values import FaceValueDecoder, Kind, ValueDecoder
+from bsm.bitstream.attributes.values import Kind, face_values_field, values_field
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients
 from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import unpack_coefficients
@@ -22,9 +22,9 @@ from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Tol
 from bsm.bitstream.container.splits import decode_order
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError
-from bsm.bitstream.fields.corners import FieldEncoder, corners_of
-from bsm.bitstream.fields.grid import GridDecoder, GridEncoder, LightDecoder, LightEncoder
-from bsm.bitstream.fields.levels import LevelsDecoder, LevelsEncoder
+from bsm.bitstream.fields.corners import Field, FieldDecoder, FieldEncoder, corners_of
+from bsm.bitstream.fields.grid import grid_field, light_field
+from bsm.bitstream.fields.levels import levels_field
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.decoder import SequenceDecoder
@@ -151,29 +151,25 @@ _LARGEST = (1000, 3, (1 << 20) - 1)
 
 def grid(data: bytes) -> None:
     """Positions on a grid, in chunks; the first two bytes tell their lengths."""
-    _on_grid(data, GridDecoder(_SOUP, 46, _LARGEST))
+    _in_two_chunks(data, grid_field(_SOUP, 46, _LARGEST))
 
 
 def light(data: bytes) -> None:
     """Attack the decoder of light grids."""
-    _on_grid(data, LightDecoder(_SOUP, 46, _LARGEST))
-
-
-def _on_grid(data: bytes, decoder: GridDecoder | LightDecoder) -> None:
-    size = 1 + data[0] % 46
-    for chunk, count in ((data[2 : 2 + data[1]], size), (data[2 + data[1] :], 46 - size)):
-        if count:
-            _, positions = decoder.chunk(chunk, count)
-            _expect(bool(((positions >= 0) & (positions <= _LARGEST)).all()), "positions outside their grid")
+    _in_two_chunks(data, light_field(_SOUP, 46, _LARGEST))
 
 
 def levels(data: bytes) -> None:
     """Levels of a refinement, in chunks; the first two bytes tell their number and lengths."""
-    decoder, size = LevelsDecoder(_SOUP, 46), 1 + data[0] % 46
+    _in_two_chunks(data, levels_field(_SOUP, 46))
+
+
+def _in_two_chunks(data: bytes, field: Field) -> None:
+    decoder, size = FieldDecoder(field), 1 + data[0] % 46
     for chunk, count in ((data[2 : 2 + data[1]], size), (data[2 + data[1] :], 46 - size)):
         if count:
             _, found = decoder.chunk(chunk, count)
-            _expect(bool((abs(found) <= 1 << 20).all()), "levels out of range")
+            _expect(bool(((found >= field.low) & (found <= field.high)).all()), "values out of range")
 
 
 def seams(data: bytes) -> None:
@@ -188,7 +184,7 @@ def attribute_values(data: bytes) -> None:
     size, half = 1 + data[1] % 45, 2 + (len(data) - 2) // 2
     chunks = data[2:half], data[half:]
     if data[0] % 5 == 4:
-        of_faces = FaceValueDecoder(_SOUP, (1000, 3), LIMITS)
+        of_faces = FieldDecoder(face_values_field(_SOUP, (1000, 3)), LIMITS)
         for chunk, count in zip(chunks, (size // 2 + 1, len(_SOUP) - size // 2 - 1), strict=True):
             _expect(bool((of_faces.chunk(chunk, count)[1] <= (1000, 3)).all()), "values above their largest")
         return
@@ -196,7 +192,7 @@ def attribute_values(data: bytes) -> None:
     largest = (126, 126) if kind in ("texcoord", "normal") else (1000, 3)
     geometry = None if data[1] > 127 else np.arange(138, dtype=np.int32).reshape(46, 3) ** 2 % 977
     places = np.arange(46) // 2
-    decoder = ValueDecoder(_SOUP, 46, largest, kind, geometry, places, LIMITS)
+    decoder = FieldDecoder(values_field(_SOUP, 46, largest, kind, geometry, places), LIMITS)
     for chunk, count in zip(chunks, (size, 46 - size), strict=True):
         _, values = decoder.chunk(chunk, count)
         _expect(bool(((values >= 0) & (values <= largest)).all()), "values above their largest")
@@ -343,10 +339,10 @@ def _field_seeds(name: str) -> list[bytes]:
     for size, spread in ((1, 2), (23, 9), (46, 1000)):
         values = np.arange(46 * 3).reshape(46, 3) * 7 % spread
         if name == "levels":
-            encoder: FieldEncoder = LevelsEncoder(_SOUP, values - spread // 2)
+            encoder = FieldEncoder(levels_field(_SOUP, 46), values - spread // 2)
         else:
-            coder = LightEncoder if name == "light" else GridEncoder
-            encoder = coder(_SOUP, np.minimum(values, _LARGEST), _LARGEST)
+            field = light_field if name == "light" else grid_field
+            encoder = FieldEncoder(field(_SOUP, 46, _LARGEST), np.minimum(values, _LARGEST))
         chunks = [encoder.chunk(count) for count in (size, 46 - size) if count]
         found.append(bytes([size - 1, len(chunks[0])]) + b"".join(chunks))
     return found

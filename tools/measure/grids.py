@@ -18,7 +18,8 @@ from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
 from bsm.bitstream.container.reader import Reader, read_packets
 from bsm.bitstream.container.writer import write_stream
-from bsm.bitstream.fields.grid import GridDecoder, GridEncoder, find_lattice, spread
+from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
+from bsm.bitstream.fields.grid import find_lattice, grid_field, spread
 from bsm.files.mesh import read_mesh
 
 CHUNK = 1 << 15
@@ -61,7 +62,7 @@ def encode(positions: Positions, faces: Faces, bits: int) -> tuple[bytes, float]
         center=tuple(positions.min(axis=0).tolist()),
         scale=step,
     )
-    encoder = GridEncoder(connectivity.faces, points, header.grid)
+    encoder = FieldEncoder(grid_field(connectivity.faces, len(points), header.grid), points)
     packets: list[Packet] = [header, Connectivity(connectivity.payload)]
     for first in range(0, len(points), CHUNK):
         count = min(CHUNK, len(points) - first)
@@ -76,7 +77,7 @@ def check(packets: list[Packet], faces: Faces, values: npt.NDArray[np.int64]) ->
     decoded = np.full_like(values, -1)
     for packet in read_packets([write_stream(packets)], Reader()):
         if isinstance(packet, Header):
-            header, decoder = packet, GridDecoder(faces, packet.vertices, packet.grid)
+            header, decoder = packet, FieldDecoder(grid_field(faces, packet.vertices, packet.grid))
         if isinstance(packet, Grid):
             vertices, points = decoder.chunk(packet.data, packet.count)
             decoded[vertices] = spread(points, header.lattice)

@@ -10,7 +10,8 @@ import numpy as np
 from bsm.bitstream.container.packets import Attribute as Declared
 from bsm.bitstream.container.packets import Packet, Refinement, Values
 from bsm.bitstream.container.writer import write_stream
-from bsm.bitstream.fields.levels import LevelsEncoder
+from bsm.bitstream.fields.corners import FieldEncoder
+from bsm.bitstream.fields.levels import levels_field
 from bsm.codec.geometry.attributes import Attribute, Domain
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
@@ -128,7 +129,7 @@ def on_layers(mesh: TriangleMesh, count: int) -> bytes:
     levels = made.wanted(made.expected_steps(LAYER))[0]
     levels[count:], levels[:, 1:] = 0, 0  # of a layer that ends early, heights alone count
     draft = made.refined(LAYER, levels)
-    layer = Refinement(0, count, LevelsEncoder(made.prepared.mesh.faces, levels).chunk(count))
+    layer = Refinement(0, count, FieldEncoder(levels_field(made.prepared.mesh.faces, count), levels).chunk(count))
     body = (*(packet for packet in draft.body if not isinstance(packet, Refinement)), layer)
     return with_values(encoder, replace(draft, body=body), 1000)
 

@@ -9,8 +9,9 @@ import numpy as np
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
 from bsm.bitstream.container.writer import write_stream
-from bsm.bitstream.fields.grid import GridEncoder
-from bsm.bitstream.fields.levels import LevelsEncoder
+from bsm.bitstream.fields.corners import FieldEncoder
+from bsm.bitstream.fields.grid import grid_field
+from bsm.bitstream.fields.levels import levels_field
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.blocks import Base, Spectral
 from bsm.codec.static.encoder import Encoder, encode
@@ -46,7 +47,8 @@ def on_grid(mesh: TriangleMesh, *, counts: tuple[int, ...], cells: int = 255) ->
     places = np.rint((draft.decoded - np.array(header.center)) / header.scale).astype(np.int32)
     connectivity = draft.body[0]
     prepared = Encoder(mesh, EncodeOptions(grid=8))
-    coder = GridEncoder(prepared.mesh.faces, places, (cells, cells, cells))
+    field = grid_field(prepared.mesh.faces, len(places), (cells, cells, cells))
+    coder = FieldEncoder(field, places)
     packets: list[Packet] = [replace(header, grid=(cells, cells, cells), lattice=()), connectivity]
     first = 0
     for count in counts:
@@ -66,7 +68,8 @@ def refined(mesh: TriangleMesh, layer: Layer, counts: tuple[int, ...]) -> bytes:
     made = base(mesh)
     header = replace(made.draft.header, refinement=(layer.step, layer.ratio))
     packets: list[Packet] = [header, *made.draft.body]
-    coder, first = LevelsEncoder(made.prepared.mesh.faces, made.wanted(made.expected_steps(layer))[0]), 0
+    levels, first = made.wanted(made.expected_steps(layer))[0], 0
+    coder = FieldEncoder(levels_field(made.prepared.mesh.faces, len(levels)), levels)
     for count in counts:
         packets.append(Refinement(first, count, coder.chunk(count)))
         first += count

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.fields.grid import MOST_LARGEST
+from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions

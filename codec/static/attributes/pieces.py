@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bsm.bitstream.attributes.values import (
-    MOST_COMPONENTS,
-    FaceValueDecoder,
-    FaceValueEncoder,
-    Kind,
-    ValueDecoder,
-    ValueEncoder,
-)
+from bsm.bitstream.attributes.values import MOST_COMPONENTS, Kind, face_values_field, values_field
 from bsm.bitstream.container.declaration import COLOR, FACE, LEVELS, OCTAHEDRAL, TEXCOORD, Declaration
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import CorruptError
+from bsm.bitstream.fields.corners import Field, FieldDecoder, FieldEncoder
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Indices, Levels
 from bsm.codec.static.attributes.levels import Words
@@ -73,19 +67,22 @@ def leans(declaration: Declaration) -> bool:
     return declaration.domain != FACE and kind_of(declaration) in ("texcoord", "normal")
 
 
+def _fields(declaration: Declaration, surface: Surface, places: Levels | None) -> list[Field]:
+    """The fields of an attribute, of at most `MOST_COMPONENTS` numbers of each value."""
+    faces, kind = surface.faces, kind_of(declaration)
+    of_groups = [largest_pieces(declaration)[some] for some in _groups(declaration)]
+    if declaration.domain == FACE:
+        return [face_values_field(faces, largest) for largest in of_groups]
+    geometry, size = None if places is None else surface.geometry(places), len(surface.vertices)
+    return [values_field(faces, size, largest, kind, geometry, surface.places) for largest in of_groups]
+
+
 class PieceEncoder:
-    """Codes the numbers of an attribute, shape (k, pieces), at most `MOST_COMPONENTS` of each value at a time."""
+    """Codes the numbers of an attribute, shape (k, pieces)."""
 
     def __init__(self, declaration: Declaration, surface: Surface, pieces: Levels, places: Levels | None) -> None:
-        def make(some: slice) -> ValueEncoder | FaceValueEncoder:
-            largest = largest_pieces(declaration)[some]
-            if declaration.domain == FACE:
-                return FaceValueEncoder(surface.faces, pieces[:, some], largest)
-            geometry = None if places is None else surface.geometry(places)
-            kind = kind_of(declaration)
-            return ValueEncoder(surface.faces, pieces[:, some], largest, kind, geometry, surface.places)
-
-        self._coders = [make(some) for some in _groups(declaration)]
+        of_groups = [pieces[:, some] for some in _groups(declaration)]
+        self._coders = list(map(FieldEncoder, _fields(declaration, surface, places), of_groups))
 
     def chunk(self, count: int) -> bytes:
         """Code the next `count` values: where there are several groups, each with its length before it."""
@@ -94,18 +91,10 @@ class PieceEncoder:
 
 
 class PieceDecoder:
-    """Twin of `PieceEncoder`; raises as `ValueDecoder`."""
+    """Twin of `PieceEncoder`; raises as `FieldDecoder`."""
 
     def __init__(self, declaration: Declaration, surface: Surface, places: Levels | None, limits: Limits) -> None:
-        def make(some: slice) -> ValueDecoder | FaceValueDecoder:
-            largest = largest_pieces(declaration)[some]
-            if declaration.domain == FACE:
-                return FaceValueDecoder(surface.faces, largest, limits)
-            geometry = None if places is None else surface.geometry(places)
-            kind, size = kind_of(declaration), len(surface.vertices)
-            return ValueDecoder(surface.faces, size, largest, kind, geometry, surface.places, limits)
-
-        self._coders = [make(some) for some in _groups(declaration)]
+        self._coders = [FieldDecoder(field, limits) for field in _fields(declaration, surface, places)]
 
     @property
     def coded(self) -> int:

@@ -7,7 +7,7 @@ from itertools import product
 
 import numpy as np
 
-from bsm.bitstream.fields.grid import MOST_LARGEST
+from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
 from bsm.codec.static.choice.bounds import Bounds

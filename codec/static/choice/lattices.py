@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import TargetError
-from bsm.bitstream.fields.grid import MOST_LARGEST, find_lattice, ordered
+from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.bitstream.fields.grid import find_lattice, ordered
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble_encoding import Prepared

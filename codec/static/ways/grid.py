@@ -14,16 +14,15 @@ from bsm.bitstream.container.header import EXACT, Header
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import BsmError, CorruptError, NumericError
+from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
 from bsm.bitstream.fields.grid import (
     Cells,
     Floats,
-    GridDecoder,
-    GridEncoder,
-    LightDecoder,
-    LightEncoder,
     Numbers,
     cells_of,
     floats_of,
+    grid_field,
+    light_field,
     spread,
 )
 from bsm.codec.arrays import Indices, Levels, Positions
@@ -79,8 +78,8 @@ def grid_of(header: Header) -> Grid:
 
 def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]:
     """The packets of coded values, shape (n, 3), between 0 and the grid's largest."""
-    kind, size = LightEncoder if grid.light else GridEncoder, len(coded)
-    encoder = kind(faces, coded, grid.largest)
+    field, size = light_field if grid.light else grid_field, len(coded)
+    encoder = FieldEncoder(field(faces, size, grid.largest), coded)
     starts = [*range(0, min(size, 1)), *range(FIRST, size, CHUNK)]
     counts = [end - start for start, end in pairwise([*starts, size])]
     return [packets.Grid(start, count, encoder.chunk(count)) for start, count in zip(starts, counts, strict=True)]
@@ -88,7 +87,7 @@ def encode_grid(faces: Indices, grid: Grid, coded: Levels) -> list[packets.Grid]
 
 def encode_exact(faces: Indices, grid: Grid, coded: Levels, floats: Numbers) -> list[packets.Grid]:
     """The packets of coded values, shape (n, 3), and of the numbers of floats in their cells."""
-    model, order = Floats(grid.largest), GridEncoder(faces, coded, grid.largest).order
+    model, order = Floats(grid.largest), grid_field(faces, len(coded), grid.largest).start().order
     result = []
     for packet in encode_grid(faces, grid, coded):
         rows = order[packet.first : packet.first + packet.count]
@@ -97,8 +96,8 @@ def encode_exact(faces: Indices, grid: Grid, coded: Levels, floats: Numbers) -> 
     return result
 
 
-FULL = GridDecoder, grid_cost, grid_chunk_cost
-LIGHT = LightDecoder, light_cost, light_chunk_cost
+FULL = grid_field, grid_cost, grid_chunk_cost
+LIGHT = light_field, light_cost, light_chunk_cost
 """How values are decoded, and what that and each frame cost."""
 
 
@@ -109,11 +108,11 @@ class GridStage:
         size, faces, allowance = structure.header.vertices, len(structure.faces), structure.allowance
         allowance.keep(grid_memory(size, faces))
         self._grid = grid_of(structure.header)
-        kind, cost, self._chunk_cost = LIGHT if self._grid.light else FULL
+        field, cost, self._chunk_cost = LIGHT if self._grid.light else FULL
         allowance.spend(cost(size, faces))
         self._structure = structure
         self._tolerant = tolerant
-        self._decoder = kind(structure.faces, size, self._grid.largest, structure.allowance.limits)
+        self._decoder = FieldDecoder(field(structure.faces, size, self._grid.largest), allowance.limits)
         self._floats: Floats | None = None
         if self._grid.exact:
             allowance.keep(float(Floats.charge(self._grid.largest)))

@@ -18,7 +18,8 @@ from bsm.bitstream.container.header import Layer
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import CorruptError
-from bsm.bitstream.fields.levels import AXES, LevelsDecoder, LevelsEncoder
+from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
+from bsm.bitstream.fields.levels import AXES, levels_field
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Mask, Matrix
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -41,7 +42,7 @@ BENT_BY = 2
 
 def encode_layer(faces: Indices, levels: Levels) -> list[packets.Refinement]:
     """The packets of levels, shape (n, 3)."""
-    encoder, size = LevelsEncoder(faces, levels), len(levels)
+    encoder, size = FieldEncoder(levels_field(faces, len(levels)), levels), len(levels)
     chunks = [(start, min(CHUNK, size - start)) for start in range(0, size, CHUNK)]
     return [packets.Refinement(start, count, encoder.chunk(count)) for start, count in chunks]
 
@@ -105,12 +106,12 @@ class LayerDecoder:
         return self._decoder.chunk(packet.data, packet.count)
 
     @cached_property
-    def _decoder(self) -> LevelsDecoder:
+    def _decoder(self) -> FieldDecoder:
         structure, allowance = self._structure, self._structure.allowance
         vertices, faces = structure.header.vertices, structure.faces
         allowance.keep(layer_memory(vertices, len(faces)))
         allowance.spend(layer_cost(vertices, len(faces), AXES))
-        return LevelsDecoder(faces, vertices, allowance.limits)
+        return FieldDecoder(levels_field(faces, vertices), allowance.limits)
 
 
 class Refined:

@@ -1,4 +1,4 @@
-"""Meshes and values that the tests of fields share."""
+"""Meshes, values and all kinds of fields, for the tests of these."""
 
 from __future__ import annotations
 
@@ -6,11 +6,35 @@ import numpy as np
 import numpy.typing as npt
 from hypothesis import strategies as st
 
-from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
+from bsm.bitstream.attributes.values import canonical_levels, face_values_field, values_field
+from bsm.bitstream.fields.corners import Field, FieldDecoder, FieldEncoder
+from bsm.bitstream.fields.grid import grid_field, light_field
+from bsm.bitstream.fields.levels import levels_field
 from tests.shapes import Faces, grid_faces
 
 Ints = npt.NDArray[np.int32]
 Chunks = list[tuple[bytes, int]]
+
+NAMES = ("grid", "light", "levels", "plain", "color", "texcoord", "normal", "faces")
+COLUMNS = {"grid": 3, "light": 3, "levels": 3, "texcoord": 2, "normal": 2}
+"""Of kinds that have always so many."""
+
+
+def field_of(name: str, faces: Faces, vertices: int, largest, at=None, places=None) -> Field:
+    """The field of that name."""
+    if name == "levels":
+        return levels_field(faces, vertices)
+    if name == "faces":
+        return face_values_field(faces, largest)
+    if name in ("grid", "light"):
+        return (grid_field if name == "grid" else light_field)(faces, vertices, largest)
+    return values_field(faces, vertices, largest, name, at, places)
+
+
+def offered(name: str, rows: int, largest, kind: str, seed: int) -> Ints:
+    """Values for the field of that name."""
+    drawn = values(rows, [-most * (name == "levels") for most in largest], largest, kind, seed)
+    return canonical_levels(drawn, largest[0] // 2) if name == "normal" else drawn
 
 
 def random_faces(vertices: int, count: int, kind: str, seed: int) -> Faces:
@@ -67,20 +91,23 @@ def values(rows: int, low: npt.ArrayLike, high: npt.ArrayLike, kind: str, seed: 
     return np.clip(drawn, low, high).astype(np.int32)
 
 
-def sizes(total: int, chunk: int) -> list[int]:
-    """Chunks of `chunk` vertices, the last one of what is left."""
-    return [min(chunk, total - first) for first in range(0, total, chunk)]
+def encode(field: Field, given: npt.ArrayLike, chunk: int = 1 << 30) -> Chunks:
+    """All payloads, of `chunk` rows but for the last one, and of how many each is."""
+    encoder, size = FieldEncoder(field, given), len(np.asarray(given))
+    counts = [min(chunk, size - first) for first in range(0, size, chunk)]
+    return [(encoder.chunk(count), count) for count in counts]
 
 
-def encode(encoder: FieldEncoder, vertices: int, chunk: int) -> Chunks:
-    """All payloads, and of how many vertices or faces each is."""
-    return [(encoder.chunk(count), count) for count in sizes(vertices, chunk)]
-
-
-def decode(decoder: FieldDecoder, vertices: int, axes: int, chunks: Chunks) -> Ints:
+def decode(field: Field, chunks: Chunks) -> Ints:
     """What payloads say; -1 where they say nothing."""
-    found = np.full((vertices, axes), -1, np.int32)
+    decoder = FieldDecoder(field)
+    found = np.full((len(decoder.order), len(field.high)), -1, np.int32)
     for payload, count in chunks:
-        which, said = decoder.chunk(payload, count)
-        found[which] = said
+        which, decoded = decoder.chunk(payload, count)
+        found[which] = decoded
     return found
+
+
+def size_of(field: Field, given: npt.ArrayLike) -> int:
+    """Bytes of all values."""
+    return sum(len(payload) for payload, _ in encode(field, given))
