@@ -14,7 +14,7 @@ from bsm.cli import main
 from tests.motion import bending
 from tests.shapes import torus
 
-QUICK = {"block_size": 150, "threads": 1}
+QUICK = {"block_size": 150, "threads": 1, "step": 0.004}
 
 
 @pytest.fixture(scope="module")

@@ -74,7 +74,7 @@ def larger(tmp_path_factory):
     """Ten meshes that take a while."""
     folder = tmp_path_factory.mktemp("larger")
     for number in range(10):
-        write_mesh(folder / f"{number:02}.npz", knot(8_000, seed=number))
+        write_mesh(folder / f"{number:02}.npz", knot(3_000, seed=number))
     return sorted(map(str, folder.iterdir()))
 
 
@@ -411,7 +411,7 @@ def test_a_cluster_that_may_not_write_says_where(cluster, sources, tmp_path, cap
 
 def test_what_is_not_ours_is_not_written_over(sources, tmp_path, capsys):
     (tmp_path / "00.bsm").write_bytes(b"mine")
-    done = bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json", resume=True)
+    done = bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json", resume=True, grid=8)
     assert [facts.get("exit") for facts in done] == [9, None]
     assert (tmp_path / "00.bsm").read_bytes() == b"mine"
     with pytest.raises(FileExistsError):

@@ -8,14 +8,14 @@ import pytest
 
 from tests.bsm.program import ROOT
 
-CHILDREN, SECONDS = 12, 60
+CHILDREN, SECONDS = 6, 60
 PROGRAM = f"""
 import os, signal, sys, threading, time
 import numpy as np
 import bsm
 from tools.vectors.meshes import torus
 
-stream = bsm.encode(torus(40, 40), threads=1)
+stream = bsm.encode(torus(24, 24), threads=1)
 wanted = bsm.decode(stream, threads=1).positions
 going, rounds = True, [0] * 4
 

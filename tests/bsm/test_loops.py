@@ -37,7 +37,7 @@ def test_a_pause_is_no_loop():
 def test_the_program_says_loops_and_errors_of_frames(tmp_path, capsys):
     walk, faces = bending(5)
     np.savez(tmp_path / "a.npz", positions=np.concatenate([walk, walk]), faces=faces)
-    assert main(["encode", str(tmp_path / "a.npz")]) == 0
+    assert main(["encode", str(tmp_path / "a.npz"), "--set", "step=0.002"]) == 0
     assert "frames 5 to 9 repeat 0 to 4" in capsys.readouterr().err
     assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "a.bsm"), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)

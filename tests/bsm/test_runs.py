@@ -112,7 +112,7 @@ def test_colours_of_runs_go_to_usd_and_come_back(tmp_path):
         )
         for k, mesh in enumerate(capture(((10, 1), (7, 1), (5, 1))))
     ]
-    data = bsm.encode_frames(meshes)
+    data = bsm.encode_frames(meshes, step=0.002)
     (tmp_path / "a.bsm").write_bytes(data)
     assert run("decode", tmp_path / "a.bsm", "-o", tmp_path / "a.usda", "-q") == 0
     assert run("encode", tmp_path / "a.usda", "-o", tmp_path / "b.bsm", *RUNS, "-q") == 0
@@ -148,7 +148,7 @@ def test_permutations_are_of_one_mesh(stream, tmp_path, capsys):
 
 def test_functions():
     meshes = capture()
-    data = bsm.encode_frames(iter(meshes), preset="balanced")
+    data = bsm.encode_frames(iter(meshes), step=0.002)
     back = list(bsm.decode_frames(data))
     assert [len(frame.faces) for frame in back] == [len(mesh.faces) for mesh in meshes]
     with pytest.raises(bsm.MeshError, match="decode_frames"):
@@ -157,7 +157,7 @@ def test_functions():
         bsm.encode_frames(meshes, runs=False)
     with pytest.raises(bsm.MeshError, match="at least one frame"):
         bsm.encode_frames([])
-    same = bsm.encode_frames([(mesh.positions, mesh.faces) for mesh in meshes[:4]])
+    same = bsm.encode_frames([(mesh.positions, mesh.faces) for mesh in meshes[:4]], step=0.002)
     positions, faces = bsm.decode_sequence(same)
     assert positions.shape == (4, 60, 3) and len(faces) == 120
 

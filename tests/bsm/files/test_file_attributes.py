@@ -189,7 +189,7 @@ def test_many_names_are_one_entry(tmp_path):
     lines = "".join(f"g {name}\nusemtl m{number}\nf 1 2 3\n" for number, name in enumerate(names))
     source = read_mesh((TRIANGLE + lines).encode())
     assert source.mesh.metadata["group.names"].split("\n") == names and source.dropped == ()
-    stream = bsm.encode(source.mesh, keep_order=True, max_error=0.01)
+    stream = bsm.encode(source.mesh, keep_order=True, grid=8)
     assert bsm.decode(stream).metadata == source.mesh.metadata
     write_mesh(tmp_path / "a.obj", source.mesh)
     again = read_mesh(tmp_path / "a.obj").mesh
@@ -202,7 +202,7 @@ def test_more_entries_than_there_can_be_are_left_out_and_said(tmp_path):
     (tmp_path / "a.obj").write_text(f"mtllib a.mtl\n{TRIANGLE}f 1 2 3\n")
     source = read_mesh(tmp_path / "a.obj")
     assert len(source.mesh.metadata) == 240 and "121 entries of metadata, because there can be 256" in source.notes[-1]
-    assert bsm.decode(bsm.encode(source.mesh)).metadata == source.mesh.metadata
+    assert bsm.decode(bsm.encode(source.mesh, grid=8)).metadata == source.mesh.metadata
 
 
 def test_a_ply_as_text_with_everything():

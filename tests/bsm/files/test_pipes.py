@@ -111,7 +111,7 @@ def test_the_command_line_takes_what_a_shell_gives(line, tmp_path):
     program = f'bsm() {{ "{sys.executable}" -m bsm "$@"; }}\n'
     feed = "cat in.ply > fifo.ply &\n" if "fifo.ply" in line else ""
     done = subprocess.run(
-        ["bash", "-c", program + feed + line],
+        ["bash", "-c", program + feed + line.replace("encode", "encode --grid 8")],
         cwd=tmp_path,
         env={**os.environ},
         capture_output=True,

@@ -60,7 +60,7 @@ def test_a_clean_mesh_comes_back_bit_for_bit(shape, size: int) -> None:  # type:
 
 
 def test_a_triangle_soup_is_welded_first_and_comes_back_as_a_soup() -> None:
-    clean, faces = sphere(16)
+    clean, faces = sphere(14)
     noisy = gaussian_along_normals(clean, faces, 0.25, seed=7)
     corners = noisy[faces.ravel()]
     soup = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
@@ -76,8 +76,6 @@ def test_the_same_mesh_gets_the_same_result_in_any_unit() -> None:
     clean, faces = cube(14)
     noisy = gaussian_along_normals(clean, faces, 0.2, seed=7)
     first, choice = denoise_automatically(noisy, faces)
-    again, _ = denoise_automatically(noisy, faces)
-    assert (first == again).all()
     scaled, other = denoise_automatically(noisy * 1000.0, faces)
     assert other.steps == choice.steps and choice.steps
     assert scaled == pytest.approx(first * 1000.0, rel=1e-6)

@@ -125,7 +125,7 @@ def test_a_network_of_zeros_says_the_filtered_normal() -> None:
 
 def test_the_choice_says_how_much_of_it_is_learnt(monkeypatch: pytest.MonkeyPatch) -> None:
     """As much as networks are worth in the rehearsal: all of what they may have, or nothing."""
-    clean, noisy, faces = noisy_sphere(20)
+    clean, noisy, faces = noisy_sphere(14)
     patient = Patient(faces, len(noisy))
     finding = find_noise(noisy, patient.probe)
     for known, share in ((clean, LEARNT_SHARES[-1]), (noisy, 0.0)):

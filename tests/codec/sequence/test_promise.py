@@ -40,9 +40,9 @@ def farthest(original: Positions, decoded: Positions) -> float:
     return float(np.linalg.norm(decoded - original, axis=2).max() / np.linalg.norm(np.ptp(original[0], axis=0)))
 
 
-@pytest.mark.parametrize("gop", [5, 256])
+@pytest.mark.parametrize("gop", [3, 256])
 def test_every_frame_looks_the_same(gop: int) -> None:
-    _, original, decoded, faces = kept(*bending(12), Promise(0.01, 1.0), gop=gop)
+    _, original, decoded, faces = kept(*bending(8), Promise(0.01, 1.0), gop=gop)
     found = looks(original, decoded, faces)
     assert max(found) <= 1.0 and farthest(original, decoded) <= 0.01
     assert max(found) > 0.8  # with little to spare
@@ -60,7 +60,7 @@ def test_no_vertex_is_farther_off_than_is_said(absolute: bool) -> None:
 
 @pytest.mark.parametrize("look", [1.0, float("inf")])
 def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
-    positions, faces = bending(9)
+    positions, faces = bending(6)
     positions[5] += 0.004 * np.random.default_rng(0).standard_normal(positions[5].shape)
     options = SequenceOptions(block_size=100, promise=Promise(0.002, look), threads=1, low_delay=1, gop=4)
     encoder = SequenceEncoder(faces, options, len(positions))
@@ -75,18 +75,11 @@ def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
     for chunk in encoder.chunks(coming()):
         data += chunk
         sent.append(given[-1])
-    assert set(sent) == set(range(9))  # each frame is out before the next one comes
+    assert set(sent) == set(range(6))  # each frame is out before the next one comes
     decoded, found = decode_sequence(data, threads=1)
     original = positions[:, encoder.vertex_order]
     assert 0.0014 < farthest(original, decoded) <= 0.002
     assert max(looks(original, decoded, found)) <= look
-
-
-def test_a_frame_that_looks_worse_than_its_neighbours_is_found() -> None:
-    positions, faces = bending(40)
-    positions[17] += 0.02 * np.random.default_rng(0).standard_normal(positions[17].shape)
-    _, original, decoded, found = kept(positions, faces, Promise(0.01, 1.0))
-    assert max(looks(original, decoded, found)) <= 1.0
 
 
 def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -101,9 +94,10 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     positions, faces = bending(60)
     positions[23] += 0.01 * np.random.default_rng(0).standard_normal(positions[23].shape)
     _, original, decoded, found = kept(positions, faces, Promise(0.02, 1.0))
-    seen = looks(original, decoded, found)
-    assert max(seen) <= 1.0 and len(drawn) < 40
-    assert max(seen[index] for index in drawn) > 0.9 * max(seen)
+    some = sorted({*range(0, 60, 6), *range(20, 27), *drawn})
+    seen = dict(zip(some, looks(original[some], decoded[some], found), strict=True))
+    assert max(seen.values()) <= 1.0 and len(drawn) < 40
+    assert max(seen[index] for index in drawn) > 0.9 * max(seen.values())
 
 
 def test_what_a_frame_may_look_like_grows_with_the_way_to_those_that_were_drawn() -> None:
@@ -131,13 +125,13 @@ def test_a_moving_look_is_what_pictures_differ_by() -> None:
 
 
 def test_presets_are_ordered() -> None:
-    sizes = [kept(*bending(6), PROMISES[name])[0] for name in ("small", "balanced", "fine")]
+    sizes = [kept(*bending(3), PROMISES[name])[0] for name in ("small", "balanced", "fine")]
     assert sizes == sorted(sizes) and sizes[0] < sizes[2]
 
 
 def test_frames_of_which_nothing_is_seen_are_no_obstacle() -> None:
-    positions, faces = bending(6)
-    positions[3] = positions[3, :1]  # all vertices at one place
+    positions, faces = bending(4)
+    positions[2] = positions[2, :1]  # all vertices at one place
     _, original, decoded, _ = kept(positions, faces, Promise(0.01, 1.0))
     assert farthest(original, decoded) <= 0.01
 
