@@ -83,7 +83,7 @@ COMMANDS = [(name, command) for name in DOCUMENTS for command in commands(name)]
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A folder with the meshes that the documents speak of, and programs that they call."""
-    mesh = knot(1200)
+    mesh = knot(600)
     folder = tmp_path_factory.mktemp("made")
     declare_entry_points(folder / "site")
     write_mesh(folder / "spot.obj", painted(mesh))
@@ -91,7 +91,7 @@ def folder(tmp_path_factory):
         write_mesh(folder / name, mesh)
     noisy = gaussian_along_normals(mesh.positions, mesh.faces, 0.2, 0)
     write_mesh(folder / "scan.ply", TriangleMesh(noisy, mesh.faces))
-    frames = np.array([mesh.positions * (1 + 0.1 * np.sin(t)) for t in range(6)])
+    frames = np.array([mesh.positions * (1 + 0.1 * np.sin(t)) for t in range(4)])
     np.savez(folder / "dance.npz", positions=frames, faces=mesh.faces)
     for name in ("capture", "scans"):
         (folder / name).mkdir()

@@ -288,7 +288,7 @@ def on_a_terminal(*arguments):
 
 @pytest.mark.slow
 def test_one_bar_for_a_search_with_the_time_left(tmp_path):
-    write_mesh(tmp_path / "a.npz", knot(200_000))
+    write_mesh(tmp_path / "a.npz", knot(80_000))
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=0.3", "--threads", "1"]
     shown = on_a_terminal(*words, "--theta", "4")
     assert re.search(r"encoding, attempt [2-9]", shown) and "<00:" in shown and "blocks/s" in shown
@@ -302,7 +302,7 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
 
 @pytest.mark.slow
 def test_a_bar_for_sequences(tmp_path):
-    mesh = knot(30_000)
+    mesh = knot(8_000)
     positions, faces = mesh.positions, mesh.faces
     frames = np.array([positions * (1 + 0.1 * np.sin(t / 3)) for t in range(12)])
     np.savez(tmp_path / "a.npz", positions=frames, faces=faces)

@@ -163,21 +163,20 @@ def test_the_command_knows_all_choices_of_the_library():
     assert set(GOALS) <= set(LIBRARY_GOALS)
 
 
-@pytest.mark.slow
-def test_no_more_than_a_few_frames_are_held(frames):
-    held = most = 0
+def test_no_more_than_a_few_frames_are_held():
+    still, held, most = torus(16, 12), 0, 0
 
     def endless():
         nonlocal held, most
         while True:
             held += 1
             most = max(most, held)
-            yield frames[0]
+            yield still.positions
 
-    denoiser = FrameDenoiser(frames[0], CLEAN.faces)
+    denoiser = FrameDenoiser(still.positions, still.faces)
     results = denoiser(endless())
     for _ in range(2 * WINDOW + 5):
-        assert next(results).shape == frames[0].shape
+        assert next(results).shape == still.positions.shape
         held -= 1
     assert most <= WINDOW + OVERLAP + 2 * available_threads() + 2
 

@@ -340,7 +340,9 @@ def waves(count=8):
     frames = np.stack([mesh.positions * (1 + 0.1 * np.sin(3 * mesh.positions[:, :1] + time)) for time in times])
     across = ((mesh.positions - mesh.positions.min(axis=0)) / np.ptp(mesh.positions, axis=0)).astype(np.float32)
     uv = bsm.codec.geometry.attributes.Attribute("uv", across[:, :2], "vertex", "texcoord")
-    return bsm.encode_sequence(frames, mesh.faces, mesh_attributes=(uv,), metadata={"up": "z", "name": "waves"}, step=0.005)
+    return bsm.encode_sequence(
+        frames, mesh.faces, mesh_attributes=(uv,), metadata={"up": "z", "name": "waves"}, step=0.005
+    )
 
 
 def test_a_sequence_becomes_a_scene_that_moves(tmp_path, capsys):

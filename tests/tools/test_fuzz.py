@@ -24,15 +24,6 @@ def change_a_byte(data, max_size):
     return bytes(changed[:max_size])
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", TARGETS)
-def test_targets_find_nothing_in_their_seeds(name):
-    found = seeds(name, FOLDER)
-    assert len(found) >= 1
-    for data in found:
-        run(TARGETS[name], data)
-
-
 @pytest.mark.parametrize("name", ["stream", "damaged", "connectivity", "gops"])
 def test_a_little_of_it(name):
     """A few mutations of every seed; what the command does for minutes."""

@@ -1,8 +1,5 @@
 """The proof's own parts: it finds what is wrong, keeps what led there, and does the same again from the same seed."""
 
-import json
-import subprocess
-import sys
 from dataclasses import asdict
 
 import numpy as np
@@ -13,7 +10,7 @@ from tools.attack import shard as proof
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.encodes import store, stored
 from tools.attack.inputs import mutant, random_stream, vector_seeds
-from tools.attack.places import ROOT, environments, processors
+from tools.attack.places import environments, processors
 from tools.attack.proof import Part, cuts, plan, run, table
 from tools.attack.shard import SUITES, Shard
 from tools.attack.tally import Tally
@@ -119,20 +116,6 @@ def test_a_wrong_decoder_is_found(shard, monkeypatch):
     monkeypatch.setattr(proof, "steady", lambda stream: True)
     SUITES["differential"](shard, 0, 10)
     assert shard.tally.differing == shard.tally.decoded > 0 and "off by" in shard.tally.findings[0]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("suite", "size"), [("vectors", 40), ("mutants", 60), ("browser", 60), ("differential", 20)])
-def test_shards_find_nothing_and_are_the_same_again(suite, size, tmp_path):
-    command = [sys.executable, "-m", "tools.attack.shard", suite, "0", str(size), "--seed", "s"]
-    seen = []
-    for _ in range(2):
-        done = subprocess.run(
-            [*command, "--findings", str(tmp_path)], cwd=ROOT, capture_output=True, text=True, check=True
-        )
-        seen.append(Tally(**json.loads(done.stdout)))
-    assert seen[0] == seen[1] and seen[0].inputs > 0
-    assert seen[0].findings == [] and seen[0].escapes == seen[0].differing == 0
 
 
 def test_streams_follow_from_their_seed():

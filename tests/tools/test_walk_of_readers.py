@@ -9,7 +9,7 @@ from bsm.bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
 from tools.attack.measure import Taken
-from tools.attack.readers import Case, Sample, grown, numbers, problems, read_all, samples, warm_up
+from tools.attack.readers import Case, Sample, numbers, problems, read_all, samples, warm_up
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
 
@@ -19,23 +19,6 @@ def test_the_walk_visits_every_format_that_is_read_here():
     assert {*MESH_FORMATS, *SEQUENCES_READ} - suffixes <= {"gltf", "usd", "usda", "usdc", "usdz"}
     names = {case.name.partition(",")[0] for case in numbers()}
     assert set(samples()) <= names
-
-
-@pytest.mark.slow
-@linux
-def test_numbers_as_large_as_they_can_be_are_refused_within_the_bounds():
-    warm_up()
-    assert not list(problems(list(numbers())[::400], "default"))
-
-
-@pytest.mark.slow
-@linux
-def test_files_that_are_large_for_their_bytes_stay_within_the_bounds():
-    warm_up()
-    cases = list(grown(1 << 18))
-    assert len(cases) > 90
-    assert not list(problems(cases, "default"))
-    assert not list(problems(cases[::4], "service"))
 
 
 @linux

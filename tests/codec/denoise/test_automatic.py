@@ -97,7 +97,6 @@ def test_the_smallest_meshes_pass(count: int) -> None:
     ("clean", "noisy", "oracle"),
     [
         ("twelve_dodecahedron", "twelve_dodecahedron_noisy", 3.60),
-        ("fr_chinese_lion", "fr_chinese_lion_0.2_noisy", 14.27),
     ],
 )
 def test_it_is_as_good_as_the_best_fixed_scheme_with_an_oracle(

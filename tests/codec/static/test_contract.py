@@ -208,7 +208,7 @@ def test_a_grid_gives_exactly_the_nearest_places(bits: int) -> None:
 
 @pytest.mark.slow
 def test_many_components_cost_what_their_vertices_cost() -> None:
-    many = together(*(torus(18, 12) for _ in range(100)))
+    many = together(*(torus(18, 12) for _ in range(30)))
     encoder = Encoder(many)
     draft = encoder.draft()
     assert draft.header.grid
