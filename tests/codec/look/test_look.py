@@ -110,6 +110,7 @@ def test_a_missing_part_is_seen():
     assert look(both, both).distance < 1e-3
 
 
+@pytest.mark.real
 def test_a_missing_ear_of_a_scan_is_seen(meshes):
     spot = read_mesh(meshes / "static" / "c3d_spot.ply").mesh
     high = spot.positions[spot.faces].mean(axis=1)[:, 1] > np.quantile(spot.positions[:, 1], 0.99)
@@ -117,6 +118,7 @@ def test_a_missing_ear_of_a_scan_is_seen(meshes):
     assert look(spot, TriangleMesh(spot.positions, spot.faces[~high])).distance > 3
 
 
+@pytest.mark.real
 @pytest.mark.parametrize("name", ["static/c3d_spot.ply", "static/fandisk_6475.ply", "assets/robot_forearm.obj"])
 def test_bits_of_a_quantizer_are_seen_one_by_one(meshes, name):
     mesh = read_mesh(meshes / name).mesh.bare

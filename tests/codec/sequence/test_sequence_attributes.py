@@ -82,6 +82,8 @@ def test_normals_cannot_be_recomputed():
 
 
 def test_by_one_call():
-    stream = bsm.encode_sequence(FRAMES, MESH.faces, mesh_attributes=worn(), attributes={"uv": "none"}, gop=3)
+    stream = bsm.encode_sequence(
+        FRAMES, MESH.faces, mesh_attributes=worn(), attributes={"uv": "none"}, gop=3, step=0.01
+    )
     found, frames, _, _ = decoded(stream)
     assert frames == 6 and set(found) == {"color", "part"}
