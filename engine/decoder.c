@@ -161,6 +161,51 @@ bsmdec_status bsmdec_positions_single(bsmdec *decoder, float *coordinates, size_
     return BSMDEC_OK;
 }
 
+/* An attribute that is whole; NULL if there is none of that number. */
+static const Attribute *attribute_of(const bsmdec *decoder, int index) {
+    if (decoder == NULL || !decoder->mesh.has_attributes || !decoder->mesh.announced || index < 0 || index >= MOST_ATTRIBUTES) return NULL;
+    const Attribute *one = decoder->mesh.attributes.one[index];
+    return one != NULL && one->whole ? one : NULL;
+}
+
+int bsmdec_attribute_count(const bsmdec *decoder) {
+    return decoder != NULL && decoder->mesh.has_attributes ? (int)decoder->mesh.header.attributes : 0;
+}
+
+bsmdec_status bsmdec_attribute_at(const bsmdec *decoder, int index, bsmdec_attribute *attribute) {
+    const Attribute *one = attribute_of(decoder, index);
+    if (one == NULL || attribute == NULL) return BSMDEC_MISUSED;
+    const Declaration *d = &one->declaration;
+    Given given = given_shape(one, &decoder->mesh.numbering);
+    int64_t corners = given.domain == BSMDEC_CORNER ? 3 * decoder->mesh.faces.rows : 0;
+    *attribute = (bsmdec_attribute){d->name, given.domain, d->semantic, d->kind, d->components, given.rows, corners};
+    return BSMDEC_OK;
+}
+
+bsmdec_status bsmdec_attribute_values(bsmdec *decoder, int index, void *values, size_t size) {
+    const Attribute *one = attribute_of(decoder, index);
+    bsmdec_attribute shape;
+    if (bsmdec_attribute_at(decoder, index, &shape) != BSMDEC_OK || values == NULL) return BSMDEC_MISUSED;
+    size_t each = (size_t)shape.components * kind_size(shape.kind);
+    if (size != (size_t)shape.rows * each) return BSMDEC_MISUSED;
+    Arena own = arena_of(&decoder->context);
+    Longs rows = take_longs(&own, shape.rows);
+    bool done = rows.data != NULL && given_rows(one, &decoder->mesh.numbering, &own, rows);
+    for (int64_t i = 0; done && i < shape.rows; i++)
+        memcpy((char *)values + (size_t)i * each, (const char *)one->values + (size_t)rows.data[i] * each, each);
+    release_all(&own);
+    return done ? BSMDEC_OK : decoder->context.error.status;
+}
+
+bsmdec_status bsmdec_attribute_indices(bsmdec *decoder, int index, uint32_t *indices, size_t count) {
+    const Attribute *one = attribute_of(decoder, index);
+    bsmdec_attribute shape;
+    if (bsmdec_attribute_at(decoder, index, &shape) != BSMDEC_OK || indices == NULL || shape.indices == 0 || count != (size_t)shape.indices)
+        return BSMDEC_MISUSED;
+    for (size_t i = 0; i < count; i++) indices[i] = (uint32_t)row_of_corner(one, &decoder->mesh.numbering, (int64_t)i);
+    return BSMDEC_OK;
+}
+
 const bsmdec_error *bsmdec_last_error(const bsmdec *decoder) { return decoder != NULL ? &decoder->context.error : NULL; }
 
 const bsmdec_error *bsmdec_last_loss(const bsmdec *decoder) { return decoder != NULL ? &decoder->loss : NULL; }

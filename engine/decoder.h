@@ -3,6 +3,7 @@
 #define BSMDEC_DECODER_H
 
 #include "engine/assembly.h"
+#include "engine/attributes.h"
 #include "engine/fields.h"
 #include "engine/reader.h"
 
@@ -22,6 +23,8 @@ typedef struct {
     int64_t next_block, chunks;
     GridField grid;
     Layer layer;
+    bool has_attributes;
+    Attributes attributes;
 } Mesh;
 
 struct bsmdec {

@@ -5,6 +5,7 @@ static bool behind_positions(const Mesh *mesh) { return mesh->has_layer || mesh-
 
 void end_mesh(Mesh *mesh) {
     if (mesh->has_chains) end_chains(&mesh->chains);
+    if (mesh->has_attributes) end_attributes(&mesh->attributes);
     release_all(&mesh->arena);
 }
 
@@ -66,8 +67,10 @@ static bool accept_partition(bsmdec *decoder, Span data) {
 }
 
 static bool announce(bsmdec *decoder) {
-    if (decoder->mesh.announced) return true;
-    decoder->mesh.announced = true;
+    Mesh *mesh = &decoder->mesh;
+    if (mesh->announced) return true;
+    if (mesh->has_attributes && !decoder->tolerant && !check_rows(&mesh->attributes, &mesh->numbering)) return false;
+    mesh->announced = true;
     return tell(decoder, BSMDEC_CONNECTIVITY, 0);
 }
 
@@ -143,6 +146,62 @@ static bool accept_refinement(bsmdec *decoder, const Packet *packet) {
     return bear(decoder, -1, true);
 }
 
+static bool accept_attribute(bsmdec *decoder, const Packet *packet) {
+    Mesh *mesh = &decoder->mesh;
+    if (!mesh->has_attributes) begin_attributes(&mesh->attributes, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena);
+    mesh->has_attributes = true;
+    return declare_attribute(&mesh->attributes, packet->index, packet->declaration, packet->data, &decoder->scratch) || bear(decoder, -1, true);
+}
+
+/* All positions are there, or known to be lost. */
+static bool begun_values(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (mesh->values_begun) return true;
+    if (mesh->header.on_grid ? !begun_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
+    mesh->values_begun = true;
+    return begin_values(&mesh->attributes, &mesh->numbering, &decoder->scratch);
+}
+
+static bool accept_values(bsmdec *decoder, const Packet *packet) {
+    Mesh *mesh = &decoder->mesh;
+    ConstInts2 places = {NULL, 0, 3};
+    if (!mesh->has_attributes) return FAIL(&decoder->context, CORRUPT, "attribute # is not declared", packet->index);
+    if (!begun_values(decoder)) return false;
+    if (mesh->has_grid && !mesh->grid.broken && mesh->grid.coded == mesh->header.vertices) places = const_ints2(mesh->grid.values);
+    if (!decode_values(&mesh->attributes, packet, places, &decoder->scratch)) return bear(decoder, -1, mesh->header.gop_frames == 0);
+    return !mesh->attributes.one[packet->index]->whole || tell(decoder, BSMDEC_ATTRIBUTE, packet->index);
+}
+
+/* Positions as the encoder had them, in whatever unit, if they are there; no rows otherwise. */
+static bool find_solid(bsmdec *decoder, ConstDoubles2 *solid) {
+    Mesh *mesh = &decoder->mesh;
+    Doubles2 positions = {NULL, 0, 3};
+    if (mesh->has_grid) {
+        if (!mesh->grid.broken && mesh->grid.coded == mesh->header.vertices) positions = mesh->grid.positions;
+    } else if (!mesh->assembly.lossy && mesh->has_layer) {
+        if (!mesh->layer.lossy) positions = mesh->layer.positions;
+    } else if (!mesh->assembly.lossy && !blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &decoder->shown, &decoder->scratch, &positions)) {
+        return false;
+    }
+    *solid = const_doubles2(positions);
+    return true;
+}
+
+/* Attributes that follow from positions, where these are there. */
+static bool finish_attributes(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    ConstDoubles2 solid = {NULL, 0, 3};
+    if (!mesh->has_attributes) return true;
+    if (!begun_values(decoder)) return false;
+    for (int k = 0; k < MOST_ATTRIBUTES; k++) {
+        Attribute *one = mesh->attributes.one[k];
+        if (one == NULL || one->declaration.coding != RECOMPUTED) continue;
+        if (solid.rows == 0 && !find_solid(decoder, &solid)) return false;
+        if (solid.rows > 0 && (!recompute(&mesh->attributes, one, solid, &decoder->scratch) || !tell(decoder, BSMDEC_ATTRIBUTE, k))) return false;
+    }
+    return true;
+}
+
 static bool take_in(bsmdec *decoder, const Packet *packet) {
     const uint32_t EARLY = 1u << CONNECTIVITY_FRAME | 1u << PARTITION_FRAME | 1u << ORDER_FRAME | 1u << BLOCK_FRAME;
     Context *context = &decoder->context;
@@ -159,6 +218,8 @@ static bool take_in(bsmdec *decoder, const Packet *packet) {
         case BLOCK_FRAME: return accept_block(decoder, packet);
         case GRID_FRAME: return accept_grid(decoder, packet);
         case REFINEMENT_FRAME: return accept_refinement(decoder, packet);
+        case ATTRIBUTE_FRAME: return accept_attribute(decoder, packet);
+        case VALUES_FRAME: return accept_values(decoder, packet);
         case END_FRAME: return accept_end(decoder);
         default: return FAIL(context, UNSUPPORTED, "frames of type # are unknown to this decoder", packet->type);
     }
@@ -208,7 +269,7 @@ bool accept_end(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (!decoder->has_mesh || !mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
     if (mesh->header.on_grid ? !begun_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
-    if (!finish_positions(decoder)) return false;
+    if (!finish_attributes(decoder) || !finish_positions(decoder)) return false;
     decoder->has_positions = decoder->ended = true;
     return tell(decoder, BSMDEC_END, 0);
 }

@@ -18,6 +18,10 @@ FLAGS = ("-std=gnu11", "-O2", "-ffp-contract=off", "-fPIC", "-shared")
 HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, END_OF_STREAM, ERROR = range(1, 12)
 
 
+SEMANTICS, DOMAINS = ("generic", "color", "normal", "texcoord"), ("vertex", "corner", "face")
+KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
+
+
 class Event(Structure):
     _fields_ = [("type", c_int), ("index", c_int64), ("vertices", c_int64), ("faces", c_int64)]
 
@@ -29,6 +33,15 @@ class Failure(Structure):
         ("frame", c_int64),
         ("block", c_int64),
         ("message", c_char * 160),
+    ]
+
+
+class Shape(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        *((name, c_int) for name in ("domain", "semantic", "kind", "components")),
+        ("rows", c_int64),
+        ("indices", c_int64),
     ]
 
 
@@ -55,12 +68,16 @@ def build(folder: Path, *flags: str) -> ctypes.CDLL:
     library = ctypes.CDLL(str(target))
     library.bsmdec_open.restype = c_void_p
     library.bsmdec_last_error.restype = POINTER(Failure)
-    for name in ("close", "push", "finish", "next", "faces", "positions", "last_error"):
+    names = "close push finish next faces positions last_error"
+    for name in (*names.split(), *(f"attribute_{name}" for name in ("count", "at", "values", "indices"))):
         getattr(library, f"bsmdec_{name}").argtypes = {
             "push": [c_void_p, c_char_p, c_size_t],
             "next": [c_void_p, POINTER(Event)],
             "faces": [c_void_p, c_void_p, c_size_t],
             "positions": [c_void_p, c_void_p, c_size_t],
+            "attribute_at": [c_void_p, c_int, POINTER(Shape)],
+            "attribute_values": [c_void_p, c_int, c_void_p, c_size_t],
+            "attribute_indices": [c_void_p, c_int, c_void_p, c_size_t],
         }.get(name, [c_void_p])
     return library
 
@@ -92,4 +109,22 @@ def _take(library: ctypes.CDLL, decoder: Any, event: Event, found: Decoded) -> N
         faces, positions = np.zeros((event.faces, 3), np.uint32), np.zeros((event.vertices, 3))
         assert library.bsmdec_faces(decoder, faces.ctypes.data, faces.size) == 0
         assert library.bsmdec_positions(decoder, positions.ctypes.data, positions.size) == 0
-        found.arrays = {"positions": positions, "faces": faces.astype(np.int32)}
+        found.arrays = {"positions": positions, "faces": faces.astype(np.int32), **_attributes(library, decoder)}
+
+
+def _attributes(library: ctypes.CDLL, decoder: Any) -> dict[str, npt.NDArray[Any]]:
+    arrays: dict[str, npt.NDArray[Any]] = {}
+    shape, number = Shape(), 0
+    for index in range(library.bsmdec_attribute_count(decoder)):
+        if library.bsmdec_attribute_at(decoder, index, byref(shape)) != 0:
+            continue
+        values = np.zeros((shape.rows, shape.components), KINDS[shape.kind])
+        assert library.bsmdec_attribute_values(decoder, index, values.ctypes.data, values.nbytes) == 0
+        label = f"{SEMANTICS[shape.semantic]} {DOMAINS[shape.domain]} {shape.name.decode()}"
+        arrays[f"attribute {number} {label}"] = values
+        if shape.indices:
+            indices = np.zeros((shape.indices // 3, 3), np.uint32)
+            assert library.bsmdec_attribute_indices(decoder, index, indices.ctypes.data, indices.size) == 0
+            arrays[f"indices {number}"] = indices.astype(np.int32)
+        number += 1
+    return arrays

@@ -1,0 +1,307 @@
+/* Declarations, seams, and rows of attributes (specification, D 1 to D 3). */
+#include "engine/attributes.h"
+
+enum { SEAM = 1, SEAM_INPUTS = 4, OTHERS = 9, SEAM_SLOTS = 32 * 32 + 9 * 16 + MOST_ATTRIBUTES + 9, MOST_WHOLE = (1 << 20) - 1 };
+enum { GUESSES_PLAIN = MOST_COMPONENTS * BASES * VALENCES, GUESSES_OTHERS = 2 * BASES * VALENCES, FACE_MEMORY = 257, DIRECTIONS = 12 };
+static const double DECLARED_WORK = 6e5, ATTRIBUTE_WORK = 4e5;
+
+void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena) {
+    *attributes = (Attributes){.context = context, .header = header, .faces = faces, .arena = arena, .coding = arena_of(context)};
+}
+
+void end_attributes(Attributes *attributes) { release_all(&attributes->coding); }
+
+/* Numbers that an attribute has at most, coded or not (F 5.8). */
+static double numbers_of(const Declaration *d, int64_t faces) {
+    double rows = d->coding == RECOMPUTED ? 3.0 * (double)faces : (double)d->rows;
+    return rows * (d->words > d->components ? d->words : d->components);
+}
+
+/* What the last two attributes with seams have at each edge, 3 times the last: 0 nothing, 1 no seam, 2 seam (D 2.5). */
+static void look_at_others(const Attributes *attributes, int64_t before, Bytes others) {
+    int factor = 3;
+    for (int64_t k = before - 1; k >= 0 && factor > 0; k--) {
+        const Attribute *one = attributes->one[k];
+        if (one == NULL || !one->own_joins) continue;
+        for (int64_t i = 0; i < others.size; i++) others.data[i] += (uint8_t)(factor * (1 + (one->joins->seams.data[i] == SEAM)));
+        factor = factor == 3 ? 1 : 0;
+    }
+}
+
+static bool read_seams(Attributes *attributes, int64_t index, Span payload, Arena *scratch, Joins *joins) {
+    Context *context = attributes->context;
+    int64_t n = attributes->header->vertices, size = 3 * attributes->faces.rows;
+    double vertices = (double)n, m = (double)attributes->faces.rows, bytes = (double)payload.size;
+    double first = attributes->has_corners ? 0.0 : 8 * vertices + 36 * m;
+    if (!keep(context, 3 * m + first, bytes) || !afford(context, 16 * vertices + 36 * m)
+        || !spend(context, 5e4 + 10 * vertices + 120 * m + 800 * bytes, bytes))
+        return false;
+    if (!attributes->has_corners)
+        attributes->has_corners = link_mesh(context, attributes->faces, n, attributes->arena, scratch, &attributes->corners);
+    joins->seams = zero_bytes(attributes->arena, size);
+    Bytes others = zero_bytes(scratch, size);
+    Ints joined = take_ints(scratch, size), firsts = take_ints(scratch, size);
+    Ints2 ends = take_ints2(scratch, n, 3);
+    Bank bank = make_bank(scratch, (BankPlan){.slots = SEAM_SLOTS, .selectors = OTHERS, .inputs = SEAM_INPUTS});
+    Reading reading;
+    if (failed(context) || !begin_reading(context, payload, &reading)) return false;
+    look_at_others(attributes, index, others);
+    code_edges(reading.coder, bank, attributes->corners, joins->seams, const_bytes(others), ends);
+    if (!finish_reading(&reading)) return false;
+    joins->count = join_corners(attributes->corners, const_bytes(joins->seams), joined, firsts);
+    return true;
+}
+
+static bool find_joins(Attributes *attributes, int64_t index, Attribute *one, Span seams, Arena *scratch) {
+    Context *context = attributes->context;
+    const Declaration *d = &one->declaration;
+    if (d->domain != BSMDEC_CORNER) return true;
+    if (d->seams_of > 0) {
+        const Attribute *shared = d->seams_of <= MOST_ATTRIBUTES ? attributes->one[d->seams_of - 1] : NULL;
+        one->joins = shared != NULL ? shared->joins : NULL;
+        return one->joins != NULL || FAIL(context, CORRUPT, "the seams of attribute # are those of one that is missing", index);
+    }
+    if (attributes->count < index) return FAIL(context, CORRUPT, "the seams of attribute # depend on those of one that is missing", index);
+    Joins *joins = take_memory(attributes->arena, 1, sizeof *joins);
+    if (joins == NULL || !read_seams(attributes, index, seams, scratch, joins)) return false;
+    one->joins = joins;
+    one->own_joins = true;
+    return true;
+}
+
+bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams, Arena *scratch) {
+    Context *context = attributes->context;
+    double numbers = attributes->numbers + numbers_of(declaration, attributes->faces.rows);
+    if (!spend(context, DECLARED_WORK, 0) || !WITHIN(context, attribute_values, numbers)) return false;
+    Attribute *one = take_zeros(attributes->arena, 1, sizeof *one);
+    if (one == NULL) return false;
+    one->declaration = *declaration;
+    if (!find_joins(attributes, index, one, seams, scratch)) return false;
+    attributes->numbers = numbers;
+    attributes->one[index] = one;
+    attributes->count++;
+    return true;
+}
+
+static int64_t loose_rows(const Declaration *d, const Numbering *numbering) { return is_by_vertex(d) ? numbering->loose.rows : 0; }
+
+static int64_t expected_rows(const Attributes *attributes, const Attribute *one, const Numbering *numbering) {
+    if (one->declaration.domain == BSMDEC_FACE) return attributes->faces.rows;
+    return (one->joins != NULL ? one->joins->count : attributes->header->vertices) + loose_rows(&one->declaration, numbering);
+}
+
+bool check_rows(const Attributes *attributes, const Numbering *numbering) {
+    for (int k = 0; k < MOST_ATTRIBUTES; k++) {
+        const Attribute *one = attributes->one[k];
+        if (one == NULL || one->declaration.coding == RECOMPUTED) continue;
+        int64_t expected = expected_rows(attributes, one, numbering);
+        if (one->declaration.rows != expected)
+            return FAIL(attributes->context, CORRUPT, "attribute # has # values where # belong", k, one->declaration.rows, expected);
+    }
+    return true;
+}
+
+/* The values of an attribute as vertices of a mesh of their own (D 3.1). */
+static bool lay_out(Attributes *attributes, Attribute *one, const Numbering *numbering, Arena *scratch) {
+    Context *context = attributes->context;
+    int64_t n = attributes->header->vertices, size = 3 * attributes->faces.rows;
+    one->faces = attributes->faces;
+    if (one->declaration.domain == BSMDEC_FACE) return true;
+    one->vertices = take_ints(attributes->arena, one->rows);
+    int64_t placed = one->rows - loose_rows(&one->declaration, numbering);
+    if (failed(context)) return false;
+    if (one->joins != NULL) {
+        Ints2 joined = take_ints2(attributes->arena, attributes->faces.rows, 3);
+        Ints first = take_ints(scratch, size);
+        if (failed(context)) return false;
+        join_corners(attributes->corners, const_bytes(one->joins->seams), (Ints){joined.data, size}, first);
+        one->faces = const_ints2(joined);
+        for (int64_t r = 0; r < placed; r++) one->vertices.data[r] = attributes->faces.data[first.data[r]];
+    } else {
+        for (int64_t r = 0; r < n; r++) one->vertices.data[r] = (int32_t)r;
+    }
+    for (int64_t r = placed; r < one->rows; r++) one->vertices.data[r] = -1;
+    return true;
+}
+
+bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch) {
+    Context *context = attributes->context;
+    double m = (double)attributes->faces.rows;
+    if (attributes->begun) return true;
+    attributes->begun = true;
+    if (!check_rows(attributes, numbering)) return false;
+    for (int k = 0; k < MOST_ATTRIBUTES; k++) {
+        Attribute *one = attributes->one[k];
+        if (one == NULL) continue;
+        const Declaration *d = &one->declaration;
+        Mark mark = mark_of(scratch);
+        one->rows = expected_rows(attributes, one, numbering);
+        double rows = (double)one->rows;
+        bool done = keep(context, 16.0 * d->components * rows + 12 * rows + 12 * m, 0)
+            && (d->coding != RECOMPUTED || afford(context, 200 * m + 100 * rows))
+            && spend(context, ATTRIBUTE_WORK + 150 * rows + 60 * m, 0) && lay_out(attributes, one, numbering, scratch);
+        if (done) one->values = take_zeros(attributes->arena, one->rows * d->components, kind_size(d->kind));
+        release_to(scratch, mark);
+        if (failed(context)) return false;
+    }
+    return true;
+}
+
+/* For each row the next one at the same vertex, in a ring (A 2.4). */
+static bool find_twins(const Attribute *one, int64_t vertices, Arena *scratch, Ints twin) {
+    Ints first = take_ints(scratch, vertices), last = take_ints(scratch, vertices);
+    if (failed(scratch->context)) return false;
+    for (int64_t v = 0; v < vertices; v++) first.data[v] = last.data[v] = -1;
+    for (int64_t r = 0; r < one->rows; r++) {
+        int32_t v = one->vertices.data[r];
+        twin.data[r] = (int32_t)r;
+        if (v < 0) continue;
+        if (last.data[v] < 0) first.data[v] = (int32_t)r;
+        else twin.data[last.data[v]] = (int32_t)r;
+        last.data[v] = (int32_t)r;
+        twin.data[r] = first.data[v];
+    }
+    return true;
+}
+
+typedef enum { PLAIN, TEXCOORDS, NORMALS } ValueKind;
+
+/* How numbers are predicted (D 3.4). */
+static ValueKind value_kind(const Declaration *d) {
+    bool small = d->coding == LEVELS;
+    for (int i = 0; i < d->words; i++) small = small && d->largest[i] <= MOST_WHOLE;
+    if (d->coding == OCTAHEDRAL) return NORMALS;
+    return small && d->semantic == BSMDEC_TEXCOORD && d->words == 2 ? TEXCOORDS : PLAIN;
+}
+
+static Longs2 start_learners(Arena *arena, ValueKind kind) {
+    int64_t guesses = kind == PLAIN ? GUESSES_PLAIN : GUESSES_OTHERS, count = guesses + guesses / VALENCES;
+    Longs2 learners = make_learners(arena, count);
+    for (int64_t k = 0; fine(arena->context) && k < count; k++) {
+        bool size = k >= guesses;
+        start_learner(learners, k, 0, size ? 40000 : kind == PLAIN ? 16384 : kind == TEXCOORDS ? 8192 : 0);
+        start_learner(learners, k, 1, size ? 8192 : kind == PLAIN ? 16384 : 0);
+    }
+    return learners;
+}
+
+static bool begin_vertex_group(Attributes *attributes, Attribute *one, Group *group, ConstInts largest, int32_t most, ConstInts2 geometry, Arena *scratch) {
+    Context *context = attributes->context;
+    Arena *arena = &attributes->coding;
+    int64_t size = one->rows, columns = largest.size, words = most / 64 + 1;
+    ValueKind kind = value_kind(&one->declaration);
+    Ints twin = take_ints(arena, size);
+    if (failed(context) || !link_mesh(context, one->faces, size, arena, scratch, &group->corners)
+        || !order_mesh(context, &group->corners, arena, scratch, &group->order)
+        || !find_twins(one, attributes->header->vertices, scratch, twin))
+        return false;
+    group->values = (Values){largest, const_ints(group->order), const_ints(twin), geometry, group->pieces, zero_ints2(arena, size, columns),
+        zero_longs2(arena, size, columns + 1), zero_longs2(arena, columns, words), start_learners(arena, kind),
+        zero_ints2(arena, kind == NORMALS ? size : 0, DIRECTIONS), zero_longs(arena, 2)};
+    if (failed(context)) return false;
+    group->values.chart.data[1] = 16 * (int64_t)largest.data[0];
+    if (kind == NORMALS) expect_normals(group->corners, group->values);
+    return true;
+}
+
+static bool begin_group(Attributes *attributes, Attribute *one, Group *group, const int32_t *pieces, ConstInts2 geometry, Arena *scratch) {
+    Context *context = attributes->context;
+    Arena *arena = &attributes->coding;
+    bool of_faces = one->declaration.domain == BSMDEC_FACE;
+    double n = (double)one->rows, m = (double)one->faces.rows, c = group->columns, model = VALUE_MODEL_BYTES + (1 << 17);
+    double own = value_kind(&one->declaration) == NORMALS ? 48 : 0;
+    double charge = of_faces ? (72 + 48 + 8 * c) * m + model : (84 + 16 * c + own) * n + 48 * m + model + c * (1 << 17);
+    if (!WITHIN(context, field_bytes, charge)) return false;
+    Ints largest = take_ints(arena, group->columns);
+    group->model = make_value_model(arena);
+    group->pieces = zero_ints2(arena, one->rows, group->columns);
+    if (failed(context)) return false;
+    int32_t most = 0;
+    for (int j = 0; j < group->columns; j++) {
+        largest.data[j] = pieces[j];
+        most = pieces[j] > most ? pieces[j] : most;
+    }
+    if (!of_faces) return begin_vertex_group(attributes, one, group, const_ints(largest), most, geometry, scratch);
+    group->face_values = (FaceValues){const_ints(largest), group->pieces, zero_ints2(arena, one->rows, group->columns),
+        zero_ints2(arena, group->columns, FACE_MEMORY)};
+    return fine(context) && link_mesh(context, one->faces, attributes->header->vertices, arena, scratch, &group->corners);
+}
+
+/* Where rows are, in whole numbers (D 5); nothing if values do not lean on that. */
+static bool find_geometry(Attributes *attributes, const Attribute *one, ConstInts2 places, ConstInts2 *geometry) {
+    *geometry = (ConstInts2){NULL, 0, 3};
+    if (!one->declaration.leans) return true;
+    if (places.rows == 0) return FAIL(attributes->context, CORRUPT, "positions are missing that attributes are predicted from");
+    Ints2 found = zero_ints2(&attributes->coding, one->rows, 3);
+    if (failed(attributes->context)) return false;
+    for (int64_t r = 0; r < one->rows; r++)
+        if (one->vertices.data[r] >= 0) memcpy(found.data + 3 * r, places.data + 3 * (int64_t)one->vertices.data[r], 3 * sizeof(int32_t));
+    *geometry = const_ints2(found);
+    return true;
+}
+
+/* The state of an attribute takes the place of that of the one before. */
+static bool begin_one(Attributes *attributes, Attribute *one, ConstInts2 places, Arena *scratch) {
+    Context *context = attributes->context;
+    const Declaration *d = &one->declaration;
+    double rows = (double)one->rows, m = (double)one->faces.rows, wide = 2.0 * d->components;
+    ConstInts2 geometry;
+    int32_t pieces[MOST_PIECES];
+    int count = 0;
+    release_all(&attributes->coding);
+    one->begun = true;
+    one->coding = (84 + 16 * wide + 48) * rows + 48 * m + VALUE_MODEL_BYTES + wide * (1 << 17) + (1 << 17);
+    if (!keep(context, one->coding, 0) || !spend(context, layer_work(rows, m, d->components), 0)
+        || !find_geometry(attributes, one, places, &geometry))
+        return false;
+    for (int i = 0; i < d->words; i++) {
+        bool wide_word = d->largest[i] > MOST_WHOLE;
+        pieces[count++] = (int32_t)(wide_word ? d->largest[i] >> 16 : d->largest[i]);
+        if (wide_word) pieces[count++] = 65535;
+    }
+    for (int start = 0; start < count; start += MOST_COMPONENTS) {
+        Group *group = &one->group[one->groups++];
+        group->columns = (int)least(count - start, MOST_COMPONENTS);
+        if (!begin_group(attributes, one, group, pieces + start, geometry, scratch)) return false;
+    }
+    return true;
+}
+
+static bool decode_group(Context *context, const Attribute *one, Group *group, Span payload, int64_t first, int64_t count) {
+    Reading reading;
+    int64_t done;
+    if (!begin_reading(context, payload, &reading)) return false;
+    if (one->declaration.domain == BSMDEC_FACE) {
+        done = code_faces(reading.coder, group->model, group->corners, group->face_values, first, count);
+    } else {
+        ValueKind kind = value_kind(&one->declaration);
+        done = (kind == NORMALS ? code_normals : kind == TEXCOORDS ? code_texcoords : code_scalars)(
+            reading.coder, group->model, group->corners, group->values, first, count);
+    }
+    return check_chunk_done(&reading, done, count);
+}
+
+bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch) {
+    Context *context = attributes->context;
+    Attribute *one = attributes->one[packet->index];
+    double bytes = (double)packet->data.size;
+    if (one == NULL) return FAIL(context, CORRUPT, "attribute # is not declared", packet->index);
+    if (one->whole) return FAIL(context, CORRUPT, "attribute # has all its values already", packet->index);
+    if (!one->begun && !begin_one(attributes, one, places, scratch)) return false;
+    if (!keep(context, 0, bytes) || !spend(context, chunk_work(bytes), bytes)) return false;
+    if (packet->first != one->coded) return FAIL(context, CORRUPT, "the values before number # are missing", packet->first);
+    Cursor cursor = {context, packet->data};
+    one->coded = INT64_MAX; /* until all of it is there: nothing goes on behind a part */
+    for (int g = 0; g < one->groups; g++) {
+        Span part = one->groups > 1 ? take_span(&cursor, take_varint(&cursor)) : take_rest(&cursor);
+        if (failed(context) || !decode_group(context, one, &one->group[g], part, packet->first, packet->count)) return false;
+    }
+    if (!at_end(&cursor) || !restore_values(context, one, packet->first, packet->count)) return false;
+    one->coded = packet->first + packet->count;
+    one->whole = one->coded == one->rows;
+    if (one->whole) {
+        release_all(&attributes->coding);
+        return keep(context, -one->coding, 0);
+    }
+    return true;
+}

@@ -1,0 +1,86 @@
+/* What a mesh carries beside its shape: seams, values, and how the user is given them (specification, D, A). */
+#ifndef BSMDEC_ATTRIBUTES_H
+#define BSMDEC_ATTRIBUTES_H
+
+#include "bitstream/attributes/attributes.h"
+#include "engine/fields.h"
+#include "engine/reader.h"
+
+/* Corners that share a value, where attributes have seams: the seams, and how many values there are. */
+typedef struct {
+    Bytes seams;
+    int64_t count;
+} Joins;
+
+/* One of the groups of at most four pieces that an attribute's words are coded in (D 3.3). */
+enum { MOST_GROUPS = 4, MOST_PIECES = 2 * MOST_WORDS };
+typedef struct {
+    Corners corners;
+    ValueModel model;
+    Values values;         /* of vertices or corners */
+    FaceValues face_values;
+    Ints order;            /* empty: rows come as they are numbered */
+    Ints2 pieces;
+    int columns;
+} Group;
+
+typedef struct {
+    Declaration declaration;
+    const Joins *joins;    /* of corners, NULL for others */
+    bool own_joins, whole;
+    int64_t rows;          /* values, also of one that is recomputed */
+    ConstInts2 faces;      /* the row of each coded corner */
+    Ints vertices;         /* the vertex of each row, -1 for loose ones; none for faces */
+    void *values;          /* rows times components, of the kind */
+    double coding;         /* bytes that are kept while values come */
+    int64_t coded;
+    bool begun;
+    int groups;
+    Group group[MOST_GROUPS];
+} Attribute;
+
+/* Those of one mesh, by number; NULL for those that were not declared. */
+typedef struct {
+    Context *context;
+    const Header *header;
+    ConstInts2 faces;
+    Arena *arena;
+    Arena coding;          /* what the attribute takes whose values come */
+    Attribute *one[MOST_ATTRIBUTES];
+    int count;
+    bool has_corners, begun;
+    Corners corners;
+    double numbers;
+} Attributes;
+
+void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena);
+void end_attributes(Attributes *attributes);
+bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams, Arena *scratch);
+/* Whether all of them have as many rows as they must (D 1.2). */
+bool check_rows(const Attributes *attributes, const Numbering *numbering);
+/* What is needed before values come, or where none do. */
+bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch);
+/* `places`: values of a grid, if all of them are there, otherwise none. */
+bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch);
+/* Normals that follow from positions (D 4.4). */
+bool recompute(Attributes *attributes, Attribute *one, ConstDoubles2 positions, Arena *scratch);
+
+/* Values of rows from their pieces (D 3.2, D 4). */
+bool restore_values(Context *context, Attribute *one, int64_t first, int64_t count);
+INLINE size_t kind_size(int kind) {
+    static const size_t SIZES[] = {1, 1, 2, 2, 4, 4, 4, 8};
+    return SIZES[kind];
+}
+
+/* How the user is given an attribute (D 4.5). */
+typedef struct {
+    int domain;
+    int64_t rows;
+} Given;
+Given given_shape(const Attribute *one, const Numbering *numbering);
+/* The row that each of the user's values is. */
+bool given_rows(const Attribute *one, const Numbering *numbering, Arena *scratch, Longs rows);
+/* The row of each of the user's corners. */
+int32_t row_of_corner(const Attribute *one, const Numbering *numbering, int64_t corner);
+
+#endif
