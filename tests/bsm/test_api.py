@@ -39,13 +39,6 @@ def same(a, b):
 # ------------------------------------------------------------------------------------------------------- round trips
 
 
-def test_a_mesh_of_trimesh(mesh, stream):
-    trimesh = pytest.importorskip("trimesh")
-    theirs = trimesh.Trimesh(mesh.positions, mesh.faces, process=False)
-    assert bsm.encode(theirs, **QUICK) == stream
-    assert bsm.encode((theirs.vertices, theirs.faces), **QUICK) == stream
-
-
 def test_options_are_those_of_the_command_line(mesh, tmp_path):
     bsm.save(mesh, tmp_path / "a.ply")
     given = ["--theta", "4", "--preset", "small", "--set", "block-size=150", "--set", "predict=no"]

@@ -2,27 +2,11 @@
 
 import errno
 import os
-import signal
 import stat
-import subprocess
-import sys
-import time
-from pathlib import Path
 
 import pytest
 
 from bsm.files.output import open_output
-
-ROOT = Path(__file__).parents[2]
-SLOW_WRITER = """
-import sys, time
-from bsm.files.output import open_output
-with open_output(sys.argv[1], overwrite=True) as file:
-    file.write(b"half")
-    file.flush()
-    print("ready", flush=True)
-    time.sleep(60)
-"""
 
 
 def contents(folder):
@@ -120,21 +104,4 @@ def test_a_full_disk_leaves_nothing_behind(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(OSError, match="No space left"), open_output(tmp_path / "a") as file:
         file.write(b"whole")
-    assert contents(tmp_path) == {}
-
-
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, -signal.SIGINT)])
-def test_signals_leave_nothing_behind(number, code, tmp_path):
-    with subprocess.Popen(
-        [sys.executable, "-c", SLOW_WRITER, str(tmp_path / "a")],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        cwd=ROOT,
-    ) as process:
-        assert process.stdout.readline() == b"ready\n"
-        assert list(contents(tmp_path).values()) == [b"half"]
-        begin = time.monotonic()
-        process.send_signal(number)
-        assert process.wait(timeout=10) == code
-        assert time.monotonic() - begin < 10
     assert contents(tmp_path) == {}

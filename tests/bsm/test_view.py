@@ -297,14 +297,6 @@ def test_original_of_a_sequence_is_refused(tmp_path, capsys):
     assert "one input" in capsys.readouterr().err
 
 
-@pytest.mark.slow
-@needs_packages
-@pytest.mark.parametrize("tests", ["vectors", "hostile", "browser", "firefox"])
-def test_javascript(tests):
-    """The decoder in node, and the page in Chromium where there is one."""
-    javascript(tests)
-
-
 def told_by_python(data: bytes, kind: type[bsm.Decoder | bsm.SequenceDecoder]) -> dict[str, Any]:
     """Events of a tolerant decoder, as far as it comes, and the name of the error that it ends with."""
     events: list[list[Any]] = []
@@ -393,10 +385,3 @@ def test_real_sequence_plays(meshes, tmp_path):
     stream = tmp_path / "horse.bsm"
     stream.write_bytes(bsm.encode_sequence(positions, faces, gop=8, frame_rate=25))
     javascript("browser", BSM_SEQUENCE=str(stream))
-
-
-@pytest.mark.slow
-@needs_packages
-def test_what_is_built_is_what_the_sources_build():
-    run = subprocess.run(["node", "scripts/build.mjs", "--check"], cwd=WEB, capture_output=True, text=True)
-    assert run.returncode == 0, run.stdout + run.stderr

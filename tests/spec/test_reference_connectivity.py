@@ -32,7 +32,7 @@ from spec import reference_connectivity as reference
 from tests.bitstream.connectivity.test_faces import SOUPS, compact, read_ply
 from tests.shapes import Faces, grid_faces
 
-quick = settings(max_examples=60)
+quick = settings(max_examples=30)
 SPEC = Path(__file__).parents[2] / "spec"
 DOCUMENT = (SPEC / "core-2-connectivity.md").read_text()
 REFERENCE_ERRORS = (reference.CorruptError, reference.TruncatedError, reference.LimitError)
@@ -163,7 +163,7 @@ def damaged(payload: bytes, data: st.DataObject) -> bytes:
     return bytes(changed)
 
 
-@settings(max_examples=150)
+@settings(max_examples=60)
 @given(st.one_of(HOLEY, SOUPS.map(lambda soup: compact(np.array(soup)))), st.data())
 def test_damaged_connectivity(mesh: tuple[Faces, int], data: st.DataObject) -> None:
     faces, vertices = mesh
@@ -171,7 +171,7 @@ def test_damaged_connectivity(mesh: tuple[Faces, int], data: st.DataObject) -> N
     check_faces(damaged(payload, data), vertices, len(faces) + data.draw(st.sampled_from([0, 0, 0, 1])))
 
 
-@settings(max_examples=100)
+@settings(max_examples=40)
 @given(HOLEY, LABELS, st.data())
 def test_damaged_order_and_labels(mesh: tuple[Faces, int], labels: list[int], data: st.DataObject) -> None:
     faces, vertices = mesh

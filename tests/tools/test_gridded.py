@@ -1,7 +1,5 @@
 """Streams on a grid that are put together without the encoder."""
 
-from random import Random
-
 import numpy as np
 import pytest
 
@@ -11,11 +9,7 @@ from bsm.bitstream.container.wire import FrameType
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from tools.attack.decoding import whole
-from tools.attack.inputs import random_mesh
-from tools.attack.shard import reference
-from tools.attack.tally import Tally
-from tools.gridded import gridded, lightened, random_grid
+from tools.gridded import gridded, lightened
 from tools.surgery import first_entries, frames_of, stream_of
 from tools.vectors.meshes import torus
 
@@ -43,12 +37,3 @@ def test_a_stream_is_coded_again_as_its_header_says_then():
     ]
     assert np.array_equal(decode(light).positions, decode(stream).positions)
     assert np.array_equal(decode(light).faces, decode(stream).faces)
-
-
-def test_random_grids_are_treated_alike_by_both_decoders():
-    random, seen = Random(3), set()
-    for _ in range(25):
-        stream = random_grid(random, random_mesh(random))
-        assert Tally().hold(stream, whole(stream), reference(stream)) is None
-        seen.add((first_entries(stream).get(LIGHT, 0), len(frames_of(stream)) > 3))
-    assert len(seen) == 4

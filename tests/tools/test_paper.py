@@ -9,14 +9,11 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import OptionError
-from bsm.codec.geometry.metrics import face_normals
-from bsm.files.mesh import write_mesh
 from tests.tools.running import tool
-from tools.measure.paper import published
 from tools.measure.paper.command import EXHIBITS, make_exhibits
-from tools.measure.paper.report import Cell, Claim, Column, Exhibit, Picture, Score, Table, report, scores, summary
+from tools.measure.paper.report import Cell, Column, Exhibit, Picture, Table, report, summary
 from tools.measure.paper.segments import errors, left_out, smallest_on_diagonal
-from tools.measure.paper.study import FULL, QUICK, Study, ball, box, swaying
+from tools.measure.paper.study import QUICK, Study
 
 # What the paper has: exhibits, the least number of tables, and of pictures in a quick run.
 EXPECTED = {
@@ -110,28 +107,6 @@ def test_the_scoreboard_counts_numbers_and_claims(quick):
         assert claim["found"] and claim["says"] in text.replace("&#x27;", "'")
 
 
-def test_scores_add_up():
-    column = Column("x", 1, 0.1, "why")
-    table = Table("t", "", (column,), (("a", (Cell(1.0, 1.05),)), ("b", (Cell(2.0, 1.0),)), ("c", (Cell(1.0),))))
-    exhibits = {
-        "one": Exhibit("One", "", (table,), claims=(Claim("It is so.", True, "yes"), Claim("It is not.", False, "no"))),
-        "two": Exhibit("Two", "", (table, table)),
-    }
-    assert scores(exhibits) == (
-        Score("one", 2, 1, 2, 1),
-        Score("two", 4, 2, 0, 0),
-        Score("in all", 6, 3, 2, 1),
-    )
-    assert summary(exhibits).splitlines()[-1].endswith("3 of 6 numbers agree with the paper's, 1 of 2 claims hold")
-
-
-def test_the_largest_mesh_plays_the_hand(tmp_path):
-    (tmp_path / "static").mkdir()
-    for size in (200, 900, 400):
-        write_mesh(tmp_path / "static" / f"ball{size}.ply", ball(size))
-    assert Study(tmp_path, QUICK, str).model("hand").size == 900
-
-
 @pytest.mark.slow
 def test_every_number_of_the_paper_stands_beside_ours_and_differences_are_explained(quick):
     text, data = quick
@@ -146,12 +121,6 @@ def test_every_number_of_the_paper_stands_beside_ours_and_differences_are_explai
     assert "generated ones stand in" in text
 
 
-def test_a_full_run_has_all_the_papers_numbers():
-    for values in (published.BUNNY, published.OVERLAPS, *published.TIMES.values(), *published.POWERS.values()):
-        assert FULL.some(values) == list(values)
-        assert len(QUICK.some(values)) < len(list(values))
-
-
 def test_what_is_refused(tmp_path):
     for words, said in (
         (["--meshes", str(tmp_path / "nowhere")], "has no folder static/"),
@@ -161,12 +130,6 @@ def test_what_is_refused(tmp_path):
         assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
     with pytest.raises(OptionError):
         make_exhibits(Study(None, QUICK, lambda text: None), ["best"])
-
-
-def test_a_folder_that_lacks_a_model_is_refused(tmp_path):
-    (tmp_path / "static").mkdir()
-    with pytest.raises(OptionError, match="bunny"):
-        Study(tmp_path, QUICK, lambda text: None).model("bunny")
 
 
 def test_notes_stand_where_numbers_differ_and_nowhere_else():
@@ -190,26 +153,6 @@ def test_a_matrix_left_out_of_its_mean_is_farther_from_it():
     assert (np.diag(honest) > np.diag(printed)).all()
     off = ~np.eye(4, dtype=bool)
     assert (honest[off] == printed[off]).all()
-
-
-@pytest.mark.parametrize("mesh", [box(600), box(600, (1.0, 0.6, 0.3)), ball(500), ball(500, 0.35)])
-def test_generated_models_are_closed_and_look_outwards(mesh):
-    edges = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]])
-    directed = {tuple(edge) for edge in edges.tolist()}
-    assert len(directed) == len(edges) and all((b, a) in directed for a, b in directed)
-    centres = mesh.positions[mesh.faces].mean(axis=1) - mesh.positions.mean(axis=0)
-    outwards = np.einsum("ij,ij->i", face_normals(mesh.positions, mesh.faces), centres)
-    assert (outwards > 0).all()
-
-
-def test_swaying_keeps_heights_and_distances_from_the_axis():
-    mesh = box(100)
-    frames = swaying(mesh, 5)
-    assert frames.shape == (5, *mesh.positions.shape)
-    assert (frames[..., 2] == mesh.positions[:, 2]).all()
-    radius = np.linalg.norm(frames[..., :2], axis=-1)
-    assert np.allclose(radius, radius[0])
-    assert not np.allclose(frames[1], frames[0])
 
 
 @pytest.mark.real

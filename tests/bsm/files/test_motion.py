@@ -31,7 +31,7 @@ from tests.motion import bending
 from tests.shapes import torus
 
 MOVING = Path(__file__).parent / "moving"
-"""What Blender 5.0.1 wrote, and what it showed at each of the 25 frames; see make.py there."""
+"""What Blender 5.0.1 wrote, and what it showed at each of the 25 frames."""
 COUNT = 6
 
 

@@ -12,7 +12,7 @@ from bsm.files.mesh import read_mesh
 from bsm.files.sequence import open_sequence
 
 PAINTED = Path(__file__).parent / "moving" / "painted.usdz"
-"""A ball in red and a box in red and a texture; it moves. `moving/make.py` makes it in Blender."""
+"""A ball in red and a box in red and a texture; it moves. Made in Blender."""
 pytest.importorskip("pxr.Usd")
 
 

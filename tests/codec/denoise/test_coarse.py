@@ -1,14 +1,13 @@
 """The coarse step is a projection on low graph frequencies, blended; and what is handed over."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.denoise.coarse import RULES, CoarseFilter
-from bsm.codec.denoise.recipe import HAND_OVERS, hand_over
+from bsm.codec.denoise.recipe import hand_over
 from bsm.codec.denoise.surface import Topology, surface_normals
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import theta
@@ -87,27 +86,6 @@ def test_each_hand_over_takes_noise_away_before_the_fine_step() -> None:
     normals = surface_normals(coarse, topology)
     along = np.einsum("ij,ij->i", moved, normals)[:, None] * normals
     assert moved == pytest.approx(along, abs=1e-12) and np.abs(moved).max() > 0.0
-
-
-def test_hand_overs_copy_what_they_hand_over() -> None:
-    clean, faces = cube(3)
-    topology = Topology(faces, len(clean))
-    for step in HAND_OVERS.values():
-        assert not np.shares_memory(step(clean, clean, topology), clean)
-    assert (hand_over("none")(clean, clean + 1, topology) == clean).all()
-    with pytest.raises(OptionError, match="normals"):
-        hand_over("best")
-
-
-def test_copies_are_weighted_as_asked_and_the_overlap_sets_the_size_of_blocks() -> None:
-    positions, faces = sphere(12)
-    coarse = partial(CoarseFilter, faces, len(positions), 0.1, 200)
-    degree = coarse()(positions)
-    assert not np.allclose(coarse(weights=np.ones_like)(positions), degree, rtol=1e-6)
-    assert coarse(weights=lambda degrees: 3.0 * np.maximum(degrees, 1))(positions) == pytest.approx(degree)
-    assert coarse(overlap=1.25).size == round(1.25 * coarse(overlap=1.0).size)
-    with pytest.raises(OptionError, match="overlap"):
-        coarse(overlap=0.9)
 
 
 @pytest.mark.real

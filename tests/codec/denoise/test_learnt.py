@@ -42,25 +42,6 @@ def test_the_same_mesh_elsewhere_gives_the_same_normals_there() -> None:
     assert np.abs(there.normals - here.normals @ TURN.T).mean() < 1e-4
 
 
-def test_batches_make_no_difference() -> None:
-    _, noisy, faces = noisy_sphere(10)
-    topology = Topology(faces, len(noisy))
-    whole = next(descriptions(noisy, topology, batch=len(faces)))
-    parts = list(descriptions(noisy, topology, batch=97))
-    assert whole[0].shape == (len(faces), NUMBERS) and whole[0].dtype == np.float32
-    for index in range(2):
-        assert (np.concatenate([part[index] for part in parts]) == whole[index]).all()
-
-
-def test_frames_are_orthonormal_and_normals_in_them_have_length_one() -> None:
-    _, noisy, faces = noisy_sphere(8)
-    numbers, frames = next(descriptions(noisy, Topology(faces, len(noisy))))
-    assert frames @ frames.transpose(0, 2, 1) == pytest.approx(np.broadcast_to(np.eye(3), frames.shape), abs=1e-12)
-    assert np.linalg.norm(numbers[:, BASE], axis=1) == pytest.approx(1.0, abs=1e-5)
-    own = np.einsum("kij,kj->ki", frames, face_geometry(noisy, faces).normals)
-    assert numbers[:, :3] == pytest.approx(own, abs=1e-6)
-
-
 @pytest.mark.parametrize("flipped", [0, 1])
 def test_a_mirrored_mesh_is_described_by_mirrored_numbers(flipped: int) -> None:
     """Of a flat square with bumps, seen in a mirror across x or y: frames differ by signs alone."""
@@ -132,13 +113,3 @@ def test_the_choice_says_how_much_of_it_is_learnt(monkeypatch: pytest.MonkeyPatc
         normals = face_geometry(known, faces).normals
         monkeypatch.setattr(recipe, "learnt", lambda *_: Learnt(known, normals))  # noqa: B023
         assert automatic.choose(noisy, finding, patient).learnt == share
-
-
-def test_treatments_are_kept_for_one_mesh_alone() -> None:
-    _, noisy, faces = noisy_sphere(8)
-    patient = Patient(faces, len(noisy))
-    first = patient.treatments(noisy)
-    assert patient.treatments(noisy) is first and first.learnt is first.learnt
-    other = patient.treatments(2.0 * noisy)
-    assert other is not first and patient.treatments(noisy) is not first
-    assert (patient.treatments(noisy).learnt.positions == first.learnt.positions).all()

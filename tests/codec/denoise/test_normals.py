@@ -7,12 +7,9 @@ from bsm.bitstream.errors import OptionError
 from bsm.codec.denoise.normals import (
     FINE_STEPS,
     FineStep,
-    GuidedFilter,
     bilateral_normal_filtering,
     filter_normals,
     fine_step,
-    guided_normal_filtering,
-    own_normals,
     patch_guidance,
 )
 from bsm.codec.denoise.surface import Topology, face_geometry
@@ -47,15 +44,6 @@ def test_size_place_and_attitude_of_the_mesh_do_not_matter(step: FineStep) -> No
     rotation = q * np.linalg.det(q)
     moved = step(noisy @ rotation.T * 100 + 7, faces, 3)
     assert moved == pytest.approx(step(noisy, faces, 3) @ rotation.T * 100 + 7, rel=1e-6, abs=1e-6)
-
-
-@every_step
-def test_no_iterations_change_no_normal_much_and_the_input_never(step: FineStep) -> None:
-    clean, faces = cube(4)
-    before = clean.copy()
-    step(clean, faces, 2)
-    assert (clean == before).all()
-    assert step(clean, faces, 0) == pytest.approx(clean)
 
 
 @every_step
@@ -132,21 +120,6 @@ def test_normals_of_lost_faces_and_cancelled_sums_stay() -> None:
     positions[:] = 0.0
     topology, geometry = Topology(faces, len(positions)), face_geometry(positions, faces)
     assert (filter_normals(geometry, geometry.normals, topology.patches, 1.0, 0.35) == geometry.normals).all()
-
-
-def test_the_own_normals_make_an_ordinary_bilateral_filter() -> None:
-    clean, noisy, faces = noisy_cube()
-    topology = Topology(faces, len(noisy))
-    current = noisy
-    for _ in range(20):
-        current = GuidedFilter(current, topology).step(current, own_normals, 0.3)
-    assert theta(clean, current, faces) < 0.2 * theta(clean, noisy, faces)
-
-
-def test_one_filter_may_serve_many_steps() -> None:
-    _, noisy, faces = noisy_cube()
-    guided = GuidedFilter(noisy, Topology(faces, len(noisy)))
-    assert (guided.step(guided.step(noisy)) == guided_normal_filtering(noisy, faces, 2)).all()
 
 
 @pytest.mark.real

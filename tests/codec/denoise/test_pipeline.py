@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
-from bsm.codec.denoise import DenoiseOptions, denoise, denoise_automatically, denoise_frames
+from bsm.codec.denoise import DenoiseOptions, denoise, denoise_frames
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -14,13 +14,6 @@ from tools.noise import gaussian_along_normals
 
 CLEAN, FACES = sphere(14)
 NOISY = gaussian_along_normals(CLEAN, FACES, 0.25, seed=2)
-
-
-def test_the_default_is_the_automatic_mode() -> None:
-    expected, _ = denoise_automatically(NOISY, FACES)
-    result = denoise(TriangleMesh(NOISY, FACES))
-    assert (result.positions == expected).all()
-    assert (result.faces == FACES).all()
 
 
 def test_either_step_may_stand_alone() -> None:

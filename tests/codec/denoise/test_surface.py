@@ -20,16 +20,6 @@ def row(rows: Rows, i: int) -> list[int]:
     return rows.members[rows.starts[i] : rows.starts[i + 1]].tolist()
 
 
-def test_shapes_are_what_they_say() -> None:
-    positions, faces = cube(3)
-    geometry = face_geometry(positions, faces)
-    outward = geometry.centroids - positions.mean(axis=0)
-    assert (np.einsum("ij,ij->i", outward, geometry.normals) > 0).all()
-    assert geometry.areas == pytest.approx(0.5)
-    assert len(positions) - 3 * len(faces) / 2 + len(faces) == 2
-    assert not Topology(faces, len(positions)).boundary.any()
-
-
 def test_patches_hold_the_faces_that_share_a_vertex() -> None:
     positions, faces = cube(3)
     topology = Topology(faces, len(positions))

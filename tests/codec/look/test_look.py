@@ -132,22 +132,6 @@ def test_bits_of_a_quantizer_are_seen_one_by_one(meshes, name):
     assert 2**0.5 < (distances[1] / distances[-1]) ** (1 / 6) < 2**1.5
 
 
-def test_a_crease_is_not_smoothed_and_a_roof_is():
-    corners = [(0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (-1, 0, 0.3), (-1, 1, 0.3), (0, 0, -1), (0, 1, -1)]
-    mesh = TriangleMesh(corners, [(0, 2, 1), (2, 3, 1), (0, 1, 4), (4, 1, 5)])
-    normals = Shape.of(mesh.positions, mesh.faces).normals(mesh.positions).reshape(-1, 3, 3)
-    flat, roof = np.array([0, 0, 1.0]), np.cross([0, 1, 0], [-1, 0, 0.3])
-    sloped = roof / np.linalg.norm(roof)
-    # At vertex 0 there are one face of the plane and one of the roof, by their areas.
-    known = flat + roof
-    assert normals[0, 0] == pytest.approx(known / np.linalg.norm(known), abs=1e-6)
-    assert normals[1, 0] == pytest.approx(flat)
-    assert normals[3, 2] == pytest.approx(sloped, abs=1e-6)
-    sharp = TriangleMesh(corners, [(0, 2, 1), (0, 1, 6)])
-    apart = Shape.of(sharp.positions, sharp.faces).normals(sharp.positions).reshape(-1, 3, 3)
-    assert apart[0, 0] == pytest.approx(flat)
-
-
 def test_both_sides_of_a_face_are_lit_alike():
     turned = TriangleMesh(MESH.positions, MESH.faces[:, ::-1])
     assert look(MESH, turned).distance < 0.01
@@ -331,15 +315,6 @@ def test_a_glance_is_enough_where_it_tells_enough():
     assert few.distance == pytest.approx(known, rel=0.15)
     for bounds in ((0.0, 0.5 * known), (2.0 * known, math.inf)):
         assert looker.glance(other, *bounds) == (few, None)
-
-
-def test_it_does_not_count_which_way_faces_are_turned():
-    shape = Shape.of(MESH.positions, MESH.faces)
-    turned = Shape.of(MESH.positions, MESH.faces[:, ::-1])
-    for camera in cameras(MESH.positions, 128):
-        first = draw(MESH.positions, shape.faces, shape.normals(MESH.positions), camera, 128)
-        other = draw(MESH.positions, turned.faces, turned.normals(MESH.positions), camera, 128)
-        assert (np.abs(first - other) > 1e-6).mean() < 1e-3
 
 
 def test_of_faces_at_one_place_the_first_is_shown():
