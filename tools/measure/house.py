@@ -31,10 +31,10 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 36_300,
-    "all Python, lines": 79_200,
+    "all Python, lines": 78_600,
     "product modules": 245,
     "product C files and headers": 74,
-    "docstring lines of the product, percent": 13.4,
+    "docstring lines of the product, percent": 13.6,
     "header fields": 19,
     "fields of EncodeOptions": 28,
     "settings of --set": 19,
