@@ -7,7 +7,6 @@
 /* Values of attributes on vertices. See values.py, values.c, and for each kind scalars.c, texcoords.c, normals.c. */
 enum {
     MOST_COMPONENTS = 4,
-    VALENCES = 6,
     BASES = 4, /* numbers of known edges that are told apart: 0 to 3 or more */
 };
 
@@ -26,17 +25,19 @@ typedef struct {
     Longs chart;         /* texture coordinates: 2, see texcoords.c */
 } Values;
 
-typedef struct { /* what codes a vertex needs to know */
+typedef struct Work Work;
+/* Code vertex v; `last` is the one before it, or -1. False if a value is none. */
+typedef bool CodeVertex(Work *work, int32_t v, int32_t last);
+
+struct Work { /* what codes a vertex needs to know */
     RangeCoder coder;
     ValueModel model;
     Corners corners;
     Values values;
-} Work;
+    CodeVertex *code_vertex;
+};
 
-/* Code vertex v; `last` is the one before it, or -1. False if a value is none. */
-typedef bool CodeVertex(Work *work, int32_t v, int32_t last);
-
-int64_t code_vertices(Coder given, Work *work, int64_t learners, int64_t first, int64_t count, CodeVertex *code_vertex);
+int64_t code_vertices(Coder given, Work *work, int64_t learners, int64_t first, int64_t count);
 void keep_value(const Values *values, int32_t v, int component, int32_t value);
 
 int64_t expect_normals(Corners corners, Values values);
@@ -50,38 +51,11 @@ INLINE int32_t near_seen(const Values *g, int j, int32_t v) {
 }
 INLINE int32_t gap_at(const Values *g, int32_t v, int j) { return g->gaps.data[g->gaps.columns * v + j]; }
 
-/* A learnt sum that tells a value, and one that tells how far off that will be (specification, A 4.5). */
-enum { TERMS = 7, HINTS = 4 };
-
-typedef struct { /* all in 1/16 */
-    Learner *guess, *size;
-    int32_t term[TERMS], hint[HINTS]; /* filled by the kind; hint 0 is what to expect if there is nothing else */
-    int32_t shift, typical;           /* value less base; size of its error */
-} Forecast;
-
-INLINE int32_t limited(int64_t term) { return within(term, -MOST_TERM, MOST_TERM); }
-
 /* The learners of a component: one for each number of bases and valence, then one for each number of bases. */
 INLINE void choose_learners(Forecast *f, const Values *g, int components, int j, int number, int valence) {
     Learner *learners = (Learner *)g->learners.data;
     f->guess = learners + (j * BASES + number) * VALENCES + valence;
     f->size = learners + components * BASES * VALENCES + j * BASES + number;
-}
-
-INLINE void foresee(Forecast *f, int32_t far, bool informed) {
-    for (int i = 0; i < TERMS; i++) f->term[i] = limited(f->term[i]);
-    for (int i = 0; i < HINTS; i++) f->hint[i] = limited(f->hint[i]);
-    f->shift = foretell(f->guess, TERMS, f->term, far);
-    f->typical = f->hint[0];
-    if (informed) f->typical = within(foretell(f->size, HINTS, f->hint, far), f->hint[0] / 8 + 1, far);
-}
-
-/* The value was `error` above the base; returns by how much it was above the guess. */
-INLINE int32_t take(Forecast *f, int32_t error) {
-    int32_t gap = error - f->shift;
-    learn(f->guess, TERMS, f->term, error, f->typical);
-    learn(f->size, HINTS, f->hint, (int32_t)least(size_of(gap), 8 * (int64_t)f->typical + 64), f->typical);
-    return gap;
 }
 
 INLINE int64_t learners_of(int components) { return components * BASES * (VALENCES + 1); }
@@ -104,7 +78,6 @@ typedef struct {
 } Place;
 
 void survey(const Work *work, int32_t v, Place *place);
-int32_t balance(const Work *work, const Around *around, int component, int32_t otherwise);
 int32_t fold_at(const Work *work, int32_t v, const Base *base, int component);
 int32_t gap_classes(const Work *work, const Place *place, int component, int32_t unit);
 int64_t square_root(uint64_t x);

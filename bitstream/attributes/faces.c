@@ -71,29 +71,27 @@ static bool code_component(RangeCoder *coder, const ValueModel *model, const Cor
     return true;
 }
 
-static bool fits(const ValueModel *model, const Corners *corners, const FaceValues *g) {
-    int64_t columns = g->largest.size;
-    bool fit = fits_values(model) && fits_corners(corners) && columns >= 1 && columns <= MOST_COMPONENTS
-        && g->values.rows == corners->faces.rows && g->values.columns == columns && g->gaps.rows == g->values.rows
-        && g->gaps.columns == columns && g->memory.rows == columns && g->memory.columns == MEMORIES + 1;
-    for (int j = 0; j < columns && fit; j++) fit = g->largest.data[j] >= 0 && g->largest.data[j] < 1 << 20;
-    return fit;
+typedef struct {
+    RangeCoder coder;
+    ValueModel model;
+    Corners corners;
+    FaceValues values;
+} Faces;
+
+static bool code_face(void *work, int64_t f) {
+    Faces *w = work;
+    int32_t hits = 0;
+    for (int j = 0; j < w->values.values.columns; j++)
+        if (!code_component(&w->coder, &w->model, &w->corners, &w->values, (int32_t)f, j, &hits)) return false;
+    return true;
 }
 
-/* Code `count` faces from number `first` on, as far as there is room (writing) or sense (reading). Returns how many. */
-int64_t code_faces(Coder given, ValueModel model, Corners corners, FaceValues values, int64_t first, int64_t count) {
-    RangeCoder coder;
-    if (!open_coder(&coder, given) || !fits(&model, &corners, &values) || first < 0 || count < 0
-        || first > values.values.rows - count)
+int64_t code_faces(Coder given, ValueModel model, Corners corners, FaceValues g, int64_t first, int64_t count) {
+    int64_t rows = corners.faces.rows, columns = g.largest.size;
+    if (!fits_values(&model) || !fits_corners(&corners) || columns < 1 || columns > MOST_COMPONENTS
+        || !fits_range(g.largest, columns) || !shaped(g.values, rows, columns) || !shaped(g.gaps, rows, columns)
+        || !shaped(g.memory, columns, MEMORIES + 1))
         return MISUSED;
-    int64_t done = 0;
-    for (; done < count && has_room(&coder, MOST_COMPONENTS * VALUE_BYTES) && !overran(&coder); done++) {
-        int32_t hits = 0;
-        bool good = true;
-        for (int j = 0; j < values.values.columns && good; j++)
-            good = code_component(&coder, &model, &corners, &values, (int32_t)(first + done), j, &hits);
-        if (!good) break;
-    }
-    close_coder(&coder, given);
-    return done;
+    Faces work = {.model = model, .corners = corners, .values = g};
+    return code_rows(given, &work.coder, rows, first, count, MOST_COMPONENTS * VALUE_BYTES, code_face, &work);
 }

@@ -198,7 +198,8 @@ static bool code_axis(Work *w, const Sight *s, int j, int32_t *pair, int32_t *ga
     Forecast f = {.term = {angle, ring, s->drift[j] - base, s->mean[j] - base, s->across[j] - base, near, first},
         .hint = {p->error >= 0 ? p->error : FINE, size_of(angle) + size_of(ring), size_of(first), size_of(near)}};
     choose_learners(&f, g, PAIR, j, p->number, p->valence);
-    foresee(&f, far, true);
+    foresee(&f, far);
+    foresee_error(&f, far, true);
     int32_t guess = base + f.shift, bucket = size_class(f.typical), unit = f.typical / 2 + 4, twin = p->twin >= 0;
 
     Expectation e;
@@ -210,8 +211,7 @@ static bool code_axis(Work *w, const Sight *s, int j, int32_t *pair, int32_t *ga
     e.prediction[5] = s->mean[j];
     e.prediction[6] = guess;
     int32_t off[PREDICTIONS];
-    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], -far, far);
-    for (int i = 0; i < PREDICTIONS; i++) off[i] = e.prediction[i] - e.prediction[6];
+    settle(&e, -far, far, off);
 
     e.scale = f.typical;
     e.asks = MOST_ASKS;
@@ -259,6 +259,6 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
 
 int64_t code_normals(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
     if (!fits_normals(&corners, &values)) return MISUSED;
-    Work work = {.model = model, .corners = corners, .values = values};
-    return code_vertices(coder, &work, learners_of(PAIR), first, count, code_vertex);
+    Work work = {.model = model, .corners = corners, .values = values, .code_vertex = code_vertex};
+    return code_vertices(coder, &work, learners_of(PAIR), first, count);
 }

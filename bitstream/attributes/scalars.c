@@ -45,7 +45,7 @@ static void find_trend(const Work *w, const Place *p, int32_t v, int32_t last, i
     t->straight = flaps > 0 ? divided(across, flaps) : t->mean;
     t->length = flaps > 0 ? divided(length, flaps) : 0;
     t->fold = flaps > 0 ? divided(fold, flaps) : 0;
-    t->closing = balance(w, r, j, t->straight);
+    t->closing = balance(&w->corners, &g->values, &g->sums, r, j, t->straight);
 }
 
 /* The neighbour, or the twin, that is most like v in the components before j; none before the first. */
@@ -74,7 +74,8 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
                       j > 1 ? own->off[j - 2] : t.beside - mean},
         .hint = {t.error, t.spread, size_of(one), size_of(best)}};
     choose_learners(&f, g, MOST_COMPONENTS, j, p->number, p->valence);
-    foresee(&f, far, near > 0);
+    foresee(&f, far);
+    foresee_error(&f, far, near > 0);
     int32_t guess = mean + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
 
     int32_t first = near > 0 ? value_at(g, r->neighbour[0], j) * FINE : mean, like = find_like(g, p, v, j);
@@ -89,8 +90,7 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
     if (like >= 0) e.prediction[5] = (value_at(g, like, j) + value_at(g, v, j - 1) - value_at(g, like, j - 1)) * FINE;
     e.prediction[6] = guess;
     int32_t off[PREDICTIONS];
-    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);
-    for (int i = 0; i < PREDICTIONS; i++) off[i] = e.prediction[i] - e.prediction[6];
+    settle(&e, 0, far, off);
 
     e.scale = f.typical;
     e.asks = MOST_ASKS;
@@ -123,6 +123,6 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
 }
 
 int64_t code_scalars(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
-    Work work = {.model = model, .corners = corners, .values = values};
-    return code_vertices(coder, &work, learners_of(MOST_COMPONENTS), first, count, code_vertex);
+    Work work = {.model = model, .corners = corners, .values = values, .code_vertex = code_vertex};
+    return code_vertices(coder, &work, learners_of(MOST_COMPONENTS), first, count);
 }

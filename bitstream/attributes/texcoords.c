@@ -138,7 +138,8 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
                       along(*first, p->run[0], p->run[1]), p->drift[j], one->affine[j] - base},
         .hint = {number > 0 ? p->place.error : usual, p->spread[j], size_of(*first), size_of(like)}};
     choose_learners(&f, g, AXES, j, number, p->place.valence);
-    foresee(&f, far, number > 0);
+    foresee(&f, far);
+    foresee_error(&f, far, number > 0);
     int32_t guess = base + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
 
     Expectation e;
@@ -150,8 +151,7 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     e.prediction[5] = r->neighbours > 0 ? at(g, r->neighbour[0])[j] * FINE : p->mean[j];
     e.prediction[6] = guess;
     int32_t off[PREDICTIONS];
-    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);
-    for (int i = 0; i < PREDICTIONS; i++) off[i] = e.prediction[i] - e.prediction[6];
+    settle(&e, 0, far, off);
 
     e.scale = f.typical;
     e.asks = MOST_ASKS;
@@ -198,6 +198,6 @@ static bool code_vertex(Work *w, int32_t v, int32_t last) {
 
 int64_t code_texcoords(Coder coder, ValueModel model, Corners corners, Values values, int64_t first, int64_t count) {
     if (values.values.columns != AXES) return MISUSED;
-    Work work = {.model = model, .corners = corners, .values = values};
-    return code_vertices(coder, &work, learners_of(AXES), first, count, code_vertex);
+    Work work = {.model = model, .corners = corners, .values = values, .code_vertex = code_vertex};
+    return code_vertices(coder, &work, learners_of(AXES), first, count);
 }

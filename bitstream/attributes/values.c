@@ -1,48 +1,28 @@
 /* What all kinds of values share (specification, A 1, A 2). */
 #include "bitstream/attributes/attributes.h"
 
-enum { MOST_LARGEST = (1 << 20) - 1 };
-
 static bool fits(const Work *w, int64_t learners) {
     const Values *g = &w->values;
     int64_t n = w->corners.rank.size, columns = g->largest.size;
-    bool fit = fits_values(&w->model) && fits_corners(&w->corners) && columns >= 1 && columns <= MOST_COMPONENTS
-        && g->order.size == n && g->twin.size == n && g->geometry.columns == 3
-        && (g->geometry.rows == n || g->geometry.rows == 0) && g->values.rows == n && g->values.columns == columns
-        && g->gaps.rows == n && g->gaps.columns == columns && g->sums.rows == n && g->sums.columns == columns + 1
-        && g->seen.rows == columns && g->learners.rows == learners && g->learners.columns == LEARNER_COLUMNS
+    return fits_values(&w->model) && fits_corners(&w->corners) && columns >= 1 && columns <= MOST_COMPONENTS
+        && fits_range(g->largest, columns) && fits_seen(g->largest, g->seen) && g->order.size == n && g->twin.size == n
+        && g->geometry.columns == 3 && (g->geometry.rows == n || g->geometry.rows == 0)
+        && shaped(g->values, n, columns) && shaped(g->gaps, n, columns) && g->sums.rows == n
+        && g->sums.columns == columns + 1 && g->learners.rows == learners && g->learners.columns == LEARNER_COLUMNS
         && g->chart.size == 2;
-    for (int j = 0; j < columns && fit; j++)
-        fit = g->largest.data[j] >= 0 && g->largest.data[j] <= MOST_LARGEST
-            && g->largest.data[j] / 64 < g->seen.columns;
-    return fit;
 }
 
-/* Tell the neighbours of v, which is known now. */
-static void pass_on(const Corners *corners, const Values *g, int32_t v) {
-    int64_t columns = g->values.columns;
-    for (int32_t i = corners->starts.data[v]; i < corners->starts.data[v + 1]; i++) {
-        int64_t *sum = g->sums.data + (columns + 1) * corners->faces.data[next_corner(corners->corners.data[i])];
-        for (int j = 0; j < columns; j++) sum[j] += g->values.data[columns * v + j];
-        sum[columns]++;
-    }
-}
-
-/* Code `count` vertices from number `first` of the order on, as far as there is room (writing) or sense (reading).
- * Returns how many. */
-int64_t code_vertices(Coder given, Work *w, int64_t learners, int64_t first, int64_t count, CodeVertex *code_vertex) {
+static bool code_one(void *work, int64_t i) {
+    Work *w = work;
     const int32_t *order = w->values.order.data;
-    if (!open_coder(&w->coder, given) || !fits(w, learners) || first < 0 || count < 0
-        || first > w->values.order.size - count)
-        return MISUSED;
-    int64_t done = 0;
-    for (; done < count && has_room(&w->coder, MOST_COMPONENTS * VALUE_BYTES) && !overran(&w->coder); done++) {
-        int64_t i = first + done;
-        if (!code_vertex(w, order[i], i > 0 ? order[i - 1] : -1)) break;
-        pass_on(&w->corners, &w->values, order[i]);
-    }
-    close_coder(&w->coder, given);
-    return done;
+    if (!w->code_vertex(w, order[i], i > 0 ? order[i - 1] : -1)) return false;
+    pass_on(&w->corners, &w->values.values, &w->values.sums, order[i]);
+    return true;
+}
+
+int64_t code_vertices(Coder given, Work *w, int64_t learners, int64_t first, int64_t count) {
+    if (!fits(w, learners)) return MISUSED;
+    return code_rows(given, &w->coder, w->values.order.size, first, count, MOST_COMPONENTS * VALUE_BYTES, code_one, w);
 }
 
 void keep_value(const Values *g, int32_t v, int j, int32_t value) {
@@ -52,8 +32,6 @@ void keep_value(const Values *g, int32_t v, int j, int32_t value) {
 
 /* What is known around a vertex before its values (specification, A 2). */
 
-enum { MOST_ERROR = 1 << 28 };
-
 int64_t square_root(uint64_t x) { /* rounded down */
     uint64_t root = 0;
     for (uint64_t bit = UINT64_C(1) << 62; bit != 0; bit >>= 2) {
@@ -62,13 +40,6 @@ int64_t square_root(uint64_t x) { /* rounded down */
         root = (root >> 1) + (fits ? bit : 0);
     }
     return (int64_t)root;
-}
-
-/* Sizes of the gaps of a vertex, added. */
-static int32_t error_at(const Values *g, int32_t v) {
-    int64_t sum = 0;
-    for (int j = 0; j < g->gaps.columns; j++) sum += size_of(gap_at(g, v, j));
-    return (int32_t)least(sum, MOST_ERROR);
 }
 
 void survey(const Work *w, int32_t v, Place *p) {
@@ -84,7 +55,7 @@ void survey(const Work *w, int32_t v, Place *p) {
         if (rank[a] >= now || rank[b] >= now || a == b) continue;
         int32_t tip = c->opposite.data[k];
         Base base = {.a = a, .b = b, .c = tip >= 0 && rank[vertex[tip]] < now ? vertex[tip] : -1, .tip = tip};
-        base.error = error_at(g, a) + error_at(g, b) + 2 * error_at(g, base.c >= 0 ? base.c : a);
+        base.error = error_at(&g->gaps, a) + error_at(&g->gaps, b) + 2 * error_at(&g->gaps, base.c >= 0 ? base.c : a);
         int at = p->bases++;
         for (; at > 0 && p->base[at - 1].error > base.error; at--) p->base[at] = p->base[at - 1];
         p->base[at] = base;
@@ -95,23 +66,8 @@ void survey(const Work *w, int32_t v, Place *p) {
         if (rank[t] < now && (p->twin < 0 || rank[t] > rank[p->twin])) p->twin = t;
     int64_t errors = 0;
     int32_t near = p->around.neighbours;
-    for (int i = 0; i < near; i++) errors += error_at(g, p->around.neighbour[i]);
+    for (int i = 0; i < near; i++) errors += error_at(&g->gaps, p->around.neighbour[i]);
     p->error = near > 0 ? divided(errors, (int32_t)g->gaps.columns * near) : -1;
-}
-
-/* What v would be, less `otherwise`, if it balanced the others around neighbours where it is all that is missing. */
-int32_t balance(const Work *w, const Around *around, int j, int32_t otherwise) {
-    const Values *g = &w->values;
-    int64_t columns = g->values.columns, total = 0;
-    int32_t found = 0;
-    for (int i = 0; i < around->neighbours; i++) {
-        int32_t u = around->neighbour[i];
-        const int64_t *sum = g->sums.data + (columns + 1) * u;
-        if (faces_at(&w->corners, u) - sum[columns] > 1) continue;
-        total += limited(FINE * ((sum[columns] + 1) * value_at(g, u, j) - sum[j]) - otherwise);
-        found++;
-    }
-    return found > 0 ? divided(total, found) : 0;
 }
 
 /* How the parallelograms over the other two edges of the triangle behind a base fail. */

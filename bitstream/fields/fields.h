@@ -175,6 +175,70 @@ INLINE void learn_in_turn(Learner *l, int terms, const int32_t *term, int32_t ta
     solve_for(l, terms, turn);
 }
 
+/* A learnt sum that tells a value, and one that tells how far off that will be (specification, V 9, A 4.5). */
+enum { TERMS = 7, HINTS = 4, VALENCES = 6 };
+
+typedef struct { /* all in 1/16 */
+    Learner *guess, *size;
+    int32_t term[TERMS], hint[HINTS]; /* filled by the kind; hint 0 is what to expect if there is nothing else */
+    int32_t shift, typical;           /* value less base; size of its error */
+} Forecast;
+
+INLINE int32_t limited(int64_t term) { return within(term, -MOST_TERM, MOST_TERM); }
+
+INLINE void foresee(Forecast *f, int32_t far) {
+    for (int i = 0; i < TERMS; i++) f->term[i] = limited(f->term[i]);
+    f->shift = foretell(f->guess, TERMS, f->term, far);
+}
+
+INLINE void foresee_error(Forecast *f, int32_t far, bool informed) {
+    for (int i = 0; i < HINTS; i++) f->hint[i] = limited(f->hint[i]);
+    f->typical = f->hint[0];
+    if (informed) f->typical = within(foretell(f->size, HINTS, f->hint, far), f->hint[0] / 8 + 1, far);
+}
+
+/* The value was `error` above the base; returns by how much it was above the guess. */
+INLINE int32_t take(Forecast *f, int32_t error) {
+    int32_t gap = error - f->shift;
+    learn(f->guess, TERMS, f->term, error, f->typical);
+    learn(f->size, HINTS, f->hint, (int32_t)least(size_of(gap), 8 * (int64_t)f->typical + 64), f->typical);
+    return gap;
+}
+
+/* Bring predictions into their range, and say how far they are from the guess. */
+INLINE void settle(Expectation *e, int32_t low, int32_t high, int32_t *off) {
+    for (int i = 0; i < PREDICTIONS; i++) e->prediction[i] = within(e->prediction[i], low, high);
+    for (int i = 0; i < PREDICTIONS; i++) off[i] = e->prediction[i] - e->prediction[PREDICTIONS - 1];
+}
+
+/* What the kinds of fields share: rows of `values` that are coded one behind the other. */
+enum { MOST_SPAN = 1 << 20 };
+
+/* Code row number i; false if a value is none. */
+typedef bool CodeRow(void *work, int64_t i);
+
+/* Code `count` rows from `first` on, as far as there is room for `bytes` (writing) or sense (reading); returns how many. */
+INLINE int64_t code_rows(Coder given, RangeCoder *coder, int64_t rows, int64_t first, int64_t count, int64_t bytes,
+    CodeRow *code_row, void *work) {
+    if (!open_coder(coder, given) || first < 0 || count < 0 || first > rows - count) return MISUSED;
+    int64_t done = 0;
+    while (done < count && has_room(coder, bytes) && !overran(coder) && code_row(work, first + done)) done++;
+    close_coder(coder, given);
+    return done;
+}
+
+INLINE bool shaped(Ints2 x, int64_t rows, int64_t columns) { return x.rows == rows && x.columns == columns; }
+bool fits_range(ConstInts largest, int64_t columns);
+bool fits_seen(ConstInts largest, Longs2 seen);
+
+/* Sizes of the gaps of a vertex, added. */
+int32_t error_at(const Ints2 *gaps, int32_t v);
+/* Tell the neighbours of v, which is known now. */
+void pass_on(const Corners *corners, const Ints2 *values, const Longs2 *sums, int32_t v);
+/* What component j would be, less `otherwise`, if it balanced the others around neighbours where it is all that is missing. */
+int32_t balance(const Corners *corners, const Ints2 *values, const Longs2 *sums, const Around *around, int j,
+    int32_t otherwise);
+
 /* Tables of integer fields (specification, V 4.1, V 4.2); tables.c is written by `python -m tools.field_tables`. */
 enum { SURVIVAL_REACH = 512, ODDS_SIZE = 544 };
 
@@ -184,7 +248,7 @@ extern INSIDE const int32_t SURVIVAL[2 * SURVIVAL_REACH + 1];
 extern INSIDE const int16_t ODDS[ODDS_SIZE];
 extern INSIDE const int16_t LESS[ODDS_SIZE];
 
-/* Positions on a grid. See grid.py and grid.c. */
+/* Positions on a grid. See grid.c. */
 /* As Python keeps it. */
 typedef struct {
     ConstInts largest; /* 3: values of each axis are 0 .. largest, below 2^20 */
@@ -198,7 +262,7 @@ typedef struct {
 
 int64_t code_grid(Coder coder, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count);
 
-/* Positions on a grid by a small model, vertices as they are numbered. See light.py and light.c. */
+/* Positions on a grid by a small model, vertices as they are numbered. See light.c. */
 enum {
     LIGHT_SIZES = 24, /* classes of what is expected of an error */
     LIGHT_KINDS = 12, /* flaps, at most three, and axes before */
@@ -217,7 +281,7 @@ typedef struct {
 
 int64_t code_light(Coder coder, Corners corners, Light light, int64_t first, int64_t count);
 
-/* Which float of the cell of a grid each coordinate is. See floats.py and floats.c. */
+/* Which float of the cell of a grid each coordinate is. See light.c. */
 /* What has been learnt, as Python keeps it. */
 typedef struct {
     Words slots;  /* 3 x 9: by the last three answers where a value comes again, and one where it is new */
@@ -228,7 +292,7 @@ typedef struct {
 int64_t code_floats(Coder coder, Floats floats, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest, ConstLongs2 high,
                     Longs2 chosen);
 
-/* Levels around a prediction. See levels.py and levels.c. */
+/* Levels around a prediction. See levels.c. */
 /* As Python keeps it; each n x 3 but the last. */
 typedef struct {
     Ints2 levels; /* at most 2^20 in magnitude */

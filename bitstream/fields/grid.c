@@ -4,13 +4,9 @@
 
 enum {
     AXES = 3,
-    MOST_SPAN = 1 << 20,
-    VALENCES = 6,
     STEPS = 3, /* axes of a vertex in the order in which they are coded */
     GUESSES = 4 * 2 * VALENCES,
     LEARNERS = GUESSES + 4 * STEPS,
-    TERMS = 7,
-    HINTS = 4,
 };
 
 /* How meshes deviate from parallelograms, as vectors in 1/16 (V 8.3). */
@@ -31,17 +27,12 @@ typedef struct { /* what is known of a vertex before its axes */
     int axis[STEPS];
 } Place;
 
-static int32_t errors_at(const Grid *g, int32_t v) {
-    const int32_t *gap = g->gaps.data + AXES * (int64_t)v;
-    return size_of(gap[0]) + size_of(gap[1]) + size_of(gap[2]);
-}
-
 /* Best-behaved flaps first: where errors were small (V 8.1). */
 static void sort_flaps(const Grid *g, Around *r) {
     int64_t errors[MOST_FLAPS];
     for (int i = 0; i < r->flaps; i++) {
         Flap flap = r->flap[i];
-        int64_t own = 2 * (int64_t)errors_at(g, flap.c) + errors_at(g, flap.a) + errors_at(g, flap.b);
+        int64_t own = 2 * (int64_t)error_at(&g->gaps, flap.c) + error_at(&g->gaps, flap.a) + error_at(&g->gaps, flap.b);
         int at = i;
         for (; at > 0 && errors[at - 1] > own; at--) {
             errors[at] = errors[at - 1];
@@ -67,7 +58,7 @@ static void start_plane(Plane *p, const int64_t *normal) {
 INLINE int64_t unused(const Plane *p) { return p->square - p->used + (p->square >> 6) + 1; }
 
 /* Where axis j is, if the vertex lies in the plane. */
-INLINE int32_t tilt(const Plane *p, int j) { return within(-p->normal[j] * p->dot / unused(p), -MOST_TERM, MOST_TERM); }
+INLINE int32_t tilt(const Plane *p, int j) { return limited(-p->normal[j] * p->dot / unused(p)); }
 
 INLINE void pass_axis(Plane *p, int j, int32_t error) {
     p->dot += (int64_t)p->normal[j] * error;
@@ -102,23 +93,6 @@ static void add_shape(const Corners *corners, const int32_t *x, int32_t v, Flap 
     }
 }
 
-/* Where v is all that is missing around a neighbour, it balances the others (V 8.4). */
-static void balance(const Corners *corners, const Grid *g, Place *p) {
-    int32_t found = 0;
-    for (int i = 0; i < p->around.neighbours; i++) {
-        int32_t u = p->around.neighbour[i];
-        const int64_t *sum = g->sums.data + 4 * (int64_t)u;
-        if (faces_at(corners, u) - sum[3] > 1) continue;
-        for (int j = 0; j < AXES; j++) {
-            int64_t missing = (sum[3] + 1) * g->values.data[AXES * (int64_t)u + j] - sum[j];
-            p->closing[j] += within(FINE * missing - p->base[j], -MOST_TERM, MOST_TERM);
-        }
-        found++;
-    }
-    if (found > 1)
-        for (int j = 0; j < AXES; j++) p->closing[j] = divided(p->closing[j], found);
-}
-
 static void average(const Grid *g, int32_t last, Place *p) {
     const int32_t *x = g->values.data;
     const Around *r = &p->around;
@@ -138,7 +112,6 @@ static void average(const Grid *g, int32_t last, Place *p) {
         p->error_near[j] = r->neighbours > 0 ? divided(error, r->neighbours) : last < 0 ? FINE * most : most;
         p->base[j] = r->flaps > 0 ? divided(across, r->flaps) : p->mean[j];
         p->apart[j] = r->flaps > 1 ? size_of(p->across[0][j] - p->across[1][j]) : 0;
-        p->closing[j] = 0;
         for (int i = 0; i < SHAPES; i++) p->shape[i][j] = 0;
     }
 }
@@ -177,7 +150,8 @@ OFTEN static void survey(const Corners *corners, const Grid *g, int32_t v, int32
     if (p->around.flaps > 1)
         for (int i = 0; i < SHAPES; i++)
             for (int j = 0; j < AXES; j++) p->shape[i][j] = divided(p->shape[i][j], p->around.flaps);
-    balance(corners, g, p);
+    for (int j = 0; j < AXES; j++) /* V 8.4 */
+        p->closing[j] = balance(corners, &g->values, &g->sums, &p->around, j, p->base[j]);
     span_planes(g, p);
 }
 
@@ -190,17 +164,16 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     int32_t *x = g->values.data, tilted = tilt(&p->whole, j);
     const Flap *best = r->flap;
 
-    int32_t term[TERMS] = {tilted, mean - base, p->closing[j], p->shape[LENGTH][j], p->shape[SKEW][j],
-        p->shape[TURN][j], p->shape[FOLD][j]};
-    for (int i = 0; i < TERMS; i++) term[i] = within(term[i], -MOST_TERM, MOST_TERM);
     Learner *learners = (Learner *)g->learners.data;
-    Learner *guess = learners + (flaps * 2 + (step == 2)) * VALENCES + p->valence;
-    Learner *size = learners + GUESSES + flaps * STEPS + step;
-    int32_t shift = foretell(guess, TERMS, term, far);
-
-    int32_t hint[HINTS] = {p->error_near[j], p->apart[j], *first_gap, size_of(shift - tilted)};
-    for (int i = 0; i < HINTS; i++) hint[i] = (int32_t)least(hint[i], MOST_TERM);
-    int32_t typical = flaps > 0 ? within(foretell(size, HINTS, hint, far), hint[0] / 8 + 1, far) : hint[0];
+    Forecast f = {.guess = learners + (flaps * 2 + (step == 2)) * VALENCES + p->valence,
+        .size = learners + GUESSES + flaps * STEPS + step,
+        .term = {tilted, mean - base, p->closing[j], p->shape[LENGTH][j], p->shape[SKEW][j], p->shape[TURN][j],
+            p->shape[FOLD][j]}};
+    foresee(&f, far);
+    int32_t hint[HINTS] = {p->error_near[j], p->apart[j], *first_gap, size_of(f.shift - tilted)};
+    for (int i = 0; i < HINTS; i++) f.hint[i] = hint[i];
+    foresee_error(&f, far, flaps > 0);
+    int32_t shift = f.shift, typical = f.typical;
     int32_t bucket = size_class(typical >> 1), unit = typical / 2 + 4;
 
     int32_t in_first = flaps > 0 ? p->across[0][j] + tilt(&p->plane[0], j) : mean;
@@ -214,9 +187,8 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     e.prediction[4] = nearest_seen(g->seen.data + j * words, words, within(whole(in_first), 0, most)) * FINE;
     e.prediction[5] = r->neighbours > 0 ? x[AXES * (int64_t)r->neighbour[0] + j] * FINE : mean;
     e.prediction[6] = base + shift;
-    for (int i = 0; i < PREDICTIONS; i++) e.prediction[i] = within(e.prediction[i], 0, far);
     int32_t off[PREDICTIONS];
-    for (int i = 0; i < PREDICTIONS; i++) off[i] = e.prediction[i] - e.prediction[6];
+    settle(&e, 0, far, off);
 
     int kind = flaps * STEPS + step;
     e.scale = typical;
@@ -240,53 +212,40 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     if (value < 0 || value > most) return false;
     x[AXES * (int64_t)v + j] = value;
     mark_seen(g->seen.data + j * words, value);
-    int32_t error = value * FINE - base, gap = error - shift;
+    int32_t error = value * FINE - base, gap = take(&f, error);
     g->gaps.data[AXES * (int64_t)v + j] = gap;
     *hits = hits_of(&e, value);
     if (step == 0) *first_gap = size_of(gap);
     pass_axis(&p->whole, j, error);
     for (int i = 0; i < 2 && i < r->flaps; i++) pass_axis(&p->plane[i], j, value * FINE - p->across[i][j]);
-    learn(guess, TERMS, term, error, typical);
-    learn(size, HINTS, hint, (int32_t)least(size_of(gap), 8 * (int64_t)typical + 64), typical);
     return true;
 }
 
-OFTEN static bool code_vertex(RangeCoder *coder, const ValueModel *model, const Corners *corners, Grid *g, int32_t v, int32_t last) {
-    Place p;
-    survey(corners, g, v, last, &p);
-    int32_t hits = 0, first_gap = 0;
-    for (int step = 0; step < STEPS; step++)
-        if (!code_axis(coder, model, g, v, step, &p, &hits, &first_gap)) return false;
-    for (int32_t i = corners->starts.data[v]; i < corners->starts.data[v + 1]; i++) {
-        int64_t *sum = g->sums.data + 4 * (int64_t)corners->faces.data[next_corner(corners->corners.data[i])];
-        for (int j = 0; j < AXES; j++) sum[j] += g->values.data[AXES * (int64_t)v + j];
-        sum[3]++;
-    }
-    return true;
-}
-
-static bool fits_grid(const Corners *corners, const Grid *g) {
-    int64_t n = corners->rank.size;
-    bool fits = g->largest.size == AXES && g->order.size == n && g->values.rows == n && g->values.columns == AXES
-        && g->gaps.rows == n && g->gaps.columns == AXES && g->sums.rows == n && g->sums.columns == 4
-        && g->seen.rows == AXES && g->learners.rows == LEARNERS && g->learners.columns == LEARNER_COLUMNS;
-    for (int j = 0; j < AXES && fits; j++)
-        fits = g->largest.data[j] >= 0 && g->largest.data[j] < MOST_SPAN && g->largest.data[j] / 64 < g->seen.columns;
-    return fits;
-}
-
-/* Code `count` vertices from number `first` of the order on, as far as there is room (writing) or sense (reading).
- * Returns how many. */
-int64_t code_grid(Coder given, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count) {
+typedef struct {
     RangeCoder coder;
-    if (!open_coder(&coder, given) || !fits_values(&model) || !fits_corners(&corners) || !fits_grid(&corners, &grid)
-        || first < 0 || count < 0 || first > grid.order.size - count)
+    ValueModel model;
+    Corners corners;
+    Grid grid;
+} Work;
+
+OFTEN static bool code_vertex(void *work, int64_t i) {
+    Work *w = work;
+    Grid *g = &w->grid;
+    int32_t v = g->order.data[i], last = i > 0 ? g->order.data[i - 1] : -1, hits = 0, first_gap = 0;
+    Place p;
+    survey(&w->corners, g, v, last, &p);
+    for (int step = 0; step < STEPS; step++)
+        if (!code_axis(&w->coder, &w->model, g, v, step, &p, &hits, &first_gap)) return false;
+    pass_on(&w->corners, &g->values, &g->sums, v);
+    return true;
+}
+
+int64_t code_grid(Coder given, ValueModel model, Corners corners, Grid g, int64_t first, int64_t count) {
+    int64_t n = corners.rank.size;
+    if (!fits_values(&model) || !fits_corners(&corners) || !fits_range(g.largest, AXES) || !fits_seen(g.largest, g.seen)
+        || g.order.size != n || !shaped(g.values, n, AXES) || !shaped(g.gaps, n, AXES) || g.sums.rows != n
+        || g.sums.columns != AXES + 1 || g.learners.rows != LEARNERS || g.learners.columns != LEARNER_COLUMNS)
         return MISUSED;
-    int64_t done = 0;
-    for (; done < count && has_room(&coder, AXES * VALUE_BYTES) && !overran(&coder); done++) {
-        int64_t i = first + done;
-        if (!code_vertex(&coder, &model, &corners, &grid, grid.order.data[i], i > 0 ? grid.order.data[i - 1] : -1)) break;
-    }
-    close_coder(&coder, given);
-    return done;
+    Work work = {.model = model, .corners = corners, .grid = g};
+    return code_rows(given, &work.coder, n, first, count, AXES * VALUE_BYTES, code_vertex, &work);
 }

@@ -6,7 +6,7 @@ enum {
     AXES = 3,
     MOST_LEVEL = 1 << 20,
     LEARNERS = 4 * AXES,
-    TERMS = 6,
+    OWN_TERMS = 6,
     INPUTS = 5,
     SPAN = 512,
     SORTS = 2, /* of axes: along the normal, and others */
@@ -30,7 +30,7 @@ typedef struct { /* a level under way */
     RangeCoder *coder;
     const Mixer *mixer;
     int64_t context[INPUTS], selector;
-} Work;
+} Level;
 
 /* sum / n, rounded half away from zero; |sum| < 2^30. */
 INLINE int32_t mean_of(int64_t sum, int32_t n) {
@@ -54,12 +54,12 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
     p->busy = r->neighbours > 0 ? mean_of(all * FINE, r->neighbours) : 4 * FINE;
 }
 
-INLINE int decide(const Work *w, int node, int bit) {
+INLINE int decide(const Level *w, int node, int bit) {
     return code_mixed_bit(w->coder, w->mixer, INPUTS, w->context, node, w->selector, bit);
 }
 
 /* How far a level is from the guess, less one: its class, of at least 2^k distances, then its place in the class. */
-INLINE int64_t code_distance(const Work *w, int k, bool away, int64_t distance) {
+INLINE int64_t code_distance(const Level *w, int k, bool away, int64_t distance) {
     int64_t first = 0, next;
     int class = 0, size;
     for (;; class++, first = next) {
@@ -75,7 +75,7 @@ INLINE int64_t code_distance(const Work *w, int k, bool away, int64_t distance) 
     return first + code_uniform(w->coder, (distance - first) & (rest - 1), rest);
 }
 
-INLINE int32_t code_level(const Work *w, int32_t centre, int32_t off, int k, int32_t level) {
+INLINE int32_t code_level(const Level *w, int32_t centre, int32_t off, int k, int32_t level) {
     if (!decide(w, MISS, level != centre)) return centre;
     int up = decide(w, SIDE, level > centre), direction = up ? 1 : -1;
     int64_t distance = code_distance(w, k, direction * off < 0, (int64_t)direction * (level - centre) - 1);
@@ -111,8 +111,8 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     /* Where nothing happens, nothing is expected, and nothing learnt. */
     bool quiet = near > 0 && typical == 0 && tip == 0;
     Learner *learner = (Learner *)l->learners.data + 4 * j + p->flaps;
-    int32_t term[TERMS] = {mean, flap - mean, tip - mean, early * FINE - mean, drift, ring - mean};
-    int32_t guess = quiet ? 0 : foretell(learner, TERMS, term, FINE * MOST_LEVEL);
+    int32_t term[OWN_TERMS] = {mean, flap - mean, tip - mean, early * FINE - mean, drift, ring - mean};
+    int32_t guess = quiet ? 0 : foretell(learner, OWN_TERMS, term, FINE * MOST_LEVEL);
 
     int32_t centre = whole(guess), off = guess - FINE * centre;
     int32_t aside = (size_of(off) > 1) + (size_of(off) > 3) + (size_of(off) > 6);
@@ -127,7 +127,7 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
               : (within(guess + 96, 0, 191) >> 2) * 8 + p->valence,
         around * 14 + side * 2 + (s > 8),
     };
-    Work w = {.coder = coder, .mixer = mixer, .selector = j > 0 ? NODES : 0};
+    Level w = {.coder = coder, .mixer = mixer, .selector = j > 0 ? NODES : 0};
     for (int i = 0; i < INPUTS; i++)
         w.context[i] = (((j > 0) * INPUTS + i) * SPAN + context[i]) * (int64_t)NODES;
 
@@ -138,39 +138,33 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     l->gaps.data[axes * v + j] = level * FINE - guess;
     l->means.data[axes * v + j] = mean_of((sum + level) * FINE, near + 1);
     *own = size_of(level) + (*own >> 1);
-    if (!quiet) learn_in_turn(learner, TERMS, term, level * FINE, error_near + 4, v % TERMS);
+    if (!quiet) learn_in_turn(learner, OWN_TERMS, term, level * FINE, error_near + 4, v % OWN_TERMS);
     return true;
 }
 
-static bool code_vertex(RangeCoder *coder, const Mixer *mixer, const Corners *corners, Levels *l, int32_t v) {
-    Place p;
-    survey(corners, l, v, &p);
-    int32_t own = 0;
-    for (int j = 0; j < AXES; j++)
-        if (!code_axis(coder, mixer, l, v, j, &p, &own)) return false;
-    return true;
-}
-
-static bool alike(Ints2 a, Ints2 b) { return a.rows == b.rows && a.columns == b.columns; }
-
-static bool fits_levels(const Corners *corners, const Levels *l) {
-    return l->levels.rows == corners->rank.size && l->levels.columns == AXES
-        && alike(l->gaps, l->levels) && alike(l->means, l->levels) && l->learners.rows == LEARNERS
-        && l->learners.columns == LEARNER_COLUMNS;
-}
-
-/* Code `count` vertices from number `first` on, as far as there is room (writing) or sense (reading).
- * Returns how many. */
-int64_t code_levels(Coder given, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count) {
+typedef struct {
     RangeCoder coder;
     Mixer mixer;
-    if (!open_coder(&coder, given) || !open_bank(&mixer, bank, SORTS * INPUTS * SPAN * NODES, SORTS * NODES, INPUTS) || !fits_corners(&corners) || !fits_levels(&corners, &levels)
-        || first < 0 || count < 0 || first > corners.rank.size - count)
+    Corners corners;
+    Levels levels;
+} Work;
+
+static bool code_vertex(void *work, int64_t v) {
+    Work *w = work;
+    Place p;
+    survey(&w->corners, &w->levels, (int32_t)v, &p);
+    int32_t own = 0;
+    for (int j = 0; j < AXES; j++)
+        if (!code_axis(&w->coder, &w->mixer, &w->levels, (int32_t)v, j, &p, &own)) return false;
+    return true;
+}
+
+int64_t code_levels(Coder given, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count) {
+    Work work = {.corners = corners, .levels = levels};
+    int64_t n = corners.rank.size;
+    if (!open_bank(&work.mixer, bank, SORTS * INPUTS * SPAN * NODES, SORTS * NODES, INPUTS) || !fits_corners(&corners)
+        || !shaped(levels.levels, n, AXES) || !shaped(levels.gaps, n, AXES) || !shaped(levels.means, n, AXES)
+        || levels.learners.rows != LEARNERS || levels.learners.columns != LEARNER_COLUMNS)
         return MISUSED;
-    int64_t done = 0;
-    while (done < count && has_room(&coder, AXES * LEVEL_BYTES) && !overran(&coder)
-        && code_vertex(&coder, &mixer, &corners, &levels, (int32_t)(first + done)))
-        done++;
-    close_coder(&coder, given);
-    return done;
+    return code_rows(given, &work.coder, n, first, count, AXES * LEVEL_BYTES, code_vertex, &work);
 }

@@ -3,7 +3,6 @@
 
 enum {
     AXES = 3,
-    MOST_SPAN = 1 << 20,
     MOST_ENDS = 16,
     LATEST = 43, /* uses after which a slot learns no slower */
     /* Slots of a row, and behind the rows of a size. */
@@ -110,10 +109,19 @@ OFTEN static int32_t code_distance(
     return negative ? -1 - start : 1 + start;
 }
 
-OFTEN static bool code_vertex(RangeCoder *coder, const Corners *corners, const Light *g, int32_t v) {
+typedef struct {
+    RangeCoder coder;
+    Corners corners;
+    Light light;
+} Work;
+
+OFTEN static bool code_vertex(void *work, int64_t v) {
+    Work *w = work;
+    RangeCoder *coder = &w->coder;
+    const Light *g = &w->light;
     Place p;
-    survey(corners, g, v, &p);
-    int32_t *x = g->values.data + AXES * (int64_t)v, *gap = g->gaps.data + AXES * (int64_t)v, before = 0;
+    survey(&w->corners, g, (int32_t)v, &p);
+    int32_t *x = g->values.data + AXES * v, *gap = g->gaps.data + AXES * v, before = 0;
     int64_t square = 0, used = 0, dot = 0;
     for (int j = 0; j < AXES; j++) square += (int64_t)p.normal[j] * p.normal[j];
     for (int step = 0; step < AXES; step++) {
@@ -133,26 +141,13 @@ OFTEN static bool code_vertex(RangeCoder *coder, const Corners *corners, const L
     return true;
 }
 
-static bool fits_light(const Corners *corners, const Light *g) {
-    int64_t n = corners->rank.size;
-    bool fits = g->largest.size == AXES && g->values.rows == n && g->values.columns == AXES
-        && g->gaps.rows == n && g->gaps.columns == AXES && g->slots.size == LIGHT_SLOTS;
-    for (int j = 0; j < AXES && fits; j++) fits = g->largest.data[j] >= 0 && g->largest.data[j] < MOST_SPAN;
-    return fits;
-}
-
-/* Code `count` vertices from number `first` on, as far as there is room (writing) or sense (reading).
- * Returns how many. */
 int64_t code_light(Coder given, Corners corners, Light light, int64_t first, int64_t count) {
-    RangeCoder coder;
-    if (!open_coder(&coder, given) || !fits_corners(&corners) || !fits_light(&corners, &light) || first < 0 || count < 0
-        || first > light.values.rows - count)
+    int64_t n = corners.rank.size;
+    if (!fits_corners(&corners) || !fits_range(light.largest, AXES) || !shaped(light.values, n, AXES)
+        || !shaped(light.gaps, n, AXES) || light.slots.size != LIGHT_SLOTS)
         return MISUSED;
-    int64_t done = 0;
-    for (; done < count && has_room(&coder, AXES * VALUE_BYTES) && !overran(&coder); done++)
-        if (!code_vertex(&coder, &corners, &light, (int32_t)(first + done))) break;
-    close_coder(&coder, given);
-    return done;
+    Work work = {.corners = corners, .light = light};
+    return code_rows(given, &work.coder, n, first, count, AXES * VALUE_BYTES, code_vertex, &work);
 }
 
 /* Which float of the cell of a grid each coordinate is (specification, V 16). */
@@ -160,36 +155,46 @@ int64_t code_light(Coder given, Corners corners, Light light, int64_t first, int
 enum { HISTORIES = 8, SLOTS = HISTORIES + 1 };
 static const int64_t NO_FLOAT = (int64_t)1 << 40;
 
-/* Code the numbers of floats, from `low` to below `high`, of so many values of a grid, as far as there is room (writing) or
- * sense (reading): each may be the latest of its value, or else, where the value is new, the `nearest` to its place. Returns of
- * how many vertices. */
+typedef struct {
+    RangeCoder coder;
+    Floats floats;
+    const int32_t *values;
+    const int64_t *low, *nearest, *high;
+    int64_t *chosen;
+} Cells;
+
+static bool code_cells(void *work, int64_t i) {
+    Cells *w = work;
+    for (int j = 0; j < AXES; j++) {
+        int64_t at = AXES * i + j, count = w->high[at] - w->low[at], *number = w->chosen + at;
+        if (count <= 0 || count > UINT32_MAX) return false;
+        int64_t *known = w->floats.known.data + j * w->floats.known.columns + w->values[at];
+        int64_t *latest = w->floats.latest.data + j;
+        bool new = *known == NO_FLOAT;
+        int64_t guess = new ? w->nearest[at] : *known;
+        uint32_t *slot = w->floats.slots.data + SLOTS * j + (new ? HISTORIES : *latest & (HISTORIES - 1));
+        int same = code_plain_bit(&w->coder, slot, *number == guess);
+        if (!new) *latest = (2 * *latest + same) & (HISTORIES - 1);
+        *number = same ? guess : w->low[at] + code_uniform(&w->coder, *number - w->low[at], count);
+        *known = *number;
+    }
+    return true;
+}
+
+static bool cells_shaped(ConstLongs2 x, int64_t rows) { return x.rows == rows && x.columns == AXES; }
+
+/* Code the numbers of floats, from `low` to below `high`, of values of a grid: each may be the latest of its value, or else,
+ * where the value is new, the `nearest` to its place. Returns of how many vertices. */
 int64_t code_floats(Coder given, Floats f, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest, ConstLongs2 high,
                     Longs2 chosen) {
-    RangeCoder coder;
-    int64_t rows = values.rows, done = 0;
-    if (!open_coder(&coder, given) || values.columns != AXES || low.columns != AXES || nearest.columns != AXES || high.columns != AXES
-        || chosen.columns != AXES || low.rows != rows || nearest.rows != rows || high.rows != rows || chosen.rows != rows
-        || f.slots.size != AXES * SLOTS || f.latest.size != AXES || f.known.rows != AXES)
+    int64_t rows = values.rows;
+    if (values.columns != AXES || !cells_shaped(low, rows) || !cells_shaped(nearest, rows) || !cells_shaped(high, rows)
+        || chosen.rows != rows || chosen.columns != AXES || f.slots.size != AXES * SLOTS || f.latest.size != AXES
+        || f.known.rows != AXES)
         return MISUSED;
     for (int64_t i = 0; i < AXES * rows; i++)
         if (values.data[i] < 0 || values.data[i] >= f.known.columns) return MISUSED;
-    for (; done < rows && has_room(&coder, AXES * VALUE_BYTES) && !overran(&coder); done++) {
-        for (int j = 0; j < AXES; j++) {
-            int64_t at = AXES * done + j, count = high.data[at] - low.data[at], *float_ = chosen.data + at;
-            if (count <= 0 || count > UINT32_MAX) goto end;
-            int64_t *known = f.known.data + j * f.known.columns + values.data[at];
-            int64_t *latest = f.latest.data + j;
-            bool new = *known == NO_FLOAT;
-            int64_t guess = new ? nearest.data[at] : *known;
-            uint32_t *slot = f.slots.data + SLOTS * j + (new ? HISTORIES : *latest & (HISTORIES - 1));
-            int same = code_bit(&coder, (uint32_t)largest(*slot >> (32 - ONE_BITS), 1), *float_ == guess);
-            learn_slot(slot, same, LATEST);
-            if (!new) *latest = (2 * *latest + same) & (HISTORIES - 1);
-            *float_ = same ? guess : low.data[at] + code_uniform(&coder, *float_ - low.data[at], count);
-            *known = *float_;
-        }
-    }
-end:
-    close_coder(&coder, given);
-    return done;
+    Cells work = {.floats = f, .values = values.data, .low = low.data, .nearest = nearest.data, .high = high.data,
+        .chosen = chosen.data};
+    return code_rows(given, &work.coder, rows, 0, rows, AXES * VALUE_BYTES, code_cells, &work);
 }

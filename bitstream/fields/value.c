@@ -236,3 +236,46 @@ int32_t nearest_seen(const int64_t *row, int64_t words, int32_t v) {
     }
     return below < 0 ? v : below;
 }
+
+enum { MOST_ERROR = 1 << 28 };
+
+bool fits_range(ConstInts largest, int64_t columns) {
+    bool fits = largest.size == columns;
+    for (int j = 0; j < columns && fits; j++) fits = largest.data[j] >= 0 && largest.data[j] < MOST_SPAN;
+    return fits;
+}
+
+bool fits_seen(ConstInts largest, Longs2 seen) {
+    bool fits = seen.rows == largest.size;
+    for (int j = 0; j < largest.size && fits; j++) fits = largest.data[j] / 64 < seen.columns;
+    return fits;
+}
+
+int32_t error_at(const Ints2 *gaps, int32_t v) {
+    int64_t sum = 0;
+    for (int j = 0; j < gaps->columns; j++) sum += size_of(gaps->data[gaps->columns * v + j]);
+    return (int32_t)least(sum, MOST_ERROR);
+}
+
+void pass_on(const Corners *corners, const Ints2 *values, const Longs2 *sums, int32_t v) {
+    int64_t columns = values->columns;
+    for (int32_t i = corners->starts.data[v]; i < corners->starts.data[v + 1]; i++) {
+        int64_t *sum = sums->data + (columns + 1) * corners->faces.data[next_corner(corners->corners.data[i])];
+        for (int j = 0; j < columns; j++) sum[j] += values->data[columns * v + j];
+        sum[columns]++;
+    }
+}
+
+int32_t balance(const Corners *corners, const Ints2 *values, const Longs2 *sums, const Around *around, int j,
+    int32_t otherwise) {
+    int64_t columns = values->columns, total = 0;
+    int32_t found = 0;
+    for (int i = 0; i < around->neighbours; i++) {
+        int32_t u = around->neighbour[i];
+        const int64_t *sum = sums->data + (columns + 1) * u;
+        if (faces_at(corners, u) - sum[columns] > 1) continue;
+        total += limited(FINE * ((sum[columns] + 1) * values->data[columns * u + j] - sum[j]) - otherwise);
+        found++;
+    }
+    return found > 0 ? divided(total, found) : 0;
+}
