@@ -108,8 +108,8 @@ def pictures(folder: Path) -> list[Path]:
 def _denoised() -> bytes:
     """A noisy sample beside what denoising makes of it."""
     import bsm
-    from bsm.evaluation.render import bounds_of, render
     from bsm.evaluation.sample import knot
+    from bsm.pictures import bounds_of, render
 
     sys.path.append(str(ROOT))  # mkdocs runs this file alone
     from tools.noise import gaussian_along_normals
@@ -125,8 +125,8 @@ def _denoised() -> bytes:
 def _motion() -> bytes:
     """A moving sample, after encoding and decoding."""
     import bsm
-    from bsm.evaluation.render import bounds_of, render
     from bsm.evaluation.sample import knot
+    from bsm.pictures import bounds_of, render
 
     sample = knot(3000)
     angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)

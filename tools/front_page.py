@@ -16,8 +16,8 @@ import bsm
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
-from bsm.evaluation.draco import decode_draco, encode_draco
-from bsm.evaluation.render import Image, bounds_of, render, view_matrix
+from bsm.evaluation.curve import decode_draco, encode_draco
+from bsm.pictures import Image, bounds_of, render, view_matrix
 from tools.command import run_command
 
 TOOLS = Path(__file__).parent

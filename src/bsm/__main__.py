@@ -1,7 +1,5 @@
 """`python -m bsm` is the command `bsm`."""
 
-from __future__ import annotations
-
 import gc
 import signal
 import sys

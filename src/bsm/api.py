@@ -16,12 +16,12 @@ from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.console import watched
-from bsm.files.formats.written import Written
+from bsm.files.formats.metadata import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.lengths import LENGTHS, refuse_other_units
-from bsm.libraries.meshes import as_mesh, read_any, with_metadata
+from bsm.libraries import as_mesh, read_any, with_metadata
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -61,10 +61,8 @@ def encode(
 
     Raises
     ------
-    ArgumentError
-        If this is no mesh, there is no such keyword, or its value is of the wrong type.
     BsmError
-        `MeshError`, `OptionError`, ...: see what they say.
+        `ArgumentError` if this is no mesh or there is no such keyword; `MeshError`, `OptionError`, ...
 
     Examples
     --------
@@ -144,8 +142,8 @@ def encode_many(
     """
     from bsm.console import Console
     from bsm.jobs.encode import EncodeJob, encode_one
+    from bsm.jobs.report import Run
     from bsm.jobs.run import plan, run_many
-    from bsm.jobs.task import Run
 
     keywords_to.encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
@@ -182,11 +180,9 @@ def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | No
 
     Raises
     ------
-    ArgumentError
-        If this is no stream.
     BsmError
         `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`, with the
-        place in the stream.
+        place in the stream; `ArgumentError` if this is none.
 
     Examples
     --------
@@ -235,12 +231,9 @@ def encode_sequence(
 
     Raises
     ------
-    ArgumentError
-        If there is no such keyword, or its value is of the wrong type.
-    MeshError
-        If positions and faces are no sequence of meshes.
-    TargetError
-        If no step keeps what is promised.
+    BsmError
+        `ArgumentError` if there is no such keyword, `MeshError` if this is no sequence of meshes, `TargetError` if no
+        step keeps what is promised.
 
     Examples
     --------
@@ -276,11 +269,7 @@ def encode_frames(
     meshes : iterable of meshes, pairs of arrays, or paths
         A frame each, as `encode` takes a mesh. Colours and numbers of vertices may change from frame to frame; other
         attributes are those of the first frame with other faces than before.
-    options : SequenceOptions, optional
-        Instead of keywords.
-    metadata : mapping from str to str, int, float or bytes, optional
-        What belongs to the whole sequence.
-    **keywords
+    options, metadata, **keywords
         As `encode_sequence` takes them; faces may change unless `runs` is false. Targets are for frames that share
         them.
 
@@ -330,12 +319,8 @@ def decode_frames(
 
     Parameters
     ----------
-    stream : bytes, any buffer, path or binary file
-        It is read as the frames are taken.
-    limits : Limits
-        What the stream may ask for.
-    threads : int, optional
-        None: one per core.
+    stream, limits, threads
+        As `decode` takes them; the stream is read as the frames are taken.
 
     Returns
     -------
@@ -344,8 +329,6 @@ def decode_frames(
 
     Raises
     ------
-    ArgumentError
-        If this is no stream.
     BsmError
         As `decode_sequence`, where it is met, while the frames are taken.
 
@@ -372,12 +355,8 @@ def decode_sequence(
 
     Parameters
     ----------
-    stream : bytes, any buffer, path or binary file
-        It is read to its end first; a `SequenceDecoder` gives frames while bytes come.
-    limits : Limits
-        What the stream may ask for.
-    threads : int, optional
-        None: one per core.
+    stream, limits, threads
+        As `decode` takes them; the stream is read to its end first, a `SequenceDecoder` gives frames while bytes come.
 
     Returns
     -------
@@ -386,8 +365,6 @@ def decode_sequence(
 
     Raises
     ------
-    ArgumentError
-        If this is no stream.
     BsmError
         As `decode`; `UnsupportedError` also for the stream of a single mesh, `MeshError` if the faces change:
         `decode_frames` takes these, too.
@@ -425,10 +402,8 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
 
     Raises
     ------
-    BsmError
+    BsmError, OSError
         If this holds no mesh: `FormatError`, `MeshError`, ...; `DependencyError` where a library is missing.
-    OSError
-        If the file cannot be read.
 
     Examples
     --------
@@ -463,10 +438,8 @@ def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **k
 
     Raises
     ------
-    OptionError
-        If the name tells no format, or one that has no options.
-    FileExistsError
-        If the file exists and `overwrite` is false.
+    OptionError, FileExistsError
+        If the name tells no format, or one that has no options; if the file exists and `overwrite` is false.
 
     Examples
     --------
@@ -628,7 +601,6 @@ def _opened(mesh: Any) -> Any:
 def _chosen(
     options: _Options | None, kind: type[_Options], keywords: dict[str, Any], build: Callable[..., _Options | None]
 ) -> _Options | None:
-    """The options that were given, or those that keywords ask for."""
     if options is None:
         return build(**keywords)
     if not isinstance(options, kind):

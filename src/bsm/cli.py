@@ -55,7 +55,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def command_parser(name: str) -> Parser:
-    """The parser of one command."""
     return _complete(Parser(prog=f"bsm {name}", parents=[_common(name)], description=_sentence(name)), name)
 
 
@@ -117,8 +116,6 @@ def suggestion(word: str, known: Iterable[str]) -> str:
 
 
 class Formatter(argparse.RawDescriptionHelpFormatter):
-    """Help of one line where one is enough."""
-
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=27)
 
@@ -137,11 +134,9 @@ class Parser(argparse.ArgumentParser):
         super().__init__(**{"formatter_class": Formatter, **keywords})
 
     def format_usage(self) -> str:
-        """The usage in one line."""
         return f"usage: {self.prog}{self._inputs()}\n"
 
     def format_help(self) -> str:
-        """The usage in one line, then all options."""
         self.usage = f"{self.prog}{self._inputs()}"
         return super().format_help()
 
@@ -168,7 +163,6 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}\nusage: {self.prog}{self._inputs()}; {self.prog} --help tells more\n")
 
     def file_arguments(self) -> Iterator[argparse.Action]:
-        """All that are names of files, those of commands included."""
         for action in self._actions:
             if action.nargs == argparse.PARSER and isinstance(action.choices, dict):
                 for command in action.choices.values():

@@ -2,19 +2,139 @@
 
 from __future__ import annotations
 
+import io
+import os
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
-from bsm.bitstream.errors import MeshError
+from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.public import public
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, compare
 from bsm.codec.static.joining import join
-from bsm.files.permutation import Order, in_order_of, paired_corners, unsplit
+from bsm.files.formats.npz import write_npy
+from bsm.files.output import open_output
+from bsm.files.pipes import read_bytes
+
+if TYPE_CHECKING:
+    from bsm.bitstream.connectivity.faces import EncodedConnectivity
+
+Order = npt.NDArray[np.int64]
+
+
+def write_permutation(path: str | os.PathLike[str], order: npt.NDArray[np.integer], *, overwrite: bool) -> None:
+    with open_output(path, overwrite=overwrite) as file:
+        write_npy(file, order.astype(np.int64))
+
+
+def read_permutation(path: str | os.PathLike[str]) -> Order:
+    try:
+        order = np.lib.format.read_array(io.BytesIO(read_bytes(path)), allow_pickle=False)
+    except (ValueError, EOFError, MemoryError) as error:
+        raise FormatError(f"{path} is not an npy file: {error}") from error
+    if order.ndim != 1 or order.dtype.kind not in "iu" or len(np.unique(order)) != len(order):
+        raise FormatError(f"{path} does not hold the order of vertices that bsm encode --permutation writes")
+    return order.astype(np.int64)
+
+
+def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
+    """Number the vertices as the input of the encoder did, without those that no face used."""
+    places = _places(order, len(mesh.positions))
+    before, every_face = np.argsort(places), np.arange(len(mesh.faces))
+    attributes = tuple(attribute.taken(before, every_face) for attribute in mesh.attributes)
+    faces = places[mesh.faces].astype(np.int32)
+    return replace(mesh, positions=mesh.positions[before], faces=faces, attributes=attributes)
+
+
+def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Positions:
+    """The positions of `other`, numbered as in `original`; neither may have vertices that no face uses."""
+    if len(original.positions) > len(other.positions):
+        from bsm.codec.static.joining import join
+
+        joined = join(original, keep=False)
+        if len(joined.mesh.positions) == len(other.positions):
+            by_joined = None if order is None else joined.index[order].astype(np.int64)
+            numbered = in_order_of(joined.mesh, other, by_joined)[joined.index]
+            return np.where(joined.index[:, None] < 0, original.positions, numbered)
+    if len(original.positions) != len(other.positions) or len(original.faces) != len(other.faces):
+        raise MeshError(
+            f"the meshes differ: {len(original.positions)} and {len(other.positions)} vertices in faces, "
+            f"{len(original.faces)} and {len(other.faces)} faces"
+        )
+    if order is not None:
+        other = reorder(other, order)
+    # A symmetric mesh has more than one numbering that fits, so the closest likeness is looked for first.
+    if np.array_equal(original.faces, other.faces):
+        return other.positions
+    if order is None:
+        by_decoder = _encode(original)
+        if np.array_equal(by_decoder.faces, other.faces):
+            return other.positions[np.argsort(by_decoder.vertex_order)]
+    if np.array_equal(_canonical(original.faces), _canonical(other.faces)):
+        return other.positions
+    if order is None:
+        again = _encode(other)
+        if np.array_equal(by_decoder.faces, again.faces):
+            return other.positions[again.vertex_order[np.argsort(by_decoder.vertex_order)]]
+    raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation")
+
+
+def paired_corners(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> tuple[Order, Order]:
+    """Corners of `original` and of `other` that are the same, as numbers 3 f + i of corner i of face f."""
+    numbers = np.zeros((len(other.positions), 3))
+    numbers[:, 0] = np.arange(len(numbers))
+    found = in_order_of(original, replace(other, positions=numbers, attributes=()), order)[:, 0].astype(np.int64)
+    pairs = []
+    for faces in (found[original.faces].astype(np.int32), other.faces):
+        rows, corners = _canonical_order(faces)
+        pairs.append((3 * rows[:, None] + corners[rows]).reshape(-1))
+    return pairs[0], pairs[1]
+
+
+def unsplit(original: TriangleMesh, other: TriangleMesh) -> TriangleMesh | None:
+    """The decoded mesh of which `other` is what became after vertices were split; faces and corners stay."""
+    faces = _encode(original).faces
+    if len(faces) != len(other.faces):
+        return None
+    some = np.zeros(len(original.positions), np.int64)
+    some[faces] = other.faces
+    whole = np.full(len(other.positions), -1, np.int64)
+    whole[other.faces] = faces
+    positions = other.positions[some]
+    fits = np.array_equal(whole[other.faces], faces) and np.array_equal(positions[faces], other.positions[other.faces])
+    return TriangleMesh(positions, faces) if fits else None
+
+
+def _places(order: Order, count: int) -> Order:
+    """The rank of each entry: its place among the vertices that are used."""
+    if len(order) != count:
+        raise MeshError(f"the permutation is of {len(order)} vertices, the mesh has {count}")
+    places = np.empty(count, dtype=np.int64)
+    places[np.argsort(order)] = np.arange(count)
+    return places
+
+
+def _canonical(faces: Faces) -> Faces:
+    rows, corners = _canonical_order(faces)
+    return np.take_along_axis(faces, corners, axis=1)[rows]
+
+
+def _canonical_order(faces: Faces) -> tuple[Order, Order]:
+    corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3
+    turned = np.take_along_axis(faces, corners, axis=1)
+    return np.lexsort(turned.T[::-1]), corners
+
+
+def _encode(mesh: TriangleMesh) -> EncodedConnectivity:
+    from bsm.bitstream.connectivity.faces import encode_connectivity
+
+    return encode_connectivity(mesh.faces, len(mesh.positions))
 
 
 @public
@@ -72,7 +192,6 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
 
 
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:
-    """Compare two meshes, given which of their vertices are the same."""
     positions = compare(paired.original.positions, paired.positions, paired.original.faces)
     return MeshComparison(**asdict(positions), attributes=_compare_attributes(original, decoded, paired))
 

@@ -20,8 +20,6 @@ _TYPICAL_ROUNDS = 6
 
 @dataclass(frozen=True)
 class Console:
-    """Speaks to the user."""
-
     quiet: bool = False
     kept: list[str] | None = None
 
@@ -34,7 +32,6 @@ class Console:
             say(text)
 
     def progress(self, what: str, unit: str = "blocks") -> Progress:
-        """A bar for work that may take long."""
         return Progress(what, unit, shown=not self.quiet and self.kept is None and sys.stderr.isatty())
 
 
@@ -67,7 +64,6 @@ class Progress:
             self._bar.close()
 
     def stage(self, name: str) -> None:
-        """Say what begins."""
         self._what, self._round, self._last = name, 0, 0
         if self._bar is not None:
             self._bar.total = None
@@ -91,7 +87,8 @@ class Progress:
             if self._bar is None and self._shown:
                 # Not at the top: most runs are over before a bar would be seen.
                 try:
-                    bars = importlib.import_module("tqdm.notebook" if _has_widgets() else "tqdm")
+                    widgets = in_notebook() and importlib.util.find_spec("ipywidgets") is not None
+                    bars = importlib.import_module("tqdm.notebook" if widgets else "tqdm")
                 except ImportError:  # A comfort that the core goes without.
                     self._shown = False
                     return None
@@ -129,24 +126,17 @@ def finite(value: float) -> float | None:
 
 
 def as_json(value: Mapping[str, Any]) -> str:
-    """A result for machines."""
     return json.dumps(value, indent=2, allow_nan=False)
 
 
 def print_json(value: Mapping[str, Any]) -> None:
-    """Print a result for machines."""
     print(as_json(value))
 
 
 def in_notebook() -> bool:
-    """Whether this is the kernel of a notebook."""
     library = sys.modules.get("IPython")
     shell = library.get_ipython() if library else None
     return shell is not None and "IPKernelApp" in shell.config
-
-
-def _has_widgets() -> bool:
-    return in_notebook() and importlib.util.find_spec("ipywidgets") is not None
 
 
 def watched(what: str) -> Progress:

@@ -1,7 +1,5 @@
 """The exit codes of the command line, one table, which the program obeys and its help prints; how errors are told."""
 
-from __future__ import annotations
-
 import os
 import sys
 from dataclasses import dataclass
@@ -60,7 +58,6 @@ _SIGNALS = (KeyboardInterrupt, Terminated)
 
 
 def exit_of(error: BaseException) -> Exit:
-    """The row that an error leads to."""
     return next((row for row in EXITS if isinstance(error, row.errors)), UNEXPECTED)
 
 
@@ -70,7 +67,6 @@ def is_expected(error: BaseException) -> bool:
 
 
 def exit_table() -> str:
-    """The table as text."""
     return "\n".join(f"  {row.code:>3}  {row.meaning}" for row in sorted(EXITS, key=lambda row: row.code))
 
 
@@ -85,7 +81,6 @@ def behind(error: BaseException) -> BaseException:
 
 
 def tell(error: BaseException) -> None:
-    """Say what went wrong, without a traceback."""
     if isinstance(error, BrokenPipeError):
         # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -96,7 +91,6 @@ def tell(error: BaseException) -> None:
 
 
 def worded(error: BaseException) -> str:
-    """What went wrong, for people."""
     if isinstance(error, OSError):
         reason = error.strerror or str(error)
         return f"{error.filename}: {reason}" if error.filename else reason

@@ -1,7 +1,5 @@
 """Lengths as people give them: `0.05mm`, `0.1%`, `0.001`."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from numbers import Real
@@ -27,7 +25,6 @@ IN_METRES = {
 
 
 def parse_length(name: str, value: Any) -> tuple[float, bool]:
-    """A length, and whether it is in the mesh's unit and not in diagonals."""
     number, unit = _parts(name, value)
     return (number / 100.0, False) if unit == "%" else (number, bool(unit))
 
@@ -37,7 +34,6 @@ BYTES = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(?:([kMG])(i?))?B?")
 
 
 def parse_bytes(name: str, value: Any) -> float:
-    """A number of bytes, such as 20000, ``20kB`` or ``1.5MiB``."""
     if isinstance(value, Real) and not isinstance(value, bool):
         return float(value)
     found = BYTES.fullmatch(value.strip().replace("K", "k")) if isinstance(value, str) else None
@@ -87,11 +83,9 @@ def metres(unit: str) -> float | None:
 
 
 def unit_of(metadata: Mapping[str, Any]) -> str:
-    """The unit that a mesh says it has."""
     unit = metadata.get("unit")
     return unit if isinstance(unit, str) else ""
 
 
 def length(value: float, unit: str) -> str:
-    """A length as people write it."""
     return f"{value:.2g} {unit}".rstrip()

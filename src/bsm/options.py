@@ -20,12 +20,7 @@ if TYPE_CHECKING:
     from bsm.codec.static.options import EncodeOptions
     from bsm.codec.static.targets import Target
 
-TARGETS = {
-    "nmsve_db": "nmsve_db",
-    "theta": "theta_deg",
-    "bpv": "bpv",
-    "size": "size",
-}
+TARGETS = {"nmsve_db": "nmsve_db", "theta": "theta_deg", "bpv": "bpv", "size": "size"}
 """Keyword of each target of a mesh, and its kind, see `codec.static.targets`."""
 
 BOUNDS = ("look", "max_error")
@@ -123,11 +118,8 @@ def _fields(
                 number = parse_bytes(name, value) if name == "size" else _checked(name, value, float)
                 given["target"] = target(targets[name], number)
         else:
-            _refuse(
-                name,
-                what,
-                (*hints, *targets, *(BOUNDS if targets is TARGETS else ()), *(("preset",) if targets else ())),
-            )
+            more = (*(BOUNDS if targets is TARGETS else ()), *(("preset",) if targets else ()))
+            _refuse(name, what, (*hints, *targets, *more))
     if keywords.get("target") is not None:
         wanted.append("target")
     if len(wanted) > 1:
@@ -141,7 +133,9 @@ def _checked(name: str, value: Any, hint: Any) -> Any:
     for kind in kinds:
         with suppress(TypeError):
             return _as(kind, value)
-    raise ArgumentError(f"{name} must be {_in_words(kinds)}, not {value!r}")
+    words = {float: "a number", int: "a whole number", str: "a string", bool: "True or False", types.NoneType: "None"}
+    expected = " or ".join(words.get(kind, getattr(kind, "__name__", str(kind))) for kind in kinds)
+    raise ArgumentError(f"{name} must be {expected}, not {value!r}")
 
 
 def _as(kind: Any, value: Any) -> Any:
@@ -159,11 +153,6 @@ def _as(kind: Any, value: Any) -> Any:
     return tuple(map(_as, parts, value))
 
 
-def _in_words(kinds: Iterable[Any]) -> str:
-    words = {float: "a number", int: "a whole number", str: "a string", bool: "True or False", types.NoneType: "None"}
-    return " or ".join(words.get(kind, getattr(kind, "__name__", str(kind))) for kind in kinds)
-
-
 def _named(what: str, choices: Mapping[str, Any], name: str) -> Any:
     if not isinstance(name, str) or name not in choices:
         raise OptionError(f"{what} must be one of {', '.join(choices)}, not {name!r}")
@@ -171,21 +160,14 @@ def _named(what: str, choices: Mapping[str, Any], name: str) -> Any:
 
 
 def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
-    for others, names in (("single meshes", _names_of_meshes()), ("sequences", _names_of_sequences())):
+    from bsm.codec.sequence.options import SequenceOptions
+    from bsm.codec.static.options import EncodeOptions
+
+    of_meshes = {*(one.name for one in fields(EncodeOptions)), *TARGETS, *BOUNDS}
+    of_sequences = {*(one.name for one in fields(SequenceOptions)), *SEQUENCE_TARGETS}
+    for others, names in (("single meshes", of_meshes), ("sequences", of_sequences)):
         if name in names and what in ("a mesh", "a sequence"):
             raise ArgumentError(f"{name} is for {others}, not for {what}")
     close = difflib.get_close_matches(name, known, 1)
     advice = f"did you mean {close[0]}?" if close else f"there are {', '.join(sorted(known))}"
     raise ArgumentError(f"there is no option {name} for {what}; {advice}")
-
-
-def _names_of_meshes() -> set[str]:
-    from bsm.codec.static.options import EncodeOptions
-
-    return {*(one.name for one in fields(EncodeOptions)), *TARGETS, *BOUNDS}
-
-
-def _names_of_sequences() -> set[str]:
-    from bsm.codec.sequence.options import SequenceOptions
-
-    return {*(one.name for one in fields(SequenceOptions)), *SEQUENCE_TARGETS}

@@ -37,7 +37,7 @@ from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
-from bsm.libraries.meshes import as_mesh
+from bsm.libraries import as_mesh
 
 if TYPE_CHECKING:
     from bsm.evaluation.curve import Align
@@ -74,7 +74,6 @@ class Site:
 
     @property
     def size(self) -> int:
-        """Number of rows n."""
         return len(self.vertices)
 
     @property

@@ -6,12 +6,8 @@ decoded twice, the second time with noise in the last seven bits on all that dic
 start from: if that moves it, another processor may, too (specification, M 15.4).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
-from bsm.bitstream.container.header import Header
-from bsm.bitstream.container.reader import END_OF_STREAM, Reader
 from bsm.bitstream.errors import NumericError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Matrix, Positions
@@ -19,6 +15,7 @@ from bsm.codec.sequence.decoder import SequenceDecoder
 from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.signal.chain import Rounding, Trial, unchanged
 from bsm.codec.static.decoder import Decoder
+from bsm.files.stream import events, peek_header
 
 NOISE = 2.0**-46
 """Of the greatest number of each column: what rounding does to a dictionary on its way, and room to spare."""
@@ -38,12 +35,8 @@ def unsteadiness(stream: bytes, *, limits: Limits = DEFAULT_LIMITS, threads: int
 
     Parameters
     ----------
-    stream : bytes
-        Of a mesh or a sequence.
-    limits : Limits
-        What it may ask for.
-    threads : int, optional
-        None: one per core.
+    stream, limits, threads
+        The bytes of a mesh or a sequence; as `decode` takes them.
 
     Returns
     -------
@@ -84,9 +77,7 @@ def check_steadiness(stream: bytes, *, limits: Limits = DEFAULT_LIMITS, threads:
     Raises
     ------
     NumericError
-        If they need not: see `unsteadiness`.
-    BsmError
-        If the stream cannot be decoded.
+        If they need not: see `unsteadiness`; other errors as of `decode`.
 
     Examples
     --------
@@ -103,19 +94,12 @@ def check_steadiness(stream: bytes, *, limits: Limits = DEFAULT_LIMITS, threads:
 
 def _decoded(stream: bytes, limits: Limits, threads: int | None, rounding: Rounding) -> tuple[Positions, float]:
     """Positions, shape (n, 3), of all frames one below the other, and the header's scale."""
-    reader = Reader(limits)
-    reader.receive_data(stream)
-    header = reader.next_packet()
-    if isinstance(header, Header) and header.gop_frames:
-        frames: list[Positions] = [np.empty((0, 3))]
+    header, _ = peek_header(iter([stream]))
+    scale = header.scale if header else 1.0
+    if header and header.gop_frames:
         with SequenceDecoder(limits, threads, trial=Trial(rounding)) as decoder:
-            decoder.receive_data(stream)
-            decoder.receive_eof()
-            while (event := decoder.next_event()) is not END_OF_STREAM:
-                if isinstance(event, FrameEvent):
-                    frames.append(event.positions)
-        return np.concatenate(frames), header.scale
+            found = [e.positions for e in events(decoder, iter([stream])) if isinstance(e, FrameEvent)]
+        return np.concatenate([np.empty((0, 3)), *found]), scale
     with Decoder(limits, threads, trial=Trial(rounding)) as static:
         static.receive_data(stream)
-        mesh = static.finish()
-    return mesh.positions, header.scale if isinstance(header, Header) else 1.0
+        return static.finish().positions, scale

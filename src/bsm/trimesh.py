@@ -2,8 +2,180 @@
 
 What a mesh shows goes along: texture coordinates, materials and their images as `TextureVisuals`, colours as
 `ColorVisuals`, normals, and other values as `vertex_attributes` and `face_attributes`.
+
+>>> import bsm.trimesh, trimesh
+>>> bsm.trimesh.to_trimesh("bunny.bsm").is_watertight
+True
+>>> scene = trimesh.Scene({"box": trimesh.creation.box(), "ball": trimesh.creation.icosphere()})
+>>> sorted(bsm.trimesh.to_scene(bsm.trimesh.from_trimesh(scene)).geometry)
+['ball', 'box']
 """
 
-from bsm.libraries.trimesh import from_trimesh, to_scene, to_trimesh
+import io
+from collections.abc import Iterator
+from typing import IO, Any
+
+import numpy as np
+
+from bsm.api import decode, encode
+from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.welding import split_by_attributes
+from bsm.files.formats.metadata import (
+    GLTF_TEXTURES,
+    Material,
+    described,
+    face_numbers,
+    first,
+    gltf_values,
+    images_in,
+    materials_in,
+    names_in,
+    rgba,
+    shown_at_vertices,
+)
+from bsm.files.formats.polygons import Array
+from bsm.files.formats.with_trimesh import import_trimesh, joined, polygons_of
+from bsm.libraries import as_mesh
 
 __all__ = ["from_trimesh", "to_scene", "to_trimesh"]
+_library = import_trimesh(".bsm files are opened by trimesh only")
+
+
+def to_trimesh(mesh: Any) -> Any:
+    """A mesh as a `trimesh.Trimesh`.
+
+    Vertices are split where corners differ, in texture coordinates for instance; nothing is merged.
+    """
+    return _library.Trimesh(**arguments_of(as_mesh(mesh)))
+
+
+def to_scene(mesh: Any) -> Any:
+    """A mesh as a `trimesh.Scene`, with a geometry for each part that it was made of, under its name.
+
+    Parts are what the whole numbers of the face attribute ``part`` say; without it all is one part.
+    """
+    whole = as_mesh(mesh)
+    scene = _library.Scene()
+    for name, part in parts_of(whole):
+        scene.add_geometry(_library.Trimesh(**arguments_of(part)), geom_name=name)
+    of_parts = ("material.", "image.", "part.")
+    scene.metadata.update({name: value for name, value in whole.metadata.items() if not name.startswith(of_parts)})
+    return scene
+
+
+def from_trimesh(mesh: Any) -> TriangleMesh:
+    """A mesh of trimesh, or the parts of a scene where it shows them, with what they show."""
+    found = joined(mesh, DEFAULT_LIMITS) if isinstance(mesh, _library.Scene) else polygons_of(mesh)
+    return found.checked(DEFAULT_LIMITS).mesh
+
+
+def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
+    """The arguments of `trimesh.Trimesh` that make it of a mesh; vertices are split where corners differ."""
+    mesh = split_by_attributes(mesh)
+    normal, color, texcoord = shown_at_vertices(mesh)
+    of_faces = first(mesh, "color", (3, 4), "face")
+    known = materials_in(mesh.metadata)
+    materials = [_material(words, mesh.metadata) for words in known.values()]
+    visual = None
+    if texcoord is not None or materials:
+        uv = None if texcoord is None else texcoord.values[:, :2]
+        numbers = face_numbers(mesh, "material")
+        place = {number: place for place, number in enumerate(known)}
+        if not materials or (numbers is not None and not np.isin(numbers.values, list(known)).all()):
+            # Of faces of whose material nothing is said: trimesh would give them a grey one, and an image.
+            materials.append(_library.visual.material.PBRMaterial())
+        several = numbers is not None and len(materials) > 1
+        material = _library.visual.material.MultiMaterial(materials) if several else materials[0]
+        of_each = None
+        if several and numbers is not None:
+            of_each = np.array([place.get(number, len(known)) for number in numbers.values[:, 0].tolist()])
+        visual = _library.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
+        if color is not None:
+            visual.vertex_attributes["color"] = rgba(color)
+        of_faces = None
+    elif color is not None:
+        visual, of_faces = _library.visual.ColorVisuals(vertex_colors=rgba(color)), None
+    elif of_faces is not None:
+        visual = _library.visual.ColorVisuals(face_colors=rgba(of_faces))
+    shown = {attribute.name for attribute in (normal, color, texcoord, of_faces) if attribute is not None}
+    others = [attribute for attribute in mesh.attributes if attribute.name not in shown]
+    metadata = {
+        "units" if name == "unit" else name: value
+        for name, value in mesh.metadata.items()
+        if not name.startswith(("material.", "image."))
+    }
+    arguments: dict[str, Any] = {
+        "vertices": mesh.positions,
+        "faces": mesh.faces,
+        "vertex_normals": None if normal is None else normal.values,
+        "visual": visual,
+        "vertex_attributes": {a.name: _flat(a.values) for a in others if a.domain == "vertex"},
+        "face_attributes": {a.name: _flat(a.values) for a in others if a.domain == "face"},
+        "metadata": metadata,
+        "process": False,
+    }
+    return {name: value for name, value in arguments.items() if value is not None}
+
+
+def parts_of(mesh: TriangleMesh) -> Iterator[tuple[str, TriangleMesh]]:
+    """The parts that a mesh was made of, and their names; each has the materials of its faces, and no other metadata"""
+    part, material = face_numbers(mesh, "part"), face_numbers(mesh, "material")
+    numbers = np.zeros(len(mesh.faces), np.int64) if part is None else part.values[:, 0]
+    attributes = [attribute for attribute in mesh.attributes if attribute is not part]
+    words, names = materials_in(mesh.metadata), names_in(mesh.metadata, "part")
+    images = {name: value for name, value in mesh.metadata.items() if name.startswith("image.")}
+    every_vertex = np.arange(len(mesh.positions))
+    for number in np.unique(numbers).tolist():
+        faces = np.flatnonzero(numbers == number)
+        used = {0} if material is None else set(material.values[faces, 0].tolist())
+        known = described({which: known for which, known in words.items() if which in used})
+        piece = TriangleMesh(
+            mesh.positions,
+            mesh.faces[faces],
+            tuple(attribute.taken(every_vertex, faces) for attribute in attributes),
+            {**known, **(images if known else {})},
+        )
+        called = names.get(number) or (mesh.metadata.get("name") if part is None else None)
+        yield str(called or f"part {number}"), piece.without_isolated_vertices()[0]
+
+
+def _flat(values: Array) -> Array:
+    return values[:, 0] if values.shape[1] == 1 else values
+
+
+def _material(words: Material, metadata: Metadata) -> Any:
+    images, known = images_in(metadata), gltf_values(words)
+    for name in set(GLTF_TEXTURES) & known.keys():
+        known[name] = _opened(images.get(known[name], ("", b""))[1])
+    return _library.visual.material.PBRMaterial(**{name: value for name, value in known.items() if value is not None})
+
+
+def _opened(data: bytes) -> Any:
+    try:
+        import PIL.Image
+    except ImportError:
+        return None
+    try:
+        return PIL.Image.open(io.BytesIO(data))
+    except (OSError, ValueError, PIL.Image.DecompressionBombError):
+        return None
+
+
+def _load(file_obj: IO[bytes], file_type: str | None = None, **keywords: Any) -> dict[str, Any]:
+    return arguments_of(decode(file_obj.read())) | {name: keywords[name] for name in ("process",) if name in keywords}
+
+
+def _export(mesh: Any, **keywords: Any) -> bytes:
+    return encode(from_trimesh(mesh), **keywords)
+
+
+def register() -> None:
+    """Tell trimesh of .bsm; importing this module does it."""
+    from trimesh.exchange import export, load
+
+    load.mesh_loaders["bsm"] = _load
+    export._mesh_exporters["bsm"] = _export
+
+
+register()

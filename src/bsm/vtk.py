@@ -1,5 +1,163 @@
-"""Streams in VTK, sequences with their times: what `bsm.pyvista.SequenceReader` and ParaView's plug-in are made of."""
+"""Streams in VTK, sequences with their times: what `bsm.pyvista.SequenceReader` and ParaView's plug-in are made of.
 
-from bsm.libraries.vtk import Playback, StreamSource
+>>> from bsm.vtk import StreamSource
+>>> source = StreamSource()
+>>> source.SetFileName("dance.bsm")
+>>> made = source.Update()
+>>> source.GetOutputDataObject(0).GetNumberOfPolys() > 1000
+True
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+from bsm.bitstream.errors import OptionError
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.welding import split_by_attributes
+from bsm.files.pipes import read_chunks
+from bsm.files.stream import SequenceStream, decode_through, decode_whole, peek_header
 
 __all__ = ["Playback", "StreamSource"]
+USUAL_RATE = 24.0
+
+
+class Playback:
+    """The frames of a stream in any order; going on by one costs one frame, going back begins anew."""
+
+    def __init__(self, path: str) -> None:
+        self._path = path
+        header, chunks = peek_header(read_chunks(path))
+        self._mesh: TriangleMesh | None = None
+        if header is None or not header.gop_frames:
+            self._mesh = split_by_attributes(decode_whole(chunks))
+            self.count, self.rate = 1, 0.0
+            return
+        self.count = header.frames or decode_through(read_chunks(path))
+        self._stream, self._frames = self._opened(0)
+        self._next, self._shown = 0, -1
+        self._here: Positions = np.empty((0, 3))
+        self._faces: Faces | None = None  # of the frame that was split last
+        self.positions(0)
+        self.rate = _rate(self._stream.metadata)
+
+    def _opened(self, start: int) -> tuple[SequenceStream, Iterator[tuple[int, Positions]]]:
+        stream = SequenceStream(read_chunks(self._path), start=start)
+        return stream, stream.changing_frames()
+
+    def positions(self, number: int) -> Positions:
+        """Positions of a frame of a sequence, shape (n, 3), in the stream's order."""
+        if not 0 <= number < self.count:
+            raise OptionError(f"there is no frame {number}; there are {self.count}")
+        if number != self._shown:
+            if number < self._next:
+                self._stream, self._frames = self._opened(number)
+            self._here = next(frame for found, frame in self._frames if found == number)
+            self._shown, self._next = number, number + 1
+        return self._here
+
+    def mesh(self, number: int) -> TriangleMesh:
+        """A frame, whose vertices are split where corners differ."""
+        if self._mesh is not None:
+            return self._mesh
+        positions, stream = self.positions(number), self._stream
+        if stream.faces is not self._faces:
+            rows = np.arange(len(positions), dtype=np.float64)[:, None].repeat(3, axis=1)
+            split = split_by_attributes(TriangleMesh(rows, stream.faces, stream.attributes, stream.metadata))
+            self._split, self._of_split = split, split.positions[:, 0].astype(np.int64)
+            self._faces = stream.faces
+        shown = positions[self._of_split]
+        return TriangleMesh(shown, self._split.faces, self._split.attributes, self._split.metadata)
+
+    @property
+    def times(self) -> tuple[float, ...]:
+        """When each frame is shown, in seconds; nothing for a mesh."""
+        return tuple(number / self.rate for number in range(self.count)) if self.rate else ()
+
+    def number_at(self, time: float) -> int:
+        """The frame that is shown at a time."""
+        return min(max(round(time * self.rate), 0), self.count - 1)
+
+
+def _rate(metadata: Metadata) -> float:
+    rate = metadata.get("frame_rate")
+    return float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else USUAL_RATE
+
+
+def fill(output: Any, mesh: TriangleMesh) -> None:
+    """Put a mesh, whose attributes are of vertices and faces, into a `vtkPolyData`."""
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(mesh.positions), deep=True))
+    cells = vtkCellArray()
+    offsets = np.arange(0, 3 * len(mesh.faces) + 1, 3, dtype=np.int64)
+    corners = np.ascontiguousarray(mesh.faces.reshape(-1), np.int64)
+    cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(corners, deep=True))
+    output.SetPoints(points)
+    output.SetPolys(cells)
+    for attribute in mesh.attributes:
+        data = output.GetCellData() if attribute.domain == "face" else output.GetPointData()
+        array = numpy_to_vtk(np.ascontiguousarray(attribute.values), deep=True)
+        array.SetName(attribute.name)
+        data.AddArray(array)
+        if attribute.domain == "vertex" and attribute.semantic == "texcoord":
+            data.SetActiveTCoords(attribute.name)
+
+
+class StreamSource(VTKPythonAlgorithmBase):  # type: ignore[misc]
+    """A source for pipelines of VTK: a stream's mesh, or that of the time that is asked for."""
+
+    def __init__(self) -> None:
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
+        self._name = ""
+        self._playback: Playback | None = None
+
+    def SetFileName(self, name: str) -> None:
+        """Name the stream."""
+        if name != self._name:
+            self._name, self._playback = name, None
+            self.Modified()
+
+    def GetFileName(self) -> str:
+        """The name of the stream."""
+        return self._name
+
+    def GetTimestepValues(self) -> list[float] | None:
+        """The times of a sequence; None for a mesh."""
+        times = self._opened().times if self._name else ()
+        return list(times) or None
+
+    def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Tell the times."""
+        executive, about = self.GetExecutive(), outputs.GetInformationObject(0)
+        for key in (executive.TIME_STEPS(), executive.TIME_RANGE()):
+            about.Remove(key)
+        if times := self.GetTimestepValues():
+            for time in times:
+                about.Append(executive.TIME_STEPS(), time)
+            about.Append(executive.TIME_RANGE(), times[0])
+            about.Append(executive.TIME_RANGE(), times[-1])
+        return 1
+
+    def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
+        """Give the mesh of the time that is asked for."""
+        about, key = outputs.GetInformationObject(0), self.GetExecutive().UPDATE_TIME_STEP()
+        playback = self._opened()
+        time = about.Get(key) if about.Has(key) else 0.0
+        output = vtkPolyData.GetData(about)
+        fill(output, playback.mesh(playback.number_at(time)))
+        if playback.rate:
+            output.GetInformation().Set(output.DATA_TIME_STEP(), time)
+        return 1
+
+    def _opened(self) -> Playback:
+        if self._playback is None:
+            self._playback = Playback(self._name)
+        return self._playback

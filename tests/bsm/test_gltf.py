@@ -16,9 +16,8 @@ import pytest
 import bsm
 from bsm.cli import main
 from bsm.files.stream import inspect_stream
-from bsm.gltf.compress import ImageRule, compress, count_primitives, smaller
+from bsm.gltf.compress import ImageRule, compress, count_primitives, drawn, smaller
 from bsm.gltf.document import EXTENSION, glb, read_document
-from bsm.gltf.primitives import drawn
 from tests.shapes import torus
 
 WEB = Path(__file__).parents[2] / "tools/web"

@@ -12,7 +12,7 @@ import pytest
 import bsm
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.libraries.meshes import as_mesh
+from bsm.libraries import as_mesh
 from tests.bsm.files.test_file_attributes import at_corners, attribute, dressed, png
 from tests.plugins import declare_entry_points
 from tests.shapes import torus
@@ -286,7 +286,6 @@ def test_meshio_data():
 @pytest.mark.parametrize("library", ["trimesh", "pyvista"])
 def test_where_a_library_is_missing_the_way_out_is_said(library, monkeypatch):
     monkeypatch.setitem(sys.modules, library, None)
-    for name in (f"bsm.{library}", f"bsm.libraries.{library}"):
-        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.delitem(sys.modules, f"bsm.{library}", raising=False)
     with pytest.raises(bsm.DependencyError, match=r"pip install .*\[\w+\]"):
         importlib.import_module(f"bsm.{library}").to_pyvista(painted())

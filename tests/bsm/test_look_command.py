@@ -9,7 +9,7 @@ import pytest
 
 import bsm
 from bsm.cli import main
-from bsm.files.picture import png
+from bsm.pictures import png
 from tests.shapes import tetrahedron, torus
 
 

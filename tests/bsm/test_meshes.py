@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from bsm.bitstream.errors import ArgumentError, MeshError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.libraries.meshes import as_mesh
+from bsm.libraries import as_mesh
 from tests.shapes import tetrahedron, torus
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])

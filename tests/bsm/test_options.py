@@ -12,7 +12,7 @@ from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
-from bsm.commands import encode_options as flags
+from bsm.commands import flags
 from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
 
 

@@ -8,8 +8,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
+from bsm.comparison import in_order_of, read_permutation, reorder, write_permutation
 from bsm.evaluation.sample import knot
-from bsm.files.permutation import in_order_of, read_permutation, reorder, write_permutation
 
 SAMPLE = knot(600)
 

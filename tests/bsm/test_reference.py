@@ -105,12 +105,9 @@ def test_a_page_can_be_read_alone(name, folder, monkeypatch):
 def test_modules_can_be_read_alone(module, folder, monkeypatch):
     pytest.importorskip(NEEDS.get(module, "numpy"))
     room = importlib.import_module(module)
-    if module == "bsm.research":  # experimental: one example of all of it, which test_import.py runs
-        assert all(inspect.getdoc(getattr(room, name)) for name in room.__all__)
-        return
-    for name in room.__all__:
-        check_alone(getattr(room, name))
-        run(getattr(room, name), folder, monkeypatch)
+    assert all(inspect.getdoc(getattr(room, name)) for name in room.__all__)
+    if module != "bsm.research":  # whose example test_import.py runs
+        run(room, folder, monkeypatch)
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if inspect.isclass(getattr(bsm, name))])

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bsm.evaluation.render import bounds_of, render, view_matrix
 from bsm.evaluation.sample import knot
+from bsm.pictures import bounds_of, render, view_matrix
 
 
 def test_the_sample_is_a_closed_oriented_torus():

@@ -338,10 +338,10 @@ def test_an_npz_says_when_frames_are_missing(tmp_path):
 
 def test_curves(npz, tmp_path, capsys, monkeypatch):
     pytest.importorskip("DracoPy")
-    from bsm.evaluation import sequences
+    from bsm.evaluation import curve
 
-    monkeypatch.setattr(sequences, "STEPS", (0.01, 0.001))
-    monkeypatch.setattr(sequences, "DRACO_BITS", (8, 11))
+    monkeypatch.setattr(curve, "SEQUENCE_STEPS", (0.01, 0.001))
+    monkeypatch.setattr(curve, "SEQUENCE_BITS", (8, 11))
     assert bsm("curve", npz, "-o", tmp_path / "curves") == 0
     lines = json.loads((tmp_path / "curves" / "torus-sequence.json").read_text())["lines"]
     assert {line: len(points) for line, points in lines.items()} == {"ours": 2, "ours-low-delay": 2, "draco": 2}

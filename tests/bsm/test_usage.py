@@ -10,7 +10,7 @@ import pytest
 from bsm import __version__
 from bsm.cli import COMMANDS, main, program_parser
 from bsm.codec.static.options import PRESETS
-from bsm.commands.encode_options import PROMISES
+from bsm.commands.flags import PROMISES
 from bsm.files.mesh import write_mesh
 from tests.bsm.test_batch import bsm
 from tests.shapes import torus

@@ -23,10 +23,8 @@ import pytest
 import bsm
 from bsm.bitstream.container.wire import MAGIC
 from bsm.cli import main
-from bsm.evaluation.draco import encode_draco
-from bsm.viewer.content import DRACO_LEVEL, compared
-from bsm.viewer.growing import Growing, written_to
-from bsm.viewer.page import PageServer
+from bsm.evaluation.curve import encode_draco
+from bsm.viewer.page import DRACO_LEVEL, Growing, PageServer, compared, written_to
 from tests.bitstream.streams import frame_ends
 from tests.shapes import torus
 
@@ -161,7 +159,7 @@ def test_late_joiners_enter_at_the_run_of_a_mesh_of_its_own():
 
 
 def test_pages_that_have_gone_are_let_go_of(monkeypatch):
-    monkeypatch.setattr("bsm.viewer.growing._PATIENCE", 0.05)
+    monkeypatch.setattr("bsm.viewer.page._PATIENCE", 0.05)
     growing = Growing("sway.bsm")
     growing.take(MAGIC)
     with PageServer([growing]) as server:

@@ -23,7 +23,7 @@ from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.events import HeaderEvent, LossEvent
-from bsm.files.sequence_stream import peek_header
+from bsm.files.stream import peek_header
 from tools.surgery import frames_of, header_entries
 from tools.vectors.meshes import torus
 

@@ -31,7 +31,7 @@ from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Parts, prepare
 from bsm.codec.static.ways.block_coder import encode_blocks
-from bsm.commands.encode_options import add_coding_flags, settings_of
+from bsm.commands.flags import add_coding_flags, settings_of
 from bsm.console import Console, print_json
 from bsm.evaluation.curve import number, paper_options, table
 from bsm.evaluation.plots import draw_axes, new_figure, save_figure

@@ -22,6 +22,8 @@ from bsm.evaluation.curve import (
     COLD_STARTS,
     EXACT_BASES,
     Spectral,
+    decode_draco,
+    encode_draco,
     measure,
     number,
     our_curve,
@@ -31,7 +33,6 @@ from bsm.evaluation.curve import (
     scaled,
     table,
 )
-from bsm.evaluation.draco import decode_draco, encode_draco
 from bsm.files.mesh import read_mesh
 from tools.command import run_command
 from tools.measure.blocks import (

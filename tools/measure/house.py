@@ -19,7 +19,7 @@ from pathlib import Path
 import bsm
 from bsm.bitstream.container.header import Header
 from bsm.codec.static.options import EncodeOptions
-from bsm.commands import encode_options
+from bsm.commands import flags
 from bsm.evaluation.sample import knot
 
 ROOT = Path(__file__).parents[2]
@@ -68,7 +68,7 @@ def house() -> dict[str, float]:
                 100.0 * total(docstring_lines, modules) / lines,
                 len(dataclasses.fields(Header)),
                 len(dataclasses.fields(EncodeOptions)),
-                len(encode_options.SETTINGS),
+                len(flags.SETTINGS),
                 total(count_words, law),
                 total(count_words, [file for file in law if CORE.search(file.name)]),
                 total(count_constants, search),

@@ -25,7 +25,7 @@ from bsm.bitstream.errors import BsmError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Look, LookMetric
 from bsm.console import Console, finite, print_json
-from bsm.evaluation.draco import decode_draco, encode_draco
+from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.files.mesh import read_mesh
 from tools.command import run_command
 

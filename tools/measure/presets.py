@@ -32,7 +32,7 @@ from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.joining import join
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
-from bsm.evaluation.draco import encode_draco
+from bsm.evaluation.curve import encode_draco
 from bsm.files.mesh import read_mesh
 
 Result = TypeVar("Result")

@@ -27,7 +27,7 @@ from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
-from bsm.evaluation.sequences import Point, draco_point, point_of
+from bsm.evaluation.curve import Point, draco_point, point_of
 from bsm.files.formats.npz import read_arrays
 from bsm.files.output import open_output
 from bsm.options import sequence_options

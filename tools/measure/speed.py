@@ -29,7 +29,7 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Target
 from bsm.console import Console
 from bsm.evaluation.bench import least_time
-from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
+from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import format_mesh, read_mesh
 from bsm.files.stream import inspect_stream

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import io
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict, replace
@@ -19,26 +18,28 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
+from bsm.comparison import in_order_of, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
-from bsm.files.permutation import in_order_of, read_permutation
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
-from bsm.files.sequence_stream import (
+from bsm.files.stream import (
+    Loops,
     Pieces,
     SequenceStream,
     all_frames,
+    decode_whole,
+    is_stream,
     numbered,
     numbers_of,
     peek_header,
     pieces_of,
 )
-from bsm.files.stream import decode_whole, is_stream
 from bsm.lengths import length, unit_of
-from bsm.loops import Loops
+from bsm.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 
 if TYPE_CHECKING:
     from bsm.codec.look.measure import Look
@@ -46,35 +47,33 @@ if TYPE_CHECKING:
 
 COLORED = ("ply", "obj", "glb")
 """Formats that hold colours of vertices."""
-SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
-"""Colours from no distance to the largest one that is shown, evenly: after ColorBrewer's RdYlBu."""
 SHOWN = 99.0
 """Percentile of the distances that has the last colour: single vertices shall not make all others blue."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
-    parser.add_argument("original", metavar="A", help="original: mesh file or stream, or a sequence of meshes")
-    parser.add_argument("decoded", metavar="B", help="what became of it, in any of these forms")
-    parser.add_argument("--permutation", metavar="FILE.npy", help="what encode wrote: vertex p[j] of A is j of B")
-    parser.add_argument(
+    add = parser.add_argument
+    add("original", metavar="A", help="original: mesh file or stream, or a sequence of meshes")
+    add("decoded", metavar="B", help="what became of it, in any of these forms")
+    add("--permutation", metavar="FILE.npy", help="what encode wrote: vertex p[j] of A is j of B")
+    add(
         "--surface",
         action="store_true",
         help="of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance",
     )
-    parser.add_argument(
+    add(
         "--look",
         action="store_true",
         help="also how much alike they look in pictures: nobody can tell them apart at a distance of 1; faces of "
         "meshes may differ; of a sequence every frame",
     )
-    parser.add_argument(
+    add(
         "--picture",
         metavar="FILE.png",
         help="write a picture of both and of their difference, from the side where that is largest (implies --look); "
         "of sequences, the errors of each frame as a curve",
     )
-    parser.add_argument(
+    add(
         "--map",
         metavar="FILE",
         help="write where A's vertices are how far off in colours, blue to red: a picture (.png), or A as a mesh with "
@@ -82,11 +81,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_reader_flag(parser)
     add_limits_flag(parser)
-    parser.add_argument("--json", action="store_true", help="print it as JSON")
+    add("--json", action="store_true", help="print it as JSON")
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    """Compare two meshes."""
     if _compare_sequences(args, console):
         return
     with console.progress("reading") as progress:
@@ -119,7 +117,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
 def _compared(
     original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespace, console: Console
 ) -> dict[str, Any]:
-    """Numbers by name, and errors of attributes."""
     from bsm.comparison import compare_meshes, pair
 
     paired = pair(original, decoded, read_permutation(args.permutation) if args.permutation else None)
@@ -135,7 +132,6 @@ def _compared(
 
 
 def sentence(compared: dict[str, Any], unit: str) -> str:
-    """What the numbers mean, with units."""
     share = 100.0 * compared["max_error_relative"]
     if share == 0.0:
         return "no vertex is off"
@@ -154,8 +150,6 @@ def _look(original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespac
     looker = LookMetric(original)
     seen = looker.compare(decoded)
     if args.picture:
-        from bsm.files.picture import png, side_by_side
-
         picture = png(side_by_side(*looker.pictures(decoded)))
         with open_output(args.picture, overwrite=args.force) as file:
             file.write(picture)
@@ -331,29 +325,13 @@ def _write_map(path: str, original: TriangleMesh, positions: Positions, *, overw
         with open_output(path, overwrite=overwrite) as file:
             file.write(picture)
         return
-    shown = (Attribute("color", _colors(distances / top), "vertex", "color"), Attribute("distance", distances))
-    mesh = replace(original.bare, attributes=shown)
+    color = Attribute("color", np.rint(colors_of(distances / top)).astype(np.uint8), "vertex", "color")
+    mesh = replace(original.bare, attributes=(color, Attribute("distance", distances)))
     save_written(path, written_mesh(mesh, kind, path), overwrite=overwrite)
-
-
-def _colors(shares: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
-    """Colours of numbers from 0 to 1, shape (n,), as uint8 of shape (n, 3); larger ones have the last."""
-    places = np.linspace(0.0, 1.0, len(SCALE))
-    channels = [np.interp(shares, places, SCALE[:, channel]) for channel in range(3)]
-    return np.rint(np.stack(channels, axis=1)).astype(np.uint8)
 
 
 def _picture(mesh: TriangleMesh, shares: npt.NDArray[np.float64]) -> bytes:
     """A PNG of the mesh from the front and the back."""
-    from bsm.evaluation.plots import import_matplotlib
-    from bsm.evaluation.render import DEFAULT_VIEW, render
-
-    import_matplotlib()
-    from matplotlib.image import imsave
-
-    faces = _colors(shares)[mesh.faces].mean(axis=1) / 255.0
+    faces = colors_of(shares)[mesh.faces].mean(axis=1) / 255.0
     behind = DEFAULT_VIEW * np.array([[-1.0], [1.0], [-1.0]])
-    sides = [render(mesh.positions, mesh.faces, view=view, colors=faces) for view in (DEFAULT_VIEW, behind)]
-    file = io.BytesIO()
-    imsave(file, np.hstack(sides), format="png")
-    return file.getvalue()
+    return png(np.hstack([render(mesh.positions, mesh.faces, view=v, colors=faces) for v in (DEFAULT_VIEW, behind)]))

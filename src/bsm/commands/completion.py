@@ -3,8 +3,6 @@
 The script is written once and knows everything, so that completing starts no Python.
 """
 
-from __future__ import annotations
-
 import argparse
 
 from bsm.bitstream.errors import DependencyError
@@ -15,14 +13,12 @@ SHELLS = ("bash", "zsh", "fish")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
     parser.add_argument(
         "shell", metavar="SHELL", choices=SHELLS, help=f'{", ".join(SHELLS)}; for bash: eval "$(bsm completion bash)"'
     )
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    """Print the script."""
     try:
         import shtab
     except ImportError as missing:

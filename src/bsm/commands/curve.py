@@ -22,23 +22,19 @@ GROUPS = ("ours", "paper", "draco")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
-    parser.add_argument(
-        "meshes", metavar="MESH", nargs="*", help="mesh files or sequences; none: only draw what there is"
-    )
-    parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="where JSON and pictures go")
-    parser.add_argument(
+    add = parser.add_argument
+    add("meshes", metavar="MESH", nargs="*", help="mesh files or sequences; none: only draw what there is")
+    add("-o", "--output", metavar="FOLDER", required=True, help="where JSON and pictures go")
+    add(
         "--codecs",
         metavar="LIST",
         default=",".join(GROUPS),
         help="which, with commas: ours, paper (SVD and orthogonal iterations of several kinds, 12 bits), draco, or "
         "single lines such as svd,oi-r2 (default: all)",
     )
-    parser.add_argument(
-        "--blocks", type=int, metavar="K", help="blocks of the paper's lines (default: 500 vertices each)"
-    )
-    parser.add_argument("--repeat", type=int, default=1, metavar="N", help="runs per point, the fastest counts")
-    parser.add_argument("--json", action="store_true", help="print the comparison with Draco as JSON")
+    add("--blocks", type=int, metavar="K", help="blocks of the paper's lines (default: 500 vertices each)")
+    add("--repeat", type=int, default=1, metavar="N", help="runs per point, the fastest counts")
+    add("--json", action="store_true", help="print the comparison with Draco as JSON")
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
@@ -73,16 +69,15 @@ def _run_sequence(path: str, folder: Path, console: Console) -> bool:
     source = open_sequence(path)
     if source is None:
         return False
-    from bsm.evaluation.sequences import draw_lines, measure_lines, table_of, write_lines
+    from bsm.evaluation.curve import draw_lines, measure_lines, table_of, write_result
 
     frames = np.array(list(source.frames))
     mesh, kept = TriangleMesh(frames[0], source.faces).without_isolated_vertices()
     with console.progress(Path(path).stem) as progress:
         result = measure_lines(frames[:, kept], mesh.faces, Path(path).stem, progress)
-    written = write_lines(result, folder)
-    console.note(str(written))
+    console.note(f"{write_result(result, folder)}")
     print(table_of(result))
-    _tell_pictures(lambda: draw_lines(written), console)
+    _tell_pictures(lambda: draw_lines(result, folder), console)
     return True
 
 
@@ -90,12 +85,8 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
     from bsm.evaluation.curve import draco_curve, our_curve, paper_curves
 
     paper = paper_curves(round(vertices / blocks) if blocks else 500)
-    groups = {
-        "ours": (our_curve(fine=True),),
-        "paper": paper,
-        "draco": (draco_curve(),),
-        **{c.name: (c,) for c in paper},
-    }
+    groups = {"ours": (our_curve(fine=True),), "paper": paper, "draco": (draco_curve(),)}
+    groups |= {line.name: (line,) for line in paper}
     unknown = [name for name in names.split(",") if name not in groups]
     if unknown:
         raise OptionError(f"no codec is called {', '.join(unknown)}; there are {', '.join(groups)}")
@@ -103,7 +94,6 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
 
 
 def _comparisons(results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Every codec against Draco, mesh by mesh."""
     from bsm.evaluation.curve import compare_curves
 
     draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
@@ -115,37 +105,26 @@ def _comparisons(results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def _tables(results: Sequence[dict[str, Any]], comparisons: Sequence[dict[str, Any]]) -> str:
-    from bsm.evaluation.curve import number, percent, table
+    from bsm.evaluation.curve import number, table
 
+    digits = {"bpv_total": 3, "bpv_paper": 2, "nmsve_db": 2, "theta_deg": 2, "encode_seconds": 3, "decode_seconds": 3}
     measured = table(
         ("mesh", "codec", "bpv, file", "bpv, paper", "NMSVE, dB", "theta", "encode, s", "decode, s"),
         [
-            (
-                result["mesh"]["name"],
-                result["codec"],
-                number(point["bpv_total"], 3),
-                number(point["bpv_paper"], 2),
-                number(point["nmsve_db"], 2),
-                number(point["theta_deg"], 2),
-                number(point["encode_seconds"], 3),
-                number(point["decode_seconds"], 3),
-            )
+            (result["mesh"]["name"], result["codec"], *(number(point[name], n) for name, n in digits.items()))
             for result in results
             for point in result["points"]
         ],
     )
     if not comparisons:
         return measured
+    bytes_, rates = ("7", "10"), ("theta_deg", "nmsve_db")
     compared = table(
         ("mesh", "codec", "bytes at 7°", "bytes at 10°", "BD-rate, theta", "BD-rate, NMSVE"),
         [
             (
-                row["mesh"],
-                row["codec"],
-                number(row["bytes_at_theta"]["7"], 3),
-                number(row["bytes_at_theta"]["10"], 3),
-                percent(row["bd_rate_percent"]["theta_deg"]),
-                percent(row["bd_rate_percent"]["nmsve_db"]),
+                *(row["mesh"], row["codec"], *(number(row["bytes_at_theta"][angle], 3) for angle in bytes_)),
+                *("-" if (rate := row["bd_rate_percent"][name]) is None else f"{rate:+.1f} %" for name in rates),
             )
             for row in comparisons
         ],

@@ -1,7 +1,5 @@
 """bsm decode: streams to mesh files and sequences."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time
@@ -15,23 +13,29 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
+from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.motion.frames import Shared
 from bsm.files.output import default_output, output_inside, refuse_terminal, refuse_to_overwrite
-from bsm.files.permutation import read_permutation, reorder
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
-from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of, peek_header, said_of_runs
-from bsm.files.stream import decode_blocks, decode_what_is_left, decode_whole
+from bsm.files.stream import (
+    SequenceStream,
+    decode_blocks,
+    decode_what_is_left,
+    decode_whole,
+    numbered,
+    numbers_of,
+    peek_header,
+    said_of_runs,
+)
+from bsm.jobs.report import Facts, Task
 from bsm.jobs.run import anywhere, came_to, plan, run_jobs
-from bsm.jobs.task import Facts, Task
 
 
 @dataclass(frozen=True, kw_only=True)
 class DecodeJob(Task):
-    """What `bsm decode` is asked for."""
-
     given: str | None = None
     many: bool = False
     format: str | None = None
@@ -44,22 +48,18 @@ class DecodeJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
+    add = parser.add_argument
     add_inputs(
         parser,
         "stream, or - for standard input",
         "mesh file, or folder for any number of inputs (default: IN with .ply; - for a pipe); for a sequence npz "
         "(default), PC2, MDD, GLB, USD, a folder for its frames, or their names: walk/%%04d.obj",
     )
-    parser.add_argument("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name; ply)")
-    parser.add_argument("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
-    parser.add_argument(
-        "--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement one more"
-    )
-    parser.add_argument(
-        "--permutation", metavar="FILE.npy", help="what encode wrote with the same option: restore the input's order"
-    )
-    parser.add_argument(
+    add("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name; ply)")
+    add("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
+    add("--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement one more")
+    add("--permutation", metavar="FILE.npy", help="what encode wrote with the same option: restore the input's order")
+    add(
         "--tolerant",
         action="store_true",
         help="go on behind damage; what is lost, blocks or frames, is named and left out",
@@ -70,7 +70,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Decode all inputs."""
     jobs = plan(args.inputs, args.output, lambda _: f".{args.format or 'ply'}", sole_folder=True)
     if jobs[0].output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
@@ -89,7 +88,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def decode_one(args: DecodeJob, console: Console) -> Facts:
-    """Decode one stream and say what came out."""
     header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
         return _decode_sequence(args, console, chunks)
@@ -162,19 +160,11 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
         mesh = reorder(numbered(faces, int(faces.max()) + 1), read_permutation(args.permutation))
         order, faces = numbers_of(mesh.positions), mesh.faces
     shared = Shared(
-        lambda: () if args.permutation else stream.attributes,
-        lambda: {} if args.permutation else stream.metadata,
+        lambda: () if args.permutation else stream.attributes, lambda: {} if args.permutation else stream.metadata
     )
     count = vertices = 0
     with (
-        sequence_writer(
-            output,
-            kind,
-            faces,
-            expected,
-            overwrite=args.may_replace(output),
-            shared=shared,
-        ) as write,
+        sequence_writer(output, kind, faces, expected, overwrite=args.may_replace(output), shared=shared) as write,
         console.progress("decoding", "frames") as progress,
     ):
         present = stream.faces

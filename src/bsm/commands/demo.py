@@ -9,26 +9,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bsm.bitstream.errors import DependencyError
-from bsm.bitstream.extras import how_to_install
-from bsm.commands.encode_options import add_preset_flags, options_of
+from bsm.commands.flags import add_preset_flags, options_of
 from bsm.console import Console, print_json
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.options import encode_options
+from bsm.pictures import bounds_of, colors_of, png, render
 
 if TYPE_CHECKING:
     from bsm.codec.geometry.mesh import TriangleMesh
-    from bsm.codec.geometry.metrics import Comparison
 
 _PLAIN_BYTES = (12, 12)
 """Bytes of a vertex and of a face as float32 and int32."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
-    parser.add_argument("-o", "--output", metavar="FOLDER", default=".", help="where to write (default: here)")
-    parser.add_argument("--vertices", type=int, default=20_000, metavar="N", help="size of the sample (default 20000)")
-    parser.add_argument("--json", action="store_true", help="print the result as JSON")
+    add = parser.add_argument
+    add("-o", "--output", metavar="FOLDER", default=".", help="where to write (default: here)")
+    add("--vertices", type=int, default=20_000, metavar="N", help="size of the sample (default 20000)")
+    add("--json", action="store_true", help="print the result as JSON")
     add_preset_flags(parser)
 
 
@@ -75,65 +73,22 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     with open_output(stream_path, overwrite=args.force) as file:
         file.write(stream)
-    written = [str(stream_path)]
-    try:
-        with console.progress("drawing"):
-            _draw(picture_path, sample, decoded, error, 8 * len(stream) / vertices, overwrite=args.force)
-        written.append(str(picture_path))
-    except DependencyError as missing:
-        console.note(f"no picture: {missing}")
+    with console.progress("drawing"):
+        _draw(picture_path, sample, decoded, overwrite=args.force)
+    written = [str(stream_path), str(picture_path)]
     console.note(f"written    {', '.join(written)}")
     if args.json:
-        print_json(
-            {
-                "vertices": vertices,
-                "faces": faces,
-                "bytes": len(stream),
-                "bpv_total": 8 * len(stream) / vertices,
-                "encode_seconds": encoding,
-                "decode_seconds": decoding,
-                "nmsve_db": error.nmsve_db,
-                "theta_deg": error.theta_deg,
-                "max_error_relative": error.max_error_relative,
-                "written": written,
-            }
-        )
+        sizes = {"vertices": vertices, "faces": faces, "bytes": len(stream), "bpv_total": 8 * len(stream) / vertices}
+        errors = {name: getattr(error, name) for name in ("nmsve_db", "theta_deg", "max_error_relative")}
+        print_json(sizes | {"encode_seconds": encoding, "decode_seconds": decoding} | errors | {"written": written})
 
 
-def _draw(
-    path: Path, sample: TriangleMesh, decoded: TriangleMesh, error: Comparison, bpv: float, *, overwrite: bool
-) -> None:
+def _draw(path: Path, sample: TriangleMesh, decoded: TriangleMesh, *, overwrite: bool) -> None:
     """Both meshes side by side, and where they differ."""
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError as missing:
-        raise DependencyError(f"pictures are made with matplotlib; run: {how_to_install('eval')}") from missing
-    from matplotlib import colormaps
-
-    from bsm.evaluation.render import bounds_of, render
-
     bounds = bounds_of(sample.positions)
-    distance = np.linalg.norm(decoded.positions - sample.positions, axis=1) / sample.diagonal
-    top = float(np.percentile(distance, 99)) or 1.0
-    heat = colormaps["viridis"](np.clip(distance[sample.faces].mean(axis=1) / top, 0, 1))[:, :3]
-    pictures = (
-        (f"original: {len(sample.positions)} vertices", render(sample.positions, sample.faces, bounds=bounds)),
-        (
-            f"decoded: {bpv:.2f} bits per vertex, normals {error.theta_deg:.1f}° off",
-            render(decoded.positions, decoded.faces, bounds=bounds),
-        ),
-        (
-            f"distance, yellow from {100 * top:.2f} % of the size",
-            render(sample.positions, sample.faces, bounds=bounds, colors=heat),
-        ),
-    )
-    figure = Figure(figsize=(15, 5.4), dpi=120)
-    FigureCanvasAgg(figure)
-    for axes, (title, picture) in zip(figure.subplots(1, len(pictures)), pictures):
-        axes.imshow(picture)
-        axes.set_title(title)
-        axes.axis("off")
-    figure.tight_layout()
+    distance = np.linalg.norm(decoded.positions - sample.positions, axis=1)
+    heat = colors_of(distance / (float(np.percentile(distance, 99)) or 1.0))[sample.faces].mean(axis=1) / 255.0
+    looks = ((sample, None), (decoded, None), (sample, heat))
+    picture = np.hstack([render(mesh.positions, mesh.faces, bounds=bounds, colors=colors) for mesh, colors in looks])
     with open_output(path, overwrite=overwrite) as file:
-        figure.savefig(file, format="png")
+        file.write(png(picture))

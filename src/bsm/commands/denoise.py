@@ -18,22 +18,15 @@ from bsm.codec.arrays import Positions
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.commands.flags import add_inputs, add_reader_flag, asked, run_of
 from bsm.console import Console, Progress
-from bsm.files.formats.written import Written
-from bsm.files.mesh import (
-    MESH_FORMATS,
-    WRITTEN_FORMATS,
-    format_of_name,
-    read_mesh,
-    save_written,
-    written_mesh,
-)
+from bsm.files.formats.metadata import Written
+from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import separate_meshes
 from bsm.files.motion.frames import Frames
 from bsm.files.output import output_inside, refuse_terminal, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
+from bsm.jobs.report import Facts, Task
 from bsm.jobs.run import plan, run_jobs
-from bsm.jobs.task import Facts, Task
 from bsm.lengths import length, unit_of
 
 if TYPE_CHECKING:
@@ -59,28 +52,24 @@ class DenoiseJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
+    add = parser.add_argument
     add_inputs(
         parser,
         "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
         "file, in the format of its name, or folder for any number of inputs (default: IN with .denoised before its "
         "suffix); a stream (.bsm) is near-lossless",
     )
-    parser.add_argument("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input, and of a piped output")
+    add("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input, and of a piped output")
     add_reader_flag(parser)
-    parser.add_argument(
+    add(
         "--for",
         dest="goal",
         choices=GOALS,
         default=GOALS[0],
         help="what the automatic mode strives for: normals near the clean ones (shading), or vertices (shape)",
     )
-    parser.add_argument(
-        "--strength", type=float, default=1.0, metavar="S", help="how much of every movement is made, 0 to 1 (1)"
-    )
-    parser.add_argument(
-        "--look", action="store_true", help="say how far the result is from the input in pictures, see bsm compare"
-    )
+    add("--strength", type=float, default=1.0, metavar="S", help="how much of every movement is made, 0 to 1 (1)")
+    add("--look", action="store_true", help="say how far the result is from the input in pictures, see bsm compare")
     ways = parser.add_argument_group(
         "instead of the automatic mode",
         "with none of these everything is chosen from the noise of the mesh (of the first frame); "
@@ -95,28 +84,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="what the fine step gets: coarse positions, noisy ones moved to it along its normals, noisy "
         "ones smoothed along coarse normals, or no coarse step",
     )
-    ways.add_argument(
-        "--iterations",
-        type=int,
-        metavar="N",
-        help="of the fine step, 0: none (the method's own)",
-    )
+    ways.add_argument("--iterations", type=int, metavar="N", help="of the fine step, 0: none (the method's own)")
     ways.add_argument(
         "--keep",
         type=float,
         metavar="FRACTION",
         help="share of a block's frequencies that the coarse step keeps, c over n_d (0.1)",
     )
-    ways.add_argument(
-        "--block-size",
-        type=int,
-        metavar="N",
-        help="vertices of a block before overlap, about (500)",
-    )
+    ways.add_argument("--block-size", type=int, metavar="N", help="vertices of a block before overlap, about (500)")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Denoise all inputs."""
     found = {given: separate_meshes(given, args.format, args.reader) for given in args.inputs}
     inputs = [name for given in args.inputs for name in (found[given] or [given])]
     if args.output is not None and any(found.values()) and not Path(args.output).is_dir():
@@ -132,7 +110,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def denoise_one(args: DenoiseJob, console: Console) -> Facts:
-    """Denoise one mesh or one sequence."""
     from bsm.codec.denoise import DenoiseOptions
 
     options = DenoiseOptions(**args.options) if args.options else None
@@ -150,12 +127,9 @@ def _suffix(name: str) -> str:
     return f".{format_of_name(name) or ('npz' if Path(name).is_dir() else 'ply')}"
 
 
-def _format_of(name: str) -> str | None:
-    return STREAM if name.lower().endswith(f".{STREAM}") else format_of_name(name)
-
-
 def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | None) -> dict[str, Any]:
-    kind = args.format if args.output == "-" else _format_of(args.output)
+    stream = args.output.lower().endswith(f".{STREAM}")
+    kind = args.format if args.output == "-" else STREAM if stream else format_of_name(args.output)
     if kind not in (*WRITTEN_FORMATS, STREAM):
         known = ", .".join((*WRITTEN_FORMATS, STREAM))
         raise OptionError(f"{args.output}: the name tells no mesh format; use one of .{known}")
@@ -171,15 +145,8 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     mesh = source.mesh
     begin = time.perf_counter()
     with console.progress("denoising") as progress:
-        denoiser = FrameDenoiser(
-            mesh.positions,
-            mesh.faces,
-            options,
-            goal=args.goal,
-            strength=args.strength,
-            force=args.force,
-            progress=progress.stage,
-        )
+        ways: dict[str, Any] = {"goal": args.goal, "strength": args.strength, "force": args.force}
+        denoiser = FrameDenoiser(mesh.positions, mesh.faces, options, **ways, progress=progress.stage)
         (positions,) = denoiser([mesh.positions])
     unit = unit_of(mesh.metadata)
     _tell(console, denoiser.choice, args, mean_edge_length(mesh.positions, mesh.faces), unit)
@@ -192,15 +159,12 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
         seen = look(mesh, moved)
         console.note(f"looks      {seen.distance:.2g} from the input (nobody can tell them apart at 1)")
         more["look"] = asdict(seen)
-    overwrite = args.may_replace(args.output)
-    written = (
-        Written(encode(moved, preset="near-lossless")) if kind == STREAM else written_mesh(moved, kind, args.output)
-    )
-    left_out = save_written(args.output, written, overwrite=overwrite, overwrite_beside=args.force)
+    file = Written(encode(moved, preset="near-lossless")) if kind == STREAM else written_mesh(moved, kind, args.output)
+    left_out = save_written(args.output, file, overwrite=args.may_replace(args.output), overwrite_beside=args.force)
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
     console.note(f"{args.input}: {len(mesh.positions)} vertices -> {args.output}, {seconds:.2f} s")
-    return {**_result(len(positions), len(mesh.faces), 1, seconds, denoiser.choice, options), **more}
+    return {**_result((len(positions), len(mesh.faces), 1), seconds, denoiser.choice, options), **more}
 
 
 def _denoise_sequence(
@@ -228,7 +192,7 @@ def _denoise_sequence(
         f"{args.input}: {count} frames of {len(first)} vertices -> {args.output}, "
         f"{seconds:.2f} s, {1e3 * seconds / count:.0f} ms a frame"
     )
-    return _result(len(first), len(source.faces), count, seconds, denoiser.choice, options)
+    return _result((len(first), len(source.faces), count), seconds, denoiser.choice, options)
 
 
 def _counted(frames: Iterator[Positions], total: int, progress: Progress) -> Iterator[Positions]:
@@ -244,21 +208,10 @@ def _tell(console: Console, choice: AutomaticChoice | None, args: DenoiseJob, ed
 
 
 def _result(
-    vertices: int,
-    faces: int,
-    frames: int,
-    seconds: float,
-    choice: AutomaticChoice | None,
-    options: DenoiseOptions | None,
+    shape: tuple[int, int, int], seconds: float, choice: AutomaticChoice | None, options: DenoiseOptions | None
 ) -> dict[str, Any]:
-    return {
-        "vertices": vertices,
-        "faces": faces,
-        "frames": frames,
-        "seconds": seconds,
-        "automatic": None if choice is None else asdict(choice),
-        "options": None if options is None else asdict(options),
-    }
+    chosen = {"automatic": choice and asdict(choice), "options": options and asdict(options)}
+    return {**dict(zip(("vertices", "faces", "frames"), shape, strict=True)), "seconds": seconds, **chosen}
 
 
 def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str) -> list[str]:
@@ -306,7 +259,6 @@ def _moved(before: Positions, after: Positions) -> dict[str, float]:
 
 
 def _moved_line(facts: dict[str, float], vertices: int, unit: str) -> str:
-    """How far vertices moved, in words."""
     if not facts["vertices"]:
         return "moved      no vertex"
     who = "all vertices" if facts["vertices"] == vertices else f"{facts['vertices']:.0f} of {vertices} vertices"
@@ -315,12 +267,7 @@ def _moved_line(facts: dict[str, float], vertices: int, unit: str) -> str:
 
 def _described(step: Step) -> str:
     recipe = step.recipe
-    guide = {
-        "patches": "guided normal filter",
-        "own": "bilateral normal filter",
-        "local": "local bilateral normal filter",
-    }[recipe.guide]
-    begun = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
-    if not recipe.needs_coarse:
-        begun = "no hand-over"
-    return f"{begun}; {step.iterations} iterations of the {guide}, sigma_r {recipe.sigma_r:g}"
+    guides = {"patches": "guided", "own": "bilateral", "local": "local bilateral"}
+    coarse = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
+    begun, guide = coarse if recipe.needs_coarse else "no hand-over", guides[recipe.guide]
+    return f"{begun}; {step.iterations} iterations of the {guide} normal filter, sigma_r {recipe.sigma_r:g}"

@@ -1,14 +1,11 @@
 """bsm encode: mesh files to streams."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.encode_options import add_encode_flags, options_of
-from bsm.commands.flags import add_inputs, add_reader_flag, asked, run_of
+from bsm.commands.flags import add_encode_flags, add_inputs, add_reader_flag, asked, options_of, run_of
 from bsm.console import Console
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
@@ -19,7 +16,7 @@ from bsm.jobs.run import plan, plan_trees, refuse_collisions, run_jobs
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
+    add = parser.add_argument
     add_inputs(
         parser,
         "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: folder, quoted pattern, npz, "
@@ -27,19 +24,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe); many inputs to one .bsm are "
         "the frames of a sequence",
     )
-    parser.add_argument(
+    add(
         "-r", "--recursive", action="store_true", help="every mesh file in folders and below; OUT gets the same folders"
     )
-    parser.add_argument(
+    add(
         "--format",
         choices=tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ))),
         metavar="FORMAT",
         help="format of the input: its suffix without the dot (default: by its name or content)",
     )
-    parser.add_argument(
-        "--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is"
-    )
-    parser.add_argument(
+    add("--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is")
+    add(
         "--meta",
         action="append",
         default=[],
@@ -51,7 +46,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Encode all inputs."""
     members: tuple[str, ...] = ()
     if not args.recursive and is_one_sequence(args.inputs, args.output):
         members, args.inputs = tuple(args.inputs), [common_name(args.inputs)]
@@ -91,7 +85,6 @@ def _form(args: argparse.Namespace) -> str | None:
 
 
 def _metadata(args: argparse.Namespace) -> dict[str, str]:
-    """What `--meta` says."""
     pairs = [text.partition("=") for text in args.meta]
     for name, sign, _ in pairs:
         if not name or not sign:

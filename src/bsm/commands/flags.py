@@ -1,27 +1,263 @@
 """Options that several commands take: inputs and outputs, limits, readers."""
 
-from __future__ import annotations
-
 import argparse
-from dataclasses import fields
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.cli import suggestion
 from bsm.files.mesh import READERS
-from bsm.jobs.task import Run
+from bsm.jobs.report import Run
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A keyword of `bsm.options` on the command line: `--field VALUE`, or `--set field=VALUE`."""
+
+    field: str
+    type: Callable[[str], Any]
+    metavar: str
+    help: str
+
+    def add(self, group: argparse._ActionsContainer) -> None:
+        """Add it as a flag; a namespace has no such name where it is not given: defaults stand elsewhere."""
+        how: dict[str, Any] = (
+            {"action": "store_true"} if self.type is bool else {"type": self.type, "metavar": self.metavar}
+        )
+        group.add_argument(
+            f"--{self.field.replace('_', '-')}", dest=self.field, default=argparse.SUPPRESS, help=self.help, **how
+        )
+
+    def read(self, text: str) -> Any:
+        if self.type is bool and text not in ("yes", "no"):
+            raise ValueError(text)
+        return text == "yes" if self.type is bool else self.type(text)
+
+
+class HelpAll(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        parser.print_help()
+        print("\nsettings, --set NAME=VALUE:")
+        width = max(len(f"{one.field}={one.metavar}") for one in SETTINGS)
+        for one in SETTINGS:
+            print(f"  {f'{one.field}={one.metavar}':{width}}  {one.help}")
+        parser.exit()
+
+
+def thresholds(text: str) -> tuple[float, float]:
+    low, high = map(float, text.split(","))
+    return low, high
+
+
+def named_setting(text: str) -> tuple[str, Any]:
+    """NAME=VALUE as a field of `EncodeOptions` and its value."""
+    name, _, value = text.partition("=")
+    known = {one.field: one for one in SETTINGS}
+    name = name.strip().replace("-", "_")
+    if name not in known:
+        raise argparse.ArgumentTypeError(
+            f"there is no setting {name!r}{suggestion(name, known)}; --help-all lists them"
+        )
+    try:
+        return name, known[name].read(value.strip())
+    except ValueError:
+        one = known[name]
+        raise argparse.ArgumentTypeError(f"{name}={one.metavar or 'yes|no'} is expected, not {text!r}") from None
+
+
+def point(text: str) -> tuple[float, ...]:
+    numbers = tuple(map(float, text.split(",")))
+    if len(numbers) != 3:
+        raise ValueError(text)
+    return numbers
+
+
+ENCODE_FLAGS = (
+    Setting("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
+    Setting("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
+    Setting("quick", bool, "", "only what is quick to decode: grids, by a small model, no blocks"),
+    Setting("keep_order", bool, "", "store the order of vertices and faces"),
+    Setting("threads", int, "N", "threads to use (default: one per core)"),
+)
+
+SETTINGS = (
+    Setting("grid_origin", point, "X,Y,Z", "a place of the grid of --grid-cell (default 0,0,0)"),
+    Setting("runs", bool, "yes|no", "let the faces of a sequence change from frame to frame (default: no)"),
+    Setting("limits", str, "default|service|wide", "what decoders may refuse is an error (default: default)"),
+    Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
+    Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
+    Setting("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
+    Setting("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
+    Setting("smoothing", float, "A", "smoothing in the decoder (default: chosen by trying)"),
+    Setting("block_size", int, "N", "vertices of a block before overlap, about (default 550)"),
+    Setting("overlap", float, "F", "size of the blocks with overlap, as a multiple of the largest (default 1.05)"),
+    Setting("partition", str, "derived|metis", "who cuts the mesh into blocks (default derived: both sides)"),
+    Setting("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with --bits svd)"),
+    Setting("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 32)"),
+    Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
+    Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
+    Setting("key_iterations", int, "T", "orthogonal iterations of a block that depends on none (default 2)"),
+    Setting("shift", float, "D", "what is added to the Laplacian's diagonal (default 0.0078125)"),
+    Setting("predict", bool, "yes|no", "predict coefficients from blocks already coded (default: yes)"),
+    Setting(
+        "doi", thresholds, "EPS_L,EPS_H", "as many coefficients per block as keep its residual between two thresholds"
+    ),
+)
+"""What few need, and the codec's inside for those who study it: `--set NAME=VALUE`."""
+
+
+PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none")
+PROMISES = (
+    "how far from the original a mesh may look (see --look), and a vertex be off, of the diagonal of its part: small 3 "
+    "(a preview) and 2 %%; balanced, the default, 1 (looks the same) and 1 %%; fine 0.5 and 0.5 %%; near-lossless 0.5 "
+    "and 0.05 %%; grid14: exactly as on a grid of 14 bits; lossless: single precision, to the bit; none: nothing but "
+    "what is asked for beside it"
+)
+"""Of the presets; written out, since importing what they are takes time."""
+
+
+def number_or_length(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def named_quality(text: str) -> tuple[str, str]:
+    name, separator, quality = text.rpartition("=")
+    if not (name and separator):
+        raise argparse.ArgumentTypeError(f"NAME=QUALITY is expected, such as texcoord=12bits, not {text!r}")
+    return name, quality
+
+
+BOUNDS = (
+    Setting(
+        "look",
+        number_or_length,
+        "D",
+        "distance from the original in pictures at most D: 1 looks the same, 3 is a preview",
+    ),
+    Setting(
+        "max_error",
+        number_or_length,
+        "REL",
+        "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own",
+    ),
+)
+TARGETS = (
+    Setting("nmsve_db", float, "X", "visual error, 10 log10 NMSVE, at most X"),
+    Setting("theta", float, "DEG", "mean angle between the faces' normals before and after at most DEG"),
+    Setting("bpv", float, "X", "at most X bits per vertex, the whole file counted"),
+    Setting("size", number_or_length, "BYTES", "at most BYTES (20000, 20kB)"),
+)
+OF_SEQUENCES = (
+    Setting("kg", float, "PERCENT", "Karni and Gotsman's error at most PERCENT"),
+    Setting("bpvf", float, "X", "at most X bits per vertex and frame, the whole file"),
+    Setting("gop", int, "N", "frames that are coded together, at most (default 256 to 512)"),
+    Setting(
+        "low_delay",
+        int,
+        "N",
+        "send N frames at a time as they come (8: a quarter smaller than 1); --gop: from key frame to key frame",
+    ),
+    Setting(
+        "frame_rate",
+        float,
+        "FPS",
+        "frames per second, for the metadata; where an animation is sampled (glTF, USD) the rate of that",
+    ),
+)
+
+
+def add_encode_flags(parser: argparse.ArgumentParser) -> None:
+    add_preset_flags(parser)
+    add_coding_flags(parser)
+    parser.add_argument("--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help="also list the settings")
+    group = parser.add_argument_group(
+        "sequences",
+        "a folder or pattern of meshes, several meshes with -o NAME.bsm, npz, PC2, MDD, USD, GLB with\n"
+        "--animation, or npy arrays on a pipe (the faces, then the positions of each frame)",
+    )
+    for setting in OF_SEQUENCES:
+        setting.add(group)
+    group.add_argument(
+        "--animation",
+        metavar="NAME",
+        help="of a GLB or glTF this animation, by name or number (0), and not the mesh alone",
+    )
+    group.add_argument(
+        "--mesh",
+        dest="cache_mesh",
+        metavar="FILE",
+        help="the mesh of a PC2 or MDD (default: of the same name beside it)",
+    )
+    group.add_argument(
+        "--frames", dest="piped_frames", action="store_true", help="a pipe holds frames, as --format npy"
+    )
+
+
+def add_preset_flags(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("what to reach", "checked on what the decoder will see; all that is given holds")
+    group.add_argument("--preset", choices=PRESETS, default=argparse.SUPPRESS, help=PROMISES)
+    for setting in BOUNDS:
+        setting.add(group)
+    targets = group.add_mutually_exclusive_group()
+    for setting in TARGETS:
+        setting.add(targets)
+
+
+def add_coding_flags(parser: argparse.ArgumentParser) -> None:
+    """Add all of `ENCODE_FLAGS`, what becomes of attributes, and the settings."""
+    group = parser.add_argument_group("coding")
+    for setting in ENCODE_FLAGS:
+        setting.add(group)
+    group.add_argument(
+        "--attribute",
+        dest="attributes",
+        action="append",
+        type=named_quality,
+        metavar="NAME=QUALITY",
+        default=argparse.SUPPRESS,
+        help="how an attribute is kept: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none; * is any other "
+        "one (*=none: materials and images go, too); may be repeated",
+    )
+    group.add_argument(
+        "--set",
+        action="append",
+        type=named_setting,
+        metavar="NAME=VALUE",
+        default=argparse.SUPPRESS,
+        help="one of the settings that few need; --help-all lists them",
+    )
+
+
+_KEYWORDS = ("preset", *(setting.field for setting in (*BOUNDS, *TARGETS, *ENCODE_FLAGS, *OF_SEQUENCES)))
+
+
+def settings_of(args: argparse.Namespace) -> dict[str, Any]:
+    return dict(getattr(args, "set", ()))
+
+
+def options_of(args: argparse.Namespace) -> dict[str, Any]:
+    """What the command line asks for, as keywords of `bsm.options`."""
+    given = {name: getattr(args, name) for name in _KEYWORDS if hasattr(args, name)}
+    if hasattr(args, "attributes"):
+        given["attributes"] = dict(args.attributes)
+    return {**given, **settings_of(args)}
+
 
 _Asked = TypeVar("_Asked")
 
 
 def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | None = None) -> None:
     """Declare inputs, how many are worked on at a time, and, where the command writes, its output."""
-    parser.add_argument("inputs", metavar="IN", nargs="+", help=f"{about_them}; URLs as well (s3://bucket/name)")
+    add = parser.add_argument
+    add("inputs", metavar="IN", nargs="+", help=f"{about_them}; URLs as well (s3://bucket/name)")
     if output:
-        parser.add_argument("-o", "--output", metavar="OUT", help=output)
-    parser.add_argument(
-        "-j", "--jobs", type=int, default=1, metavar="N", help="inputs to work on at a time, 0: one per core (1)"
-    )
-    parser.add_argument("--json", action="store_true", help="print the result as JSON")
+        add("-o", "--output", metavar="OUT", help=output)
+    add("-j", "--jobs", type=int, default=1, metavar="N", help="inputs to work on at a time, 0: one per core (1)")
+    add("--json", action="store_true", help="print the result as JSON")
     many = parser.add_argument_group("many inputs")
     many.add_argument("--dask", metavar="ADDRESS", help="work on the Dask cluster of this scheduler")
     if output:
@@ -34,7 +270,6 @@ def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | N
 
 
 def run_of(args: argparse.Namespace) -> Run:
-    """How many inputs are worked on, and where."""
     return asked(Run, args)
 
 
@@ -56,7 +291,6 @@ def add_limits_flag(parser: argparse.ArgumentParser) -> None:
 
 
 def limits_of(name: str) -> Limits:
-    """The limits that the option names."""
     return NAMED_LIMITS[name]()
 
 

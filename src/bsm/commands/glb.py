@@ -1,7 +1,5 @@
 """bsm glb: a scene of glTF with its geometry coded, or one of a sequence."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any
@@ -22,31 +20,31 @@ PRESETS = ("balanced", "fine", "near-lossless", "grid14")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
-    parser.add_argument(
+    add = parser.add_argument
+    add(
         "input",
         metavar="SCENE",
         help=".glb, or .gltf with the files beside it; or the stream of a sequence, which becomes a scene as it is",
     )
-    parser.add_argument("-o", "--output", metavar="OUT.glb", required=True, help="the smaller scene")
-    parser.add_argument(
+    add("-o", "--output", metavar="OUT.glb", required=True, help="the smaller scene")
+    add(
         "--preset",
         choices=PRESETS,
         default=PRESETS[-1],
         help="what is promised of each mesh (default: grid14, positions as exact as Draco's of 14 bits)",
     )
-    parser.add_argument(
+    add(
         "--quick",
         action=argparse.BooleanOptionalAction,
         help="grids alone, which pages decode with a small decoder, several times as fast "
         f"(default: in scenes of {MANY} primitives and more)",
     )
-    parser.add_argument(
+    add(
         "--fallback",
         action="store_true",
         help="write OUT.fallback.bin, too, with plain arrays: viewers that do not know the extension show these",
     )
-    parser.add_argument(
+    add(
         "--images",
         metavar="RULE",
         help="write images smaller with Pillow: webp, webp:85 for a quality, webp:85@1024 for a largest side, too; "

@@ -1,7 +1,5 @@
 """bsm info: what a stream holds, without decoding it."""
 
-from __future__ import annotations
-
 import argparse
 import base64
 from collections.abc import Iterator
@@ -13,36 +11,29 @@ from bsm.bitstream.limits import Limits
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
 from bsm.console import Console, printable
 from bsm.files.pipes import read_chunks
-from bsm.files.sequence_stream import MOST_SAID, SequenceStream, said_of_runs
-from bsm.files.stream import StreamInfo, inspect_stream
+from bsm.files.stream import MOST_SAID, Loops, SequenceStream, StreamInfo, inspect_stream, said_of_runs
+from bsm.jobs.report import Facts, Job, Task
 from bsm.jobs.run import input_names, run_jobs
-from bsm.jobs.task import Facts, Job, Task
-from bsm.loops import Loops
 
 
 @dataclass(frozen=True, kw_only=True)
 class InfoJob(Task):
-    """What `bsm info` is asked for."""
-
     limits: str = "default"
     loops: bool = False
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
     add_inputs(parser, "stream, or - for standard input")
     parser.add_argument("--loops", action="store_true", help="decode sequences, and say which frames repeat others")
     add_limits_flag(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Describe all inputs."""
     jobs = [Job(name) for name in input_names(args.inputs)]
     return run_jobs(run_of(args), asked(InfoJob, args), console, info_of_one, jobs, _worded)
 
 
 def info_of_one(args: InfoJob, console: Console) -> Facts:
-    """Describe one stream."""
     limits = limits_of(args.limits)
     chunks = list(read_chunks(args.input)) if args.loops else read_chunks(args.input)
     summary = summarise(inspect_stream(iter(chunks), limits))
@@ -63,7 +54,6 @@ def _loops(chunks: Iterator[bytes], limits: Limits, console: Console) -> tuple[s
 
 
 def summarise(info: StreamInfo) -> dict[str, Any]:
-    """The facts, ready for JSON."""
     header = info.header
     return {
         "version": VERSION,
@@ -72,23 +62,14 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
         "blocks": header.blocks,
         "block_size": header.block_size,
         "coefficients": list(info.coefficients),
-        "bytes": {
-            "connectivity": info.connectivity,
-            "partition": info.partition,
-            "order": info.order,
-            "coefficients": info.coefficient_bytes,
-            "attributes": info.attribute_bytes,
-            "metadata": info.metadata_bytes,
-            "framing": info.framing,
-            "total": info.total,
-        },
+        "bytes": info.sizes,
         "frames": info.frames,
         "gops": [asdict(gop) for gop in info.gops],
         "runs": [asdict(run) for run in info.runs],
         "attributes": [asdict(attribute) for attribute in info.attributes],
-        "bpv_total": info.bpv_total,
+        "bpv_total": info.bpv(),
         "bpvf_total": info.bpvf_total,
-        "bpv_geometry": info.bpv_geometry,
+        "bpv_geometry": info.bpv("coefficients"),
         "bpv_paper": info.bpv_paper,
         "header": {name: getattr(header, name) for name in header.__dataclass_fields__},
         "metadata": {
@@ -103,6 +84,9 @@ def _worded(summary: Facts) -> str:
     total = summary["bytes"]["total"]
     sizes = {("positions" if name == "coefficients" else name): size for name, size in summary["bytes"].items()}
     shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in sizes.items()]
+    counts = summary["metadata_bytes"]
+    texts = {name: f"{counts[name]} bytes" if name in counts else value for name, value in summary["metadata"].items()}
+    said = [printable(f"  {name}: {value}") for name, value in texts.items()]
     lines = [
         f"version {summary['version']}: {summary['vertices']} vertices, {summary['faces']} faces",
         *_position_lines(summary),
@@ -111,13 +95,12 @@ def _worded(summary: Facts) -> str:
         *shares,
         *_rate_lines(summary),
         *map(_attribute_line, summary["attributes"]),
-        *_metadata_lines(summary),
+        *(["metadata:", *said] if said else []),
     ]
     return "\n".join(lines)
 
 
 def _position_lines(summary: dict[str, Any]) -> list[str]:
-    """Lines that say how positions are coded."""
     header, coefficients = summary["header"], summary["coefficients"] or [0]
     if header["grid"]:
         return [f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"]
@@ -135,12 +118,6 @@ def _rate_lines(summary: dict[str, Any]) -> list[str]:
     rates = f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for positions"
     packed, *_ = summary["header"]["paper"] or (0,)
     return [f"{rates}, {summary['bpv_paper']:.3f} by the paper's formula" if packed else rates]
-
-
-def _metadata_lines(summary: dict[str, Any]) -> list[str]:
-    sizes = summary["metadata_bytes"]
-    said = {name: f"{sizes[name]} bytes" if name in sizes else value for name, value in summary["metadata"].items()}
-    return ["metadata:", *(printable(f"  {name}: {value}") for name, value in said.items())] if said else []
 
 
 def _attribute_line(attribute: dict[str, Any]) -> str:
@@ -169,7 +146,6 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
 
 
 def _run_lines(runs: list[dict[str, Any]]) -> list[str]:
-    """What there is to say of faces that change."""
     if len(runs) == 1:
         return []
     again = {

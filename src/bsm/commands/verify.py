@@ -1,7 +1,5 @@
 """bsm verify: whether streams are whole and can be decoded."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 
@@ -9,10 +7,9 @@ from bsm.bitstream.errors import OptionError
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
 from bsm.console import Console
 from bsm.files.pipes import read_chunks
-from bsm.files.sequence_stream import decode_through
-from bsm.files.stream import decode_whole, inspect_stream
+from bsm.files.stream import decode_through, decode_whole, inspect_stream
+from bsm.jobs.report import Facts, Job, Task
 from bsm.jobs.run import input_names, run_jobs
-from bsm.jobs.task import Facts, Job, Task
 from bsm.steadiness import check_steadiness
 
 
@@ -26,7 +23,6 @@ class VerifyJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
     add_inputs(parser, "stream, or - for standard input")
     add_limits_flag(parser)
     parser.add_argument("--quick", action="store_true", help="check structure and checksums only, do not decode")
@@ -39,7 +35,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Check all inputs; what is wrong is raised."""
     if args.steady and args.quick:
         raise OptionError("--steady decodes, which --quick does not")
     jobs = [Job(name) for name in input_names(args.inputs)]
@@ -47,7 +42,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def verify_one(args: VerifyJob, console: Console) -> Facts:
-    """Check one stream."""
     chunks = list(read_chunks(args.input))
     limits = limits_of(args.limits)
     with console.progress("decoding") as progress:
@@ -57,5 +51,5 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
         if args.steady:
             progress.stage("decoding again")
             check_steadiness(b"".join(chunks))
-    console.note(f"{args.input}: whole, {info.header.blocks} blocks, {info.total} bytes")
-    return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": info.total}
+    console.note(f"{args.input}: whole, {info.header.blocks} blocks, {info.sizes['total']} bytes")
+    return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": info.sizes["total"]}

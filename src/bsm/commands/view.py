@@ -1,7 +1,5 @@
 """bsm view: streams in a browser, as they arrive."""
 
-from __future__ import annotations
-
 import argparse
 import itertools
 import webbrowser
@@ -16,32 +14,24 @@ from bsm.console import Console
 from bsm.files.mesh import read_mesh
 from bsm.files.output import open_output
 from bsm.files.pipes import about, read_chunks
-from bsm.viewer.content import Content, compared
-from bsm.viewer.growing import Growing, written_to
-from bsm.viewer.page import PageServer, page_with
+from bsm.viewer.page import Content, Growing, PageServer, compared, page_with, written_to
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare what the command takes."""
-    parser.add_argument(
+    add = parser.add_argument
+    add(
         "inputs",
         metavar="IN",
         nargs="+",
         help="stream, of a mesh or a sequence, or - for a pipe; or a mesh file, which is encoded on the way",
     )
-    parser.add_argument("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
-    parser.add_argument(
-        "--follow", action="store_true", help="the files are still being written: go on as they grow, as with a pipe"
-    )
+    add("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
+    add("--follow", action="store_true", help="the files are still being written: go on as they grow, as with a pipe")
     add_reader_flag(parser)
     add_limits_flag(parser)
-    parser.add_argument(
-        "--save",
-        metavar="PAGE.html",
-        help="write one page with the streams in it; it needs no server and no network",
-    )
-    parser.add_argument("--port", type=int, default=0, metavar="N", help="of the server (default: any that is free)")
-    parser.add_argument("--no-open", action="store_true", help="print the address, and leave the browser to you")
+    add("--save", metavar="PAGE.html", help="write one page with the streams in it; it needs no server and no network")
+    add("--port", type=int, default=0, metavar="N", help="of the server (default: any that is free)")
+    add("--no-open", action="store_true", help="print the address, and leave the browser to you")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -109,9 +99,9 @@ def _growing(name: str, path: str) -> Growing:
     growing = Growing(name)
     chunks = read_chunks(path) if path == "-" else written_to(open(path, "rb"))  # noqa: SIM115
     Thread(target=growing.receive, args=(chunks,), daemon=True).start()
-    if not growing.begins():
-        raise _no_stream(path)
-    return growing
+    if growing.begins():
+        return growing
+    raise _no_stream(path)
 
 
 def _no_stream(path: str) -> FormatError:
@@ -124,11 +114,7 @@ def _named(paths: list[str]) -> dict[str, str]:
     """Paths under names of their own."""
     named: dict[str, str] = {}
     for path in paths:
-        named[_free_name(Path(path).name, named)] = path
+        name = Path(path).name
+        others = (f"{name} ({number})" for number in itertools.count(2))
+        named[next(one for one in itertools.chain([name], others) if one not in named)] = path
     return named
-
-
-def _free_name(name: str, taken: dict[str, str]) -> str:
-    if name not in taken:
-        return name
-    return next(other for n in itertools.count(2) if (other := f"{name} ({n})") not in taken)

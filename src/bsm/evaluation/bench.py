@@ -3,8 +3,6 @@
 Solvers' times are CPU seconds of one thread, the least of several runs.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -30,8 +28,7 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.evaluation.curve import number, table
-from bsm.evaluation.draco import decode_draco, encode_draco
+from bsm.evaluation.curve import decode_draco, encode_draco, number, table
 from bsm.files.mesh import read_mesh
 
 KEEPS = (0.10, 0.15, 0.20, 0.25)
@@ -151,7 +148,6 @@ def iterated_all(blocks: Blocks, width: int, power: int) -> list[Matrix]:
 
 
 def iterated(block: Block, width: int, power: int) -> Matrix:
-    """One of `iterated_all`."""
     start = cosine_columns(block.size, 0, min(width, block.size))
     return orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=power, iterations=1)
 
@@ -178,7 +174,6 @@ def least_time(work: Callable[[], object], repeats: int, clock: Callable[[], flo
 
 
 def bench_tables(result: Result) -> str:
-    """The result of `run_bench` for people."""
     parts = []
     for row in result["meshes"]:
         parts.append(f"{row['mesh']}, {row['vertices']} vertices:\n")

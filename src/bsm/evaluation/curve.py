@@ -1,32 +1,108 @@
-"""Rate against error: codecs run over meshes at several settings, written down as JSON, and compared from it."""
-
-from __future__ import annotations
+"""Rate against error: codecs run over meshes and sequences at several settings, written down as JSON, compared."""
 
 import json
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
+from functools import partial
 from pathlib import Path
+from types import ModuleType
 from typing import Any, Protocol
 
 import numpy as np
+import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
-from bsm.bitstream.errors import CorruptError
+from bsm.bitstream.errors import CorruptError, DependencyError, MeshError
+from bsm.bitstream.extras import how_to_install
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.targets import compare_sequences
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.targets import Target
-from bsm.evaluation.draco import decode_draco, encode_draco, positions_in_order
-from bsm.evaluation.plots import MEASURES, points_of
+from bsm.console import finite
+from bsm.evaluation.plots import MEASURES, draw_rates, points_of
 from bsm.evaluation.sample import knot
 from bsm.files.output import open_output
 from bsm.files.stream import inspect_stream
+
+Triangles = npt.NDArray[np.int64]
+
+
+def encode_draco(mesh: TriangleMesh, position_bits: int, level: int) -> bytes:
+    draco = _draco()
+    try:
+        data: bytes = draco.encode(
+            mesh.positions.astype(np.float32), mesh.faces, quantization_bits=position_bits, compression_level=level
+        )
+    except draco.EncodingFailedException as error:
+        raise MeshError(f"Draco does not take this mesh: {error}") from error
+    return data
+
+
+def decode_draco(data: bytes) -> TriangleMesh:
+    decoded = _draco().decode(data)
+    return TriangleMesh(decoded.points, decoded.faces)
+
+
+def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits: int) -> Positions:
+    """What Draco made of each vertex of `mesh`, given the mesh that it decoded."""
+    numbers = np.arange(len(mesh.positions), dtype=np.uint32)[:, None]
+    data = _draco().encode(
+        mesh.positions.astype(np.float32),
+        mesh.faces,
+        quantization_bits=position_bits,
+        compression_level=10,
+        generic_attributes={0: numbers},
+    )
+    numbered = _draco().decode(data)
+    original = numbered.get_attribute_by_unique_id(0)["data"].reshape(-1).astype(np.int64)
+    points = np.asarray(numbered.points, dtype=np.float64)
+    if len(np.unique(original)) != len(mesh.positions):
+        raise MeshError("Draco dropped vertices; remove those that no face with area uses")
+    if not np.array_equal(_canonical(original[numbered.faces]), _canonical(_with_three_corners(mesh.faces))):
+        raise MeshError("Draco's numbered faces are not those of the original")
+    _, identity = np.unique(np.concatenate([points, decoded.positions]), axis=0, return_inverse=True)
+    first, second = identity[: len(points)], identity[len(points) :]
+    if not np.array_equal(_canonical(first[numbered.faces]), _canonical(second[decoded.faces])):
+        raise MeshError("Draco decodes to different triangles with and without numbered vertices")
+    positions = np.empty_like(mesh.positions)
+    positions[original] = points
+    return positions
+
+
+def _with_three_corners(faces: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
+    a, b, c = faces.T
+    kept: npt.NDArray[np.int32] = faces[(a != b) & (b != c) & (c != a)]
+    return kept
+
+
+def _canonical(faces: npt.NDArray[np.integer]) -> Triangles:
+    """Faces as rows that begin with their least rotation, sorted: equal for equal sets of oriented triangles."""
+    corners = faces.astype(np.int64)
+    rotations = np.stack([corners, np.roll(corners, 1, axis=1), np.roll(corners, 2, axis=1)])
+    base = corners.max(initial=0) + 1
+    if base > 2_000_000:
+        raise MeshError(f"{base} vertices are too many for this comparison")
+    keys = (rotations[..., 0] * base + rotations[..., 1]) * base + rotations[..., 2]
+    return np.sort(keys.min(axis=0))
+
+
+def _draco() -> ModuleType:
+    try:
+        import DracoPy
+    except ImportError as error:
+        raise DependencyError(f"Draco needs the package DracoPy: {how_to_install('eval')}") from error
+    module: ModuleType = DracoPy
+    return module
+
 
 Result = dict[str, Any]
 Align = Callable[[TriangleMesh], Positions]
@@ -62,11 +138,8 @@ class Spectral:
     @property
     def settings(self) -> dict[str, Any]:
         """The options that are not the defaults, and the step where it counts; not what decoders grant."""
-        defaults, values = (
-            EncodeOptions(),
-            {item.name: getattr(self.options, item.name) for item in fields(EncodeOptions)},
-        )
-        changed = {k: value for k, value in values.items() if k != "limits" and value != getattr(defaults, k)}
+        defaults, names = EncodeOptions(), [one.name for one in fields(EncodeOptions) if one.name != "limits"]
+        changed = {name: now for name in names if (now := getattr(self.options, name)) != getattr(defaults, name)}
         if self.options.target is not None:
             return {**changed, "target": asdict(self.options.target)}
         return changed if self.options.bits else {"step": self.options.first_step, **changed}
@@ -79,14 +152,11 @@ class Spectral:
         return data, lambda decoded: decoded.positions[order]
 
     def decode(self, data: bytes) -> TriangleMesh:
-        """See `Codec`; on as many threads as the encoder was given."""
         return decode(data, NAMED_LIMITS[self.options.limits](), self.options.threads)
 
     def parts(self, data: bytes) -> dict[str, Any]:
-        """What `bsm info` shows."""
         info = inspect_stream(iter([data]))
-        sizes = (info.connectivity, info.partition, info.order, info.coefficient_bytes, info.framing)
-        return {**dict(zip(PARTS, sizes, strict=True)), "bpv_paper": info.bpv_paper}
+        return {**{part: info.sizes[part] for part in PARTS}, "bpv_paper": info.bpv_paper}
 
 
 @dataclass(frozen=True)
@@ -98,7 +168,6 @@ class Draco:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Bits and levels."""
         return {"position_bits": self.position_bits, "levels": list(self.levels)}
 
     def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
@@ -107,11 +176,9 @@ class Draco:
         return data, lambda decoded: positions_in_order(mesh, decoded, self.position_bits)
 
     def decode(self, data: bytes) -> TriangleMesh:
-        """See `Codec`."""
         return decode_draco(data)
 
     def parts(self, data: bytes) -> dict[str, Any]:
-        """Draco does not tell."""
         return dict.fromkeys((*PARTS, "bpv_paper"))
 
 
@@ -186,8 +253,8 @@ def draco_curve() -> Curve:
 
 def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int = 1) -> Result:
     """Encode and decode once or more, and say everything that is to be said about it."""
-    encode_seconds, (data, align) = timed(lambda: codec.encode(mesh), repeats)
-    decode_seconds, decoded = timed(lambda: codec.decode(data), repeats)
+    encode_seconds, (data, align) = _timed(lambda: codec.encode(mesh), repeats)
+    decode_seconds, decoded = _timed(lambda: codec.decode(data), repeats)
     comparison = reference.compare(align(decoded))
     parts = codec.parts(data)
     bpv_paper, geometry = parts.pop("bpv_paper"), parts["coefficients"]
@@ -198,8 +265,7 @@ def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int
         "bpv_total": 8 * len(data) / vertices,
         "bpv_geometry": None if geometry is None else 8 * geometry / vertices,
         "bpv_paper": bpv_paper,
-        # JSON has no infinity; what is lossless has no decibels.
-        "nmsve_db": comparison.nmsve_db if math.isfinite(comparison.nmsve_db) else None,
+        "nmsve_db": finite(comparison.nmsve_db),
         "theta_deg": comparison.theta_deg,
         "rms_relative": comparison.rms_relative,
         "max_error_relative": comparison.max_error_relative,
@@ -230,16 +296,18 @@ def run_curve(
 
 
 def write_result(result: Result, folder: Path) -> Path:
-    """Write one result as ``<mesh>.<codec>.json``."""
+    """Write ``<mesh>.<codec>.json``, or ``<name>-sequence.json``."""
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{result['mesh']['name']}.{result['codec']}.json"
+    mesh = result.get("mesh")
+    path = folder / (
+        f"{mesh['name']}.{result['codec']}.json" if mesh else f"{result['sequence']['name']}-sequence.json"
+    )
     with open_output(path, overwrite=True) as file:
         file.write(json.dumps(result, indent=1, allow_nan=False).encode())
     return path
 
 
 def read_results(folder: Path) -> Iterator[Result]:
-    """All results in a folder, by mesh and codec."""
     for path in sorted(folder.glob("*.*.json")):
         result = json.loads(path.read_text())
         if result.get("schema") != SCHEMA:
@@ -247,14 +315,13 @@ def read_results(folder: Path) -> Iterator[Result]:
         yield result
 
 
-def timed(work: Callable[[], Any], repeats: int) -> tuple[float, Any]:
+def _timed(work: Callable[[], Any], repeats: int) -> tuple[float, Any]:
     """Seconds of the fastest of some runs, and the result."""
-    least, result = math.inf, None
+    runs = []
     for _ in range(max(1, repeats)):
-        start = time.perf_counter()
-        result = work()
-        least = min(least, time.perf_counter() - start)
-    return least, result
+        start, result = time.perf_counter(), work()
+        runs.append(time.perf_counter() - start)
+    return min(runs), result
 
 
 # ----------------------------------------------------------------------------------------------------------- comparing
@@ -269,19 +336,13 @@ class RateCurve:
 
     @property
     def interpolated(self) -> PchipInterpolator:
-        """Piecewise cubic, monotone."""
         return PchipInterpolator(self.distortions, self.log_rates)
 
-    def log_rate(self, distortion: float) -> float | None:
-        """None outside the measured range, or with a single point."""
+    def rate(self, distortion: float) -> float | None:
+        """Bits per vertex; None outside the measured range, or with a single point."""
         if len(self.distortions) < 2 or not self.distortions[0] <= distortion <= self.distortions[-1]:
             return None
-        return float(self.interpolated(distortion))
-
-    def rate(self, distortion: float) -> float | None:
-        """As `log_rate`, but bits per vertex."""
-        log_rate = self.log_rate(distortion)
-        return None if log_rate is None else float(np.exp(log_rate))
+        return float(np.exp(self.interpolated(distortion)))
 
 
 def rate_curve(rates: Sequence[float], distortions: Sequence[float]) -> RateCurve:
@@ -354,10 +415,72 @@ def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def number(value: float | None, digits: int) -> str:
-    """A number, or a dash where there is none."""
     return "-" if value is None else f"{value:.{digits}f}"
 
 
-def percent(value: float | None) -> str:
-    """A signed percentage, or a dash."""
-    return "-" if value is None else f"{value:+.1f} %"
+# ------------------------------------------------------------------------------------------------------------ sequences
+
+
+Point = dict[str, Any]
+SEQUENCE_STEPS = (0.016, 0.008, 0.004, 0.002, 0.001, 0.0005)
+SEQUENCE_BITS = (7, 8, 9, 10, 11, 12)
+LINES = {"ours": "ours", "ours-low-delay": "ours, low delay", "draco": "Draco, frame by frame"}
+SEQUENCE_MEASURES = {"kg": "KG error, percent", "theta_deg": "θ, degrees"}
+FRAMES_OF_DRACO = 16
+"""Frames that Draco is asked for, spread over the sequence: it treats all alike."""
+
+
+def measure_lines(frames: Positions, faces: Faces, name: str, progress: Callable[[int, int], None]) -> dict[str, Any]:
+    """All lines of one sequence, `frames` of shape (T, n, 3); rates are those of whole files."""
+    every = max(1, len(frames) // FRAMES_OF_DRACO)
+    ours = [("ours", 0), ("ours-low-delay", 1)]
+    work = [(line, partial(our_point, frames, faces, delay, step)) for step in SEQUENCE_STEPS for line, delay in ours]
+    work += [("draco", partial(draco_point, frames, faces, bits, every)) for bits in SEQUENCE_BITS]
+    lines: dict[str, list[Point]] = {line: [] for line in LINES}
+    for done, (line, run) in enumerate(work, 1):
+        lines[line].append({key: finite(value) if isinstance(value, float) else value for key, value in run().items()})
+        progress(done, len(work))
+    sizes = {"frames": len(frames), "vertices": frames.shape[1], "faces": len(faces)}
+    return {"schema": SCHEMA, "sequence": {"name": name, **sizes}, "lines": lines}
+
+
+def our_point(frames: Positions, faces: Faces, low_delay: int, step: float) -> Point:
+    attempt = SequenceEncoder(faces, SequenceOptions(low_delay=low_delay), len(frames)).attempt(list(frames), step)
+    name = f"low delay of {low_delay}, step {step:g}" if low_delay else f"groups, step {step:g}"
+    size = sum(map(len, attempt.chunks))
+    return {"codec": name, "bytes": size, "bpvf": attempt.bpvf, **asdict(attempt.comparison)}
+
+
+def draco_point(frames: Positions, faces: Faces, bits: int, every: int) -> Point:
+    """Draco, level 10, at `bits` of position quantization, over every `every`-th frame: it knows of one frame only."""
+    meshes = [TriangleMesh(frame, faces) for frame in frames[::every]]
+    streams = [encode_draco(mesh, bits, 10) for mesh in meshes]
+    decoded = [positions_in_order(mesh, decode_draco(data), bits) for mesh, data in zip(meshes, streams)]
+    return point_of(f"Draco qp {bits}", sum(map(len, streams)), frames[::every], np.array(decoded), faces)
+
+
+def point_of(name: str, size: int, original: Positions, decoded: Positions, faces: Faces) -> Point:
+    """A point of a line: bytes, and how far `decoded` is off, both of shape (T, n, 3)."""
+    comparison = compare_sequences(original, decoded, faces)
+    return {"codec": name, "bytes": size, "bpvf": 8 * size / original[..., 0].size, **asdict(comparison)}
+
+
+def draw_lines(result: dict[str, Any], folder: Path) -> list[Path]:
+    facts = result["sequence"]
+    title = f"{facts['name']}: {facts['frames']} frames of {facts['vertices']} vertices"
+    written: list[Path] = []
+    for measure, label in SEQUENCE_MEASURES.items():
+        lines = {LINES[line]: [(p["bpvf"], p[measure]) for p in points] for line, points in result["lines"].items()}
+        stem = folder / f"{facts['name']}-{measure.split('_')[0]}"
+        written += draw_rates(lines, "bits per vertex and frame, whole file", label, title, stem)
+    return written
+
+
+def table_of(result: dict[str, Any]) -> str:
+    digits = {"bpvf": 4, "kg": 4, "theta_deg": 2, "rms_relative": 6}
+    rows = [
+        (result["sequence"]["name"], point["codec"], *(number(point[name], places) for name, places in digits.items()))
+        for points in result["lines"].values()
+        for point in points
+    ]
+    return table(("sequence", "codec", "bits per vertex and frame, file", "KG, %", "theta", "rms"), rows)

@@ -1,7 +1,5 @@
 """Pictures of the evaluation, drawn from its JSON and nothing else."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -111,14 +109,12 @@ def points_of(points: Sequence[Result], measure: str) -> list[Result]:
 
 
 def time_range(result: Result) -> str:
-    """Decoding times over a line's points, for its label."""
     seconds = [point["decode_seconds"] for point in result["points"]]
     low, high = min(seconds), max(seconds)
     return f"{low:.2g} s" if high < 1.1 * low else f"{low:.2g} to {high:.2g} s"
 
 
 def title_of(result: Result) -> str:
-    """The mesh of a result."""
     return "{name}: {vertices} vertices, {faces} faces".format_map(result["mesh"])
 
 
@@ -132,7 +128,6 @@ def import_matplotlib() -> ModuleType:
 
 
 def new_figure(width: float = 7.0, height: float = 5.0) -> Any:
-    """An empty figure, in inches."""
     import_matplotlib()
     from matplotlib.figure import Figure
 
@@ -149,7 +144,6 @@ def draw_axes(draw: Callable[[Any], None], stem: Path) -> list[Path]:
 
 
 def save_figure(figure: Any, stem: Path) -> list[Path]:
-    """Write a figure in all of `FORMATS`."""
     stem.parent.mkdir(parents=True, exist_ok=True)
     paths = [stem.parent / f"{stem.name}.{suffix}" for suffix in FORMATS]
     for path in paths:

@@ -1,7 +1,5 @@
 """A mesh made by formula, to try the codec on where there is none at hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 from scipy.spatial import Delaunay

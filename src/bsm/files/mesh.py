@@ -5,26 +5,29 @@ beside them becomes attributes and metadata; what was changed or left out on the
 they are read: what claims more than it holds is refused before anything is allocated for it.
 """
 
-from __future__ import annotations
-
 import codecs
 import importlib
 import os
 import re
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import FormatError, OptionError
+from bsm.bitstream.errors import DependencyError, FormatError, OptionError
+from bsm.bitstream.extras import how_to_install
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import fetched
+from bsm.files.formats.metadata import Written, fetched
 from bsm.files.formats.polygons import MeshFile, Polygons
-from bsm.files.formats.written import Written
 from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
-from bsm.files.pipes import Source, as_input
-from bsm.files.remote import is_url
+from bsm.files.pipes import Source, as_input, is_url
 from bsm.files.room import gunzipped, require_archive, require_counts_of_head, require_room
 
 _PLAIN = ("obj", "off", "ply", "stl")
@@ -125,7 +128,7 @@ def read_mesh(
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
     ours = polygons.checked(limits)
     if reader == "openmesh":
-        from bsm.files.formats.with_openmesh import read_with_openmesh
+        from bsm.files.mesh import read_with_openmesh
 
         return read_with_openmesh(data, kind, ours.mesh, limits)
     return ours
@@ -198,3 +201,48 @@ def format_of_bytes(data: bytes) -> str | None:
     if re.search(rb"(?:\A|[\r\n])[ \t]*v[ \t]", data[: 1 << 16]):
         return "obj"
     return None
+
+
+# ------------------------------------------------------------------------------------------------------------- openmesh
+
+
+def read_with_openmesh(data: bytes, kind: str, ours: TriangleMesh, limits: Limits) -> MeshFile:
+    try:
+        import openmesh
+    except ImportError as error:
+        raise DependencyError(f"openmesh is not installed; run: {how_to_install('openmesh')}") from error
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder, f"mesh.{kind}")
+        copy.write_bytes(data)
+        try:
+            with _native_stderr_closed():
+                mesh = openmesh.read_polymesh(str(copy))
+        except RuntimeError:
+            raise FormatError("openmesh cannot read this file; leave out --reader openmesh") from None
+    points = mesh.points().astype(np.float64)
+    table = mesh.fv_indices() if mesh.n_faces() else np.empty((0, 3), np.int64)
+    present = table >= 0
+    notes = []
+    if len(points) != len(ours.positions) or (present.sum(axis=1) - 2).sum() != len(ours.faces):
+        notes.append(f"openmesh has made {len(points)} vertices of the {len(ours.positions)} of the file")
+    names = tuple(attribute.name for attribute in ours.attributes)
+    if len(points) != len(ours.positions) or not np.array_equal(table, ours.faces):
+        corners = table[present].astype(np.int64)
+        theirs = Polygons(points, present.sum(axis=1), corners, tuple(notes), names, metadata=ours.metadata)
+        return theirs.checked(limits)
+    return MeshFile(replace(ours, positions=points), tuple(notes))
+
+
+@contextmanager
+def _native_stderr_closed() -> Iterator[None]:
+    """Keep openmesh, which prints a line for each edge it dislikes, from writing to the terminal."""
+    sys.stderr.flush()
+    saved = os.dup(2)
+    sink = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(sink, 2)
+        yield
+    finally:
+        os.dup2(saved, 2)
+        os.close(saved)
+        os.close(sink)

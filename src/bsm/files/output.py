@@ -1,7 +1,5 @@
 """Files that appear as a whole or not at all, and the names of those that the user did not name."""
 
-from __future__ import annotations
-
 import errno
 import glob
 import os
@@ -16,8 +14,7 @@ from types import FrameType
 from typing import BinaryIO
 
 from bsm.bitstream.errors import OptionError
-from bsm.files.pipes import standard_output
-from bsm.files.remote import beside, inside, is_url, name_in, open_remote_output, refuse_to_replace
+from bsm.files.pipes import beside, inside, is_url, name_in, open_remote_output, refuse_to_replace, standard_output
 
 try:
     import fcntl
@@ -206,6 +203,5 @@ def _with_suffix(path: str, suffix: str) -> Path:
 
 
 def refuse_terminal(path: str) -> None:
-    """Raise `OptionError` if "-" is a terminal: binary data would only garble it."""
     if path == "-" and standard_output().isatty():
         raise OptionError("binary data is not written to a terminal; redirect it, or name a file with -o")

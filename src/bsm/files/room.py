@@ -3,8 +3,6 @@
 As a stream, a file may take what limits grant for its bytes and its vertices; what it inflates to counts, too.
 """
 
-from __future__ import annotations
-
 import io
 import re
 import zipfile

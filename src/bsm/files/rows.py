@@ -1,7 +1,5 @@
 """Tables of numbers in text files."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Sequence
 from itertools import chain
@@ -32,7 +30,6 @@ class Rows:
             raise MeshError(f"a {what} is not made of numbers: {_strange(chain.from_iterable(fields))!r}") from None
 
     def require(self, needed: int | Ints) -> None:
-        """Raise `MeshError` unless every line has at least `needed` numbers."""
         short = self.counts < needed
         if short.any():
             row = int(np.argmax(short))
@@ -71,7 +68,6 @@ def ranges(starts: Ints, sizes: Ints) -> Ints:
 
 
 def as_integers(values: npt.NDArray[Any], what: str) -> Ints:
-    """`values` as int64; `MeshError` where one is not a whole number of ordinary size."""
     whole = np.abs(values) < 2**53
     if values.dtype.kind == "f":
         whole &= values == np.rint(values)
@@ -92,7 +88,6 @@ def require_lines(present: int, claimed: int) -> None:
 
 
 def single_suffices(positions: Doubles) -> bool:
-    """Whether float32 moves no coordinate by more than a millionth of the bounding box's diagonal."""
     with np.errstate(over="ignore", invalid="ignore"):
         error = np.abs(positions.astype(np.float32) - positions).max()
         return bool(np.isfinite(error) and error <= 1e-6 * np.linalg.norm(np.ptp(positions, axis=0)))

@@ -5,8 +5,6 @@ an npz with `positions` of shape (T, n, 3) and `faces`; PC2 and MDD beside a mes
 pipes, npy arrays one behind the other.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count as count_from
@@ -18,15 +16,13 @@ import numpy as np
 from bsm.bitstream.errors import OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
-from bsm.files.formats.npz import NPY, open_npz_sequence, write_npy
+from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
 from bsm.files.mesh import USD_FORMATS, WRITTEN_FORMATS, by_name, save_written, written_mesh
-from bsm.files.motion.arrays import read_archive, read_pipe
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.folder import frame_files, in_order, is_numbered, names_many, read_files, write_files
 from bsm.files.motion.frames import Frames, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
-from bsm.files.pipes import Source, as_input, is_pipe
-from bsm.files.remote import is_url
+from bsm.files.pipes import Source, as_input, is_pipe, is_url
 
 ZIP = b"PK\x03\x04"
 GLTF = ("glb", "gltf")
@@ -77,8 +73,6 @@ def open_frames(
 
 
 class FrameWriter(Protocol):
-    """Takes frame after frame."""
-
     def __call__(self, frame: Positions, faces: Faces | None = None) -> None:
         """Take a frame, shape (n, 3), and its faces, shape (m, 3), where they are others than before."""
 
@@ -87,7 +81,7 @@ def _of_file(path: str, kind: str, reader: str | None, wanted: Wanted, limits: L
     if kind in CACHES:
         return read_cache(path, kind, reader, wanted, limits)
     if kind in GLTF:
-        found: Frames | None = by_name("bsm.gltf.frames", "read_gltf")(path, wanted, limits)
+        found: Frames | None = by_name("bsm.gltf.scene", "read_gltf")(path, wanted, limits)
     else:
         found = by_name("bsm.files.motion.usd", "read_usd")(path, wanted, limits)
     return found

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -13,10 +14,14 @@ import numpy.typing as npt
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import frames_of_gop
 from bsm.bitstream.container.layout import write_attribute, write_metadata
+from bsm.bitstream.container.packets import Header
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, read_packets
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import MeshError, OptionError
+from bsm.bitstream.errors import BsmError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.pipes import Source, as_input, is_pipe
 
 if TYPE_CHECKING:
@@ -35,8 +40,6 @@ def is_stream(source: Source) -> bool:
 
 @dataclass(frozen=True)
 class GopInfo:
-    """A GOP of a sequence: the number of its first frame, how many it has, and where it lies, in bytes."""
-
     first: int
     frames: int
     offset: int
@@ -78,57 +81,39 @@ class StreamInfo:
     coefficients: tuple[int, ...]
     gops: tuple[GopInfo, ...]
     attributes: tuple[AttributeInfo, ...]
-    connectivity: int
-    partition: int
-    order: int
-    coefficient_bytes: int
-    metadata_bytes: int
-    total: int
+    sizes: dict[str, int]
+    """Bytes by what they carry, "framing" nothing of all that; "total" is the whole."""
     runs: tuple[RunInfo, ...]
 
     @property
-    def framing(self) -> int:
-        """Bytes that carry nothing of all that."""
-        coded = self.connectivity + self.partition + self.order + self.coefficient_bytes
-        return self.total - coded - self.attribute_bytes - self.metadata_bytes
-
-    @property
-    def attribute_bytes(self) -> int:
-        """Bytes of all attributes: declarations, seams and values."""
-        return sum(attribute.bytes for attribute in self.attributes)
-
-    @property
-    def bpv_total(self) -> float:
-        """Bits of the whole stream per vertex."""
-        return 8 * self.total / self.header.vertices
-
-    @property
     def frames(self) -> int:
-        """Frames of a sequence, 0 for a mesh."""
         return sum(gop.frames for gop in self.gops)
 
     @property
     def bpvf_total(self) -> float | None:
         """Bits of the whole stream per vertex and frame; None for a mesh."""
         samples = sum(run.vertices * run.frames for run in self.runs)
-        return 8 * self.total / samples if samples else None
+        return 8 * self.sizes["total"] / samples if samples else None
 
-    @property
-    def bpv_geometry(self) -> float:
-        """Bits of the coefficients per vertex."""
-        return 8 * self.coefficient_bytes / self.header.vertices
-
-    @property
-    def bits_per_coefficient(self) -> float:
-        """q_c: as declared for packed coefficients, on average for adaptive ones."""
-        if bits := self.header.constants.bits:
-            return bits
-        return 8 * self.coefficient_bytes / (3 * max(1, sum(self.coefficients)))
+    def bpv(self, carried: str = "total") -> float:
+        """Bits per vertex of one of `sizes`."""
+        return 8 * self.sizes[carried] / self.header.vertices
 
     @property
     def bpv_paper(self) -> float:
-        """3 q_c c k / n, the paper's measure: c k as the sum over the blocks, n the vertices of the mesh."""
-        return 3 * self.bits_per_coefficient * sum(self.coefficients) / self.header.vertices
+        """3 q_c c k / n, the paper's measure: c k as the sum over the blocks, n the vertices of the mesh; q_c is as
+        declared for packed coefficients, and for others what they take on average."""
+        bits, count = self.header.constants.bits, sum(self.coefficients)
+        mean = 8 * self.sizes["coefficients"] / (3 * max(1, count))
+        return 3 * (bits or mean) * count / self.header.vertices
+
+
+_CARRIED: dict[type, str] = {
+    packets.Connectivity: "connectivity",
+    packets.Partition: "partition",
+    packets.Order: "order",
+    **dict.fromkeys((packets.Block, packets.Gop, packets.Grid, packets.Refinement), "coefficients"),
+}
 
 
 def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> StreamInfo:
@@ -138,7 +123,8 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     runs: list[RunInfo] = []
     coefficients: list[int] = []
     gops: list[GopInfo] = []
-    sizes: Counter[type] = Counter()
+    carried = (*dict.fromkeys(_CARRIED.values()), "attributes", "metadata")
+    sizes = dict.fromkeys(carried, 0)
     declared: list[packets.Attribute] = []
     lengths: Counter[int] = Counter()
     reader = Reader(limits)
@@ -151,7 +137,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
                 runs.append(RunInfo(sum(gop.frames for gop in gops), 0, packet.vertices, packet.faces, mesh))
             case packets.Metadata(entries):
                 metadata = packets.Metadata({**metadata.entries, **entries})
-                sizes[packets.Metadata] += len(write_metadata(packet))
+                sizes["metadata"] += len(write_metadata(packet))
             case packets.Attribute():
                 declared += [packet] if len(runs) == 1 else []
                 lengths[packet.index] += len(write_attribute(packet))
@@ -160,7 +146,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
             case packets.End() | packets.Damaged():
                 pass
             case _:
-                sizes[type(packet)] += len(packet.data)
+                sizes[_CARRIED[type(packet)]] += len(packet.data)
         if isinstance(packet, packets.Block):
             coefficients.append(packet.coefficients)
         if isinstance(packet, packets.Gop) and frame is not None:
@@ -168,20 +154,12 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
             runs[-1] = replace(runs[-1], frames=runs[-1].frames + frames)
             gops.append(GopInfo(packet.index, frames, frame.offset, frame.length))
     assert reader.last_frame is not None
-    return StreamInfo(
-        headers[0],
-        metadata,
-        tuple(coefficients),
-        tuple(gops),
-        tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared),
-        connectivity=sizes[packets.Connectivity],
-        partition=sizes[packets.Partition],
-        order=sizes[packets.Order],
-        coefficient_bytes=sum(sizes[kind] for kind in (packets.Block, packets.Gop, packets.Grid, packets.Refinement)),
-        metadata_bytes=sizes[packets.Metadata],
-        total=reader.last_frame.offset + reader.last_frame.length,
-        runs=tuple(runs) if headers[0].gop_frames else (),
-    )
+    total = reader.last_frame.offset + reader.last_frame.length
+    attributes = tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared)
+    sizes["attributes"] = sum(one.bytes for one in attributes)
+    sizes |= {"framing": total - sum(sizes.values()), "total": total}
+    numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
+    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known)
 
 
 def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:
@@ -291,7 +269,6 @@ class _Part:
         self._values: dict[str, list[AttributeEvent]] = {}
 
     def take(self, event: Any) -> None:
-        """Add what an event tells."""
         from bsm.codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, RefinementEvent
 
         match event:
@@ -329,3 +306,194 @@ class _Part:
         values = np.zeros((size, first.values.shape[1]), first.values.dtype)
         values[rows] = np.concatenate([event.values for event in events])
         return Attribute(first.name, values, first.domain, first.semantic, first.indices)
+
+
+# ---------------------------------------------------------------------------------------------------------------- loops
+
+
+_POINTS = 64
+MOST_FRAMES = 4096
+"""Beyond, nothing is said: each frame is compared with each."""
+
+
+class Loops:
+    """Remembers a few vertices of each frame, and tells which frames repeat others."""
+
+    def __init__(self) -> None:
+        self._kept: list[npt.NDArray[np.float64]] = []
+        self._diagonal = 0.0
+
+    def take(self, frame: Positions) -> None:
+        if not self._kept:
+            self._diagonal = float(np.linalg.norm(np.ptp(frame, axis=0)))
+        if len(self._kept) <= MOST_FRAMES:
+            rows = np.linspace(0, len(frame) - 1, min(_POINTS, len(frame))).astype(np.int64)
+            self._kept.append(frame[rows].reshape(-1))
+
+    def found(self, tolerance: float = 1e-4) -> tuple[range, int] | None:
+        """The frames that repeat, and how many frames before them those are that they repeat."""
+        count = len(self._kept)
+        if not 4 <= count <= MOST_FRAMES:
+            return None
+        if len({len(kept) for kept in self._kept}) > 1:
+            return None  # frames of other numbers of vertices
+        table, near = np.array(self._kept), tolerance * self._diagonal
+        if np.abs(table - table[0]).max() <= near:
+            return None
+        for period in range(2, count // 2 + 1):
+            alike = np.abs(table[period:] - table[:-period]).max(axis=1) <= near
+            start, length = _longest(alike)
+            if length >= period and np.abs(table[start : start + period] - table[start]).max() > near:
+                return range(start + period, start + period + length), period
+        return None
+
+    def said(self) -> tuple[str, ...]:
+        found = self.found()
+        if found is None:
+            return ()
+        frames, period = found
+        first, last = frames.start, frames.stop - 1
+        return (f"frames {first} to {last} repeat {first - period} to {first - 1}",)
+
+
+def _longest(alike: npt.NDArray[np.bool_]) -> tuple[int, int]:
+    """Where the longest run of truths begins, and how long it is."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], alike.astype(np.int8), [0]])))
+    starts, ends = edges[::2], edges[1::2]
+    if not len(starts):
+        return 0, 0
+    best = int(np.argmax(ends - starts))
+    return int(starts[best]), int(ends[best] - starts[best])
+
+
+# ------------------------------------------------------------------------------------------------------------ sequences
+
+
+Note = Callable[[str], None]
+MOST_SAID = 12
+
+
+def peek_header(chunks: Iterator[bytes]) -> tuple[Header | None, Iterator[bytes]]:
+    """The header of a stream, and all of its bytes again; None where the stream is too short or no stream at all."""
+    taken: list[bytes] = []
+    reader = Reader()
+    for chunk in chunks:
+        taken.append(chunk)
+        reader.receive_data(chunk)
+        try:
+            packet = reader.next_packet()
+        except BsmError:  # whoever decodes it will say so
+            break
+        if packet is not NEED_DATA:
+            assert isinstance(packet, Header)
+            return packet, chain(taken, chunks)
+    return None, chain(taken, chunks)
+
+
+class SequenceStream:
+    """A stream that is decoded while its frames are asked for."""
+
+    def __init__(
+        self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0, limits: Limits = DEFAULT_LIMITS
+    ) -> None:
+        from bsm.codec.sequence.decoder import SequenceDecoder
+        from bsm.codec.static.events import ConnectivityEvent, HeaderEvent
+
+        self.header: Header
+        self.faces: Faces
+        self.run_starts: list[int] = []
+        self._note = note
+        self._present: tuple[Attribute, ...] | None = None
+        decoder = SequenceDecoder(limits, tolerant=note is not None, start=start)
+        self._decoder = decoder
+        self._events = events(decoder, chunks)
+        for event in self._events:
+            if isinstance(event, HeaderEvent):
+                self.header = event.header
+            elif isinstance(event, ConnectivityEvent):
+                self.faces = event.faces
+                return
+        raise TruncatedError("the stream ends before its faces")
+
+    @property
+    def attributes(self) -> tuple[Attribute, ...]:
+        """What the frame that was given last carries; before the first one, as far as they have come."""
+        return self._decoder.attributes if self._present is None else self._present
+
+    @property
+    def metadata(self) -> Metadata:
+        return self._decoder.metadata
+
+    def frames(self) -> Iterator[tuple[int, Positions]]:
+        """Number and positions, shape (n, 3), of one frame after the other."""
+        for index, positions in self.changing_frames():
+            if self.run_starts:
+                raise MeshError(
+                    f"the faces change at frame {index}; only bsm decode and bsm compare take such sequences"
+                )
+            yield index, positions
+
+    def changing_frames(self) -> Iterator[tuple[int, Positions]]:
+        """Frames and their indices, where `faces` may change from frame to frame."""
+        from bsm.codec.sequence.events import FrameEvent
+        from bsm.codec.static.events import LossEvent
+
+        given = False
+        for event in self._events:
+            match event:
+                case FrameEvent(index, positions, faces, attributes):
+                    self._present = attributes
+                    if faces is not self.faces and not np.array_equal(faces, self.faces):
+                        if given:
+                            self.run_starts.append(index)
+                        self.faces = faces
+                    given = True
+                    yield index, positions
+                case LossEvent(_, error, frames):
+                    assert self._note is not None
+                    first, last = frames.start, frames.stop - 1
+                    if not frames:
+                        what = f"what follows frame {first} is"
+                    else:
+                        what = f"frame {first} is" if first == last else f"frames {first} to {last} are"
+                    self._note(f"{what} lost: {error}")
+
+
+def said_of_runs(starts: Sequence[int]) -> str:
+    """In words, the frames before which faces change."""
+    some = ", ".join(map(str, starts[:MOST_SAID]))
+    rest = f" and {len(starts) - MOST_SAID} more" if len(starts) > MOST_SAID else ""
+    return f"connectivity changes at frame{'s' if len(starts) > 1 else ''} {some}{rest}"
+
+
+def numbered(faces: Faces, vertices: int) -> TriangleMesh:
+    """A mesh whose positions are the numbers of its vertices: what reorders meshes then tells their order."""
+    return TriangleMesh(np.repeat(np.arange(vertices, dtype=np.float64)[:, None], 3, axis=1), faces)
+
+
+def numbers_of(positions: Positions) -> npt.NDArray[np.int64]:
+    return positions[:, 0].astype(np.int64)
+
+
+def decode_through(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> int:
+    """Decode a sequence to its end and keep nothing; the number of frames."""
+    return sum(1 for _ in SequenceStream(chunks, limits=limits).changing_frames())
+
+
+Pieces = list[tuple[Positions, Faces]]
+"""Frames, shape (T, n, 3), and their faces, shape (m, 3), of one run after the other."""
+
+
+def all_frames(stream: SequenceStream) -> Pieces:
+    return pieces_of((frame, stream.faces) for _, frame in stream.changing_frames())
+
+
+def pieces_of(frames: Iterable[tuple[Positions, Faces]]) -> Pieces:
+    """Frames with their faces, those together that share them."""
+    found: list[tuple[list[Positions], Faces]] = []
+    for positions, faces in frames:
+        same = found and len(found[-1][0][0]) == len(positions) and np.array_equal(found[-1][1], faces)
+        if not same:
+            found.append(([], faces))
+        found[-1][0].append(positions)
+    return [(np.array(positions), faces) for positions, faces in found]

@@ -1,7 +1,5 @@
 """A glTF document, binary or not: its tree, its bytes, and the numbers in them, checked before they are used."""
 
-from __future__ import annotations
-
 import base64
 import json
 import struct
@@ -75,14 +73,12 @@ class Document:
         return self._own + sum(map(len, self._resources.values()))
 
     def items(self, name: str) -> list[Tree]:
-        """A list of the tree; empty if there is none."""
         found = self.tree.get(name, [])
         if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
             raise FormatError(f"the {name} of this glTF are no list of objects")
         return found
 
     def item(self, name: str, index: object) -> Tree:
-        """One of a list of the tree."""
         found = self.tree.get(name, [])
         if not isinstance(found, list) or not isinstance(index, int) or not 0 <= index < len(found):
             raise FormatError(f"this glTF refers to number {index!r} of {len(self.items(name))} {name}")
@@ -91,12 +87,10 @@ class Document:
         return entry
 
     def primitives(self) -> Iterator[Tree]:
-        """The primitives of all meshes."""
         for mesh in self.items("meshes"):
             yield from mesh["primitives"]
 
     def buffer(self, index: object) -> bytes:
-        """The bytes of a buffer."""
         buffer = self.item("buffers", index)
         data = self._behind(str(buffer["uri"])) if "uri" in buffer else self._binary if index == 0 else b""
         if len(data) < _count(buffer, "byteLength"):
@@ -106,7 +100,6 @@ class Document:
         return data
 
     def view(self, index: object) -> bytes:
-        """What a bufferView holds."""
         data, start, size = self._place(index)
         return data[start : start + size]
 
@@ -119,7 +112,6 @@ class Document:
         return data, start, size
 
     def numbers(self, index: object, *, whole: bool = False) -> Array:
-        """The numbers of an accessor, shape (count, width); normalized ones as floats unless `whole`."""
         accessor = self.item("accessors", index)
         kind, width = KINDS.get(accessor.get("componentType", 0)), _WIDTHS.get(accessor.get("type", ""))
         if kind is None or width is None:
@@ -153,7 +145,6 @@ class Document:
         return found.astype(found.dtype.newbyteorder("="))
 
     def count(self, index: object) -> int:
-        """How many values an accessor claims."""
         return _count(self.item("accessors", index), "count")
 
     def claimed(self, index: object) -> int:
@@ -161,7 +152,6 @@ class Document:
         return self.count(index) * _WIDTHS.get(str(self.item("accessors", index).get("type")), 16)
 
     def image(self, index: object) -> tuple[str, bytes]:
-        """Name and bytes of an image."""
         image = self.item("images", index)
         if "bufferView" in image:
             return str(image.get("name", "")), self.view(image["bufferView"])
@@ -219,7 +209,6 @@ def _file(uri: str, folder: Path) -> Path:
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes]:
-    """The JSON and the binary chunk of a GLB."""
     if len(data) < 20:
         raise TruncatedError("a GLB begins with 20 bytes; this one ends before")
     _, version, length, size, kind = struct.unpack_from("<4sIIII", data)
@@ -243,13 +232,11 @@ def head_of_glb(tree: Tree, size: int) -> bytes:
 
 
 def glb(tree: Tree, data: bytes) -> bytes:
-    """A .glb of a tree and the bytes of its first buffer."""
     data += b"\0" * (-len(data) % 4)
     return head_of_glb(tree, len(data)) + data
 
 
 def bounds_of(values: Array) -> Tree:
-    """What an accessor says of its numbers."""
     return {"min": values.min(axis=0).astype(float).tolist(), "max": values.max(axis=0).astype(float).tolist()}
 
 
@@ -273,7 +260,6 @@ def _count(where: Tree, name: str) -> int:
 
 
 def read_document(path: str) -> Document:
-    """The document in a file."""
     return Document(Input(path).read_all(), Path(path).parent)
 
 

@@ -1,19 +1,29 @@
 """The scene of a glTF that moves: curves, nodes, skins and morph targets, at any time of an animation."""
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import FormatError, LimitError
-from bsm.bitstream.limits import Limits
+from bsm.bitstream.errors import FormatError, LimitError, OptionError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.arrays import Positions
 from bsm.codec.geometry.welding import row_numbers
-from bsm.files.formats.polygons import Column, color_column, meaning_of
+from bsm.files.formats.metadata import Material, Value, described
+from bsm.files.formats.polygons import (
+    Column,
+    MeshFile,
+    Polygons,
+    color_column,
+    joined_columns,
+    meaning_of,
+    sorted_into_parts,
+)
+from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, rate_of_times
 from bsm.files.room import require_count
 from bsm.files.rows import Doubles, Ints
-from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Array, Document, Tree
+from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Array, Document, Tree, as_format_error, read_document
 
 TRIANGLES = 4
 
@@ -91,8 +101,6 @@ def matrix_of(translation: Array, rotation: Array, scale: Array) -> Doubles:
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """Joints, by the numbers of their nodes, and the matrices that take the bound mesh to each; shape (j, 4, 4)."""
-
     joints: list[int]
     inverse: Doubles
 
@@ -109,7 +117,6 @@ class Part:
     joints: Ints
     weights: Doubles
     columns: tuple[Column, ...]
-    corners: Ints
     material: int
     name: str
 
@@ -147,7 +154,6 @@ class Scene:
 
     @property
     def vertices(self) -> int:
-        """Number of vertices of all parts."""
         return sum(len(part.base) for part in self.parts)
 
     @property
@@ -171,7 +177,6 @@ class Scene:
 
     @property
     def keys(self) -> Doubles:
-        """The times of all keys, each once."""
         times = {id(curve.times): curve.times for curve in self._curves.values()}  # samplers serve many channels
         return np.unique(np.round(np.concatenate([np.empty(0), *times.values()]), 6))
 
@@ -259,15 +264,14 @@ class Scene:
             each = 3 if way == "CUBICSPLINE" else 1
             if path == "weights":
                 values = values.reshape(each * len(times), -1)
-            width = {"translation": 3, "rotation": 4, "scale": 3}.get(path) or self._targets_of(node)
+            width = {"translation": 3, "rotation": 4, "scale": 3}.get(path)
+            if width is None:
+                mesh = document.item("meshes", document.item("nodes", node).get("mesh"))
+                width = len(mesh["primitives"][0].get("targets", []))
             if values.shape[1] != width:
                 raise FormatError(f"the {path} of node {node} is animated by {values.shape[1]} numbers, not {width}")
             found[int(node), path] = Curve(times, values, way, path == "rotation")
         return found
-
-    def _targets_of(self, node: int) -> int:
-        mesh = self._document.item("meshes", self._document.item("nodes", node).get("mesh"))
-        return len(mesh["primitives"][0].get("targets", []))
 
     def _parts(self, node: int) -> list[Part]:
         tree, document = self._nodes[node], self._document
@@ -291,22 +295,20 @@ class Scene:
     def _skin(self, index: object) -> Skin:
         skin = self._document.item("skins", index)
         assert isinstance(index, int)
-        if index not in self._skins:
-            self._skins[index] = self._new_skin(skin, index)
-        return self._skins[index]
-
-    def _new_skin(self, skin: Tree, index: int) -> Skin:
+        if index in self._skins:
+            return self._skins[index]
         joints = [int(joint) for joint in skin["joints"]]
         self._limits.check_memory(PER_NUMBER * 16 * len(joints), 0, self._document.received)
         missing = [joint for joint in joints if joint not in self._parents]
         if missing:
             raise FormatError(f"joint {missing[0]} of skin {index} is not in the scene")
-        if "inverseBindMatrices" not in skin:
-            return Skin(joints, np.tile(np.eye(4), (len(joints), 1, 1)))
-        inverse = self._document.numbers(skin["inverseBindMatrices"]).astype(np.float64)
+        inverse = np.tile(np.eye(4).reshape(16), (len(joints), 1))
+        if "inverseBindMatrices" in skin:
+            inverse = self._document.numbers(skin["inverseBindMatrices"]).astype(np.float64)
         if inverse.shape[0] < len(joints) or inverse.shape[1] != 16:
             raise FormatError(f"skin {index} has {len(inverse)} matrices for {len(joints)} joints")
-        return Skin(joints, inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1))
+        self._skins[index] = Skin(joints, inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1))
+        return self._skins[index]
 
     def _part(self, node: int, primitive: Tree, skin: Skin | None, name: str) -> Part:
         given, document = primitive["attributes"], self._document
@@ -333,7 +335,7 @@ class Scene:
             weights = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
             if joints.size and joints.max() >= len(skin.joints):
                 raise FormatError(f"a vertex of node {node} hangs on joint {joints.max()} of {len(skin.joints)}")
-        columns = self._columns(given, count)
+        columns = self._columns(given, count, corners.reshape(-1))
         origin = _alike([base, *targets, joints, weights])
         first = np.unique(origin, return_index=True)[1]
         return Part(
@@ -345,7 +347,6 @@ class Scene:
             joints[first],
             weights[first],
             columns,
-            corners,
             int(primitive.get("material", -1)),
             name,
         )
@@ -359,7 +360,7 @@ class Scene:
             raise FormatError(f"{what} of {found.shape} numbers for {count} vertices")
         return found
 
-    def _columns(self, given: Tree, count: int) -> tuple[Column, ...]:
+    def _columns(self, given: Tree, count: int, corners: Ints) -> tuple[Column, ...]:
         found: list[Column] = []
         for name, index in given.items():
             kind, _, number = name.partition("_")
@@ -370,14 +371,14 @@ class Scene:
                 raise FormatError(f"{name} has {values.shape} numbers for {count} vertices")
             later = number if number not in ("", "0") else ""
             if kind == "COLOR":
-                one = color_column(values, "vertex")
-                found.append(Column(f"color{later}", one.values, "vertex", one.semantic))
+                one = color_column(values, "corner")
+                found.append(replace(one, name=f"color{later}", indices=corners))
             elif kind == "TEXCOORD":
                 upright = values.astype(np.float32)
                 upright[:, 1] = 1 - upright[:, 1]  # glTF counts from the top, we from the bottom
-                found.append(Column(f"texcoord{later}", upright, "vertex", "texcoord"))
+                found.append(Column(f"texcoord{later}", upright, "corner", "texcoord", corners))
             else:
-                found.append(Column(number.lower(), values, "vertex", meaning_of(number)))
+                found.append(Column(number.lower(), values, "corner", meaning_of(number), corners))
         return tuple(found)
 
 
@@ -392,3 +393,133 @@ def _alike(tables: list[Array]) -> Ints:
     rank[np.argsort(first)] = np.arange(len(first))
     found: Ints = rank[inverse.reshape(-1)]
     return found
+
+
+# --------------------------------------------------------------------------------------------------------------- frames
+
+
+USUAL_RATE = 30.0
+PER_TRIANGLE, PER_PART = 200, 2000
+"""Bytes that parts take while they are joined: for each triangle of each table, and for each part."""
+
+
+def read_gltf(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Frames:
+    document = read_document(path)
+    with as_format_error(), np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
+        document.require_plain()
+        return _frames(path, document, wanted, limits)
+
+
+def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Frames:
+    number, animation = _chosen(document, wanted.animation)
+    scene = Scene(document, animation, limits)
+    if not scene.parts:
+        raise FormatError("this glTF has no triangles in its scene")
+    if not scene.moves:
+        raise FormatError(
+            f"animation {number} of this glTF moves nothing that is seen; leave out --animation for the mesh"
+        )
+    keys = scene.keys
+    rate = wanted.rate or _rate(keys)
+    count = int(np.floor((keys[-1] - keys[0]) * rate + 1e-3)) + 1
+    require_count("frames", count, limits)
+    limits.check_work(scene.work * count, scene.vertices * count, document.received)
+    times = keys[0] + np.arange(count) / rate
+    still = _still(scene, document, float(times[0]), limits)
+
+    def positions() -> Iterator[Positions]:
+        for time in times:
+            yield scene.at(float(time))
+
+    others = len(document.items("animations")) - 1
+    called = str(animation.get("name") or number)
+    notes = [f"animation {called}, {count} frames at {rate:g} per second", *scene.notes, *still.notes]
+    notes += [f"{others} other {'animation was' if others == 1 else 'animations were'} left out"] if others else []
+    notes += (
+        ["left out, for they move: normals"] if any("NORMAL" in p["attributes"] for p in document.primitives()) else []
+    )
+    mesh = still.mesh
+    frames = checked_frames(path, positions(), len(mesh.positions))
+    return Frames(mesh.faces, count, frames, mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata)
+
+
+def _chosen(document: Document, wish: str) -> tuple[int, Tree]:
+    animations = document.items("animations")
+    if not animations:
+        raise FormatError("this glTF has no animation; leave out --animation to encode it as one mesh")
+    names = [str(one.get("name", "")) for one in animations]
+    if wish in names:
+        return names.index(wish), animations[names.index(wish)]
+    if not wish.isdecimal() and wish:
+        raise OptionError(f"there is no animation {wish}; there are {', '.join(filter(None, names)) or len(names)}")
+    number = int(wish or 0)
+    if number >= len(animations):
+        raise OptionError(f"there is no animation {number}; there are {len(animations)}, counted from 0")
+    return number, animations[number]
+
+
+def _rate(keys: Doubles) -> float:
+    """The rate of the keys, as far as it can be told."""
+    rate = rate_of_times(keys)
+    if 5 <= rate <= 240:
+        return rate
+    since = keys - keys[0]
+    fits = [one for one in LIKELY_RATES if np.abs(since * one - np.rint(since * one)).max() < 0.02]
+    return float(fits[0]) if fits else USUAL_RATE
+
+
+def _still(scene: Scene, document: Document, time: float, limits: Limits) -> MeshFile:
+    parts = scene.parts
+    begin = np.cumsum([0, *(len(part.base) for part in parts)])
+    triangles = sum(len(part.faces) for part in parts)
+    require_count("faces", triangles, limits)
+    tables = sum(1 + len(part.columns) for part in parts) * triangles // len(parts)
+    limits.check_memory(PER_TRIANGLE * tables + PER_PART * len(parts), scene.vertices, document.received)
+    faces = np.concatenate([part.faces + first for part, first in zip(parts, begin)])
+    columns, lacking = joined_columns(
+        (part.columns for part in parts), [{"corner": 3 * len(part.faces)} for part in parts]
+    )
+    metadata: dict[str, Value] = {"up": "y", "unit": "meters"}
+    numbers = np.repeat([part.material for part in parts], [len(part.faces) for part in parts])
+    used = [int(number) for number in np.unique(numbers)]
+    if any(number >= 0 for number in used):
+        words, images = _materials(document, used)
+        metadata |= described(words) | images
+        if len(used) > 1:
+            columns.append(Column("material", np.maximum(numbers, 0)[:, None].astype(np.int32), "face"))
+    notes = lacking
+    if len(parts) > 1:
+        note, column, names = sorted_into_parts([part.name for part in parts], [len(part.faces) for part in parts])
+        notes, columns, metadata = [*note, *lacking], [*columns, *column], {**metadata, **names}
+    elif parts[0].name:
+        metadata["name"] = parts[0].name
+    shape = (scene.at(time), np.full(len(faces), 3), faces.reshape(-1))
+    return Polygons(*shape, tuple(notes), (), tuple(columns), metadata).checked(limits)
+
+
+def _materials(document: Document, used: list[int]) -> tuple[dict[int, Material], dict[str, Value]]:
+    """Materials in the words of glTF, and their images as metadata."""
+    words: dict[int, Material] = {}
+    numbers: dict[int, int] = {}
+    for number in used:
+        if number < 0:
+            continue
+        tree = document.item("materials", number)
+        flat: Tree = {**tree, **tree.get("pbrMetallicRoughness", {})}
+        words[number] = {}
+        for name, value in flat.items():
+            if name.endswith("Texture"):
+                source = document.item("textures", value["index"]).get("source")
+                if isinstance(source, int):
+                    words[number][name] = numbers.setdefault(source, len(numbers))
+            elif isinstance(value, bool):
+                words[number][name] = int(value)
+            elif isinstance(value, str | int | float):
+                words[number][name] = value
+            elif isinstance(value, list) and all(isinstance(one, int | float) for one in value):
+                words[number][name] = " ".join(f"{one:.6g}" for one in value)
+    images: dict[str, Value] = {}
+    for source, number in numbers.items():
+        name, data = document.image(source)
+        images |= {f"image.{number}.data": data, **({f"image.{number}.name": name} if name else {})}
+    return words, images

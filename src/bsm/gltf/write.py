@@ -1,7 +1,5 @@
 """Meshes and sequences as GLB: one mesh; frames as morph targets, which play wherever glTF does; a whole stream."""
 
-from __future__ import annotations
-
 import io
 import shutil
 import tempfile
@@ -22,18 +20,22 @@ from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats.metadata import (
     GLTF_TEXTURES,
     Material,
+    Written,
+    face_numbers,
     gltf_values,
     images_in,
     kind_of_image,
+    left_out,
     materials_in,
     names_in,
+    rgba,
+    shown_at_vertices,
 )
-from bsm.files.formats.written import Written, face_numbers, left_out, rgba, shown_at_vertices
 from bsm.files.motion.frames import Shared
 from bsm.files.rows import Doubles, Ints, single_suffices
-from bsm.files.sequence_stream import SequenceStream, numbered, numbers_of
+from bsm.files.stream import SequenceStream, numbered, numbers_of
+from bsm.gltf.compress import drawn
 from bsm.gltf.document import COMPONENTS, EXTENSION, VECTORS, WEBP, Array, Tree, bounds_of, head_of_glb
-from bsm.gltf.primitives import drawn
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
@@ -58,13 +60,11 @@ class _Scene:
         self._images: dict[bytes, int] = {}
 
     def add(self, kind: str, entry: Tree) -> int:
-        """Add an entry to a list of the tree; its number."""
         entries: list[Tree] = self.tree.setdefault(kind, [])
         entries.append(entry)
         return len(entries) - 1
 
     def view(self, data: bytes) -> int:
-        """Add bytes as a bufferView."""
         start = self._size
         self._size += len(data) + -len(data) % 4
         if self._size > _MOST_BYTES:
@@ -73,26 +73,22 @@ class _Scene:
         return self.add("bufferViews", {"buffer": 0, "byteOffset": start, "byteLength": len(data)})
 
     def numbers(self, values: Array, *, bounds: bool = False, normalized: bool = False) -> int:
-        """Add rows of numbers as an accessor."""
         kind = {"componentType": COMPONENTS[values.dtype.name], "count": len(values), "type": _TYPES[values.shape[1]]}
         told: Tree = {"bufferView": self.view(values.tobytes()), **kind}
         told |= {"normalized": True} if normalized else {}
         return self.add("accessors", told | (bounds_of(values) if bounds else {}))
 
     def place(self, mesh: Tree, **more: Any) -> None:
-        """Add a mesh, and a node of the scene that shows it."""
         node = self.add("nodes", {"mesh": self.add("meshes", mesh), **more})
         self.tree["scenes"][0]["nodes"].append(node)
 
     def write(self, file: IO[bytes]) -> None:
-        """Write the GLB."""
         self.tree["buffers"][0]["byteLength"] = self._size
         file.write(head_of_glb(self.tree, self._size))
         self._file.seek(0)
         shutil.copyfileobj(self._file, file)
 
     def whole(self) -> bytes:
-        """The GLB."""
         written = io.BytesIO()
         self.write(written)
         return written.getvalue()
@@ -102,7 +98,6 @@ class _Scene:
 
 
 def write_glb(mesh: TriangleMesh, stem: str) -> Written:
-    """The GLB of a mesh: a part for each material, and for each part that it was made of; images are in it."""
     scene = _Still(io.BytesIO(), mesh, stem)
     return Written(scene.whole(), scene.left_out)
 
@@ -166,7 +161,6 @@ class _Still(_Scene):
         return self.add("materials", found) if found else None
 
     def _texture(self, data: bytes) -> int | None:
-        """Add a texture, whose image stays the bytes that it was; None if glTF holds no such image."""
         kind = {"jpg": "jpeg"}.get(found := kind_of_image(data) or "", found)
         if kind not in ("png", "jpeg", "webp"):
             return None
@@ -247,7 +241,6 @@ class _Moving(_Still):
             primitive["targets"] = []
 
     def add_frame(self, frame: Positions) -> None:
-        """Take the next frame."""
         if self._frames == MOST_FRAMES:
             raise LimitError(
                 f"a GLB holds each frame as a morph target, of which viewers take {MOST_FRAMES}; "

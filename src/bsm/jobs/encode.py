@@ -15,19 +15,18 @@ import numpy.typing as npt
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
-from bsm.files.permutation import write_permutation
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
-from bsm.files.sequence_stream import said_of_runs
+from bsm.files.stream import Loops, said_of_runs
+from bsm.jobs.report import Facts, Task
 from bsm.jobs.run import came_to
-from bsm.jobs.task import Facts, Task
 from bsm.lengths import LENGTHS, refuse_other_units
-from bsm.libraries.meshes import with_metadata
-from bsm.loops import Loops
+from bsm.libraries import with_metadata
 from bsm.options import encode_options, sequence_options
 
 if TYPE_CHECKING:
@@ -54,7 +53,6 @@ class EncodeJob(Task):
 
 
 def encode_one(job: EncodeJob, console: Console) -> Facts:
-    """Encode one input and say what came out."""
     for path in filter(None, (job.output, job.permutation)):
         refuse_to_overwrite(path, job.may_replace(path))
     sequence = _sequence_of(job)
@@ -196,7 +194,6 @@ class Kept:
             return cls(middle, size, ((positions - middle) / size).astype(np.float32))
 
     def rows(self, order: np.ndarray) -> Positions:
-        """The positions of some vertices, shape (n, 3)."""
         return np.asarray(self.offsets[order].astype(np.float64) * self.size + self.middle)
 
 

@@ -1,22 +1,113 @@
 """What came of many inputs, as a file that a later run goes on from, and as a table."""
 
-from __future__ import annotations
-
 import errno
 import json
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import traceback
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias, TypeVar
 
 from bsm import __version__
 from bsm.bitstream.errors import FormatError
 from bsm.console import Console
+from bsm.exits import behind, is_expected
 from bsm.files.output import open_output
-from bsm.files.pipes import files_behind, read_bytes, read_chunks, state_of
-from bsm.jobs.task import Facts, Job, Task, Work
+from bsm.files.pipes import about, files_behind, read_bytes, read_chunks, state_of
+
+_Same = TypeVar("_Same", bound="Task")
+Facts = dict[str, Any]
+"""What came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up."""
+
+
+@dataclass(frozen=True)
+class Job:
+    input: str
+    output: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """What is asked for an input; each command adds fields of its own."""
+
+    input: str = ""
+    output: str = ""
+    force: bool = False
+    quiet: bool = False
+    before: Facts | None = None  # what an earlier report says of it
+    replaceable: frozenset[str] = frozenset()  # files that are as that report says
+    doubtful: frozenset[str] = frozenset()  # files that it names and that are not
+    fresh: frozenset[str] = frozenset()  # files that were not there when the run began
+
+    def repeated(self: _Same) -> _Same:
+        """This task after an attempt that was cut off."""
+        return replace(self, replaceable=self.replaceable | self.fresh)
+
+    def may_replace(self, path: str) -> bool:
+        return self.force or path in self.replaceable
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """How many jobs are done at a time, where, and what is written of them."""
+
+    jobs: int = 1
+    dask: str | None = None
+    report: str | None = None
+    resume: bool = False
+    json: bool = False
+
+    @property
+    def side_by_side(self) -> bool:
+        return self.jobs != 1 or self.dask is not None
+
+
+Work: TypeAlias = Callable[[Any, Console], Facts]
+"""What a command does with a `Task` of its own; a function of a module, so that processes find it."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    facts: Facts
+    error: Exception | None = None
+    notes: tuple[str, ...] = ()
+
+
+class UnexpectedError(Exception):
+    """A fault of the program, with its traceback."""
+
+
+Numbered: TypeAlias = tuple[int, Task]
+Tasks: TypeAlias = Iterable[Numbered]
+"""Made as they are needed."""
+Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]
+"""Numbers of jobs and what came of them, as they end."""
+
+
+def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
+    """Do one job; whatever fails is an outcome too, but for signals and for pipes that nobody reads."""
+    try:
+        with about(task.input):
+            return Outcome(work(task, console), notes=tuple(console.kept or ()))
+    except Exception as error:
+        if behind(error) is not error or isinstance(error, BrokenPipeError):
+            raise
+        failure = error
+        if not is_expected(error):
+            text = "".join(traceback.format_exception(error)).rstrip()
+            failure = UnexpectedError(f"{task.input}: unexpected error, please report it: {text}")
+        return Outcome({}, failure, tuple(console.kept or ()))
+
+
+def far_outcome(work: Work, task: Task) -> Outcome:
+    """`outcome_of` in another process."""
+    return outcome_of(work, task, Console(task.quiet, kept=[]))
+
+
+# ----------------------------------------------------------------------------------------------------------- the record
+
 
 _OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
 _EVERY = 1.0
@@ -48,14 +139,12 @@ class Report:
         self.write()
 
     def take(self, number: int, facts: Facts) -> None:
-        """Take note of what came of a job."""
         self._files[number] = facts
         self._open.discard(number)
         if time.perf_counter() >= self._next:
             self.write()
 
     def write(self) -> None:
-        """Write what is known."""
         begin = time.perf_counter()
         state = {"complete": not self._open, "seconds": begin - self._begin, "totals": totals(self._files)}
         text = json.dumps({**self._head, **state, "files": self._files}, indent=1, allow_nan=False)
@@ -139,7 +228,6 @@ def _compared(work: Work, task: Task, console: Console) -> Facts:
 
 
 def digest_of(path: str) -> str | None:
-    """SHA-256 of an output; of a folder, of all files in it; None: it is not there."""
     from hashlib import sha256
 
     found = sha256()
@@ -153,7 +241,6 @@ def digest_of(path: str) -> str | None:
 
 
 def totals(files: Sequence[Facts]) -> Facts:
-    """Numbers and bytes of all files together."""
     done = [facts for facts in files if "output_sha256" in facts]
     taken, given = (sum(facts.get(key) or 0 for facts in done) for key in ("input_bytes", "output_bytes"))
     return {

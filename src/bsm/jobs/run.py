@@ -1,7 +1,5 @@
 """Many jobs: what is written where, who does them, what may be written over, and what is said of them."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -14,10 +12,27 @@ from bsm.bitstream.errors import OptionError
 from bsm.console import Console, print_json
 from bsm.exits import exit_of, tell, worded
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
-from bsm.files.pipes import about, files_behind
-from bsm.files.remote import expanded, is_url, state_of_remote, without_scheme_of_files
-from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, options_of, read_report, recorded, table
-from bsm.jobs.task import Facts, Job, Numbered, Outcome, Outcomes, Run, Task, Tasks, Work, outcome_of
+from bsm.files.pipes import about, expanded, files_behind, is_url, state_of_remote, without_scheme_of_files
+from bsm.jobs.report import (
+    NOTHING,
+    Earlier,
+    Facts,
+    Job,
+    Numbered,
+    Outcome,
+    Outcomes,
+    Report,
+    Run,
+    Task,
+    Tasks,
+    Work,
+    digest_of,
+    options_of,
+    outcome_of,
+    read_report,
+    recorded,
+    table,
+)
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae")
 """Of files that are taken for meshes where a folder is searched."""
@@ -99,12 +114,7 @@ def _identity(path: str) -> tuple[int, int] | str | None:
 
 
 def run_jobs(
-    run: Run,
-    asked: Task,
-    console: Console,
-    work: Work,
-    jobs: Sequence[Job],
-    show: Callable[[Facts], str] | None = None,
+    run: Run, asked: Task, console: Console, work: Work, jobs: Sequence[Job], show: Callable[[Facts], str] | None = None
 ) -> int:
     """Do all jobs of a command and say what came of them; returns the exit code."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:

@@ -1,7 +1,5 @@
 """Jobs in processes of this machine, or on a Dask cluster; both may die."""
 
-from __future__ import annotations
-
 import errno
 import logging
 import multiprocessing
@@ -22,7 +20,7 @@ from bsm.bitstream.errors import DependencyError
 from bsm.bitstream.extras import how_to_install
 from bsm.exits import exit_of
 from bsm.files.output import Terminated, termination_as_exception
-from bsm.jobs.task import Numbered, Outcome, Outcomes, Task, Tasks, Work, far_outcome
+from bsm.jobs.report import Numbered, Outcome, Outcomes, Task, Tasks, Work, far_outcome
 
 AHEAD = 2
 """Jobs handed out for each process, and for each thread of a cluster."""

@@ -13,8 +13,8 @@ from bsm.bitstream.errors import DependencyError, OptionError
 from bsm.bitstream.extras import how_to_install
 from bsm.files.pipes import Input
 from bsm.files.stream import is_stream
-from bsm.libraries.meshes import as_mesh
-from bsm.viewer.content import Content, compared
+from bsm.libraries import as_mesh
+from bsm.viewer.page import Content, compared
 
 if TYPE_CHECKING:
     from bsm.viewer.widget import StreamWidget

@@ -1,23 +1,208 @@
 """The built page with streams in it, or beside it on a server of the loopback interface."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import json
+import math
+import os
 import select
 import socket
-from collections.abc import Callable, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
-from typing import Any
+from threading import Condition
+from typing import Any, BinaryIO
 
-from bsm.bitstream.errors import DependencyError
-from bsm.viewer.content import Content
-from bsm.viewer.growing import Growing
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.container.gop import method_of
+from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.bitstream.container.wire import MAGIC, FrameType, Tag, parse_map, parse_tag, parse_varint, write_preamble
+from bsm.bitstream.errors import BsmError, CorruptError, DependencyError, MeshError, UnsupportedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.comparison import in_order_of
+from bsm.files.pipes import Input
+from bsm.files.stream import decode_whole, peek_header
+
+_CHUNK = 1 << 18
+_PAUSE = 0.05
+"""Seconds between looks at a file that has not grown."""
+_PATIENCE = 1.0
+"""Seconds between looks whether a page is still there."""
+
+
+class Growing:
+    """A stream that one thread receives and others send on."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self._data = bytearray()
+        self._over = False
+        self._change = Condition()
+        self._scanned = len(write_preamble())
+        self._head: list[slice] = []  # of the present mesh: its header, all metadata so far, what is before its GOPs
+        self._metadata: list[slice] = []
+        self._entry: int | None = None
+
+    def receive(self, chunks: Iterable[bytes]) -> None:
+        """Take all bytes that come, until there are no more, or the stream says that it ends."""
+        try:
+            for chunk in chunks:
+                self.take(chunk)
+                if self._over:
+                    return
+        finally:
+            self.end()
+
+    def take(self, chunk: bytes) -> None:
+        """Take bytes that have come."""
+        with self._change:
+            self._data += chunk
+            self._scan()
+            self._change.notify_all()
+
+    def end(self) -> None:
+        """Take note that no more bytes come."""
+        with self._change:
+            self._over = True
+            self._change.notify_all()
+
+    def begins(self) -> bool:
+        """Whether this is a stream, or the beginning of one, once that is clear."""
+        with self._change:
+            self._change.wait_for(lambda: self._over or len(self._data) >= len(MAGIC))
+            return self._data.startswith(MAGIC[: len(self._data)])
+
+    def chunks(self) -> Iterator[bytes]:
+        """What a page is sent: of what has come as much as it needs, then what comes, to the end; nothing now and
+        then while nothing comes, so that whoever sends it on can look whether the page is still there."""
+        with self._change:
+            at = 0
+            if self._entry is not None and not self._over:
+                at = self._entry
+                first = write_preamble() + b"".join(self._data[place] for place in self._head)
+        if at > 0:
+            yield first
+        while True:
+            with self._change:
+                if not self._over and len(self._data) == at:
+                    self._change.wait(_PATIENCE)
+                piece = bytes(self._data[at : at + _CHUNK])
+                if self._over and not piece:
+                    return
+            at += len(piece)
+            yield piece
+
+    def _scan(self) -> None:
+        """Look at the frames that are there as a whole; nobody enters a stream behind damage."""
+        try:
+            while (tag := parse_tag(self._data, self._scanned)) and tag.end <= len(self._data):
+                self._note(tag, slice(self._scanned, tag.end))
+                self._scanned = tag.end
+        except BsmError:
+            self._entry = None
+            self._scanned = len(self._data)
+
+    def _note(self, tag: Tag, place: slice) -> None:
+        self._over = tag.type == FrameType.END
+        if tag.type == FrameType.METADATA:
+            self._metadata.append(place)
+        if tag.type == FrameType.HEADER:
+            run = dict(parse_map(bytes(self._data[tag.payload : tag.checksum]))).get(HEADER_FIELDS["run"].key)
+            again = isinstance(run, (list, tuple)) and len(run) > 1  # it has the mesh of an earlier run
+            self._entry = None
+            self._head = [] if again else [place, *self._metadata]
+        elif tag.type == FrameType.GOP:
+            first = parse_varint(self._data, tag.payload)
+            if first is None or first[1] >= tag.checksum:
+                raise CorruptError("a GOP has no method")
+            if self._head and method_of(self._data[first[1]]).begins:
+                self._entry = place.start
+        elif self._head and self._entry is None:
+            self._head.append(place)
+
+
+def written_to(file: BinaryIO) -> Iterator[bytes]:
+    """The bytes of a file that is still being written, until it is deleted or begun again; it is closed then."""
+    size = 0
+    with file:
+        while (now := os.fstat(file.fileno())).st_nlink > 0 and now.st_size >= size:
+            if chunk := file.read(_CHUNK):
+                size += len(chunk)
+                yield chunk
+            else:
+                time.sleep(_PAUSE)
+
+
+DRACO_LEVEL = 10
+DRACO_BITS = range(6, 25)
+
+
+@dataclass(frozen=True)
+class Rival:
+    """Draco's smallest file whose normals are as good as the stream's: bytes, bits per coordinate, degrees."""
+
+    bytes: int
+    bits: int
+    theta: float
+
+
+@dataclass(frozen=True, eq=False)
+class Content:
+    """One stream of the viewer."""
+
+    name: str
+    stream: bytes
+    original: npt.NDArray[np.float32] | None = None
+    draco: Rival | None = None
+
+
+def compared(name: str, stream: bytes, original: TriangleMesh, limits: Limits = DEFAULT_LIMITS) -> Content:
+    """A stream of a mesh beside its original, and beside Draco's file of that if DracoPy is installed."""
+    header, _ = peek_header(Input(stream).chunks())
+    if header is not None and header.gop_frames:
+        raise UnsupportedError(f"{name} is a sequence; only single meshes are compared with an original")
+    decoded = decode_whole(Input(stream).chunks(), limits)
+    used, kept = decoded.without_isolated_vertices()
+    source = original.without_isolated_vertices()[0]
+    if len(source.positions) != len(used.positions):
+        from bsm.codec.static.joining import join
+
+        source = join(source, keep=False).mesh
+    positions = decoded.positions.copy()
+    positions[kept] = in_order_of(used, source)
+    draco = _rival(TriangleMesh(positions[kept], used.faces), used)
+    return Content(name, stream, positions.astype(np.float32), draco)
+
+
+def _rival(original: TriangleMesh, decoded: TriangleMesh) -> Rival | None:
+    """Draco's file of `original` with normals as good as those of `decoded`."""
+    from bsm.codec.geometry.metrics import Reference
+
+    try:
+        from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order
+    except DependencyError:
+        return None
+
+    reference = Reference(original.positions, original.faces)
+    theta = reference.theta(decoded.positions)
+    for bits in DRACO_BITS:
+        try:
+            data = encode_draco(original, bits, DRACO_LEVEL)
+            positions = positions_in_order(original, decode_draco(data), bits)
+        except (DependencyError, MeshError):
+            return None
+        kept = reference.theta(positions)
+        if kept <= theta or math.isclose(kept, theta):
+            return Rival(len(data), bits, kept)
+    return None
+
 
 LOOPBACK = "127.0.0.1"
 

@@ -1,14 +1,11 @@
 """The viewer as a widget of notebooks (anywidget)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import anywidget
 import traitlets
 
-from bsm.viewer.content import Content
-from bsm.viewer.page import built
+from bsm.viewer.page import Content, built
 
 
 class StreamWidget(anywidget.AnyWidget):

@@ -25,8 +25,7 @@ from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.folder import in_order, look_like_frames
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
-from bsm.gltf.frames import read_gltf
-from bsm.gltf.scene import Curve, matrix_of
+from bsm.gltf.scene import Curve, matrix_of, read_gltf
 from tests.motion import bending
 from tests.shapes import torus
 

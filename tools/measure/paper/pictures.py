@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
 from bsm.evaluation.plots import import_matplotlib
-from bsm.evaluation.render import bounds_of, render
+from bsm.pictures import bounds_of, render
 from tools.measure.paper.report import Picture
 from tools.measure.paper.study import Model
 

@@ -15,10 +15,10 @@ from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.evaluation.render import DEFAULT_VIEW, view_matrix
 from bsm.evaluation.sample import knot
 from bsm.files.formats.npz import read_arrays
 from bsm.files.mesh import format_of_name, read_mesh
+from bsm.pictures import DEFAULT_VIEW, view_matrix
 from tools.noise import gaussian_along_normals
 
 Item = TypeVar("Item")
@@ -48,7 +48,7 @@ class Role:
 
     @property
     def view(self) -> npt.NDArray[np.float64]:
-        """The camera for our file, see `bsm.evaluation.render`."""
+        """The camera for our file, see `bsm.evaluation.plots`."""
         view: npt.NDArray[np.float64] = view_matrix(self.azimuth, 15.0) @ _UPRIGHT
         return view
 

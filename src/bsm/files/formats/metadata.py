@@ -6,17 +6,20 @@ the file's name is "image.0.name", its bytes are "image.0.data". Which face has 
 "material".
 """
 
-from __future__ import annotations
-
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias
 
+import numpy as np
+import numpy.typing as npt
+
 from bsm.bitstream.container.wire import MAX_ENTRIES
-from bsm.codec.geometry.mesh import Metadata
+from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 
 Value: TypeAlias = "str | int | float | bytes"
 Material: TypeAlias = dict[str, "str | int | float"]
@@ -120,7 +123,6 @@ def _entries(metadata: Metadata) -> Iterable[tuple[str, int, str, Value]]:
 
 
 def described(materials: Mapping[int, Material]) -> dict[str, Value]:
-    """The metadata of materials."""
     return {
         f"material.{number}.{name}": value for number, material in materials.items() for name, value in material.items()
     }
@@ -158,7 +160,6 @@ def gltf_values(material: Material) -> dict[str, Any]:
 
 
 def as_numbers(value: object) -> list[float]:
-    """The finite numbers of a text or a number, or none if it is made of something else."""
     try:
         found = [float(word) for word in str(value).split()]
     except ValueError:
@@ -210,7 +211,6 @@ def parse_mtl(text: str) -> tuple[dict[str, Material], list[str]]:
 
 
 def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], images: Mapping[int, str]) -> bytes:
-    """A library of materials."""
     lines: list[str] = []
     for number, material in materials.items():
         lines.append(f"newmtl {names[number]}")
@@ -317,7 +317,6 @@ def remarks(metadata: Metadata, written: Iterable[str] = ()) -> tuple[list[str],
 
 
 def parse_remarks(lines: Iterable[str]) -> dict[str, str | int | float | bytes]:
-    """The metadata that comments hold."""
     matches = filter(None, (_REMARK.fullmatch(line.strip()) for line in lines))
     values = ((match[1], _value(match[2])) for match in matches)
     return {name: value for name, value in values if value is not None}
@@ -356,3 +355,70 @@ def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, str | int | float
 def _size(name: str, value: str | int | float | bytes) -> int:
     content = value.encode(errors="replace") if isinstance(value, str) else value if isinstance(value, bytes) else b""
     return len(name.encode(errors="replace")) + len(content) + _ENTRY_BYTES
+
+
+# ------------------------------------------------------------------------------------------------------ what is written
+
+
+@dataclass(frozen=True)
+class Written:
+    data: bytes
+    left_out: tuple[str, ...] = ()
+    beside: Mapping[str, bytes] = field(default_factory=dict)
+
+
+def left_out(mesh: TriangleMesh, held: Iterable[Attribute | None], metadata: Collection[str]) -> tuple[str, ...]:
+    """The names of the attributes that are not among those held, and of metadata."""
+    names = {attribute.name for attribute in held if attribute is not None}
+    return (*(a.name for a in mesh.attributes if a.name not in names), *metadata)
+
+
+def first(mesh: TriangleMesh, semantic: Semantic, components: Collection[int], *domains: Domain) -> Attribute | None:
+    """The first attribute of a meaning that is of one of the domains, and has one of the numbers of components."""
+    fits = (a for a in mesh.attributes if a.semantic == semantic and a.domain in domains and a.components in components)
+    return next(fits, None)
+
+
+def face_numbers(mesh: TriangleMesh, name: str) -> Attribute | None:
+    """The attribute of this name, if it is a whole number for each face."""
+    fits = (a for a in mesh.attributes if a.name == name and a.domain == "face" and a.components == 1)
+    found = next(fits, None)
+    return found if found is not None and found.values.dtype.kind in "iu" else None
+
+
+def shown_at_vertices(mesh: TriangleMesh) -> tuple[Attribute | None, Attribute | None, Attribute | None]:
+    """The normals, colours and texture coordinates of vertices that other programs show."""
+    return (
+        first(mesh, "normal", (3,), "vertex"),
+        first(mesh, "color", (3, 4), "vertex"),
+        first(mesh, "texcoord", (2, 3), "vertex"),
+    )
+
+
+def rgba(color: Attribute) -> npt.NDArray[np.uint8]:
+    """Colours as bytes, with an opaque alpha where there is none."""
+    values = color.values
+    if values.dtype == np.uint16:
+        values = values / 65535
+    if values.dtype != np.uint8:
+        values = np.rint(np.clip(values, 0, 1) * 255).astype(np.uint8)
+    return np.hstack([values, np.full((len(values), 4 - values.shape[1]), 255, np.uint8)])
+
+
+class Library:
+    """The materials of a mesh as files beside it; their names begin with that of the mesh."""
+
+    def __init__(self, mesh: TriangleMesh, stem: str) -> None:
+        self.materials: dict[int, Material] = materials_in(mesh.metadata)
+        self.images: dict[int, str] = {}
+        self.beside: dict[str, bytes] = {}
+        self.said: set[str] = set()
+        """The metadata that these files hold."""
+        for number, (name, data) in images_in(mesh.metadata).items():
+            if not data:
+                self.images[number] = one_line(name)
+                self.said.add(f"image.{number}.name")
+            elif kind := kind_of_image(data):
+                self.images[number] = f"{stem}.{number}.{kind}"
+                self.beside[self.images[number]] = data
+                self.said |= {f"image.{number}.data", f"image.{number}.name"}

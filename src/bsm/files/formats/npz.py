@@ -18,8 +18,9 @@ import shutil
 import tempfile
 import zipfile
 import zlib
-from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, closing, contextmanager, suppress
+from dataclasses import dataclass, field
 from tokenize import TokenError
 from typing import IO, Any, BinaryIO, Protocol, TypeAlias, get_args
 
@@ -31,8 +32,10 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.files.formats.polygons import Column, Polygons, meaning_of
-from bsm.files.formats.written import Written
+from bsm.files.formats.metadata import Written
+from bsm.files.formats.polygons import Column, Polygons, attributes_of, meaning_of
+from bsm.files.motion.frames import Frames
+from bsm.files.pipes import Input, about
 from bsm.files.room import AS_NUMBERS, TREE, require_count, require_inflated
 
 # What numpy raises of a header, which it parses as Python.
@@ -65,7 +68,6 @@ def read_header(file: Readable | IO[bytes]) -> tuple[tuple[int, ...], bool, Kind
 
 
 def size_of(shape: tuple[int, ...], kind: Kind) -> int:
-    """Bytes of an array."""
     return int(np.prod([int(side) for side in shape], dtype=object)) * kind.itemsize
 
 
@@ -95,7 +97,6 @@ def read_npy(file: Readable, bound: str = "vertices", limits: Limits = DEFAULT_L
 
 
 def write_npy(file: BinaryIO, array: Array) -> None:
-    """Write an array so that whoever reads a pipe has it at once."""
     buffer = io.BytesIO()  # numpy would ask a pipe for its position
     np.save(buffer, array)
     file.write(buffer.getvalue())
@@ -114,7 +115,6 @@ _DAMAGE = (EOFError, OSError, ValueError, zipfile.BadZipFile, zlib.error, lzma.L
 
 
 def opened_archive(archive: str | os.PathLike[str] | BinaryIO) -> zipfile.ZipFile:
-    """A zip archive, open; `FormatError` if it is none."""
     try:
         return zipfile.ZipFile(archive)
     except _NO_ARCHIVE as error:
@@ -156,7 +156,6 @@ class NpzArray:
 
     @property
     def size(self) -> int:
-        """Bytes that it takes, by its header."""
         return size_of(self.shape, self._kind)
 
     def whole(self) -> Array:
@@ -229,37 +228,64 @@ def _read_npz(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> Poly
         require_inflated(inflated, compressed, limits)
     positions, faces = read_arrays(archive, "positions", "faces")
     mesh = TriangleMesh(positions, faces)
-    columns: list[Column] = []
-    dropped: list[str] = []
-    metadata: Metadata = {}
-    every = [name.removesuffix(".npy") for name in archive.namelist()]
-    names = {name: None for name in every if name not in ("positions", "faces")}
-    for number, name in enumerate(names):
-        if name.endswith("/indices") and name.removesuffix("/indices") in names:
-            continue
-        try:
-            if number > 2 * limits.attributes:
-                raise MeshError("too many")
-            shape, size = shape_of(archive, name)
-            if name != "metadata" and max(shape, default=0) > max(len(mesh.positions), 3 * len(mesh.faces)):
-                raise MeshError("of nothing here")
-            if f"{name}/indices" in names:
-                size += AS_NUMBERS * math.prod(shape_of(archive, f"{name}/indices")[0])
-            inflated += TREE * size if name == "metadata" else size
-            require_inflated(inflated, compressed, limits)
-            (values,) = read_arrays(archive, name)
-            if name == "metadata" and values.dtype == np.uint8:
-                metadata = _parse_metadata(values.tobytes())
-                continue
-            column = column_of(archive, name, values, mesh, f"{name}/indices" in names)
-        except (MeshError, FormatError):  # no numbers
-            column = None
-        columns += [column] if column else []
-        dropped += [] if column else [name]
-    if len(dropped) > MOST_NAMED:
-        dropped[MOST_NAMED:] = [f"{len(dropped) - MOST_NAMED} other arrays"]
+    found = _Beside.of(archive, mesh, compressed, limits, inflated)
     sizes, corners = np.full(len(mesh.faces), 3), mesh.faces.astype(np.int64).reshape(-1)
-    return Polygons(mesh.positions, sizes, corners, (), tuple(dropped), tuple(columns), metadata)
+    return Polygons(mesh.positions, sizes, corners, (), found.dropped, tuple(found.columns), found.metadata)
+
+
+_PER_MOVING_BYTE = 5
+"""Bytes that one of a frame's values takes while it becomes an attribute, and the frame before it is still there."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Beside:
+    """What an npz holds beside positions and faces; `moving`, by name, are the arrays with values for each frame."""
+
+    columns: list[Column] = field(default_factory=list)
+    moving: dict[str, str] = field(default_factory=dict)
+    metadata: dict[str, str | int | float | bytes] = field(default_factory=dict)
+    left: list[str] = field(default_factory=list)
+
+    @staticmethod
+    def of(
+        archive: zipfile.ZipFile, mesh: TriangleMesh, compressed: int, limits: Limits, inflated: int, frames: int = 0
+    ) -> _Beside:
+        """Look at shapes before numbers are read; of a sequence of so many frames, if it is one."""
+        found, frame, vertices = _Beside(), 0, len(mesh.positions)
+        names = dict.fromkeys(name.removesuffix(".npy") for name in archive.namelist())
+        others = [name for name in names if name not in ("positions", "faces")]
+        for number, name in enumerate(others):
+            if name.endswith("/indices") and name.removesuffix("/indices") in names:
+                continue
+            column, indexed = None, f"{name}/indices" in names
+            with suppress(MeshError, FormatError):  # no numbers
+                shape, size = shape_of(archive, name)
+                if frames and shape[:2] == (frames, vertices) and math.prod(shape[2:]) <= MOST_COMPONENTS:
+                    frame += _PER_MOVING_BYTE * size // frames
+                    require_inflated(frame, compressed, limits, vertices)
+                    if len(found.moving) < limits.attributes:
+                        found.moving[name.removeprefix("vertex/")] = name
+                        continue
+                elif number <= 2 * limits.attributes and (
+                    name == "metadata" or max(shape, default=0) <= max(vertices, 3 * len(mesh.faces))
+                ):
+                    size += AS_NUMBERS * math.prod(shape_of(archive, f"{name}/indices")[0]) if indexed else 0
+                    inflated += TREE * size if name == "metadata" else size
+                    require_inflated(inflated, compressed, limits)
+                    (values,) = read_arrays(archive, name)
+                    if name == "metadata" and values.dtype == np.uint8:
+                        found.metadata.update(_parse_metadata(values.tobytes()))
+                        continue
+                    column = column_of(archive, name, values, mesh, indexed)
+            found.columns.extend([column] if column else [])
+            found.left.extend([] if column else [name])
+        return found
+
+    @property
+    def dropped(self) -> tuple[str, ...]:
+        """The names of those that are none of these, or how many there are."""
+        rest = len(self.left) - MOST_NAMED
+        return (*self.left[:MOST_NAMED], *([f"{rest} other arrays"] if rest > 0 else []))
 
 
 def shape_of(archive: Archive, name: str) -> tuple[tuple[int, ...], int]:
@@ -346,7 +372,7 @@ def open_npz_sequence(
         entry.write(np.ascontiguousarray(frame, "<f8").data)
         taken += 1
 
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, closing(_Worn(attributes)) as worn:
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, closing(_Waiting(attributes)) as worn:
         # Deflated, positions are 5 % smaller, and take longer than decoding does; faces would be a hundredth of them.
         with archive.open(zipfile.ZipInfo("faces.npy"), "w") as entry:
             np.lib.format.write_array(entry, faces)
@@ -364,7 +390,7 @@ def open_npz_sequence(
         worn.finish(archive, count)
 
 
-class _Worn:
+class _Waiting:
     """Attributes of frames: those that change wait in files until all frames are there."""
 
     def __init__(self, attributes: Callable[[], tuple[Attribute, ...]]) -> None:
@@ -395,7 +421,6 @@ class _Worn:
         self._frames += 1
 
     def finish(self, archive: zipfile.ZipFile, count: int) -> None:
-        """Write them all."""
         for one in self._first:
             with archive.open(f"{one.domain}/{one.name}.npy", "w", force_zip64=True) as entry:
                 if one.name in self._moved:
@@ -414,6 +439,72 @@ class _Worn:
                     np.lib.format.write_array(entry, one.indices)
 
     def close(self) -> None:
-        """Give up the files."""
         for file in self._moved.values():
             file.close()
+
+
+# ------------------------------------------------------------------------------------------------------------ sequences
+
+
+def read_archive(given: Input, limits: Limits) -> Frames | None:
+    """The sequence of an npz; None if it holds a mesh. Shapes are looked at before numbers are read."""
+    held = b"" if given.is_file else given.peek(1 << 32)
+    archive = given.name if given.is_file else io.BytesIO(held)
+    shape = npz_shape(archive)
+    if len(shape) != 3:
+        return None
+    if 0 in shape or shape[2] != 3:
+        raise MeshError(f"this npz file holds {shape[0]} frames of shape {shape[1:]}; (n, 3) numbers are a frame")
+    of_faces, size = shape_of(archive, "faces")
+    for name, count in (("frames", shape[0]), ("vertices", shape[1]), ("faces", of_faces[0] if of_faces else 0)):
+        require_count(name, count, limits)
+    compressed = os.path.getsize(given.name) if given.is_file else len(held)
+    require_inflated(AS_NUMBERS * 3 * shape[1] + max(size, AS_NUMBERS * math.prod(of_faces)), compressed, limits)
+    (faces,) = read_arrays(archive, "faces")
+    mesh = TriangleMesh(next(npz_frames(archive)), faces)
+    with opened_archive(archive) as opened:
+        found = _Beside.of(opened, mesh, compressed, limits, 0, shape[0])
+    corners, every_face = np.arange(3 * len(mesh.faces)).reshape(-1, 3), np.arange(len(mesh.faces))
+    still, refused = attributes_of(found.columns, len(mesh.positions), len(mesh.faces), corners, every_face)
+    found.left.extend(refused)
+    notes = (f"left out: {', '.join(found.dropped)}",) if found.left else ()
+    if not found.moving:
+        return Frames(mesh.faces, shape[0], npz_frames(archive), still, notes, metadata=found.metadata)
+    first, meshes = (_dressed(archive, mesh.faces, still, found.moving) for _ in range(2))
+    frames, worn = npz_frames(archive), next(first).attributes
+    return Frames(mesh.faces, shape[0], frames, worn, notes, metadata=found.metadata, meshes=meshes)
+
+
+def _dressed(
+    archive: str | io.BytesIO, faces: Faces, still: tuple[Attribute, ...], moving: Mapping[str, str]
+) -> Iterator[TriangleMesh]:
+    """One frame after the other, with the attributes of all frames, and its own."""
+    with ExitStack() as stack:
+        arrays = [stack.enter_context(NpzArray(archive, name)).frames() for name in moving.values()]
+        for number, (positions, *values) in enumerate(zip(npz_frames(archive), *arrays, strict=True)):
+            with about(f"frame {number}"):
+                own = (
+                    Attribute(name, one.astype(one.dtype.newbyteorder("=")), semantic=meaning_of(name))
+                    for name, one in zip(moving, values, strict=True)
+                )
+                mesh = TriangleMesh(positions, faces, (*still, *own))
+            yield mesh
+
+
+def read_pipe(given: Input, limits: Limits) -> Frames:
+    """npy arrays, one behind the other: faces, frame, frame, ..."""
+    with ExitStack() as unread:
+        unread.callback(given.close)
+        faces = read_npy(given, "faces", limits)
+        if faces is None or faces.dtype.kind not in "iu":
+            raise FormatError("the first array must be the faces: integers of shape (m, 3)")
+        if faces.size and not 0 <= int(faces.min()) <= int(faces.max()) < 1 << 31:
+            raise MeshError(f"a face refers to vertex {faces.max() if faces.min() >= 0 else faces.min()}")
+        unread.pop_all()
+
+    def frames() -> Iterator[Positions]:
+        with closing(given):
+            while (frame := read_npy(given, "vertices", limits)) is not None:
+                yield frame.astype(np.float64)
+
+    return Frames(faces.astype(np.int32), 0, frames())

@@ -1,7 +1,5 @@
 """OBJ: lines of text, each with a keyword."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import chain
@@ -16,7 +14,12 @@ from bsm.codec.arrays import Mask
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.metadata import (
+    Library,
     Value,
+    Written,
+    face_numbers,
+    first,
+    left_out,
     materials_in,
     named,
     names_in,
@@ -27,7 +30,6 @@ from bsm.files.formats.metadata import (
     write_mtl,
 )
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact
-from bsm.files.formats.written import Library, Written, face_numbers, first, left_out
 from bsm.files.rows import Doubles, Ints, Rows, as_integers, point_row, text_table, without_comments
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
@@ -94,7 +96,6 @@ class _Lines:
         self._keywords = np.array([part[0] for part in parts] or [b""], dtype="S8")
 
     def are(self, keyword: bytes) -> Mask:
-        """Which lines have a keyword."""
         found: Mask = self._keywords == keyword
         return found
 

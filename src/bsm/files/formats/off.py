@@ -1,7 +1,5 @@
 """OFF: a line with the counts, then points, then faces, all as text."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 
@@ -11,9 +9,8 @@ from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import parse_remarks, remarks
+from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
-from bsm.files.formats.written import Written, first, left_out
 from bsm.files.rows import Doubles, Ints, Rows, point_row, require_lines, text_table, without_comments
 
 _OFF_HEADER = re.compile(
@@ -23,7 +20,6 @@ _OFF_HEADER = re.compile(
 
 
 def read_off(data: bytes, limits: Limits) -> Polygons:
-    """Read a text OFF."""
     text = without_comments(data)
     header = _OFF_HEADER.match(text)
     if header is None:

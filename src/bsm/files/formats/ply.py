@@ -1,25 +1,347 @@
 """PLY: a header that declares elements and their properties, then the elements, binary or as text."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import count, takewhile
+from typing import Protocol
 
 import numpy as np
+import numpy.typing as npt
 
-from bsm.bitstream.errors import MeshError
+from bsm import _kernels
+from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.metadata import one_line, remarks
-from bsm.files.formats.ply_tables import COMMENTS, IMAGE, Element, Table, parse_header, tables_of
+from bsm.files.formats.metadata import (
+    Library,
+    Written,
+    left_out,
+    materials_in,
+    one_line,
+    parse_remarks,
+    refers_to_image,
+    remarks,
+)
 from bsm.files.formats.polygons import Array, Column, Polygons, color_column, unused_name
-from bsm.files.formats.written import Library, Written, left_out
-from bsm.files.rows import Ints, as_integers, single_suffices
+from bsm.files.rows import Ints, Rows, as_integers, ranges, require_lines, single_suffices
 
-_LIST_NAMES = ("vertex_indices", "vertex_index")
+_TYPES = {
+    "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
+    "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
+    "double": "f8", "float32": "f4", "float64": "f8",
+}  # fmt: skip
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_MAX_ELEMENTS = 64
+_MAX_PROPERTIES = 256
+"""Of one element: rows are walked once for each list."""
+COMMENTS = ("comment", "obj_info")
+"""What a line begins with that anybody may write anything in."""
+IMAGE = "TextureFile"
+"""A comment that begins so names an image; their numbers are those of the property texnumber."""
+
+
+@dataclass(frozen=True)
+class Property:
+    """One column of an element: a number, or a list of numbers behind its length (of the type `length`)."""
+
+    name: str
+    type: str
+    length: str | None = None
+
+
+@dataclass(frozen=True)
+class Element:
+    """A table of `count` rows."""
+
+    name: str
+    count: int
+    properties: tuple[Property, ...]
+
+    def index(self, *names: str) -> int:
+        return next((i for i, column in enumerate(self.properties) if column.name in names), -1)
+
+
+@dataclass(frozen=True)
+class Header:
+    """The order of the bytes ("" for text), the elements, where the body begins, and the comments."""
+
+    order: str
+    elements: tuple[Element, ...]
+    size: int
+    comments: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def metadata(self) -> Metadata:
+        """What the comments say; images are those of materials."""
+        images = [line.removeprefix(IMAGE).strip() for _, line in self.comments if line.startswith(f"{IMAGE} ")]
+        found = parse_remarks(line for _, line in self.comments)
+        for keyword in COMMENTS:
+            lines = [line for kind, line in self.comments if kind == keyword]
+            own = [line for line in lines if line and not line.startswith(f"{IMAGE} ") and not parse_remarks([line])]
+            if own:
+                found.setdefault(keyword, "\n".join(own))
+        shown = {
+            value
+            for material in materials_in(found).values()
+            for name, value in material.items()
+            if refers_to_image(name)
+        }
+        for number, name in enumerate(images):
+            found[f"image.{number}.name"] = name
+            if number not in shown:
+                found |= {f"material.{number}.name": name, f"material.{number}.map_Kd": number}
+        return found
+
+
+def parse_header(data: bytes) -> Header:
+    begin = re.match(rb"ply[ \t]*(\r\n|\n|\r)", data)
+    if begin is None:
+        raise FormatError("this is not a PLY file: it does not begin with ply")
+    line_end = begin[1]  # old Macintosh files have \r alone
+    end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:" + line_end + rb"|\Z)").search(data, begin.end() - 1, 1 << 16)
+    if end is None:
+        raise TruncatedError("the PLY header has no end_header")
+    order: str | None = None
+    elements: list[Element] = []
+    comments: list[tuple[str, str]] = []
+    for line in re.split("[\r\n]+", _decoded(data[begin.end() : end.start()])):
+        words = line.split()
+        try:
+            match words:
+                case []:
+                    pass
+                case ["comment" | "obj_info" as keyword, *_]:
+                    comments.append((keyword, line.strip().removeprefix(keyword).strip()))
+                case ["format", name, *_]:
+                    order = _ORDERS[name]
+                case ["element", name, count]:
+                    elements.append(Element(name, _count(count), ()))
+                case ["property", "list", length, kind, name]:
+                    _extend(elements, Property(name, _TYPES[kind], _TYPES[length]))
+                case ["property", kind, name]:
+                    _extend(elements, Property(name, _TYPES[kind]))
+                case _:
+                    raise KeyError
+        except (KeyError, IndexError, ValueError):
+            raise FormatError(f"the PLY header has a line that makes no sense: {line[:80]!r}") from None
+    if order is None or len(elements) > _MAX_ELEMENTS:
+        raise FormatError("the PLY header names no format, or too many elements")
+    return Header(order, tuple(elements), end.end(), tuple(comments))
+
+
+def _decoded(text: bytes) -> str:
+    try:
+        return text.decode()
+    except UnicodeDecodeError:
+        return text.decode("latin-1")
+
+
+def _count(text: str) -> int:
+    if not re.fullmatch(r"\d{1,18}", text):
+        raise ValueError
+    return int(text)
+
+
+def _extend(elements: list[Element], column: Property) -> None:
+    last = elements[-1]
+    if len(last.properties) >= _MAX_PROPERTIES:
+        raise LimitError(f"an element of the PLY file has over {_MAX_PROPERTIES} properties")
+    elements[-1] = Element(last.name, last.count, (*last.properties, column))
+
+
+class Table(Protocol):
+    """The rows of an element."""
+
+    element: Element
+
+    def numbers(self, place: int) -> Array:
+        """The property at a place, a number in each row, shape (count,)."""
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        """The property at a place, a list in each row: how long they are, and their items one behind the other."""
+
+
+def tables_of(header: Header, body: bytes) -> dict[str, Table]:
+    """The elements of a file by their names; of a text, vertices and faces alone."""
+    return _binary_tables(header, body) if header.order else _text_tables(header, body)
+
+
+# --------------------------------------------------------------------------------------------------------------- text
+
+
+def _text_tables(header: Header, body: bytes) -> dict[str, Table]:
+    """Elements as text: one row, one line."""
+    lines = [line for line in body.splitlines() if line.strip()]
+    require_lines(len(lines), sum(element.count for element in header.elements))
+    ends = np.cumsum([element.count for element in header.elements]).tolist()
+    return {
+        element.name: _TextTable(element, Rows(lines[end - element.count : end], element.name))
+        for element, end in zip(header.elements, ends)
+        if element.name in ("vertex", "face")
+    }
+
+
+@dataclass
+class _TextTable:
+    element: Element
+    rows: Rows
+
+    def numbers(self, place: int) -> Array:
+        return _typed(self.rows.values[self._starts(place)], self.element.properties[place].type)
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        starts = self._starts(place)
+        sizes = self._sizes(starts)
+        items = self.rows.values[ranges(starts + 1, sizes)]
+        return sizes, _typed(items, self.element.properties[place].type)
+
+    def _starts(self, place: int) -> Ints:
+        """Where in all numbers those of a property begin; the number, or all of the list, are there."""
+        offsets = np.zeros(len(self.rows.counts), np.int64)
+        for column in self.element.properties[: place + 1]:
+            begin = offsets
+            self.rows.require(offsets + 1)
+            offsets = offsets + 1 + (self._sizes(self.rows.starts + begin) if column.length else 0)
+            self.rows.require(offsets)
+        return self.rows.starts + begin
+
+    def _sizes(self, starts: Ints) -> Ints:
+        sizes = as_integers(self.rows.values[starts], f"the length of a list of a {self.element.name}")
+        if (sizes < 0).any():
+            raise MeshError(f"{self.element.name} {int(np.argmax(sizes < 0))} has a list of negative length")
+        return sizes
+
+
+def _typed(values: Array, kind: str) -> Array:
+    """Numbers of a text in the type that the header declares, where they are of that type."""
+    with np.errstate(all="ignore"):
+        converted = values.astype(kind)
+        same = np.dtype(kind).kind == "f" or np.array_equal(converted, values)
+    return converted if same else values
+
+
+# ------------------------------------------------------------------------------------------------------------- binary
+
+
+def _binary_tables(header: Header, body: bytes) -> dict[str, Table]:
+    """Elements as bytes, one behind the other."""
+    tables: dict[str, Table] = {}
+    offset = 0
+    for element in header.elements:
+        table = _uniform_table(element, header.order, body, offset)
+        tables[element.name] = found = table or _ragged_table(element, header.order, body, offset)
+        offset = found.end
+    return tables
+
+
+@dataclass
+class _UniformTable:
+    """Rows of equal length: without lists, or with lists that are all as long as those of the first row."""
+
+    element: Element
+    rows: Array
+    end: int
+
+    def numbers(self, place: int) -> Array:
+        return _native(self.rows[str(place)])
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        items = self.rows[str(place)]
+        return np.full(len(items), items.shape[1], dtype=np.int64), _native(items.reshape(-1))
+
+
+def _native(values: Array) -> Array:
+    return values.astype(values.dtype.newbyteorder("="))
+
+
+def _require_bytes(body: bytes, offset: int, needed: int) -> None:
+    if offset + needed > len(body):
+        missing = offset + needed - len(body)
+        raise TruncatedError(f"the PLY file is cut short: its header claims {missing} bytes more than there are")
+
+
+def _uniform_table(element: Element, order: str, body: bytes, offset: int) -> _UniformTable | None:
+    """The table of an element, if it is one; else None."""
+    fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
+    cursor = offset
+    for i, column in enumerate(element.properties):
+        if column.length is not None:
+            kind = np.dtype(order + column.length)
+            fields.append((f"length{i}", kind.str))
+            if element.count and cursor + kind.itemsize <= len(body):
+                length = int(np.frombuffer(body, kind, 1, cursor)[0])
+            else:
+                length = 0
+            cursor += kind.itemsize
+            if not 0 <= length <= len(body):
+                return None
+            fields.append((str(i), order + column.type, (length,)))
+            cursor += np.dtype(column.type).itemsize * length
+        else:
+            fields.append((str(i), order + column.type))
+            cursor += np.dtype(column.type).itemsize
+    lists = [i for i, column in enumerate(element.properties) if column.length]
+    needed = element.count * (cursor - offset)
+    if not lists:
+        _require_bytes(body, offset, needed)
+    elif offset + needed > len(body):
+        return None
+    rows = np.frombuffer(body, np.dtype(fields), element.count, offset) if needed else np.zeros(0, fields)
+    if any((rows[f"length{i}"] != rows[f"length{i}"][:1]).any() for i in lists):
+        return None
+    return _UniformTable(element, rows, offset + needed)
+
+
+@dataclass
+class _RaggedTable:
+    """Rows whose lists differ in length."""
+
+    element: Element
+    order: str
+    raw: npt.NDArray[np.uint8]
+    begin: int
+    end: int = 0
+
+    def numbers(self, place: int) -> Array:
+        return self.lists(place)[1]
+
+    def lists(self, place: int) -> tuple[Ints, Array]:
+        starts, sizes, _ = self.walk(place)
+        kind = np.dtype(self.order + self.element.properties[place].type)
+        picked: npt.NDArray[np.uint8] = self.raw[ranges(starts, sizes * kind.itemsize)]
+        return sizes, _native(picked.view(kind))
+
+    def walk(self, place: int) -> tuple[Ints, Ints, int]:
+        """Where each row's property begins, how many items it has, and where the last row ends."""
+
+        widths = np.array(_widths(self.element))
+        starts, sizes = np.zeros((2, self.element.count), np.int64)
+        end = _kernels.walk_rows(self.raw, self.begin, widths, place, self.order == ">", starts, sizes)
+        if end < 0:
+            raise TruncatedError("the PLY file is cut short: a list runs over its end", offset=-end)
+        return starts, sizes, end
+
+
+def _widths(element: Element) -> list[tuple[int, int]]:
+    """The bytes of the length of each property's lists (0: it is a number), and of an item."""
+    return [
+        (np.dtype(column.length).itemsize if column.length else 0, np.dtype(column.type).itemsize)
+        for column in element.properties
+    ]
+
+
+def _ragged_table(element: Element, order: str, body: bytes, offset: int) -> _RaggedTable:
+    # Every row is at least as long as its numbers and the lengths of its lists.
+    _require_bytes(body, offset, element.count * sum(length or width for length, width in _widths(element)))
+    table = _RaggedTable(element, order, np.frombuffer(body, np.uint8), offset)
+    return replace(table, end=table.walk(0)[2])
+
+
+# -------------------------------------------------------------------------------------------------- reading and writing
+
 
 _GROUPS: tuple[tuple[Semantic, tuple[str, ...]], ...] = (
     ("normal", ("nx", "ny", "nz")),
@@ -49,9 +371,14 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     tables = tables_of(header, body)
     vertex, face = tables["vertex"], tables["face"]
     with np.errstate(invalid="ignore"):  # what is not a number is refused later
-        places = _coordinates(vertex.element)
+        places = [vertex.element.index(name) for name in "xyz"]
+        if min(places) < 0 or any(column.length for column in vertex.element.properties):
+            raise MeshError("the vertices of this PLY file are not made of numbers with an x, a y and a z")
         positions = np.column_stack([vertex.numbers(place).astype(np.float64) for place in places])
-    sizes, items = face.lists(corners := _corner_list(face.element))
+    corners = face.element.index("vertex_indices", "vertex_index")
+    if corners < 0 or face.element.properties[corners].length is None:
+        raise MeshError("the faces of this PLY file have no list vertex_indices")
+    sizes, items = face.lists(corners)
     wedges, dropped = _wedges(face, corners, sizes)
     columns = (*_columns(vertex, "vertex", "xyz"), *_columns(face, "face", ()), *wedges)
     others = [element.name for element in header.elements if element.name not in ("vertex", "face") and element.count]
@@ -108,20 +435,6 @@ def _wedges(table: Table, corners: int, sizes: Ints) -> tuple[list[Column], list
     return found, dropped
 
 
-def _coordinates(element: Element) -> list[int]:
-    places = [element.index(name) for name in "xyz"]
-    if min(places) < 0 or any(column.length for column in element.properties):
-        raise MeshError("the vertices of this PLY file are not made of numbers with an x, a y and a z")
-    return places
-
-
-def _corner_list(element: Element) -> int:
-    place = element.index(*_LIST_NAMES)
-    if place < 0 or element.properties[place].length is None:
-        raise MeshError("the faces of this PLY file have no list vertex_indices")
-    return place
-
-
 # ------------------------------------------------------------------------------------------------------------ writing
 
 
@@ -148,7 +461,11 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
     texts = {word: text for word, text in texts.items() if len(text) < _MOST_TEXT}
     free = [f"{word} {one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
     comments, unsaid = remarks(mesh.metadata, library.said | texts.keys())
-    columns = {"vertex": _vertex_fields(mesh), "face": [("vertex_indices", mesh.faces)]}
+    single = np.float32 if single_suffices(mesh.positions) else np.float64
+    columns: dict[str, list[tuple[str, Array]]] = {
+        "vertex": list(zip("xyz", mesh.positions.astype(single).T)),
+        "face": [("vertex_indices", mesh.faces)],
+    }
     for attribute in mesh.attributes:
         fields = columns[attribute.domain]
         names = _property_names(attribute, [name for name, _ in fields])
@@ -159,7 +476,11 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
     for element, fields in columns.items():
         length = len(fields[0][1])
         lines.append(f"element {element} {length}")
-        rows = np.empty(length, _row_type(fields))
+        row: list[tuple[str, str] | tuple[str, str, int]] = []
+        for name, values in fields:
+            kind = values.dtype.newbyteorder("<").str
+            row += [(f"{name} length", "u1"), (name, kind, values.shape[1])] if values.ndim == 2 else [(name, kind)]
+        rows = np.empty(length, row)
         for name, values in fields:
             if values.ndim == 2:
                 rows[f"{name} length"] = values.shape[1]
@@ -170,19 +491,6 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
         body.append(rows.tobytes())
     header = "".join(f"{line}\n" for line in (*lines, "end_header"))
     return Written(header.encode() + b"".join(body), left_out(mesh, mesh.attributes, unsaid), library.beside)
-
-
-def _vertex_fields(mesh: TriangleMesh) -> list[tuple[str, Array]]:
-    kind = np.float32 if single_suffices(mesh.positions) else np.float64
-    return list(zip("xyz", mesh.positions.astype(kind).T))
-
-
-def _row_type(fields: Sequence[tuple[str, Array]]) -> list[tuple[str, str] | tuple[str, str, int]]:
-    row: list[tuple[str, str] | tuple[str, str, int]] = []
-    for name, values in fields:
-        kind = values.dtype.newbyteorder("<").str
-        row += [(f"{name} length", "u1"), (name, kind, values.shape[1])] if values.ndim == 2 else [(name, kind)]
-    return row
 
 
 def _property_names(attribute: Attribute, taken: list[str]) -> list[str]:

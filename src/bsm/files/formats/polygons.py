@@ -1,9 +1,7 @@
 """What mesh files hold: polygons over points, and columns of what these have; what becomes of it: a mesh."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain, count
 from typing import Any
@@ -105,7 +103,6 @@ def sorted_into_parts(names: Sequence[str], faces: Sequence[int]) -> tuple[list[
 
 
 def unused_name(name: str, domain: str, taken: Collection[str]) -> str:
-    """`name`, or one like it that is not taken."""
     longer = name if name.startswith(domain) else f"{domain}_{name}"
     candidates = chain((name, longer), (f"{name}{number}" for number in count(2)))
     return next(candidate for candidate in candidates if candidate not in taken)
@@ -137,11 +134,6 @@ def named_column(name: str, values: Array, domain: Domain, meaning: Semantic | N
     colored = meaning == "color" and values.shape[1] in (3, 4)
     column = color_column(values, domain) if colored else Column(name, values, domain, meaning)
     return Column(name, column.values, domain, column.semantic)
-
-
-def held_by(attributes: Iterable[Attribute], test: Callable[[Attribute], bool]) -> Attribute | None:
-    """The first attribute that passes a test."""
-    return next((attribute for attribute in attributes if test(attribute)), None)
 
 
 def meaning_of(name: str) -> Semantic:
@@ -192,7 +184,6 @@ class Polygons:
     metadata: Metadata = field(default_factory=dict)
 
     def checked(self, limits: Limits) -> MeshFile:
-        """The mesh of triangles."""
         positions, sizes, corners = self.positions, self.sizes, self.corners
         require_count("vertices", len(positions), limits)
         require_count("faces", int(np.maximum(sizes - 2, 0).sum()), limits)

@@ -1,7 +1,5 @@
 """STL: triangles without common vertices, binary or text."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np
@@ -9,8 +7,8 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.formats.metadata import Written, face_numbers, left_out
 from bsm.files.formats.polygons import Column, Polygons
-from bsm.files.formats.written import Written, face_numbers, left_out
 from bsm.files.rows import Doubles, Rows, single_suffices
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])

@@ -4,8 +4,6 @@ Arrays are text, base64, or bytes behind the XML, compressed by zlib or not. Wha
 bytes and the limits before anything is made of it.
 """
 
-from __future__ import annotations
-
 import base64
 import binascii
 import re
@@ -22,8 +20,8 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
+from bsm.files.formats.metadata import Written, first
 from bsm.files.formats.polygons import Array, Column, Polygons, named_column
-from bsm.files.formats.written import Written, first
 from bsm.files.room import AS_NUMBERS, require_count, require_inflated
 from bsm.files.rows import Ints, single_suffices
 
@@ -187,7 +185,10 @@ class _Numbers:
         """So many bytes behind a header that is coded by itself, and others; `TruncatedError` if they are not there."""
         if not raw:
             begin = 4 * -(-header // 3)
-            given = _from_base64(given[begin : begin + 4 * -(-(skipped + size) // 3)])
+            try:
+                given = base64.b64decode(given[begin : begin + 4 * -(-(skipped + size) // 3)])
+            except binascii.Error as error:
+                raise CorruptError(f"what should be base64 is not: {error}") from error
             header = 0
         data = given[header + skipped : header + skipped + size]
         if len(data) < size:
@@ -200,13 +201,6 @@ class _Numbers:
         require_inflated(self._made, self._size, self._limits)
 
 
-def _from_base64(text: bytes) -> bytes:
-    try:
-        return base64.b64decode(text)
-    except binascii.Error as error:
-        raise CorruptError(f"what should be base64 is not: {error}") from error
-
-
 def _count(says: dict[str, str], name: str, default: int) -> int:
     """A whole number among what an element says."""
     text = says.get(name, str(default))
@@ -216,7 +210,6 @@ def _count(says: dict[str, str], name: str, default: int) -> int:
 
 
 def read_vtp(data: bytes, limits: Limits) -> Polygons:
-    """Read a VTP with one piece."""
     at = data.find(b"<AppendedData")
     end = data.find(b">", at) if at >= 0 else -1
     found = _UNDERSCORE.match(data, end + 1) if end >= 0 else None

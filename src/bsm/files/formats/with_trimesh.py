@@ -1,7 +1,5 @@
 """GLB, glTF, 3MF, DAE and whatever else trimesh reads: the parts of a scene, placed where it has them, as one mesh."""
 
-from __future__ import annotations
-
 import io
 import json
 import re
@@ -86,7 +84,6 @@ def _up_axis(data: bytes, kind: str) -> dict[str, str]:
 
 
 def _tree(data: bytes, kind: str) -> dict[str, Any]:
-    """The JSON of a glTF; of anything else nothing."""
     if kind == "glb":
         data = data[20 : 20 + int.from_bytes(data[12:16], "little")]
     elif kind != "gltf":
@@ -168,7 +165,6 @@ class _Part:
         return {"vertex": len(self.mesh.vertices), "face": len(self.mesh.faces)}
 
     def columns(self) -> list[Column]:
-        """Attributes of a geometry's vertices and faces."""
         mesh, visual = self.mesh, self.mesh.visual
         found = []
         if "vertex_normals" in mesh._cache:
@@ -201,7 +197,6 @@ class _Part:
         return unit
 
     def materials(self) -> tuple[list[Any], Array]:
-        """Materials of a mesh, and which of them each face has."""
         visual = self.mesh.visual
         none = np.zeros(len(self.mesh.faces), np.int64)
         if visual.kind != "texture" or visual.material is None:
@@ -253,7 +248,6 @@ def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> dict[str, Value]:
 
 
 def _materials(parts: list[_Part]) -> tuple[dict[str, Value], Array]:
-    """The metadata of all materials and their images, and the number of each face's material."""
     known: list[Material] = []
     images: list[bytes] = []
     numbers = [np.empty(0, np.int32)]

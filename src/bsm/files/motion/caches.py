@@ -5,8 +5,6 @@ as float32, the number of samples; then float32 coordinates, sample by sample. M
 of points, the time of each frame in seconds as float32, then float32 coordinates.
 """
 
-from __future__ import annotations
-
 import os
 import struct
 from collections.abc import Callable, Iterator
@@ -36,8 +34,6 @@ _MDD = struct.Struct(">ii")
 
 @dataclass(frozen=True)
 class Cache:
-    """What the head of a cache says."""
-
     points: int
     frames: int
     start: int
@@ -66,7 +62,6 @@ def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted, limits:
 
 
 def read_head(path: str, kind: str) -> Cache:
-    """What the head of a cache says, checked against the bytes that are there."""
     size = os.path.getsize(path)
     with open(path, "rb") as file:
         cache = _head_of_pc2(file) if kind == "pc2" else _head_of_mdd(file, size)
@@ -161,5 +156,4 @@ def write_cache(
 
 
 def mesh_of(path: str) -> str:
-    """The name of the mesh that is written beside a cache."""
     return str(Path(path).with_suffix(".obj"))

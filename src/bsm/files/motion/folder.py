@@ -1,7 +1,5 @@
 """One mesh file for each frame, in a folder, named by a pattern, or one by one."""
 
-from __future__ import annotations
-
 import glob
 import os
 import re
@@ -20,8 +18,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.runs import can_move, moved_to, other_faces
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.frames import Frames
-from bsm.files.pipes import about, is_pipe
-from bsm.files.remote import is_url
+from bsm.files.pipes import about, is_pipe, is_url
 
 _NUMBERS = re.compile(r"(\d+)")
 _PLACE = re.compile(r"%(0?)(\d*)d")

@@ -1,7 +1,5 @@
 """What every reader of sequences gives, what may be asked of it, and what every writer is given."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
@@ -51,12 +49,10 @@ class Shared:
 
     @property
     def frame_rate(self) -> float:
-        """Frames per second; 0: not known."""
         rate = self.metadata().get("frame_rate")
         return float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else 0.0
 
     def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
-        """The mesh of a frame, with everything."""
         return TriangleMesh(positions, faces, self.attributes(), self.metadata() if with_metadata else {})
 
     def moved(self) -> tuple[Attribute, ...]:
@@ -65,7 +61,6 @@ class Shared:
         return tuple(one for one in now if self._begun.setdefault(one.name, one) is not one)
 
     def loses(self, names: Iterable[str]) -> None:
-        """Take note of what cannot be held."""
         self.left_out.extend(name for name in dict.fromkeys(names) if name not in self.left_out)
 
 

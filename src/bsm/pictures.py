@@ -1,12 +1,43 @@
-"""Shaded pictures of meshes without a graphics card: a depth buffer in memory."""
+"""Pictures without a graphics card and without a library: shaded meshes, colours of numbers, PNG files."""
 
-from __future__ import annotations
+import struct
+import zlib
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Positions
+
+SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
+"""Colours from 0 to 1, evenly: after ColorBrewer's RdYlBu."""
+_LOUDER = 4.0
+"""How much larger a difference is drawn than it is."""
+
+
+def side_by_side(first: npt.NDArray[Any], second: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Two pictures and, from white to black, four times their difference."""
+    return np.hstack([first, second, 1.0 - np.minimum(_LOUDER * np.abs(first - second), 1.0)])
+
+
+def png(picture: npt.NDArray[Any]) -> bytes:
+    """A file of a picture from 0 to 1, of shades, shape (height, width), or of colours, (height, width, 3)."""
+    height, width = picture.shape[:2]
+    shades = np.rint(255 * picture.clip(0.0, 1.0)).astype(np.uint8).reshape(height, -1)
+    rows = np.pad(shades, ((0, 0), (1, 0)))  # zero before each row: it is predicted from nothing
+    head = struct.pack(">IIBBBBB", width, height, 8, 2 if picture.ndim == 3 else 0, 0, 0, 0)
+    chunks = ((b"IHDR", head), (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in chunks
+    )
+
+
+def colors_of(shares: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Colours of numbers from 0 to 1, shape (n,), from 0 to 255, shape (n, 3); larger ones have the last."""
+    places = np.linspace(0.0, 1.0, len(SCALE))
+    return np.stack([np.interp(shares, places, channel) for channel in SCALE.T], axis=1)
+
 
 Image = npt.NDArray[np.float64]
 _LIGHT = np.array([0.35, 0.5, 0.79])

@@ -33,7 +33,6 @@ _NO_SURFACES = ("vertex", "line")
 
 
 def as_mesh(mesh: Any) -> TriangleMesh:
-    """A mesh of any kind as one of triangles."""
     if isinstance(mesh, TriangleMesh):
         return mesh
     if isinstance(mesh, MeshFile):

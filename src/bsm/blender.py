@@ -1,0 +1,397 @@
+"""Meshes and sequences in Blender, by its module `bpy`: what the extension in tools/blender does, for scripts as well.
+
+import bsm.blender
+moving = bsm.blender.import_file("samba.bsm")[0]
+bsm.blender.export_object("again.bsm", moving, preset="fine")
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from bsm import options
+from bsm.api import encode
+from bsm.bitstream.errors import MeshError, OptionError
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.formats.metadata import gltf_values, images_in, kind_of_image, materials_in
+from bsm.files.formats.polygons import Array, unused_name
+from bsm.files.motion.caches import write_cache
+from bsm.files.output import open_output
+from bsm.files.pipes import read_chunks
+from bsm.files.stream import SequenceStream, decode_whole, peek_header
+
+_DOMAINS = {"vertex": "POINT", "corner": "CORNER", "face": "FACE"}
+_TYPES = {1: ("FLOAT", "value"), 2: ("FLOAT2", "vector"), 3: ("FLOAT_VECTOR", "vector"), 4: ("FLOAT_COLOR", "color")}
+_WIDTHS = {"FLOAT": 1, "INT": 1, "INT8": 1, "BOOLEAN": 1, "FLOAT2": 2, "FLOAT_VECTOR": 3, "FLOAT_COLOR": 4}
+_OWN = ("position", "sharp_face", "material_index", "custom_normal")
+
+
+def data_of(mesh: TriangleMesh, name: str) -> Any:
+    """A mesh as Blender's, with everything that it carries."""
+    made = bpy.data.meshes.new(name)
+    made.vertices.add(len(mesh.positions))
+    made.vertices.foreach_set("co", mesh.positions.astype(np.float32).reshape(-1))
+    made.loops.add(3 * len(mesh.faces))
+    made.loops.foreach_set("vertex_index", mesh.faces.reshape(-1))
+    made.polygons.add(len(mesh.faces))
+    made.polygons.foreach_set("loop_start", np.arange(0, 3 * len(mesh.faces), 3, dtype=np.int32))
+    made.update(calc_edges=True)
+    made.shade_smooth()
+    for attribute in mesh.attributes:
+        _add(made, attribute)
+    known = materials_in(mesh.metadata)
+    for number in range(max(known) + 1 if known else 0):
+        made.materials.append(_material(gltf_values(known.get(number, {})), mesh.metadata, number))
+    return made
+
+
+def _add(made: Any, attribute: Attribute) -> None:
+    values = attribute.values if attribute.indices is None else attribute.values[attribute.indices.reshape(-1)]
+    domain, width = _DOMAINS[attribute.domain], attribute.components
+    if attribute.name == "material" and domain == "FACE" and width == 1 and values.dtype.kind in "iu":
+        made.polygons.foreach_set("material_index", np.maximum(values[:, 0], 0).astype(np.int32))
+        return
+    if attribute.semantic == "normal" and width == 3 and domain != "FACE":
+        split = made.normals_split_custom_set_from_vertices if domain == "POINT" else made.normals_split_custom_set
+        split(values.astype(np.float64).tolist())
+        return
+    if attribute.semantic == "texcoord" and width == 2 and domain != "FACE":
+        at_corners = values if domain == "CORNER" else values[_corners(made)]
+        layer = made.uv_layers.new(name=attribute.name)
+        layer.uv.foreach_set("vector", np.ascontiguousarray(at_corners, np.float32).reshape(-1))
+        return
+    if attribute.semantic == "color" and width >= 3:
+        _add_color(made, attribute.name, values, domain)
+        return
+    whole = width == 1 and values.dtype.kind in "iu" and values.dtype != np.uint32
+    kind, field = ("INT", "value") if whole else _TYPES[width]
+    table = np.ascontiguousarray(values, np.int32 if whole else np.float32).reshape(-1)
+    made.attributes.new(attribute.name, kind, domain).data.foreach_set(field, table)
+
+
+def _add_color(made: Any, name: str, values: Array, domain: str) -> None:
+    largest = {np.dtype(np.uint8): 255.0, np.dtype(np.uint16): 65535.0}.get(values.dtype, 1.0)
+    table = np.ones((len(values), 4), np.float32)
+    table[:, : values.shape[1]] = values / largest
+    kind = "BYTE_COLOR" if values.dtype == np.uint8 else "FLOAT_COLOR"
+    layer = made.attributes.new(name, kind, domain)
+    layer.data.foreach_set("color_srgb" if kind == "BYTE_COLOR" else "color", table.reshape(-1))
+    if domain != "FACE":
+        made.color_attributes.active_color_name = layer.name
+        made.color_attributes.render_color_index = made.color_attributes.find(layer.name)
+
+
+def _corners(made: Any) -> Array:
+    found = np.empty(len(made.loops), np.int32)
+    made.loops.foreach_get("vertex_index", found)
+    return found
+
+
+def _material(words: dict[str, Any], metadata: Metadata, number: int) -> Any:
+    made = bpy.data.materials.new(str(words.get("name") or f"material {number}"))
+    made.use_nodes = True
+    shader = next(node for node in made.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    if color := words.get("baseColorFactor"):
+        shader.inputs["Base Color"].default_value = (*color[:3], 1.0)
+        shader.inputs["Alpha"].default_value = color[3]
+    for name, socket in (("metallicFactor", "Metallic"), ("roughnessFactor", "Roughness")):
+        if name in words:
+            shader.inputs[socket].default_value = words[name]
+    data = images_in(metadata).get(words.get("baseColorTexture", -1), ("", b""))[1]
+    if kind := kind_of_image(data):
+        node = made.node_tree.nodes.new("ShaderNodeTexImage")
+        node.image = _image(data, f"{made.name}.{kind}")
+        made.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+    return made
+
+
+def _image(data: bytes, name: str) -> Any:
+    """An image that is packed into the project, from the bytes of its file."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, name.replace(os.sep, "_"))
+        path.write_bytes(data)
+        image = bpy.data.images.load(str(path))
+        image.pack()
+    image.filepath = f"//{name}"
+    return image
+
+
+def triangles_of(data: Any) -> tuple[Faces, Array]:
+    """The triangles of a mesh of Blender's, polygons cut by it: vertices and corners, each of shape (m, 3)."""
+    data.calc_loop_triangles()
+    count = len(data.loop_triangles)
+    vertices, corners = np.empty(3 * count, np.int32), np.empty(3 * count, np.int32)
+    data.loop_triangles.foreach_get("vertices", vertices)
+    data.loop_triangles.foreach_get("loops", corners)
+    return vertices.reshape(-1, 3), corners.reshape(-1, 3)
+
+
+def attributes_of(data: Any, corners: Array) -> tuple[Attribute, ...]:
+    """What a mesh of Blender's carries: texture coordinates, colours, numbers, and which material a face has."""
+    found: dict[str, Attribute] = {}
+    owner = np.empty(len(corners), np.int32)
+    data.loop_triangles.foreach_get("polygon_index", owner)
+    for layer in data.attributes:
+        hidden = layer.name in _OWN or layer.name.startswith(".") or layer.is_internal
+        kind = "FLOAT_COLOR" if layer.data_type == "BYTE_COLOR" else layer.data_type
+        if hidden or kind not in _WIDTHS or layer.domain == "EDGE":
+            continue
+        values, semantic = _values(layer, kind)
+        domain: Domain = {"POINT": "vertex", "CORNER": "corner", "FACE": "face"}[layer.domain]  # type: ignore[assignment]
+        name = unused_name(layer.name, domain, found)
+        indices = corners if domain == "corner" else None
+        found[name] = Attribute(name, values[owner] if domain == "face" else values, domain, semantic, indices)
+    slots = np.empty(len(data.polygons), np.int32)
+    data.polygons.foreach_get("material_index", slots)
+    if slots.any() and "material" not in found:
+        found["material"] = Attribute("material", slots[owner], "face")
+    return tuple(found.values())
+
+
+def _values(layer: Any, kind: str) -> tuple[Array, Semantic]:
+    width, count = _WIDTHS[kind], len(layer.data)
+    if layer.data_type == "BYTE_COLOR":
+        table = np.empty(4 * count, np.float32)
+        layer.data.foreach_get("color_srgb", table)
+        return np.rint(table.reshape(-1, 4) * 255).astype(np.uint8), "color"
+    whole = kind in ("INT", "INT8", "BOOLEAN")
+    table = np.empty(width * count, np.int32 if whole else np.float32)
+    layer.data.foreach_get({1: "value", 4: "color"}.get(width, "vector"), table)
+    values = table.reshape(-1, width)
+    if width == 4:
+        in_range = count and values.min() >= 0 and values.max() <= 1
+        return values, "color" if in_range else "generic"
+    return values, "texcoord" if width == 2 and layer.domain == "CORNER" else "generic"
+
+
+def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
+    """The metadata of an object's materials: names, colours, and the images of base colours."""
+    found: dict[str, str | int | float | bytes] = {}
+    images = 0
+    for number, slot in enumerate(slots):
+        material = slot.material
+        if material is None:
+            continue
+        found[f"material.{number}.name"] = material.name
+        nodes = material.node_tree.nodes if material.use_nodes and material.node_tree else ()
+        shader = next((node for node in nodes if node.type == "BSDF_PRINCIPLED"), None)
+        if shader is None:
+            continue
+        color = [*shader.inputs["Base Color"].default_value][:3]
+        found[f"material.{number}.baseColorFactor"] = " ".join(f"{one:.6g}" for one in (*color, 1.0))
+        for name, socket in (("metallicFactor", "Metallic"), ("roughnessFactor", "Roughness")):
+            found[f"material.{number}.{name}"] = float(shader.inputs[socket].default_value)
+        links = shader.inputs["Base Color"].links
+        image = links[0].from_node.image if links and links[0].from_node.type == "TEX_IMAGE" else None
+        packed = bytes(image.packed_file.data) if image is not None and image.packed_file else b""
+        if kind_of_image(packed):
+            found[f"material.{number}.baseColorTexture"] = images
+            found[f"image.{images}.data"] = packed
+            images += 1
+    return found
+
+
+# ------------------------------------------------------------------------------------------------------------------- in
+
+
+STREAM = "bsm_stream"
+"""The property of an object that holds its stream, so that a project keeps it, packed or moved."""
+MOST_STREAM_BYTES = 1 << 28
+_MODIFIER = "BSM"
+Progress = Callable[[int, int], None]
+
+
+def import_file(
+    path: str, *, frame_start: int = 1, set_scene: bool = True, progress: Progress | None = None
+) -> list[Any]:
+    """Import a stream; the objects that were made, selected, the first of them active."""
+    header, chunks = peek_header(read_chunks(path))
+    name = Path(path).stem
+    if header is None or not header.gop_frames:
+        made = _placed(name, decode_whole(chunks))
+    else:
+        made = _sequence(name, b"".join(chunks), path, frame_start, set_scene, progress)
+    for other in bpy.context.selected_objects:
+        other.select_set(False)
+    bpy.context.collection.objects.link(made)
+    made.select_set(True)
+    bpy.context.view_layer.objects.active = made
+    return [made]
+
+
+def _placed(name: str, mesh: TriangleMesh) -> Any:
+    """An object, which is stood up if its y axis points up, and keeps what is said of it."""
+    made = bpy.data.objects.new(name, data_of(mesh, name))
+    if str(mesh.metadata.get("up", "")).lower() == "y":
+        made.rotation_euler = (math.pi / 2, 0.0, 0.0)
+    for key, value in mesh.metadata.items():
+        if not isinstance(value, bytes) and not key.startswith(("material.", "image.", "part.")):
+            made[key] = value
+    return made
+
+
+def _sequence(name: str, data: bytes, source: str, frame_start: int, set_scene: bool, progress: Progress | None) -> Any:
+    stream = SequenceStream(iter([data]))
+    frames = stream.frames()
+    first = next(frames)[1]
+    mesh = TriangleMesh(first, stream.faces, stream.attributes, stream.metadata)
+    made = _placed(name, mesh)
+    path = _cache_path(made.name, source)
+    count = _write(path, first, frames, stream.header.frames, progress)
+    if len(data) <= MOST_STREAM_BYTES:
+        made[STREAM] = data
+    cache = made.modifiers.new(_MODIFIER, "MESH_CACHE")
+    cache.cache_format, cache.filepath = "PC2", _relative(path)
+    cache.frame_start = frame_start
+    scene = bpy.context.scene
+    if set_scene:
+        rate = mesh.metadata.get("frame_rate")
+        if isinstance(rate, int | float) and 0 < rate < 1e6:
+            scene.render.fps = max(1, round(rate))
+            scene.render.fps_base = scene.render.fps / rate
+        scene.frame_start, scene.frame_end = frame_start, frame_start + count - 1
+        scene.frame_set(frame_start)
+    return made
+
+
+def _write(
+    path: str, first: Positions, others: Iterator[tuple[int, Positions]], count: int, progress: Progress | None
+) -> int:
+    """A PC2 of all frames; how many there are. The stream need not say that beforehand."""
+    if not count:
+        frames = [first, *(frame for _, frame in others)]
+        count, others = len(frames), enumerate(frames[1:], 1)
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    with open_output(path, overwrite=True) as file, write_cache(file, "pc2", count, lambda: 0.0) as write:
+        write(first)
+        for number, frame in others:
+            write(frame)
+            if progress:
+                progress(number + 1, count)
+    return count
+
+
+def _cache_path(name: str, source: str) -> str:
+    """Beside the project if it is saved, else beside the stream, else among temporary files."""
+    file = f"{bpy.path.clean_name(name)}.pc2"
+    folder = os.path.dirname(bpy.data.filepath or os.path.abspath(source))
+    beside = bpy.data.filepath or (source and os.access(folder, os.W_OK))
+    return os.path.join(folder if beside else tempfile.gettempdir(), "bsm_cache", file)
+
+
+def _relative(path: str) -> str:
+    return str(bpy.path.relpath(path)) if bpy.data.filepath else path
+
+
+def restore_caches() -> list[str]:
+    """Write caches that are not there any more from the streams in the project; the names of their objects."""
+    restored = []
+    for moving in bpy.data.objects:
+        cache, data = moving.modifiers.get(_MODIFIER), moving.get(STREAM)
+        if cache is None or cache.type != "MESH_CACHE" or data is None:
+            continue
+        if os.path.isfile(bpy.path.abspath(cache.filepath)):
+            continue
+        stream = SequenceStream(iter([bytes(data)]))
+        frames = stream.frames()
+        path = _cache_path(moving.name, "")
+        _write(path, next(frames)[1], frames, stream.header.frames, None)
+        cache.filepath = _relative(path)
+        restored.append(moving.name)
+    return restored
+
+
+# ------------------------------------------------------------------------------------------------------------------ out
+
+
+def export_object(
+    path: str, moving: Any = None, *, animation: bool = True, progress: Progress | None = None, **keywords: Any
+) -> dict[str, int]:
+    """Write an object to a stream; how many frames, vertices, faces and bytes that are."""
+    moving = moving or bpy.context.view_layer.objects.active
+    if moving is None:
+        raise OptionError("no object is active: select the one to export")
+    scene = bpy.context.scene
+    before = scene.frame_current
+    numbers = range(scene.frame_start, scene.frame_end + 1) if animation else range(before, before + 1)
+    metadata: dict[str, Any] = {"name": moving.name, "up": "z", **materials_of(moving.material_slots)}
+    if scene.unit_settings.system != "NONE" and abs(scene.unit_settings.scale_length - 1.0) < 1e-6:
+        metadata["unit"] = "meters"
+    try:
+        faces, attributes, first = _first(scene, moving, numbers[0])
+        if not animation:
+            written = [encode(TriangleMesh(first, faces, attributes), metadata=metadata, **keywords)]
+        else:
+            from bsm.codec.sequence.encoder import SequenceEncoder
+
+            metadata["frame_rate"] = scene.render.fps / scene.render.fps_base
+            chosen = options.sequence_options(**keywords)
+            encoder = SequenceEncoder(faces, chosen, len(numbers), metadata, attributes)
+            written = encoder.chunks(_frames(scene, moving, numbers, progress))  # type: ignore[assignment]
+        with open_output(path, overwrite=True) as file:
+            size = sum(map(file.write, written))
+    finally:
+        scene.frame_set(before)
+    return {"frames": len(numbers), "vertices": len(first), "faces": len(faces), "bytes": size}
+
+
+def _first(scene: Any, moving: Any, number: int) -> tuple[Faces, tuple[Attribute, ...], Positions]:
+    scene.frame_set(number)
+    with _Evaluated(moving) as (data, place):
+        faces, corners = triangles_of(data)
+        if not len(faces):
+            raise MeshError(f"{moving.name} has no faces")
+        return faces, attributes_of(data, corners), _points(data, place)
+
+
+def _frames(scene: Any, moving: Any, numbers: range, progress: Progress | None) -> Iterator[Positions]:
+    known: tuple[int, ...] = ()
+    for done, number in enumerate(numbers, 1):
+        scene.frame_set(number)
+        with _Evaluated(moving) as (data, place):
+            # How polygons are cut into triangles may change when they bend; that is not another mesh.
+            sizes = len(data.vertices), len(data.loops), len(data.polygons)
+            known = known or sizes
+            if sizes != known:
+                raise MeshError(
+                    f"{moving.name} has {sizes[0]} vertices and {sizes[2]} faces in frame {number} of the scene, and "
+                    f"{known[0]} and {known[2]} in frame {numbers[0]}: the faces of a sequence stay"
+                )
+            points = _points(data, place)
+        yield points
+        if progress:
+            progress(done, len(numbers))
+
+
+def _points(data: Any, place: Any) -> Positions:
+    points = np.empty(3 * len(data.vertices), np.float32)
+    data.vertices.foreach_get("co", points)
+    matrix = np.array(place, np.float64)
+    found: Positions = points.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    return found
+
+
+class _Evaluated:
+    """An object's mesh as the scene shows it, and where it is."""
+
+    def __init__(self, moving: Any) -> None:
+        self._found = moving.evaluated_get(bpy.context.evaluated_depsgraph_get())
+
+    def __enter__(self) -> tuple[Any, Any]:
+        try:
+            return self._found.to_mesh(), self._found.matrix_world
+        except RuntimeError as error:
+            raise MeshError(f"{self._found.name} has no surface: {error}") from error
+
+    def __exit__(self, *_: object) -> None:
+        self._found.to_mesh_clear()

@@ -1,1 +1,0 @@
-"""Meshes of other libraries as ours, and ours as theirs."""
