@@ -30,18 +30,18 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 36_300,
-    "all Python, lines": 78_600,
-    "product modules": 245,
+    "product Python, lines": 35_100,
+    "all Python, lines": 77_300,
+    "product modules": 222,
     "product C files and headers": 74,
-    "docstring lines of the product, percent": 13.6,
+    "docstring lines of the product, percent": 12.7,
     "header fields": 19,
     "fields of EncodeOptions": 28,
     "settings of --set": 19,
     "words of spec/*.md": 25_000,
     "words of the core": 11_000,
     "tuned constants of the search": 97,
-    "files that encoding a mesh walks through": 76,
+    "files that encoding a mesh walks through": 73,
 }
 
 

@@ -128,8 +128,6 @@ def read_mesh(
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
     ours = polygons.checked(limits)
     if reader == "openmesh":
-        from bsm.files.mesh import read_with_openmesh
-
         return read_with_openmesh(data, kind, ours.mesh, limits)
     return ours
 
