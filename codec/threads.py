@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
+from itertools import chain, islice
 from numbers import Integral
 from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
@@ -36,9 +37,10 @@ def threads_of(wanted: int | None) -> int:
 
 def ordered_map(work: Callable[[Item], Result], items: Iterable[Item], threads: int | None) -> Iterator[Result]:
     """`map(work, items)` on `threads` threads (None: one per core)."""
-    count = threads_of(threads)
-
-    if count == 1:
+    count, rest = threads_of(threads), iter(items)
+    first = list(islice(rest, 2))
+    items = chain(first, rest)
+    if count == 1 or len(first) < 2:
         yield from map(work, items)
         return
     pool = pool_of(count)

@@ -53,6 +53,8 @@ class Signal(Enum):
 
 FRAME_COST, BYTE_COST = 8e3, 8.0
 """Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes."""
+METADATA_COST, ENTRY_COST = 2e4, 4e3
+"""The same for metadata besides, and for each of their entries."""
 
 
 def reading_cost(size: int) -> float:
@@ -140,6 +142,8 @@ class Reader:
                 return self._incomplete()
             self._spend(reading_cost(frame.size), frame.size)
             packet = self._parse(frame)
+            if isinstance(packet, Metadata):
+                self._spend(METADATA_COST + ENTRY_COST * len(packet.entries), 0)
             self._consume(frame, packet)
             if packet is not None:
                 return packet

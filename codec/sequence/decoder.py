@@ -23,7 +23,7 @@ from bsm.codec.static.events import ConnectivityEvent
 from bsm.codec.static.preamble_decoding import DecoderSetup, HeaderStage
 from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import Arrival, Ended, Stage, StreamDecoder
-from bsm.codec.static.work import Allowance
+from bsm.codec.static.work import Allowance, run_cost
 from bsm.codec.threads import threads_of
 
 
@@ -166,6 +166,7 @@ class Runs:
     def _turn(self, header: Header, queue: deque[Item]) -> Stage[Item]:
         """The stage of a run that begins."""
         self._leave()
+        self._setup.allowance.spend(run_cost(mesh=header.again is None))
         self._course.announced = header.frames
         self._mesh = header.run_number if header.again is None else header.again
         if header.again is None:

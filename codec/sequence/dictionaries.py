@@ -25,7 +25,7 @@ TETHER = 2.0**-16
 """Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""
 SITE_MEMORY, ROW_MEMORY = 6000.0, 352.0
 """Bytes of what is known of a part besides its factor, whatever its size and for each row."""
-UNCODED = 8e4
+UNCODED = 4e4
 """Nanoseconds by which a part is cheaper than a block that is decoded, before it has its dictionary."""
 SPARE = 4.0 * 2**20
 """Bytes that no dictionary is kept in, though they are granted."""

@@ -38,7 +38,7 @@ from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.ways.block_coder import CodedBlock, Progress
-from bsm.codec.static.work import Allowance
+from bsm.codec.static.work import Allowance, run_cost
 
 
 @dataclass(frozen=True, eq=False)
@@ -329,6 +329,8 @@ class Meshes:
             return None
         allowance = opened.gops.first_frame.allowance
         allowance.follow(self.allowance)
+        with as_of_decoders(opened.gops.first_frame.limits):
+            allowance.spend(run_cost(mesh=False))
         allowance.show(opened.gops.first_frame.header.vertices)  # the first GOP does, at least
         return opened
 

@@ -67,7 +67,8 @@ class FirstFrameStage:
             if not self._request.tolerant:
                 raise
             return LossEvent(None, error)
-        self._request.attributes[:] = self._carried.attributes(None)
+        if (whole := self._carried.attribute(packet.attribute)) is not None:
+            self._request.attributes.append(whole)
         return event
 
     def _moving(self) -> Iterator[MovingAttribute]:

@@ -27,7 +27,7 @@ from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.rules import Scheme, rules_of
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, encode_blocks
-from bsm.codec.static.work import Allowance
+from bsm.codec.static.work import Allowance, run_cost
 
 FIRST_STEP = 0.3
 """Of the first frame, in steps of the others, which follow from it; 0.4 costs 0.5 % more, with low delay 1 to 3 %."""
@@ -112,6 +112,7 @@ def encode_first_frame(
     allowance.follow(before)
     allowance.show(header.vertices)  # the first GOP does, at least
     with as_of_decoders(options.limits):
+        allowance.spend(run_cost(mesh=True))
         admit(allowance, prepared, blocks)
         allowance.keep(0.0, sum(len(block.packet.data) + FRAME for block in blocks))
         allowance.limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)

@@ -26,6 +26,8 @@ COPY_MEMORY = 4
 """Bytes for each row of all blocks."""
 ATTRIBUTE = 4e5
 """Of an attribute, however few values it has."""
+RUN, MESH = 5e5, 2e6
+"""Of a run of a sequence, and of one that brings a mesh, however small."""
 DECLARED = 6e5
 """Of a map, which has few entries."""
 CODED = 800.0
@@ -49,6 +51,11 @@ def partition_cost(graph: Graph, blocks: int, copies: int) -> float:
     """Work of cutting vertices into so many parts, and of growing these to so many copies together."""
     cut = graph.size + len(graph.neighbours)
     return cut * (4.0 * blocks.bit_length() + 20.0) + 2.0 * graph.size + 100.0 * blocks + 30.0 * copies
+
+
+def run_cost(*, mesh: bool) -> float:
+    """Work of beginning a run of a sequence, which may bring a mesh."""
+    return RUN + MESH * mesh
 
 
 def labels_cost(graph: Graph, received: int) -> float:
@@ -108,12 +115,12 @@ def grid_chunk_cost(received: int) -> float:
 
 def light_chunk_cost(received: int) -> float:
     """Work of a frame of a light grid."""
-    return 3.5e4 + 120.0 * received
+    return 5e4 + 120.0 * received
 
 
-def chunk_cost(received: int) -> float:
-    """Work of a frame of a layer or of an attribute."""
-    return 8e4 + CODED * received
+def chunk_cost(received: int, values: int = 0) -> float:
+    """Work of a frame of a layer, or of an attribute of so many values, of which it is found who has those that come."""
+    return 8e4 + CODED * received + 2.0 * values
 
 
 def floats_cost(vertices: int, largest: int) -> float:

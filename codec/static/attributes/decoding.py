@@ -172,7 +172,7 @@ class AttributeDecoder:
             allowance.spend(layer_cost(self._rows, faces, self.declaration.components))
             self._coder = PieceDecoder(self.declaration, self._surface, places, allowance.limits)
         allowance.keep(0.0, len(packet.data))
-        allowance.spend(chunk_cost(len(packet.data)), len(packet.data))
+        allowance.spend(chunk_cost(len(packet.data), self._rows), len(packet.data))
         coder = self._coder
         if packet.first != coder.coded:
             raise CorruptError(f"the values before number {packet.first} are missing; others depend on them")
@@ -254,6 +254,10 @@ class AttributeDecoders:
         for number, one in self._valued.items():
             if one.declaration.moves:
                 yield number, one.declaration, one.first, one.arrangement.rows
+
+    def attribute(self, index: int) -> Attribute | None:
+        """One that is not recomputed; None where it is not whole."""
+        return self._valued[index].attribute(None)
 
     def attributes(self, solid: Solid | None) -> tuple[Attribute, ...]:
         """Attributes that are whole; `solid` for those that are recomputed."""

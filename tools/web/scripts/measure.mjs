@@ -15,7 +15,7 @@ for (const path of paths) {
     const data = new Uint8Array(readFileSync(path));
     globalThis.gc();
     const [before, begin] = [process.memoryUsage.rss(), seconds()];
-    const told = { vertices: 0, shown: 0, memory: 0, seconds: 0, escaped: "", outcome: "decoded" };
+    const told = { vertices: 0, shown: 0, work: 0, memory: 0, seconds: 0, escaped: "", outcome: "decoded" };
     let size = 0;
     const decoder = new Decoder(kernels);
     try {
@@ -30,7 +30,7 @@ for (const path of paths) {
         told.outcome = `${error}`.slice(0, 100);
         if (!(error instanceof BsmError)) told.escaped = `${error}`;
     }
-    told.vertices = decoder.vertices;
+    [told.vertices, told.work] = [decoder.vertices, decoder.work];
     told.memory = Math.max(told.memory, process.memoryUsage.rss() - before);
     told.seconds = seconds() - begin;
     console.log(JSON.stringify(told));

@@ -98,6 +98,11 @@ export class Attributes {
         return valuesCost(rows, this.header.faces) + fieldCost(rows, this.header.faces, components);
     }
 
+    /** How many values it has. */
+    valuesOf(index: number): number {
+        return this.valued.get(index)?.declaration.rows ?? 0;
+    }
+
     /** Decode a chunk of values; the attribute, if it is whole now. */
     decode(index: number, first: number, count: number, data: Uint8Array, numbering: Numbering, solid: () => Solid | undefined): Attribute | undefined {
         const one = this.valued.get(index);
@@ -108,12 +113,12 @@ export class Attributes {
         const cursor = new Cursor(data);
         const several = one.coders.length > 1;
         let rows = Int32Array.from({ length: count }, (_, i) => first + i);
-        const pieces: { values: Int32Array; columns: number }[] = one.coders.map(({ kernel, state, values, order, columns }) => {
+        for (const { kernel, state, order } of one.coders) {
             const part = several ? cursor.take(cursor.varint()) : cursor.rest();
             decodeChunk(this.memory, kernel, state, part, first, count);
             if (order) rows = order.view.slice(first, first + count);
-            return { values: values.view.slice(), columns };
-        });
+        }
+        const pieces = one.coders.map(({ values, columns }) => ({ values: values.view, columns }));
         cursor.finish();
         restore(declaration, rows, pieces, one.values);
         one.coded += count;

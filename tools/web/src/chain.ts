@@ -80,6 +80,7 @@ export interface Counted {
 /** How much work a decoder may still do, and how much memory it may take. */
 export class Allowance {
     private owed = 0;
+    private spent = 0;
     private vertices = 0;
     private shown = 0;
     private kept = 0;
@@ -87,6 +88,11 @@ export class Allowance {
     private gone = 0;
 
     constructor(private readonly limits: Limits) {}
+
+    /** All work so far. */
+    get work(): number {
+        return this.spent;
+    }
 
     /** What is kept now, and the vertices that have come. */
     get counted(): Counted {
@@ -111,6 +117,7 @@ export class Allowance {
 
     /** Take note of work to come, and of the bytes that ask for it. */
     spend(work: number, received = 0): void {
+        this.spent += work;
         this.owed += Math.max(0, work - this.limits.workPerByte * received);
         const { limits, vertices, shown } = this;
         checkLimit({ ...limits, work: limits.work + limits.workPerVertex * (vertices + shown) }, "work", this.owed);

@@ -69,6 +69,11 @@ export class Decoder {
         return this.reader.position;
     }
 
+    /** What has been charged, in nanoseconds of a processor core (specification, M 14.3). */
+    get work(): number {
+        return this.allowance.work;
+    }
+
     /** Vertices that the faces so far really have. */
     get vertices(): number {
         return this.allowance.counted.vertices;

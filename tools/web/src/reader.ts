@@ -10,7 +10,7 @@ import { parseVarint } from "./varint";
 export type { Metadata, Packet };
 
 /** Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes (M 14.3). */
-const [FRAME, BYTE] = [8e3, 8];
+const [FRAME, BYTE, TELLING, ENTRY] = [8e3, 8, 2e4, 4e3];
 
 /** Is told of work, and of the bytes that ask for it, and may refuse it. */
 export type Spend = (work: number, received: number) => void;
@@ -116,6 +116,7 @@ export class Reader {
             if (!frame) return this.incomplete();
             this.pay(FRAME + BYTE * frame.size, frame.size);
             const packet = this.parse(frame.type, frame.payload);
+            if (packet?.type === "metadata") this.pay(TELLING + ENTRY * packet.entries.size, 0);
             if (packet) this.grammar.advance(packet);
             if (packet?.type === "metadata") this.told += frame.payload.length;
             this.crc = crc32(this.buffer.subarray(this.begin, this.begin + frame.size), this.crc);

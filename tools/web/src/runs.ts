@@ -4,6 +4,7 @@ import { BsmError, CorruptError } from "./errors";
 import type { Header } from "./header";
 import type { Memory } from "./kernels";
 import type { Item, Stages } from "./stages";
+import { runCost } from "./work";
 
 const KEPT_MESHES = 8;
 
@@ -79,6 +80,7 @@ export class Runs {
     /** The stages of a run that begins; `open` makes those of a mesh of its own. */
     begin(header: Header, open: (course: Course) => Stages): Stages {
         this.leave();
+        this.allowance.spend(runCost(header.again === undefined));
         this.lost = undefined;
         this.frames = header.frames;
         this.mesh = header.again ?? header.run;

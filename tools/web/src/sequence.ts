@@ -11,7 +11,7 @@ import { areFinite } from "./numbers";
 import { Cursor } from "./packets";
 import { columnsOf } from "./reflections";
 import type { Course } from "./runs";
-import { blockCost, partCost, referredCost, shownCost, trackMemory, UNCODED } from "./work";
+import { blockCost, gopCost, partCost, referredCost, shownCost, trackMemory, UNCODED } from "./work";
 
 const LEARNT = 0;
 const KEY_FRAMES = 1;
@@ -246,7 +246,7 @@ export class Sequence {
                 0,
             );
             const shown = shownCost(header.vertices, this.given, gop.frames, gop.fields);
-            allowance.spend(parts + this.referred(gop) + shown, received);
+            allowance.spend(gopCost(told) + parts + this.referred(gop) + shown, received);
             return hasBasis(gop.method) ? this.transformed(gop) : this.following(gop);
         } catch (error) {
             allowance.show(-header.vertices * gop.frames);

@@ -228,7 +228,7 @@ export class Stages {
         this.tolerating(() => {
             if (first === 0) this.allowance.spend(attributes.costOf(index));
             this.allowance.keep(0, data.length);
-            this.allowance.spend(chunkCost(data.length), data.length);
+            this.allowance.spend(chunkCost(data.length, attributes.valuesOf(index)), data.length);
             const attribute = attributes.decode(index, first, count, data, this.numbers, () => this.solid());
             if (!attribute) return;
             if (this.course) this.carried.push(attribute);

@@ -1,11 +1,11 @@
 /** What all but dictionaries costs, in nanoseconds of a processor core (specification, M 14.3). */
 const BLOCK = 1.45e5;
-const [PART, ANOTHER] = [6e4, 2.5e4];
+const [GOP, FIELD, PART, ANOTHER] = [2.5e5, 1e5, 1.3e5, 4.5e4];
 const [ROW, LOOK, LEVEL, LOOP, AROUND, INHERITED_LOOP, INHERITED_AROUND, REFERRED] = [600, 25, 90, 66, 10, 90, 10, 1.1];
 /** Of a byte of coded values. */
 const CODED = 800;
 /** By which a part of a sequence is cheaper than a block, before it has its dictionary. */
-export const UNCODED = 8e4;
+export const UNCODED = 4e4;
 /** Bytes of a block's frame besides its levels, at least. */
 export const FRAME = 5;
 
@@ -50,7 +50,7 @@ export function exactCost(largest: number): GridCost {
 
 export const LIGHT_COST: GridCost = {
     whole: (vertices, faces) => 200 * vertices + 40 * faces,
-    frame: (received) => 3.5e4 + 120 * received,
+    frame: (received) => 5e4 + 120 * received,
 };
 
 /** Of refinement or an attribute, before its bytes are counted. */
@@ -76,15 +76,20 @@ export function valuesCost(values: number, faces: number): number {
     return 4e5 + 150 * values + 60 * faces;
 }
 
-/** Of a frame of refinement or of an attribute. */
-export function chunkCost(received: number): number {
-    return 8e4 + CODED * received;
+/** Of a frame of refinement, or of an attribute of so many values. */
+export function chunkCost(received: number, values = 0): number {
+    return 8e4 + CODED * received + 2 * values;
 }
 
 /** Of a part in a GOP of r components and so many fields, with so many vertices around it, besides the solution of so many columns. */
 export function partCost(rows: number, around: number, width: number, components: number, fields: number, inherited: boolean): number {
     const [loop, begun] = inherited ? [LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND] : [LOOP, AROUND];
     return PART + ANOTHER * (fields - 1) + components * (width * (LEVEL + loop) + around * begun) + rows * (width * (1 + 0.1 * components) + 20 * components);
+}
+
+/** Of a run of a sequence, which may bring a mesh. */
+export function runCost(mesh: boolean): number {
+    return 5e5 + (mesh ? 2e6 : 0);
 }
 
 /** Bytes that all GOPs know of an attribute that moves. */
@@ -95,6 +100,11 @@ export function trackMemory(vertices: number, parts: number, width: number): num
 /** Of so many columns that are known of low-delay frames, in so many rows of parts and vertices around them. */
 export function referredCost(rows: number, known: number[]): number {
     return REFERRED * rows * known.reduce((sum, count) => sum + count * count, 0);
+}
+
+/** Of a GOP that tells of so many fields, before its parts. */
+export function gopCost(fields: number): number {
+    return GOP + FIELD * (fields - 1);
 }
 
 /** Of showing the frames of a GOP, of fields of so many numbers and components, to a user of so many vertices as given. */
