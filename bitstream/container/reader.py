@@ -53,7 +53,7 @@ class Signal(Enum):
 
 FRAME_COST, BYTE_COST = 8e3, 8.0
 """Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes."""
-METADATA_COST, ENTRY_COST = 2e4, 4e3
+METADATA_COST, ENTRY_COST = 2e4, 8e3
 """The same for metadata besides, and for each of their entries."""
 
 

@@ -28,7 +28,7 @@ TRACK_MEMORY = 40.0
 
 FRAME, SHOWN = 2.5e4, 11.0 / 3.0
 """Of a field of a frame, and of a number of a vertex in it."""
-GOP, FIELD = 2.5e5, 1e5
+GOP, FIELD = 3.5e5, 1e5
 """Of a GOP, whatever its size, and of another field that it tells of."""
 PART, ANOTHER = 1.3e5, 4.5e4
 """Of a part in a GOP, whatever its size, and of another field there."""
@@ -128,7 +128,9 @@ class Setting:
         loop, around = (LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND) if more else (LOOP, AROUND)
         others = sum(not body.method.has_basis or field.components > 0 for field in body.fields[1:])
         fields = sum(_part_work(site, _columns(body), loop, around) for site in sites)
-        work = GOP + FIELD * others + (PART + ANOTHER * others) * len(sites) + fields + frames * FRAME * len(body.fields)
+        work = (
+            GOP + FIELD * others + (PART + ANOTHER * others) * len(sites) + fields + frames * FRAME * len(body.fields)
+        )
         if not body.method.has_basis:
             rows = sum(site.width + len(site.around) for site in sites)
             work += REFERRED * rows * sum(count**2 for count in self._references(body))

@@ -119,7 +119,7 @@ def light_chunk_cost(received: int) -> float:
 
 
 def chunk_cost(received: int, values: int = 0) -> float:
-    """Work of a frame of a layer, or of an attribute of so many values, of which it is found who has those that come."""
+    """Work of a frame of a layer, or of an attribute of so many values, among which those that come are found."""
     return 8e4 + CODED * received + 2.0 * values
 
 

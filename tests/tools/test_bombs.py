@@ -1,4 +1,4 @@
-"""A few bombs that are quickly made; `python -m tools.attack bombs` measures all of them."""
+"""A few bombs that are quickly made; `python -m tools.attack bombs` and `charges` measure all of them."""
 
 import subprocess
 import sys
@@ -9,8 +9,9 @@ import pytest
 from bsm.bitstream.errors import CorruptError, LimitError
 from bsm.bitstream.limits import Limits
 from bsm.codec.static.decoder import Decoder
-from tools.attack.measure import decode_all, taken_by
+from tools.attack.bombs import THINGS, YARDSTICK, things
 from tools.attack.streams import BOMBS
+from tools.attack.taken import decode_all, taken_by, warm_up
 
 REFUSED = {
     "members-illegal": (CorruptError, "overlap too much"),
@@ -74,13 +75,24 @@ def test_a_service_has_an_absolute_bound():
 
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
 @pytest.mark.parametrize("how", ["events", "browser"])
-def test_the_measure_sees_what_a_stream_takes(how, tmp_path):
-    (tmp_path / "members.bsm").write_bytes(BOMBS["members"]())
-    taken = taken_by(tmp_path / "members.bsm", how, "default")
+def test_the_measure_sees_what_a_stream_takes(how):
+    warm_up()
+    taken = taken_by(BOMBS["members"](), how, "default")
     assert "missing" in taken.outcome
     assert taken.vertices == 65536
-    assert 4 << 20 < taken.memory < (1 << 26) + 1024 * taken.vertices
+    assert 2 << 20 < taken.memory < (1 << 26) + 1024 * taken.vertices
     assert 0.0 < taken.seconds < 3.6
+
+
+def test_many_and_large_streams_are_made_of_all_that_there_can_be_many_of():
+    assert things() <= set(THINGS)
+    assert {YARDSTICK, *(name for pair in THINGS.values() for name in pair)} <= set(BOMBS)
+    assert all(many != large for many, large in THINGS.values())
+
+
+@pytest.mark.parametrize("name", dict.fromkeys(many for many, _ in THINGS.values()))
+def test_streams_of_many_small_things_are_sound(name):
+    assert decode_all(BOMBS[name](), "events", Limits.wide()).outcome == "decoded"
 
 
 @pytest.mark.slow

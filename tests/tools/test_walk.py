@@ -1,4 +1,4 @@
-"""A part of the walk over all frames and fields; `python -m tools.attack walk --web` is the whole."""
+"""A part of the walk over all frames and fields; `python -m tools.attack walk` is the whole."""
 
 from pathlib import Path
 

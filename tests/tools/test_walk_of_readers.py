@@ -8,8 +8,8 @@ import pytest
 from bsm.bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
-from tools.attack.measure import Taken
 from tools.attack.readers import Case, Sample, numbers, problems, read_all, samples, warm_up
+from tools.attack.taken import Taken
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
 

@@ -3,7 +3,7 @@
 fuzz     every decoder's function, guided by coverage
 sweep    the same inputs in the same order, without guidance: for kernels that check themselves (tools/sanitize.sh)
 bombs    streams that cost as much as they can, held against what they may take
-charges  how true the decoder's estimates of work are
+charges  many small and few large of all that can be many: time by what was charged
 walk     every frame type and field as large as its bytes allow, held against the law
 readers  every reader of files, with every number as large as it can be, held against the law
 proof    vectors, mutants and random streams by all decoders, on all processors, in all environments
@@ -13,7 +13,8 @@ from __future__ import annotations
 
 from tools.command import dispatch
 
-COMMANDS = {name: f"{name}:main" for name in ("fuzz", "sweep", "bombs", "charges", "walk", "readers", "proof")}
+COMMANDS = {name: f"{name}:main" for name in ("fuzz", "sweep", "readers", "proof")}
+COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 
 if __name__ == "__main__":
     dispatch("tools.attack", COMMANDS, __doc__)

@@ -1,79 +1,186 @@
-"""`python -m tools.attack bombs`: decode every bomb in a process of its own, and hold what it took against the bounds.
+"""Decode streams that cost as much as they can, each in a process of its own, and hold what that took against the law.
 
-Exit code 1 if one takes more than it may: by default 64 MiB and 1 s, 1 KiB and 40 microseconds for each vertex and 64
-bytes and 20 microseconds for each byte; with `--limits service` 1 GiB and 10 s. The bounds of the
-decoder for browsers are those of tools/web/README.md.
+    python -m tools.attack bombs [NAME...]     memory and time of every bomb, or of streams in files (.bsm)
+    python -m tools.attack walk                the same of every frame type and field as large as its bytes allow
+    python -m tools.attack charges [THING...]  time by what was charged: many small and few large of everything
+
+A decoder may take 64 MiB and 1 s, 1 KiB and 40 microseconds for each vertex, 64 bytes and 20 microseconds for each
+byte; with `--limits service` 1 GiB and 10 s; a browser what tools/web/README.md says. A second charged may take 1.25,
+four times as long in browsers; where the machine takes longer for dictionaries, which are what charges are set by, it
+may take as much longer for all else. The exit code is 1 if anything takes more.
 """
 
 from __future__ import annotations
 
 import argparse
-import sys
-import tempfile
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields
+from functools import partial
 from pathlib import Path
 
-from tools.attack.measure import HOWS, Taken, bounds, browser_bounds, taken_by
+from bsm.bitstream.container.gop import GopBody, GopField, GopMethod
+from bsm.bitstream.container.grammar import FOLLOWERS, _reachable
+from bsm.bitstream.container.layout import LIMITED_FIELDS
+from bsm.bitstream.limits import NAMED_LIMITS
 from tools.attack.streams import BOMBS
+from tools.attack.taken import (
+    BROWSER,
+    bounds,
+    browser_bounds,
+    decode_all,
+    taken_by,
+    taken_by_browser,
+    taken_by_each,
+    warm_up,
+)
+from tools.attack.walk import cases
 
-COLUMNS = "{:16} {:8} {:>9} {:>9} {:>8} of {:>8} MiB {:>7} of {:>7} s  {:7} {}"
+HOWS = ("events", "threads", "whole", "tolerant", "browser")
+RATIO = 1.25
+"""Seconds that a second charged may take."""
+YARDSTICK = "mesh-blocks"
+"""Nearly all dictionaries."""
+LEAST_SECONDS = 0.05
+"""Of less CPU than that, nothing can be said."""
+
+THINGS = {
+    "HEADER": ("runs", "sequence-runs-kept"),
+    "HEADER again": ("runs-again", "sequence-runs-again"),
+    "METADATA": ("metadata-entries", "metadata-long"),
+    "CONNECTIVITY": ("runs", "mesh"),
+    "PARTITION": ("runs-parts", "scattered"),
+    "ORDER": ("runs-order", "copies"),
+    "ATTRIBUTE": ("runs-attributes", "seams"),
+    "VALUES": ("values-chunks", "values-corners"),
+    "VALUES of many": ("values-chunks-large", "values-faces"),
+    "BLOCK": ("tiny", "wide-1024"),
+    "GOP": ("gops", "gop-components"),
+    "GRID": ("grid-chunks", "grid"),
+    "GRID light": ("light-chunks", "light"),
+    "REFINEMENT": ("layers-chunks", "layers"),
+    "SKIPPABLE": ("metadata", "skippable-long"),
+    "LEARNT": ("gops-told", "gop-300"),
+    "LEARNT_NEXT": ("gops-following", "gops-following-large"),
+    "KEY_FRAME": ("gops-keys", "sequence-again"),
+    "NEXT_FRAME": ("gops-next", "gop-next"),
+    "vertices": ("runs", "mesh-blocks"),
+    "faces": ("runs", "pieces"),
+    "blocks": ("tiny", "mesh-blocks"),
+    "block_size": ("tiny", "hubs-small"),
+    "coefficients": ("tiny", "wide-1024"),
+    "frames": ("gops", "gop-still"),
+    "gop_frames": ("gops", "gop-still"),
+    "attributes": ("attributes-small", "values"),
+    "fields": ("moving-gops", "moving-components"),
+    "fields of parts": ("moving-parts", "moving-keys"),
+    "shown": ("gops-stretches", "gop-still"),
+    "exponents": ("gops-told", "gop-part"),
+    "basis": ("gops-told", "gop-part"),
+    "levels": ("gops-parts", "gop-300"),
+    "parts": ("sequence-parts", "sequence"),
+}
+"""Of each thing of which there can be many: a stream of many small ones, and one of few large ones."""
 
 
-def main() -> int:
-    """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"bombs, or streams (.bsm); all: {', '.join(BOMBS)}")
+def things() -> set[str]:
+    """What there can be many of, by the grammar: frames that come again, ways of GOPs, counts, and lists in GOPs."""
+    again = {kind.name for kind in FOLLOWERS if kind is not None and kind in _reachable(kind)}
+    lists = {item.name for one in (GopBody, GopField) for item in fields(one) if item.type not in _SINGLE}
+    return again | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | set(LIMITED_FIELDS) | lists
+
+
+_SINGLE = ("int", "float", "bool", "GopMethod")
+
+
+def bombs() -> int:
+    """`python -m tools.attack bombs`."""
+    parser = _parser(f"bombs, or streams (.bsm); all: {', '.join(BOMBS)}", HOWS[0], HOWS[2])
     parser.add_argument("--limits", choices=("default", "service"), default="default")
-    parser.add_argument(
-        "--how",
-        choices=HOWS,
-        nargs="+",
-        default=HOWS[:2],
-        help="default: events whole; browser: by the decoder for browsers, in Node",
-    )
-    parser.add_argument("--write", type=Path, metavar="FOLDER", help="only write the streams there")
     args = parser.parse_args()
     names = args.names or list(BOMBS)
-    if args.write:
-        for name in names:
-            (args.write / f"{name}.bsm").write_bytes(BOMBS[name]())
-        return 0
-    print(COLUMNS.format("bomb", "decoded", "bytes", "vertices", "memory", "", "CPU", "", "verdict", "outcome"))
-    with tempfile.TemporaryDirectory() as folder:
-        failed = [name for name in names if not _holds(name, Path(folder), args)]
+    failed = [name for name in names if not min([_holds(name, how, args.limits) for how in args.how])]
     print(f"{len(names)} bombs, {len(failed)} take more than they may: {' '.join(failed) or 'none'}")
     return 1 if failed else 0
 
 
-def _holds(name: str, folder: Path, args: argparse.Namespace) -> bool:
+def _holds(name: str, how: str, limits: str) -> bool:
     """Measure one stream, print what it took, and say whether that is within the bounds."""
-    path = Path(name)
-    if path.suffix != ".bsm":
-        path = folder / f"{name}.bsm"
-        path.write_bytes(BOMBS[name]())
-    stream = path.read_bytes()
-    results = {how: taken_by(path, how, args.limits) for how in args.how}
-    vertices = max(result.vertices for result in results.values())  # one that is refused as a whole tells none
-    good = True
-    for how, result in results.items():
-        known = replace(result, vertices=vertices)
-        browser = how == "browser"
-        memory, seconds = browser_bounds(known, stream) if browser else bounds(args.limits, known, len(stream))
-        holds = result.memory <= memory and result.seconds <= seconds
-        good &= holds
-        print(_row(path.stem, how, len(stream), vertices, result, memory, seconds, holds), flush=True)
-    return good
-
-
-def _row(
-    name: str, how: str, size: int, vertices: int, result: Taken, memory: float, seconds: float, holds: bool
-) -> str:
-    megabytes = [f"{value / 2**20:.1f}" for value in (result.memory, memory)]
-    times = [f"{value:.2f}" for value in (result.seconds, seconds)]
-    return COLUMNS.format(
-        name, how, size, vertices, *megabytes, *times, "holds" if holds else "FAILED", result.outcome[:90]
+    stream = _stream(name)
+    taken = taken_by(stream, how, limits)
+    memory, seconds = browser_bounds(taken, stream) if how == "browser" else bounds(limits, taken)
+    problem = taken.problem(memory, seconds)
+    print(
+        f"{Path(name).stem:22} {how:8} {taken.size:9} bytes {taken.vertices:9} vertices {taken.memory / 2**20:8.1f} of "
+        f"{memory / 2**20:8.1f} MiB {taken.seconds:7.2f} of {seconds:7.2f} s  {'FAILED' if problem else 'holds':7} "
+        f"{taken.outcome[:90]}",
+        flush=True,
     )
+    return problem is None
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def _stream(name: str) -> bytes:
+    return Path(name).read_bytes() if name.endswith(".bsm") else BOMBS[name]()
+
+
+def walk() -> int:
+    """`python -m tools.attack walk`."""
+    parser = _parser("cases whose name begins so", "whole", "tolerant")
+    parser.add_argument("--bytes", type=int, default=1 << 20, help="of a case (default: %(default)s)")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="take one case in N")
+    args = parser.parse_args()
+    every = [case for case in cases(args.bytes) if case.name.startswith(tuple(args.names or [""]))][:: args.every]
+    found = list(walk_problems({case.name: case.make() for case in every}, args.how))
+    print("\n".join([*found, f"{len(every)} streams, {len(found)} findings"]))
+    return 1 if found else 0
+
+
+def walk_problems(streams: Mapping[str, bytes], hows: Sequence[str]) -> Iterator[str]:
+    """Where streams take more than they may, by each way and limits."""
+    warm_up()
+    for how in hows:
+        if how == "browser":
+            for (name, stream), taken in zip(streams.items(), taken_by_browser(list(streams.values())), strict=True):
+                if problem := taken.problem(*browser_bounds(taken, stream)):
+                    yield f"{name} ({how}): {problem}"
+            continue
+        for limits in ("default", "service"):
+            decodes = [partial(partial, decode_all, one, how, NAMED_LIMITS[limits]()) for one in streams.values()]
+            for name, taken in zip(streams, taken_by_each(decodes), strict=True):
+                if problem := taken.problem(*bounds(limits, taken)):
+                    yield f"{name} ({how}, {limits}): {problem}"
+
+
+def charges() -> int:
+    """`python -m tools.attack charges`."""
+    parser = _parser(f"of {', '.join(THINGS)}; all, if none is named", "events", "threads", "browser")
+    parser.add_argument("--times", type=int, default=3, help="the least counts (default: %(default)s)")
+    parser.add_argument("--small", action="store_true", help="streams of many small ones alone")
+    parser.add_argument("--most", type=float, default=RATIO, help="seconds for one charged (default: %(default)s)")
+    args = parser.parse_args()
+    pairs = [THINGS[name] for name in args.names or THINGS]
+    names = list(dict.fromkeys(name for pair in pairs for name in (pair[:1] if args.small else pair)))
+    streams = {name: BOMBS[name]() for name in [YARDSTICK, *names]}
+    warm_up()
+    failed = []
+    for how in args.how:
+        slowness = 1.0
+        for name, stream in streams.items():
+            taken = min((taken_by(stream, how, "wide") for _ in range(args.times)), key=lambda taken: taken.seconds)
+            ratio = taken.seconds / max(taken.work / 1e9, 1e-9) / (BROWSER if how == "browser" else 1.0)
+            slowness = max(slowness, ratio) if name == YARDSTICK else slowness
+            wrong = taken.escaped or (ratio > args.most * slowness and taken.seconds > LEAST_SECONDS)
+            failed += [f"{name} ({how})"] * wrong
+            print(
+                f"{name:22} {how:8} {taken.work / 1e9:8.3f} s charged, {taken.seconds:8.3f} s taken, ratio "
+                f"{ratio:5.2f} of {args.most * slowness:.2f}{' FAILED' * wrong} {taken.outcome[:60]}",
+                flush=True,
+            )
+    print(f"{len(streams)} streams, {len(failed)} take more than is charged: {', '.join(failed) or 'none'}")
+    return 1 if failed else 0
+
+
+def _parser(names: str, *hows: str) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=names)
+    parser.add_argument("--how", choices=HOWS, nargs="+", default=hows, help="default: %(default)s")
+    return parser

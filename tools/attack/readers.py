@@ -15,12 +15,9 @@ import io
 import json
 import os
 import re
-import resource
-import signal
 import struct
 import sys
 import tempfile
-import warnings
 import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -38,7 +35,7 @@ from bsm.files.formats.npz import write_npy
 from bsm.files.mesh import format_mesh, read_mesh
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import SEQUENCES_READ, open_sequence, sequence_writer
-from tools.attack.measure import Taken, bounds, forget_peak, resident, seconds_of_cpu
+from tools.attack.taken import Taken, bounds, taken_by_each
 from tools.vectors.meshes import torus
 
 HUGE_WORDS = (b"2147483647", b"999999999999999999", b"9" * 400, b"-1", b"1e300")
@@ -46,11 +43,7 @@ HUGE_BYTES = tuple(
     bytes.fromhex(code) for code in ("ff", "ffff", "ffffff7f", "7fffffff", "ffffffff", "ffffffffffffff7f")
 )
 _NUMBER = re.compile(rb"(?<![\w.+-])-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?![\w.])")
-AT_A_TIME = 64
-"""Files that one process reads, so that what one leaves behind hides little of the next."""
 MOST_SECONDS = 60
-MOST_ADDRESSES = 12 << 30
-"""Of one process: what asks for more fails, and the machine lives on."""
 
 
 @dataclass(frozen=True)
@@ -627,117 +620,55 @@ def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
 
 def read_all(path: Path, limits: Limits) -> Taken:
     """Read a file as whatever it is, and say what came of it."""
-    taken = Taken("", seconds=0.0)
+    kind, vertices, shown = path.suffix[1:], 0, 0
     try:
-        kind = path.suffix[1:]
-        sequence = None
         if kind in SEQUENCES_READ:
             try:
                 sequence = open_sequence(str(path), "npy" if kind == "npy" else None, wanted=Wanted(), limits=limits)
-            except BsmError as error:
-                taken.outcome = f"{type(error).__name__}: {error}"
-                if kind not in ("glb", "gltf"):
-                    return taken
-        if sequence is not None:
-            for frame in sequence.frames:
-                taken.vertices = len(frame)
-                taken.shown += len(frame)
-        else:
-            taken.vertices = len(read_mesh(path, limits=limits).mesh.positions)
-        taken.outcome = "read"
+                if sequence is not None:
+                    for frame in sequence.frames:
+                        vertices = len(frame)
+                        shown += vertices
+                    return Taken("read", vertices=vertices, shown=shown)
+            except BsmError:
+                if kind not in ("glb", "gltf") or shown:
+                    raise
+        vertices = len(read_mesh(path, limits=limits).mesh.positions)
+        return Taken("read", vertices=vertices)
     except BsmError as error:
-        taken.outcome = f"{type(error).__name__}: {error}"
-    return taken
+        return Taken(f"{type(error).__name__}: {error}", vertices=vertices, shown=shown)
 
 
 def problems(cases: list[Case], limits: str) -> Iterator[str]:
     """Where reading takes more than it may, or something else than a mesh or an error of ours comes out."""
     with tempfile.TemporaryDirectory() as folder:
-        done = 0
-        while done < len(cases):
-            some = cases[done : done + AT_A_TIME]
-            told = _told_by_child(some, Path(folder), limits)
-            for case, (taken, size) in zip(some, told):
-                if problem := _problem(taken, size, limits):
-                    yield f"{case.name} ({limits}): {problem}"
-            done += len(told)
-            if len(told) < len(some):
-                yield f"{some[len(told)].name} ({limits}): its process died, or took over {MOST_SECONDS} s"
-                done += 1
+        works = [partial(reading, case.make, Path(folder), NAMED_LIMITS[limits]()) for case in cases]
+        for case, taken in zip(cases, taken_by_each(works, MOST_SECONDS), strict=True):
+            if problem := taken.problem(*bounds(limits, taken)):
+                yield f"{case.name} ({limits}): {problem}"
 
 
-def _problem(taken: Taken, size: int, limits: str) -> str | None:
-    memory, seconds = bounds(limits, taken, size)
-    if taken.outcome.startswith("escaped"):
-        return taken.outcome
-    if taken.memory > memory or taken.seconds > seconds:
-        return (
-            f"{taken.memory / 2**20:.0f} of {memory / 2**20:.0f} MiB, {taken.seconds:.2f} of {seconds:.2f} s; "
-            f"{size} bytes, {taken.outcome[:100]}"
-        )
-    return None
+def reading(make: Callable[[], Sample], folder: Path, limits: Limits) -> Callable[[], Taken]:
+    """Write a file and what lies beside it; what reads it."""
+    path, size = written(make(), folder)
+    return lambda: replace(read_all(path, limits), size=size)
 
 
-def _told_by_child(cases: list[Case], folder: Path, limits: str) -> list[tuple[Taken, int]]:
-    """What files took, read one after the other in a process of its own; fewer than there are if it died."""
-    reading, writing = os.pipe()
-    sys.stdout.flush()
-    child = os.fork()
-    if child == 0:
-        os.close(reading)
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # where libraries complain
-        # Of our own arithmetic none may be heard of.
-        warnings.filterwarnings("error", category=RuntimeWarning, module=r"bsm\.")
-        resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))
-        for case in cases:
-            signal.alarm(2 * MOST_SECONDS)
-            taken, size = _taken(case, folder, limits)
-            os.write(writing, json.dumps([vars(taken), size]).encode() + b"\n")
-            if taken.memory > 1 << 26:
-                break  # what it leaves behind would hide what the next one takes
-        else:
-            os.write(writing, b"\n")
-        os._exit(0)
-    os.close(writing)
-    with os.fdopen(reading, "rb") as pipe:
-        lines = pipe.read().splitlines()
-    _, status = os.waitpid(child, 0)
-    found = [(Taken(**told), size) for told, size in map(json.loads, filter(None, lines))]
-    if status == 0 and len(found) < len(cases):
-        return found + _told_by_child(cases[len(found) :], folder, limits)
-    return found
-
-
-def _taken(case: Case, folder: Path, limits: str) -> tuple[Taken, int]:
-    sample = case.make()
-    path = folder / f"a.{sample.suffix}"
+def written(sample: Sample, folder: Path) -> tuple[Path, int]:
+    """A file and what lies beside it, alone in a folder, and their bytes."""
+    files = {f"a.{sample.suffix}": sample.data, **dict(sample.beside)}
     for name in os.listdir(folder):
         (folder / name).unlink()
-    path.write_bytes(sample.data)
-    for name, data in sample.beside:
+    for name, data in files.items():
         (folder / name).write_bytes(data)
-    size = len(sample.data) + sum(len(data) for _, data in sample.beside)
-    del sample
-    forget_peak()
-    seconds, memory = seconds_of_cpu(), resident("VmRSS")
-    try:
-        taken = read_all(path, NAMED_LIMITS[limits]())
-    except BaseException as error:
-        taken = Taken(f"escaped: {type(error).__name__}: {error}"[:1000])
-    return replace(taken, seconds=seconds_of_cpu() - seconds, memory=resident("VmHWM") - memory), size
+    return folder / f"a.{sample.suffix}", sum(map(len, files.values()))
 
 
 def warm_up() -> None:
     """What is loaded once is nobody's fault."""
-    sys.stderr.flush()
     with tempfile.TemporaryDirectory() as folder:
-        for number, sample in enumerate(samples().values()):
-            inside = Path(folder, str(number))
-            inside.mkdir()
-            (inside / f"a.{sample.suffix}").write_bytes(sample.data)
-            for name, data in sample.beside:
-                (inside / name).write_bytes(data)
-            told = read_all(inside / f"a.{sample.suffix}", Limits())
+        for sample in samples().values():
+            told = read_all(written(sample, Path(folder))[0], Limits())
             if told.outcome != "read":
                 raise AssertionError(f"the sample {sample.suffix} is not sound: {told.outcome}")
 

@@ -307,6 +307,37 @@ def _next_gops(count: int, levels: bytes) -> list[GopBody]:
     return [key, *[behind] * count]
 
 
+def _followed(count: int, gop: GopBody) -> list[GopBody]:
+    """A GOP, and so many that refer to the one before."""
+    return [gop, *[replace(gop, method=GopMethod.LEARNT_NEXT)] * count]
+
+
+def _run(*before: tuple[int, bytes], behind: Frames = (), **fields: Any) -> bytes:  # type: ignore[assignment]
+    """A sequence of nine vertices and one frame, with frames before its blocks and behind them."""
+    frames = frames_of(_sequence(3, 3, [NOTHING], width=1, **ONCE | fields))
+    blocks = [frame for frame in frames if frame[0] == FrameType.BLOCK]
+    return stream_of([*frames[:2], *before, *blocks, *behind, frames[-1]])
+
+
+def _attributed_run(count: int) -> bytes:
+    """The same with attributes."""
+    declared, chunks = _attributes(3, 3, count, 9, 9, moves=1)
+    return _run(*declared, behind=chunks, attributes=count)
+
+
+def _in_order() -> tuple[int, bytes]:
+    """The order of nine vertices as they were coded."""
+    coded, own = _coded("torus", 3, 3), np.arange(9, dtype=np.int32)
+    as_coded = EncodedConnectivity(coded.payload, own, np.arange(18, dtype=np.int32), coded.faces)
+    return FrameType.ORDER, encode_order(coded.faces, as_coded, Splits(own, coded.faces, np.zeros((0, 3))))
+
+
+def _before_faces(frames: Frames) -> bytes:
+    """A small mesh with frames behind its header."""
+    small = frames_of(one_block(3, 3, 1))
+    return stream_of([small[0], *frames, *small[1:]])
+
+
 def _metadata(entries: int) -> bytes:
     coded = _coded("torus", 12, 12)
     payload = write_map([(f"{number:04}", number) for number in range(entries)])
@@ -381,12 +412,6 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
     return stream_of([*frames[:2], *declared, *frames[2:]])
 
 
-def _skippable(count: int) -> bytes:
-    """So many frames that a decoder has no use for."""
-    frames = frames_of(one_block(20, 20, 4))
-    return stream_of([frames[0], *[(8, b"")] * count, *frames[1:]])
-
-
 def _nested(kind: FrameType, size: int) -> bytes:
     """A map of so many bytes, which are arrays in arrays, in place of a header, an attribute or metadata."""
     inside = b"\x91" * 400 + b"\x01"
@@ -436,6 +461,8 @@ def ring(rows: int, columns: int) -> tuple[str, int, int]:
 
 
 ONCE = {"power": 1, "key_iterations": 1}
+NOTHING = _learnt_gop(1, 0)
+BACK_AND_FORTH = np.arange(1024) % 2
 BOMBS: dict[str, Callable[[], bytes]] = {
     "members": lambda: _tiny_blocks(ring(256, 256), 4096, sent=0),  # blocks that overlap as much as they may
     "members-all": lambda: _tiny_blocks(ring(128, 128), 4096, **ONCE),  # the same, and all of them sent
@@ -515,24 +542,23 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "seams": lambda: _seamed(1024, 1024, 60),  # 60 attributes with seams of their own on a million vertices
     "seams-many": lambda: _seamed(256, 256, 255),  # 255 of them on fewer
     "seams-most": lambda: _seamed(1024, 1024, 255),  # 255 of them on a million
-    "skippable": lambda: _skippable(4000000),  # frames of nothing
+    "skippable": lambda: _before_faces([(8, b"")] * 4000000),  # frames of nothing
+    "skippable-long": lambda: _before_faces([(8, bytes(1 << 25))]),  # one of much
     "nested-header": lambda: _nested(FrameType.HEADER, 1 << 24),  # arrays in arrays as a header
     "nested-attribute": lambda: _nested(FrameType.ATTRIBUTE, 1 << 24),  # the same as a declaration
     "nested-metadata": lambda: _nested(FrameType.METADATA, 8000000),  # the same as metadata
     "torn": lambda: _torn(one_block(20, 20, 4), _rubbish(1 << 20)),  # a megabyte of rubbish behind the blocks
     "torn-chunks": lambda: _grid(ring(100, 100), 1)[: 9 * 4000],  # half of a stream of tiny frames
     "worthless": lambda: _worthless(64, 64, 1000, 100),  # blocks that end too early
-    "sequence": lambda: _sequence(200, 200, [_learnt_gop(1, 0)], width=440),  # dictionaries of all columns
-    "sequence-large": lambda: _sequence(600, 600, [_learnt_gop(1, 0)], width=440, **ONCE),  # the same of many vertices
+    "sequence": lambda: _sequence(200, 200, [NOTHING], width=440),  # dictionaries of all columns
+    "sequence-large": lambda: _sequence(600, 600, [NOTHING], width=440, **ONCE),  # the same of many vertices
     # The same by iterations without end
-    "sequence-power": lambda: _sequence(40, 40, [_learnt_gop(1, 0)], width=8, power=64, key_iterations=1024),
-    "sequence-tiny": lambda: _sequence(256, 256, [_learnt_gop(1, 0)], width=8, part=1, power=1),  # parts of one vertex
+    "sequence-power": lambda: _sequence(40, 40, [NOTHING], width=8, power=64, key_iterations=1024),
+    "sequence-tiny": lambda: _sequence(256, 256, [NOTHING], width=8, part=1, power=1),  # parts of one vertex
     # Parts of ten vertices
-    "sequence-small": lambda: _sequence(256, 256, [_learnt_gop(1, 0)], width=10, part=10, power=1),
+    "sequence-small": lambda: _sequence(256, 256, [NOTHING], width=10, part=10, power=1),
     # Runs of small meshes
-    "sequence-runs": lambda: _joined(
-        _sequence(4, 4 + k % 9, [_learnt_gop(1, 0)], width=4, power=1) for k in range(3000)
-    ),
+    "sequence-runs": lambda: _joined(_sequence(4, 4 + k % 9, [NOTHING], width=4, power=1) for k in range(3000)),
     # More large meshes than are kept
     "sequence-runs-kept": lambda: _joined(
         _sequence(100, 100 + k, [_learnt_gop(1, 0, _still(100, 100 + k, 440, 0))], width=440, power=1)
@@ -580,5 +606,45 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "moving-frames": lambda: _moving(3, 3, 255, [_learnt_gop(200, 0, _still(3, 3, 8, 0))]),
     # As many components of attributes as there is room for
     "moving-components": lambda: _moving(200, 200, 2, [_learnt_gop(8, 12, _still(200, 200, 20, 12), 2)] * 3, width=20),
+    # Many small ones of all that there can be many of
+    "runs": lambda: _joined([_run()] * 300),
+    "runs-again": lambda: _joined([_run()], [0] * 1500, NOTHING),
+    "runs-parts": lambda: _joined([_run(_scattered(ring(3, 3), 3), part=3)] * 200),
+    "runs-order": lambda: _joined([_run(_in_order())] * 300),
+    "runs-attributes": lambda: _joined([_attributed_run(10)] * 50),
+    "runs-moving": lambda: _joined([_attributed_run(20)], [0] * 500, NOTHING),
+    "metadata-entries": lambda: _before_faces(
+        [(FrameType.METADATA, write_map([(f"{k:04}{entry:03}", 1) for entry in range(256)])) for k in range(300)]
+    ),
+    "metadata-frames": lambda: _before_faces([(FrameType.METADATA, write_map([(f"{k:06}", 1)])) for k in range(20000)]),
+    "gops": lambda: _sequence(3, 3, [NOTHING] * 2000, width=1, **ONCE),
+    "gops-told": lambda: _sequence(3, 3, [_learnt_gop(1, 3, _still(3, 3, 4, 3))] * 1500, width=4, **ONCE),
+    "gops-parts": lambda: _sequence(
+        20, 20, [_learnt_gop(1, 3, _still(20, 20, 8, 3, 8))] * 80, width=8, part=8, power=1
+    ),
+    "gops-following": lambda: _sequence(3, 3, _followed(1500, _learnt_gop(1, 3, _still(3, 3, 4, 3))), width=4, power=1),
+    "gops-following-parts": lambda: _sequence(
+        20, 20, _followed(80, _learnt_gop(1, 3, _still(20, 20, 8, 3, 8))), width=8, part=8, power=1
+    ),
+    "gops-following-large": lambda: _sequence(
+        100, 100, _followed(3, _learnt_gop(64, 75, _still(100, 100, 20, 75))), width=20
+    ),
+    "gops-stretches": lambda: _sequence(3, 3, [replace(_learnt_gop(1024, 0), shown=BACK_AND_FORTH)] * 20, width=1),
+    "gops-keys": lambda: _sequence(3, 3, _key_gops(1500, _still(3, 3, 4, 3)), width=4, power=1),
+    "gops-keys-parts": lambda: _sequence(20, 20, _key_gops(80, _still(20, 20, 8, 3, 8)), width=8, part=8, power=1),
+    "gops-next": lambda: _sequence(3, 3, _next_gops(1500, _still(3, 3, 4, 3)), width=4, power=1),
+    "gops-next-parts": lambda: _sequence(20, 20, _next_gops(80, _still(20, 20, 8, 3, 8)), width=8, part=8, power=1),
+    "gops-next-vertices": lambda: _sequence(20, 20, _next_gops(15, _still(20, 20, 8, 3, 1)), width=8, part=1, power=1),
+    "moving-gops": lambda: _moving(3, 3, 100, [NOTHING] * 100),
+    "moving-told": lambda: _moving(3, 3, 100, [_learnt_gop(1, 1, _still(3, 3, 8, 1), 100)] * 20, width=8),
+    "moving-parts": lambda: _moving(20, 20, 60, [_learnt_gop(1, 1, _still(20, 20, 8, 1, 8), 60)] * 5, part=8, width=8),
+    "moving-keys-small": lambda: _moving(
+        3, 3, 40, _key_gops(30, _still(3, 3, 8, 3), *[_still(3, 3, 8, 4)] * 40), width=8
+    ),
+    "sequence-parts": lambda: _sequence(50, 50, [NOTHING], width=8, part=1, power=1),
+    "attributes-small": lambda: _valued(3, 3, 255, 9),
+    # Small ones of a large mesh
+    "values-chunks-large": lambda: _valued(400, 400, 1, 80, kind=0, components=1, largest=(1,), origin=AS_CODED),
+    "sequence-runs-large": lambda: _joined([_sequence(200, 200, [NOTHING], width=1, **ONCE)], [0] * 20, NOTHING),
 }
 """What each is called, and what makes it; beside it what it is that costs."""

@@ -1,19 +1,12 @@
-"""Every frame type and every field, each as large as its bytes allow; what decoding takes is held against the law.
+"""Every frame type and every field, each as large as its bytes allow.
 
-`python -m tools.attack walk` walks all of it, with `--web` in the decoder for browsers, too. The list of what there is
-to make large is that of the code: a field that is new is walked without a word here.
+The list of what there is to make large is that of the code: a field that is new is walked without a word here.
 """
 
 from __future__ import annotations
 
-import argparse
-import json
-import os
-import subprocess
-import sys
-import tempfile
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 from random import Random
@@ -22,8 +15,6 @@ from typing import Any
 from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
 from bsm.bitstream.container.wire import MAX_ENTRIES, SKIPPABLE_TYPES, FrameType, write_map, write_varint
-from bsm.bitstream.limits import NAMED_LIMITS
-from tools.attack.measure import WEB, Taken, bounds, browser_bounds, decode_all, forget_peak, resident, seconds_of_cpu
 from tools.surgery import Frames, frames_of, stream_of, with_declaration, with_header
 
 VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
@@ -168,76 +159,3 @@ def _mapped(kind: FrameType, payload: bytes) -> bytes:
 def _skipped(kind: int, payload: bytes, count: int) -> bytes:
     frames = frames_of(_good()["BLOCK"])
     return stream_of([frames[0], *[(kind, payload)] * count, *frames[1:]])
-
-
-def taken_in_child(stream: bytes, how: str, limits: str) -> Taken:
-    """What a stream takes in a process of its own, forked from this one."""
-    reading, writing = os.pipe()
-    child = os.fork()
-    if child == 0:
-        try:
-            forget_peak()
-            seconds, memory = seconds_of_cpu(), resident("VmRSS")
-            taken = decode_all(stream, how, NAMED_LIMITS[limits]())
-            taken = replace(taken, seconds=seconds_of_cpu() - seconds, memory=resident("VmHWM") - memory)
-        except BaseException as error:
-            taken = Taken(f"escaped: {type(error).__name__}: {error}")
-        os.write(writing, json.dumps(vars(taken)).encode())
-        os._exit(0)
-    os.close(writing)
-    with os.fdopen(reading, "rb") as pipe:
-        told = pipe.read()
-    os.waitpid(child, 0)
-    return Taken(**json.loads(told)) if told else Taken("died")
-
-
-def problem_of(stream: bytes, how: str, limits: str) -> str | None:
-    """Where a stream takes more than it may, or something else than an error of ours comes out."""
-    taken = taken_in_child(stream, how, limits)
-    memory, seconds = bounds(limits, taken, len(stream))
-    if taken.outcome == "died" or taken.outcome.startswith("escaped"):
-        return taken.outcome
-    if taken.memory > memory or taken.seconds > seconds:
-        return f"{taken.memory / 2**20:.0f} of {memory / 2**20:.0f} MiB, {taken.seconds:.2f} of {seconds:.2f} s"
-    return None
-
-
-def web_problems(streams: dict[str, bytes]) -> list[str]:
-    """Problems in the decoder for browsers: one process tells what each stream took."""
-    with tempfile.TemporaryDirectory() as folder:
-        for number, stream in enumerate(streams.values()):
-            (Path(folder) / f"{number}.bsm").write_bytes(stream)
-        done = subprocess.run(["node", "--expose-gc", str(WEB), folder], capture_output=True, text=True, check=True)
-    found = []
-    for name, (line, stream) in zip(streams, zip(done.stdout.splitlines(), streams.values(), strict=True), strict=True):
-        told = json.loads(line)
-        memory, seconds = browser_bounds(Taken(vertices=told["vertices"], shown=told["shown"]), stream)
-        if told["escaped"] or told["memory"] > memory or told["seconds"] > seconds:
-            found.append(f"{name}: {told}")
-    return found
-
-
-def main() -> int:
-    """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--bytes", type=int, default=1 << 20, help="of a case (default: %(default)s)")
-    parser.add_argument("--web", action="store_true", help="by the decoder for browsers, too")
-    args = parser.parse_args()
-    found, count = [], 0
-    decode_all(_good()["BLOCK"], "whole", NAMED_LIMITS["default"]())  # what is loaded once is nobody's fault
-    every = {case.name: case.make() for case in cases(args.bytes)}
-    for name, stream in every.items():
-        for limits in ("default", "service"):
-            for how in ("whole", "tolerant"):
-                count += 1
-                if problem := problem_of(stream, how, limits):
-                    found.append(f"{name} ({how}, {limits}): {problem}")
-    if args.web:
-        count += len(every)
-        found += [f"{problem} (web)" for problem in web_problems(every)]
-    print("\n".join([*found, f"{len(every)} streams, {count} decodes, {len(found)} findings"]))
-    return 1 if found else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

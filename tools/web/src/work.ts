@@ -1,6 +1,6 @@
 /** What all but dictionaries costs, in nanoseconds of a processor core (specification, M 14.3). */
 const BLOCK = 1.45e5;
-const [GOP, FIELD, PART, ANOTHER] = [2.5e5, 1e5, 1.3e5, 4.5e4];
+const [GOP, FIELD, PART, ANOTHER] = [3.5e5, 1e5, 1.3e5, 4.5e4];
 const [ROW, LOOK, LEVEL, LOOP, AROUND, INHERITED_LOOP, INHERITED_AROUND, REFERRED] = [600, 25, 90, 66, 10, 90, 10, 1.1];
 /** Of a byte of coded values. */
 const CODED = 800;

@@ -1,0 +1,216 @@
+"""What decoding or reading takes: each in a process of its own, held against what it may take."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+from bsm.bitstream.container.gop import METHODS, parse_gop_body
+from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
+from bsm.bitstream.container.wire import Cursor, FrameType
+from bsm.bitstream.errors import BsmError
+from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.sequence.events import FrameEvent
+from bsm.codec.static.decoder import Decoder
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.events import HeaderEvent, LossEvent
+from bsm.files.stream import peek_header
+from tools.surgery import frames_of, header_entries
+from tools.vectors.meshes import torus
+
+MOST_SECONDS = 600
+MOST_ADDRESSES = 12 << 30
+"""Of one process: what asks for more fails, and the machine lives on."""
+SEQUENCE_BYTES = Limits().sequence_bytes
+WEB = Path(__file__).parents[2] / "tools" / "web" / "scripts" / "measure.mjs"
+BROWSER = 4.0
+"""How much longer a browser may take."""
+
+
+@dataclass(frozen=True)
+class Taken:
+    """What became of some bytes, and what that took."""
+
+    outcome: str = "died, or took too long"
+    size: int = 0
+    vertices: int = 0
+    shown: int = 0
+    work: float = 0.0
+    seconds: float = 0.0
+    memory: int = 0
+
+    @property
+    def escaped(self) -> bool:
+        """Whether something else came out than what was asked for or an error of ours."""
+        return self.outcome.startswith(("died", "escaped"))
+
+    def problem(self, memory: float, seconds: float) -> str | None:
+        """What is wrong with that, if it may take so many bytes and seconds."""
+        if self.escaped:
+            return self.outcome
+        if self.memory <= memory and self.seconds <= seconds:
+            return None
+        took = f"{self.memory / 2**20:.0f} of {memory / 2**20:.0f} MiB, {self.seconds:.2f} of {seconds:.2f} s"
+        return f"{took}; {self.size} bytes, {self.outcome[:100]}"
+
+
+Work = Callable[[], Taken]
+
+
+def bounds(limits: str, taken: Taken) -> tuple[float, float]:
+    """Bytes and seconds that what was taken may take (M 14.8, M 14.9)."""
+    if limits == "service":
+        return float(1 << 30), 10.0
+    vertices, size = taken.vertices, taken.size
+    return (1 << 26) + 1024.0 * vertices + 64.0 * size, 1.0 + 4e-5 * (vertices + taken.shown) + 2e-5 * size
+
+
+def browser_bounds(taken: Taken, stream: bytes) -> tuple[float, float]:
+    """Bytes and seconds of the decoder for browsers: 64 MiB and what sequences keep more, and longer by `BROWSER`."""
+    memory, seconds = bounds("default", taken)
+    return memory + (1 << 26) + sequence_memory(stream, taken.vertices), BROWSER * seconds
+
+
+def sequence_memory(stream: bytes, vertices: int) -> float:
+    """Bytes of all dictionaries of a sequence, for so many vertices, and of positions in its largest GOP."""
+    columns, gop = 0, 0
+    try:
+        for kind, payload in frames_of(stream):
+            cursor = Cursor(payload)
+            if kind == FrameType.HEADER and (entries := header_entries(payload)).get(HEADER_FIELDS["sequence"].key):
+                columns = max(columns, entries.get(HEADER_FIELDS["coefficients"].key, 0))
+            elif kind == FrameType.GOP and cursor.varint() >= 0:
+                data = cursor.rest()
+                body = parse_gop_body(data, Limits().gop_frames, data[0] // METHODS, tolerant=True)
+                components = body.fields[0].components if body.method.has_basis else 0
+                gop = max(gop, components * (16 * vertices + 120 * body.frames + 24 * components))
+    except (BsmError, IndexError, ValueError, TypeError):
+        pass  # behind that nothing is decoded
+    return min(8.0 * vertices * columns, SEQUENCE_BYTES) + min(gop, SEQUENCE_BYTES)
+
+
+def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
+    """Decode: by "events" on one thread, or on "threads", "whole", or "tolerant"."""
+    header, _ = peek_header(iter([data]))
+    sequence = header is not None and header.gop_frames > 0
+    tolerant, threads = how == "tolerant", 1 if how == "events" else 2
+    size = shown = 0
+    losses = []  # a caller may keep them
+    kind = SequenceDecoder if sequence else Decoder
+    with kind(limits, threads, tolerant=tolerant) as decoder:
+        try:
+            decoder.receive_data(data)
+            if how == "whole" and isinstance(decoder, Decoder):
+                decoder.finish()
+            decoder.receive_eof()
+            while (event := decoder.next_event()) is not END_OF_STREAM and event is not NEED_DATA:
+                match event:
+                    case HeaderEvent(found):
+                        size = found.vertices
+                    case LossEvent():
+                        losses.append(event)
+                    case FrameEvent():
+                        shown += size
+            outcome = "decoded"
+        except BsmError as error:
+            outcome = f"{type(error).__name__}: {error}"
+        return Taken(outcome, len(data), decoder.vertices, shown, decoder.work)
+
+
+def taken_by(stream: bytes, how: str, limits: str) -> Taken:
+    """What a stream takes in a process of its own; by "browser" with that one's own limits."""
+    if how == "browser":
+        return next(iter(taken_by_browser([stream])))
+    return next(taken_by_each([lambda: partial(decode_all, stream, how, NAMED_LIMITS[limits]())]))
+
+
+def taken_by_browser(streams: Sequence[bytes]) -> list[Taken]:
+    """What streams take in the decoder for browsers, one after the other in one process."""
+    with tempfile.TemporaryDirectory() as folder:
+        for number, stream in enumerate(streams):
+            Path(folder, f"{number}.bsm").write_bytes(stream)
+        command = ["node", "--expose-gc", str(WEB), folder]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=MOST_SECONDS, check=True)
+    found = []
+    for line, stream in zip(done.stdout.splitlines(), streams, strict=True):
+        told = json.loads(line)
+        if problem := told.pop("escaped"):
+            told["outcome"] = f"escaped: {problem}"
+        found.append(Taken(size=len(stream), **told))
+    return found
+
+
+def taken_by_each(works: Sequence[Callable[[], Work]], seconds: int = MOST_SECONDS) -> Iterator[Taken]:
+    """What each work takes, in processes forked for some of them; `works` prepare it, which is not counted."""
+    done = 0
+    while done < len(works):
+        told = _told_by_child(works[done:], seconds)
+        yield from told or [Taken()]
+        done += max(1, len(told))
+
+
+def _told_by_child(works: Sequence[Callable[[], Work]], seconds: int) -> list[Taken]:
+    """What one process tells of the first works: until it dies, or until it keeps so much that it hides what comes."""
+    reading, writing = os.pipe()
+    sys.stdout.flush()
+    if (child := os.fork()) == 0:
+        os.close(reading)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # where libraries complain
+        # Of our own arithmetic none may be heard of.
+        warnings.filterwarnings("error", category=RuntimeWarning, module=r"bsm\.")
+        resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))
+        for prepare in works:
+            signal.alarm(2 * seconds)
+            taken = _measured(prepare())
+            os.write(writing, json.dumps(vars(taken)).encode() + b"\n")
+            if taken.memory > 1 << 24:
+                break
+        os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading, "rb") as pipe:
+        lines = pipe.read().splitlines()
+    os.waitpid(child, 0)
+    return [Taken(**json.loads(line)) for line in lines]
+
+
+def _measured(work: Work) -> Taken:
+    Path("/proc/self/clear_refs").write_text("5")  # the peak begins with what there is now
+    seconds, memory = seconds_of_cpu(), resident("VmRSS")
+    try:
+        taken = work()
+    except BaseException as error:
+        taken = Taken(f"escaped: {type(error).__name__}: {error}"[:1000])
+    return replace(taken, seconds=seconds_of_cpu() - seconds, memory=resident("VmHWM") - memory)
+
+
+def seconds_of_cpu() -> float:
+    """CPU seconds that this process has taken, all threads together."""
+    usage = resource.getrusage(resource.RUSAGE_SELF)
+    return usage.ru_utime + usage.ru_stime
+
+
+def resident(name: str) -> int:
+    """Bytes of this process's memory: "VmRSS" now, "VmHWM" at most.
+
+    Not `ru_maxrss`, which a process inherits from the one that started it.
+    """
+    line = next(line for line in Path("/proc/self/status").read_text().splitlines() if line.startswith(name))
+    return 1024 * int(line.split()[1])
+
+
+def warm_up() -> None:
+    """What is loaded and allocated once is nobody's fault."""
+    for how in ("events", "whole"):
+        decode_all(encode(torus(20, 20)), how, Limits())
