@@ -320,7 +320,7 @@ def _run(*before: tuple[int, bytes], behind: Frames = (), **fields: Any) -> byte
 
 
 def _attributed_run(count: int) -> bytes:
-    """The same with attributes."""
+    """One with attributes."""
     declared, chunks = _attributes(3, 3, count, 9, 9, moves=1)
     return _run(*declared, behind=chunks, attributes=count)
 
