@@ -7,7 +7,6 @@ from bsm.codec.blocks.partition import partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.options import EncodeOptions
 from bsm.evaluation.curve import paper_options
-from bsm.files.mesh import read_mesh
 from tests.shapes import patch, torus
 from tools.measure.blocks import (
     BlockView,
@@ -18,7 +17,6 @@ from tools.measure.blocks import (
     errors_along_chain,
     in_bisection_order,
     in_breadth_first_order,
-    nmsve_db_of,
     permuted,
     quartiles,
     spread,
@@ -78,16 +76,6 @@ def test_reordered_rows_are_the_same_block():
     back = permuted(found, np.argsort(other.vertices)[np.argsort(np.argsort(block.vertices))]).block
     assert back.vertices.tolist() == block.vertices.tolist()
     assert edges(back) == edges(block)
-
-
-@pytest.mark.real
-def test_the_order_of_rows_helps_the_warm_start(meshes):
-    mesh = read_mesh(meshes / "static" / "fandisk_6475.ply").mesh
-    options = paper_options(block_size=432)
-    ordered, unordered = (
-        nmsve_db_of(mesh, options, 0.1, order) for order in (in_bisection_order, in_breadth_first_order)
-    )
-    assert ordered < unordered - 0.5
 
 
 def test_pictures(tmp_path):

@@ -9,7 +9,7 @@ from bsm.codec.look.measure import judged
 from bsm.files.mesh import write_mesh
 from tests.shapes import torus
 from tools.measure import look
-from tools.measure.look import Draco, main, size_at, welded
+from tools.measure.look import Draco, main, size_at
 
 
 def test_sizes_lie_between_those_of_two_numbers_of_bits():
@@ -37,10 +37,3 @@ def test_a_row_for_each_wish(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("sys.argv", words)
     main()
     assert capsys.readouterr().out.count("| torus |") == 4
-
-
-def test_what_is_measured_has_no_doubles(tmp_path):
-    mesh = torus(20, 16)
-    corners = mesh.positions[mesh.faces].reshape(-1, 3)
-    write_mesh(tmp_path / "soup.ply", type(mesh)(corners, np.arange(len(corners)).reshape(-1, 3)))
-    assert len(welded(str(tmp_path / "soup.ply")).positions) == len(mesh.positions)

@@ -17,13 +17,10 @@ from scipy.sparse import csr_matrix
 
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.basis.laplacian import Laplacian, laplacian_of
-from bsm.codec.blocks.overlap import Blend, Block, Blocks, block_size, degree_weights, grow_blocks
+from bsm.codec.blocks.overlap import Blend, Block, Blocks, degree_weights, grow_blocks
 from bsm.codec.blocks.partition import Partition, derive_partition
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Reference
-from bsm.codec.signal.chain import Chain, ChainRules
-from bsm.codec.signal.predict import unheld
 from bsm.codec.static.choice.plan import Planner
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
@@ -225,32 +222,6 @@ def permuted(laplacian: Laplacian, rows: npt.NDArray[np.integer]) -> Laplacian:
         np.ones(len(other.neighbours)),
         laplacian.diagonal[rows],
     )
-
-
-def nmsve_db_of(mesh: TriangleMesh, options: EncodeOptions, keep: float, row_order: RowOrder) -> float:
-    """NMSVE in dB of projecting a mesh on its blocks' subspaces and blending, without quantization."""
-    graph = graph_of_faces(mesh.faces, len(mesh.positions))
-    partition = derive_partition(graph, max(1, round(graph.size / options.block_size)))
-    blocks = grow_blocks(graph, partition, block_size(partition, options.overlap))
-    rules = ChainRules(
-        exact=options.exact_keys,
-        key_interval=options.key_interval,
-        power=options.power,
-        iterations=options.iterations,
-        key_iterations=options.key_iterations,
-        shift=options.shift,
-        stiffness=0.0,
-    )
-    chain, blend = Chain(rules, graph), Blend(graph.size)
-    for index in range(blocks.count):
-        laplacian = row_order(blocks, index)
-        block = laplacian.block
-        subspace = chain.dictionary(unheld(laplacian, options.shift), max(1, round(keep * block.size)))
-        positions = subspace @ (subspace.T @ mesh.positions[block.vertices])
-        chain.commit(block, subspace, positions)
-        blend.add(block.vertices, positions, degree_weights(block.degrees))
-    reference = Reference(mesh.positions, mesh.faces)
-    return reference.compare(blend.positions(np.arange(graph.size, dtype=np.int32))).nmsve_db
 
 
 def draw_per_block(blocks: Mapping[str, Sequence[Mapping[str, float]]], stem: Path) -> list[Path]:

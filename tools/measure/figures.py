@@ -35,14 +35,7 @@ from bsm.evaluation.curve import (
 )
 from bsm.files.mesh import read_mesh
 from tools.command import run_command
-from tools.measure.blocks import (
-    block_size_for,
-    dynamic_comparison,
-    in_bisection_order,
-    in_breadth_first_order,
-    nmsve_db_of,
-    spread,
-)
+from tools.measure.blocks import block_size_for
 
 Result = TypeVar("Result")
 
@@ -185,24 +178,6 @@ def basis_figure(source: Source) -> Figure:
     )
 
 
-def row_order_figure(source: Source) -> Figure:
-    """What the canonical order of a block's rows is worth."""
-    rows = []
-    for name, blocks in BLOCKS.items():
-        mesh = source.mesh(name)
-        for power in (1, 2):
-            options = paper_options(block_size=block_size_for(mesh, blocks), power=power)
-            ordered, unordered = (
-                nmsve_db_of(mesh, options, KEEPS[0], order) for order in (in_bisection_order, in_breadth_first_order)
-            )
-            rows.append((name, f"{power}", number(unordered, 2), number(ordered, 2), f"{unordered - ordered:.2f}"))
-    return Figure(
-        "Order of rows inside a block: NMSVE of warm-started iterations, c = 10 %, not quantized",
-        "bisection 0.8 to 1.5 dB better at z = 1",
-        table(("mesh", "z", "breadth first, dB", "bisection, dB", "gain, dB"), rows),
-    )
-
-
 def connectivity_figure(source: Source) -> Figure:
     """Connectivity alone, beside Draco."""
     names = ("bunny_34834", "julius_36201", "armadillo_12502", "dragon_437645", "nicolo", *CAD)
@@ -233,35 +208,8 @@ def coefficients_figure(source: Source) -> Figure:
     )
 
 
-def dynamic_figure(source: Source) -> Figure:
-    """Dynamic orthogonal iterations against a fixed size, at the same number of coefficients."""
-    rows = []
-    for name in ("bunny_34834", "fandisk_6475"):
-        mesh = source.mesh(name)
-        chains = dynamic_comparison(mesh, block_size_for(mesh, BLOCKS[name]))
-        for label, blocks in chains.items():
-            sizes = np.array([block["coefficients"] for block in blocks])
-            error = float(np.sqrt(np.mean([block["squared_error"] for block in blocks])))
-            rows.append(
-                (
-                    f"{name}, {label}",
-                    f"{sizes.sum():.0f}",
-                    f"{sizes.min():.0f} to {sizes.max():.0f}",
-                    number(1e3 * error, 3),
-                    number(spread(blocks), 3),
-                )
-            )
-    return Figure(
-        "Dynamic subspace size: spread (standard deviation over mean) of the blocks' rms errors, 12 bits",
-        "at most half of the fixed size's",
-        table(("mesh", "sum of c", "c", "rms error, thousandths", "spread"), rows),
-    )
-
-
 FIGURES: dict[str, Callable[[Source], Figure]] = {
     "basis": basis_figure,
-    "order": row_order_figure,
-    "dynamic": dynamic_figure,
     "coefficients": coefficients_figure,
     "connectivity": connectivity_figure,
 }

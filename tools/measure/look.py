@@ -26,8 +26,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import Look, LookMetric
 from bsm.console import Console, finite, print_json
 from bsm.evaluation.curve import decode_draco, encode_draco
-from bsm.files.mesh import read_mesh
 from tools.command import run_command
+from tools.measure.grids import welded
 
 BITS = range(6, 17)
 PRESETS = ("small", "balanced", "fine", "near-lossless")
@@ -40,15 +40,6 @@ class Draco:
     bits: int
     size: int
     look: Look
-
-
-def welded(path: str) -> TriangleMesh:
-    """The shape of a file, without two vertices at one position."""
-    mesh = read_mesh(path).mesh
-    positions, number = np.unique(mesh.positions.astype(np.float32), axis=0, return_inverse=True)
-    faces = number.reshape(-1)[mesh.faces]
-    proper = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
-    return TriangleMesh(positions.astype(np.float64), faces[proper]).without_isolated_vertices()[0]
 
 
 def draco_curve(mesh: TriangleMesh, looker: LookMetric) -> list[Draco]:
@@ -72,7 +63,8 @@ def size_at(curve: list[Draco], dissimilarity: float) -> float:
 
 def measure(path: str, wishes: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
     """A row for Draco's default, and one for each wish."""
-    mesh = welded(path)
+    positions, faces = welded(path)
+    mesh = TriangleMesh(positions.astype(np.float64), faces)
     looker = LookMetric(mesh)
     curve = draco_curve(mesh, looker)
     default = next(point for point in curve if point.bits == 11)
