@@ -95,14 +95,14 @@ def off(mesh):
     return "\n".join(lines).encode()
 
 
-SECONDS = 5.0
+SECONDS = 10.0
 SOON = 30.0
 """Seconds; two on a machine that has nothing else to do."""
 
 
 @pytest.fixture(scope="module")
 def server():
-    """A service with one worker and one that stands by, which gives a request five seconds."""
+    """A service with one worker and one that stands by, which gives a request ten seconds."""
     command = [sys.executable, EXAMPLES / "service.py", "--port", "0", "--jobs", "1", "--seconds", str(SECONDS)]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=ENVIRONMENT

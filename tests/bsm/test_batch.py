@@ -283,7 +283,7 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
 
 @pytest.mark.slow
 def test_a_bar_for_sequences(tmp_path):
-    mesh = knot(8_000)
+    mesh = knot(30_000)
     positions, faces = mesh.positions, mesh.faces
     frames = np.array([positions * (1 + 0.1 * np.sin(t / 3)) for t in range(12)])
     np.savez(tmp_path / "a.npz", positions=frames, faces=faces)
