@@ -8,7 +8,7 @@ import { chromium } from "playwright-core";
 import { WEB } from "./kernels.mjs";
 
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
-const SHARES = [0.35, 0.42, 0.6, 0.88, 1];
+const SHARES = [0.55, 0.65, 0.76, 0.88, 1];
 const SIDE = 220;
 const CONTROLS = 320;
 const ZOOM_STEPS = 4;
@@ -20,6 +20,7 @@ try {
     const saved = join(folder, "page.html");
     execFileSync(process.env.PYTHON ?? "python3", ["-m", "bsm", "view", stream, "-q", "--save", saved], { cwd: join(WEB, "../..") });
     const page = await browser.newPage({ viewport: { width: 3 * SIDE + CONTROLS, height: 3 * SIDE } });
+    page.setDefaultTimeout(300_000); // software draws slowly where others work
     await page.goto(pathToFileURL(saved).href);
     await page.waitForSelector("body[data-state=complete]");
     await page.getByRole("combobox", { name: "Colour" }).selectOption("blocks");
