@@ -22,6 +22,7 @@ from bsm.evaluation.sample import knot
 from bsm.files.mesh import write_mesh
 from tests.bsm.test_libraries import painted
 from tests.plugins import declare_entry_points
+from tools.docs_pages import exit_codes
 from tools.noise import gaussian_along_normals
 
 ROOT = Path(__file__).parents[1]
@@ -264,3 +265,7 @@ def test_docstrings_of_public_arrays_name_shapes():
     found = {name: it for name, it in public_functions() if ARRAYS.search(str(it.__annotations__))}
     assert found
     assert not [name for name, function in found.items() if not SHAPE.search(function.__doc__ or "")]
+
+
+def test_the_table_of_exit_codes_is_that_of_the_program():
+    assert exit_codes() in (ROOT / "docs" / "troubleshooting.md").read_text()

@@ -53,10 +53,8 @@ def on_files(files: Any, config: Any) -> Any:
 
 
 def on_page_markdown(markdown: str, *, page: Any, **_: Any) -> str:
-    """Put tables in where they are named; a[i][j] of the specification is no link."""
-    if page.file.src_uri.startswith("format/"):
-        return markdown.replace("][", "]\\[")
-    return markdown.replace("EXIT_TABLE", exit_codes())
+    """a[i][j] of the specification is no link."""
+    return markdown.replace("][", "]\\[") if page.file.src_uri.startswith("format/") else markdown
 
 
 def reference() -> dict[str, str]:

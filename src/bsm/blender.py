@@ -212,15 +212,16 @@ Progress = Callable[[int, int], None]
 
 
 def import_file(
-    path: str, *, frame_start: int = 1, set_scene: bool = True, progress: Progress | None = None
+    path: str, *, frame_start: int = 1, set_scene: bool = True, up: str = "", progress: Progress | None = None
 ) -> list[Any]:
-    """Import a stream; the objects that were made, selected, the first of them active."""
+    """Import a stream; the objects that were made, selected, the first of them active; `up` ("y", "z") is the axis that
+    points up in it, where it does not say so itself."""
     header, chunks = peek_header(read_chunks(path))
     name = Path(path).stem
     if header is None or not header.gop_frames:
-        made = _placed(name, decode_whole(chunks))
+        made = _placed(name, decode_whole(chunks), up)
     else:
-        made = _sequence(name, b"".join(chunks), path, frame_start, set_scene, progress)
+        made = _sequence(name, b"".join(chunks), path, frame_start, set_scene, up, progress)
     for other in bpy.context.selected_objects:
         other.select_set(False)
     bpy.context.collection.objects.link(made)
@@ -229,10 +230,10 @@ def import_file(
     return [made]
 
 
-def _placed(name: str, mesh: TriangleMesh) -> Any:
+def _placed(name: str, mesh: TriangleMesh, up: str) -> Any:
     """An object, which is stood up if its y axis points up, and keeps what is said of it."""
     made = bpy.data.objects.new(name, data_of(mesh, name))
-    if str(mesh.metadata.get("up", "")).lower() == "y":
+    if str(mesh.metadata.get("up", up)).lower() == "y":
         made.rotation_euler = (math.pi / 2, 0.0, 0.0)
     for key, value in mesh.metadata.items():
         if not isinstance(value, bytes) and not key.startswith(("material.", "image.", "part.")):
@@ -240,12 +241,14 @@ def _placed(name: str, mesh: TriangleMesh) -> Any:
     return made
 
 
-def _sequence(name: str, data: bytes, source: str, frame_start: int, set_scene: bool, progress: Progress | None) -> Any:
+def _sequence(
+    name: str, data: bytes, source: str, frame_start: int, set_scene: bool, up: str, progress: Progress | None
+) -> Any:
     stream = SequenceStream(iter([data]))
     frames = stream.frames()
     first = next(frames)[1]
     mesh = TriangleMesh(first, stream.faces, stream.attributes, stream.metadata)
-    made = _placed(name, mesh)
+    made = _placed(name, mesh, up)
     path = _cache_path(made.name, source)
     count = _write(path, first, frames, stream.header.frames, progress)
     if len(data) <= MOST_STREAM_BYTES:

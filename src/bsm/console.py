@@ -6,9 +6,11 @@ import importlib
 import importlib.util
 import json
 import math
+import os
 import sys
 import threading
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +18,7 @@ _PATIENCE, _SECOND = 0.5, 1.0
 _RUNNING = "{desc}: {elapsed}"
 """Of a line of which nobody knows how long it will be."""
 _TYPICAL_ROUNDS = 6
+_USUAL_SHAPE = (80, 24)
 
 
 @dataclass(frozen=True)
@@ -93,7 +96,9 @@ class Progress:
                     self._shown = False
                     return None
                 bars.tqdm.monitor_interval = 0
-                more = {"delay": _PATIENCE, "leave": False, "miniters": 0, "bar_format": _RUNNING}
+                more: dict[str, Any] = {"delay": _PATIENCE, "leave": False, "miniters": 0, "bar_format": _RUNNING}
+                if not widgets:
+                    more["ncols"], more["nrows"] = _shape()
                 self._bar = bars.tqdm(desc=self._what, unit=f" {self._unit}", **more)
             return self._bar
 
@@ -103,6 +108,14 @@ class Progress:
             if self._opened() is None:
                 return
             self._bar.refresh()
+
+
+def _shape() -> tuple[int, int]:
+    """Columns and lines of the terminal; the usual ones where it does not know its size, and tqdm would draw nothing."""
+    size = (0, 0)
+    with suppress(OSError, ValueError):
+        size = os.get_terminal_size(sys.stderr.fileno())
+    return size[0] or _USUAL_SHAPE[0], size[1] or _USUAL_SHAPE[1]
 
 
 def printable(text: str) -> str:

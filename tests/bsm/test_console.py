@@ -1,4 +1,8 @@
-"""What strangers have written into files does nothing to a terminal."""
+"""What strangers have written into files does nothing to a terminal; what takes long is seen on any."""
+
+import os
+import subprocess
+import sys
 
 import pytest
 
@@ -29,3 +33,14 @@ def test_commands_escape_names_and_metadata(command, tmp_path, capsys):
     said = capsys.readouterr()
     assert not set("\x1b\x07\u202e") & set(said.out + said.err)
     assert "\nb: forged" not in said.out + said.err
+
+
+def test_a_terminal_that_does_not_know_its_size_shows_what_goes_on():
+    pty = pytest.importorskip("pty")
+    pytest.importorskip("tqdm")
+    ours, theirs = pty.openpty()
+    work = "import time; from bsm.console import Console\nwith Console().progress('encoding'): time.sleep(1.2)"
+    subprocess.run([sys.executable, "-c", work], stderr=theirs, check=True)
+    os.close(theirs)
+    assert b"encoding: 00:0" in os.read(ours, 1 << 12)
+    os.close(ours)

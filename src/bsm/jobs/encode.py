@@ -106,7 +106,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         encoder.vertex_order,
         f"{vertices} vertices, {faces} faces, {came_to(taken, size)}, "
         f"{bpv:.2f} bits per vertex; farthest vertex {100 * error.max_error_relative:.3g} % of the "
-        f"diagonal, normals {error.angle_deg:.2f} degrees by area and {error.theta_deg:.2f} by face, "
+        f"diagonal, normals {error.angle_deg:.2f} degrees, "
         f"{error.nmsve_db:.2f} dB; {seconds:.2f} s",
     )
     counts = {"input": job.input, "output": job.output, "vertices": vertices, "faces": faces}

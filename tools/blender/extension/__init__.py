@@ -38,6 +38,11 @@ class BSM_OT_import(bpy.types.Operator, ImportHelper):
     directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
     files: CollectionProperty(type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"})
     frame_start: IntProperty(name="First Frame", default=1, description="Frame of the scene that shows the first one")
+    up: EnumProperty(
+        name="Up",
+        items=[("z", "Z", ""), ("y", "Y", "")],
+        description="The axis that points up, where the stream does not say",
+    )
     set_scene: BoolProperty(
         name="Set Scene",
         default=True,
@@ -49,10 +54,11 @@ class BSM_OT_import(bpy.types.Operator, ImportHelper):
         from bsm.blender import import_file
 
         names = [os.path.join(self.directory, one.name) for one in self.files if one.name] or [self.filepath]
+        given = {"frame_start": self.frame_start, "set_scene": self.set_scene, "up": self.up}
         with progress_of(context) as progress:
             for name in names:
                 try:
-                    import_file(name, frame_start=self.frame_start, set_scene=self.set_scene, progress=progress)
+                    import_file(name, **given, progress=progress)
                 except (BsmError, OSError) as error:
                     self.report({"ERROR"}, f"{os.path.basename(name)}: {error}")
                     return {"CANCELLED"}
