@@ -111,7 +111,7 @@ class Progress:
 
 
 def _shape() -> tuple[int, int]:
-    """Columns and lines of the terminal; the usual ones where it does not know its size, and tqdm would draw nothing."""
+    """Columns and lines of the terminal; the usual ones where it knows none, and tqdm would draw nothing."""
     size = (0, 0)
     with suppress(OSError, ValueError):
         size = os.get_terminal_size(sys.stderr.fileno())
