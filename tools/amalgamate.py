@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import sys
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -72,7 +73,13 @@ def _names(text: str) -> set[str]:
     variables = [
         name for name, rest in _VARIABLES.findall(bare) for name in [name, *re.findall(r", (\w+)(?:\[[^=]*)? =", rest)]
     ]
-    return {*_FUNCTION.findall(bare), *_TYPE.findall(bare), *constants, *variables}
+    return {*_FUNCTION.findall(bare), *_TYPE.findall(bare), *_MACRO.findall(bare), *constants, *variables}
+
+
+def _renamed(text: str, names: Iterable[str], suffix: str) -> str:
+    """A source whose own names have a suffix; members of structures keep theirs."""
+    words = "|".join(sorted(names))
+    return re.sub(rf"(?<![\w.])(?<!->)({words})\b", rf"\1_{suffix}", text) if words else text
 
 
 def _private(text: str) -> str:
@@ -109,15 +116,9 @@ def amalgamated() -> str:
     pieces = ['#include "bsmdec.h"\n', '#pragma GCC diagnostic ignored "-Wunused-function"\n']
     pieces += [_private(text) for text in headers.values()]
     for path in files:
-        text = texts[path]
-        macros = _MACRO.findall(text)
         suffix = re.sub(r"\W", "_", path[:-2])
-        clashing = sorted(name for name in own[path] if count[name] > 1 or name in shared)
-        pieces.append(f"\n/* {path} */\n")
-        pieces += [f'#pragma push_macro("{name}")\n#undef {name}\n' for name in [*clashing, *macros]]
-        pieces += [f"#define {name} {name}_{suffix}\n" for name in clashing]
-        pieces.append(_private(text))
-        pieces += [f'#pragma pop_macro("{name}")\n' for name in [*clashing, *macros]]
+        clashing = [name for name in own[path] if count[name] > 1 or name in shared]
+        pieces += [f"\n/* {path} */\n", _private(_renamed(texts[path], clashing, suffix))]
     return "".join([*pieces, _private(priors())])
 
 
