@@ -1,6 +1,6 @@
 """Mutants of the vectors by the decoder in C, with sanitizers if asked, and by Python's: the same arrays, the same class of error.
 
-    python -m tests.engine.mutants COUNT SEED [--tolerant] [--exact] [--flags="-O1 -fsanitize=address,undefined"]
+python -m tests.engine.mutants COUNT SEED [--tolerant] [--exact] [--flags="-O1 -fsanitize=address,undefined"]
 """
 
 from __future__ import annotations
@@ -20,7 +20,14 @@ from tests.engine.decoding import Decoded, build, decode
 from tools.attack.decoding import is_sequence, whole
 from tools.attack.inputs import mutant, vector_seeds
 
-STATUS = {"FormatError": 3, "CorruptError": 4, "UnsupportedError": 5, "LimitError": 6, "NumericError": 7, "TruncatedError": 12}
+STATUS = {
+    "FormatError": 3,
+    "CorruptError": 4,
+    "UnsupportedError": 5,
+    "LimitError": 6,
+    "NumericError": 7,
+    "TruncatedError": 12,
+}
 SEQUENCES = False
 """Whether the library decodes them."""
 
@@ -51,7 +58,9 @@ def _alike(one: np.ndarray, other: np.ndarray, *, exact: bool) -> bool:
     return bool(np.allclose(one, other, rtol=1e-5, atol=1e-5 * size))
 
 
-def compare(library: ctypes.CDLL, count: int, seed: str, *, exact: bool = False, tolerant: bool = False) -> tuple[Counter[str], list[str]]:
+def compare(
+    library: ctypes.CDLL, count: int, seed: str, *, exact: bool = False, tolerant: bool = False
+) -> tuple[Counter[str], list[str]]:
     """How so many mutants of a seed went, and what went wrong."""
     random, seeds = Random(seed), vector_seeds()
     if not SEQUENCES:
