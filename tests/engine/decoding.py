@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import subprocess
-from ctypes import POINTER, Structure, byref, c_char, c_char_p, c_int, c_int64, c_size_t, c_void_p
+from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_int, c_int64, c_size_t, c_void_p
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -34,6 +34,33 @@ class Failure(Structure):
         ("block", c_int64),
         ("message", c_char * 160),
     ]
+
+
+NO_MEMORY = 8
+_TAKE = CFUNCTYPE(c_void_p, c_void_p, c_size_t)
+_GIVE = CFUNCTYPE(None, c_void_p, c_void_p, c_size_t)
+
+
+class Allocator(Structure):
+    """Gives memory so many times, and takes note of what is held."""
+
+    _fields_ = [("allocate", _TAKE), ("release", _GIVE), ("host", c_void_p)]
+
+    def __init__(self, most: int) -> None:
+        self.held: dict[int, Any] = {}
+        self.left = most
+        super().__init__(_TAKE(self._take), _GIVE(self._give), None)
+
+    def _take(self, host: int, size: int) -> int | None:
+        self.left -= 1
+        if self.left < 0:
+            return None
+        memory = ctypes.create_string_buffer(size)
+        self.held[ctypes.addressof(memory)] = memory
+        return ctypes.addressof(memory)
+
+    def _give(self, host: int, memory: int, size: int) -> None:
+        assert len(self.held.pop(memory)) == size
 
 
 class Shape(Structure):
@@ -82,9 +109,19 @@ def build(folder: Path, *flags: str) -> ctypes.CDLL:
     return library
 
 
-def decode(library: ctypes.CDLL, stream: bytes, *, tolerant: bool = False, pieces: int = 0) -> Decoded:
+def decode(
+    library: ctypes.CDLL,
+    stream: bytes,
+    *,
+    tolerant: bool = False,
+    pieces: int = 0,
+    allocator: Allocator | None = None,
+) -> Decoded:
     """Decode a stream, given at once or so many bytes at a time."""
-    decoder = library.bsmdec_open(byref(Options(None, None, tolerant)))
+    host = ctypes.addressof(allocator) if allocator else None
+    decoder = library.bsmdec_open(byref(Options(None, host, tolerant)))
+    if not decoder:
+        return Decoded(NO_MEMORY)
     try:
         found, event = Decoded(), Event()
         for start in range(0, len(stream), pieces or max(len(stream), 1)):
@@ -119,7 +156,7 @@ def _attributes(library: ctypes.CDLL, decoder: Any) -> dict[str, npt.NDArray[Any
         if library.bsmdec_attribute_at(decoder, index, byref(shape)) != 0:
             continue
         values = np.zeros((shape.rows, shape.components), KINDS[shape.kind])
-        assert library.bsmdec_attribute_values(decoder, index, values.ctypes.data, values.nbytes) == 0
+        assert library.bsmdec_attribute_values(decoder, index, values.ctypes.data, values.nbytes) in (0, NO_MEMORY)
         label = f"{SEMANTICS[shape.semantic]} {DOMAINS[shape.domain]} {shape.name.decode()}"
         arrays[f"attribute {number} {label}"] = values
         if shape.indices:

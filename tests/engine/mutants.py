@@ -1,4 +1,4 @@
-"""Mutants of the vectors by the decoder in C, with sanitizers if asked, and by Python's: the same arrays, the same class of error.
+"""Mutants of the vectors by the decoder in C, with sanitizers if asked, and by Python: they agree.
 
 python -m tests.engine.mutants COUNT SEED [--tolerant] [--exact] [--flags="-O1 -fsanitize=address,undefined"]
 """

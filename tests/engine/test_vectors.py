@@ -7,15 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.engine.decoding import build, decode
+from tests.engine.decoding import decode
 from tools.vectors.store import Vector, read_manifest
 
 STATUS = {"format": 3, "corrupt": 4, "unsupported": 5, "limit": 6, "numeric": 7, "truncated": 12}
-
-
-@pytest.fixture(scope="module")
-def library(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
-    return build(tmp_path_factory.mktemp("bsmdec"), "-w")
 
 
 @pytest.mark.parametrize("vector", read_manifest(), ids=lambda vector: vector.name)
