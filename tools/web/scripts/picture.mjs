@@ -20,9 +20,9 @@ try {
     const saved = join(folder, "page.html");
     execFileSync(process.env.PYTHON ?? "python3", ["-m", "bsm", "view", stream, "-q", "--save", saved], { cwd: join(WEB, "../..") });
     const page = await browser.newPage({ viewport: { width: 3 * SIDE + CONTROLS, height: 3 * SIDE } });
-    page.setDefaultTimeout(300_000); // software draws slowly where others work
     await page.goto(pathToFileURL(saved).href);
     await page.waitForSelector("body[data-state=complete]");
+    await page.locator("details.bsm-panel").evaluate((panel) => (panel.open = true));
     await page.getByRole("combobox", { name: "Colour" }).selectOption("blocks");
     await page.locator("canvas").focus();
     for (let k = 0; k < ZOOM_STEPS; k++) await page.keyboard.press("+");
