@@ -59,17 +59,6 @@ def test_encode_and_decode_name_their_outputs(folder, tmp_path, capsys):
     assert "theta_deg" in capsys.readouterr().out
 
 
-def test_json_of_encode_decode_and_verify(folder, tmp_path, capsys, mesh):
-    result = run_json(capsys, "encode", folder / "sample.ply", "-o", tmp_path / "a.bsm", "--set", "keep=0.2", *SMALL)
-    assert (result["vertices"], result["faces"]) == (len(mesh.positions), len(mesh.faces))
-    assert result["bytes"] == (tmp_path / "a.bsm").stat().st_size
-    assert result["bpv_total"] == pytest.approx(8 * result["bytes"] / result["vertices"])
-    result = run_json(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
-    assert (result["vertices"], result["faces"]) == (len(mesh.positions), len(mesh.faces))
-    assert run_json(capsys, "verify", tmp_path / "a.bsm")["ok"] is True
-    assert run_json(capsys, "verify", tmp_path / "a.bsm", "--quick")["decoded"] is False
-
-
 def test_info_adds_up(folder, capsys, mesh):
     info = run_json(capsys, "info", folder / "sample.bsm")
     assert (info["vertices"], info["faces"]) == (len(mesh.positions), len(mesh.faces))
@@ -298,15 +287,6 @@ def test_force_is_shown_where_files_are_written(capsys, command, shown):
         main([command, "--help"])
     text = capsys.readouterr().out
     assert ("--force" in text) is shown and "do harm" not in text
-
-
-def test_ctrl_c(folder, monkeypatch, capsys):
-    def interrupted(args, console):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("bsm.commands.verify.run", interrupted)
-    assert main(["verify", str(folder / "sample.bsm")]) == 130
-    assert capsys.readouterr() == ("", "bsm: interrupted\n")
 
 
 # ---------------------------------------------------------------------------------------------------------------- help

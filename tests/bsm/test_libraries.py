@@ -4,7 +4,6 @@ import importlib
 import os
 import subprocess
 import sys
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -133,12 +132,6 @@ def test_a_mesh_of_parts_is_a_scene_of_trimesh(trimesh):
     assert len(alone.geometry) == 1
 
 
-def test_parts_of_one_name_stay_apart(trimesh):
-    mesh = as_mesh(trimesh.Scene({"a": trimesh.creation.box(), "b": trimesh.creation.box()}))
-    mesh = replace(mesh, metadata={**mesh.metadata, "part.0.name": "same", "part.1.name": "same"})
-    assert len(bsm.trimesh.to_scene(mesh).geometry) == 2
-
-
 def test_parts_without_a_material_get_none(trimesh, tmp_path):
     first, second = bsm.trimesh.to_trimesh(painted()), trimesh.creation.box()
     trimesh.Scene({"box": second, "ring": first, "other": second}).export(tmp_path / "a.glb")
@@ -164,13 +157,6 @@ def test_texture_coordinates_alone_invent_no_material(trimesh, tmp_path):
     found = bsm.load(tmp_path / "a.glb")
     assert attribute(found, "texcoord").components == 2
     assert not [name for name in found.metadata if name.startswith(("material.", "image."))]
-
-
-def test_damaged_streams_in_trimesh(trimesh, tmp_path):
-    data = bsm.encode(painted(), **EXACT)
-    (tmp_path / "a.bsm").write_bytes(data[:-30])
-    with pytest.raises(bsm.BsmError):
-        trimesh.load(tmp_path / "a.bsm")
 
 
 def test_hostile_images_and_materials(trimesh):

@@ -1,6 +1,5 @@
 """`bsm.look` and `bsm compare --look`: the same answer, pictures on request, and sentences where there is none."""
 
-import io
 import json
 import sys
 
@@ -9,7 +8,6 @@ import pytest
 
 import bsm
 from bsm.cli import main
-from bsm.pictures import png
 from tests.shapes import tetrahedron, torus
 
 
@@ -77,10 +75,3 @@ def test_what_has_no_area_is_a_sentence(files, capsys):
     bsm.save(([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)]), files / "line.off")
     assert main(["compare", str(files / "line.off"), str(files / "a.ply"), "--look"]) == 3
     assert "cannot be looked at" in capsys.readouterr().err
-
-
-def test_a_picture_is_what_others_read():
-    image = pytest.importorskip("PIL.Image")
-    shades = np.linspace(-0.2, 1.2, 12, dtype=np.float32).reshape(3, 4)
-    read = np.asarray(image.open(io.BytesIO(png(shades))))
-    assert np.array_equal(read, np.rint(255 * shades.clip(0, 1)))

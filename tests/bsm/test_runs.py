@@ -50,15 +50,6 @@ def test_frames_of_other_faces_are_an_error_that_says_how_to_permit_them(tmp_pat
     assert "--set runs=yes" in said and not (tmp_path / "a.bsm").exists()
 
 
-def test_they_are_permitted_by_a_setting(tmp_path, capsys):
-    paths = written(tmp_path / "capture", capture())
-    assert run("encode", *paths, "-o", tmp_path / "a.bsm", *RUNS) == 0
-    said = capsys.readouterr().err
-    assert "connectivity changes at frames 4, 7" in said and "9 frames" in said
-    assert run("encode", tmp_path / "capture", "-o", tmp_path / "b.bsm", *RUNS, "-q") == 0
-    assert (tmp_path / "a.bsm").read_bytes() == (tmp_path / "b.bsm").read_bytes()
-
-
 def test_a_setting_of_sequences_is_none_of_meshes(tmp_path, capsys):
     (path,) = written(tmp_path / "one", capture()[:1])
     assert run("encode", path, "-o", tmp_path / "a.bsm", "--set", "runs=yes") != 0
@@ -160,11 +151,3 @@ def test_functions():
     same = bsm.encode_frames([(mesh.positions, mesh.faces) for mesh in meshes[:4]], step=0.002)
     positions, faces = bsm.decode_sequence(same)
     assert positions.shape == (4, 60, 3) and len(faces) == 120
-
-
-def test_vtk_shows_the_faces_of_each_frame(stream):
-    pytest.importorskip("vtkmodules")
-    from bsm.vtk import Playback
-
-    playback = Playback(str(stream))
-    assert [len(playback.mesh(number).faces) for number in (0, 5, 8, 4, 0)] == [120, 84, 120, 84, 120]

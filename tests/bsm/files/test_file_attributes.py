@@ -336,24 +336,6 @@ def test_what_trimesh_tells(kind):
     assert source.mesh.metadata.get("up") == {"dae": "y", "glb": "y"}.get(kind)
 
 
-@pytest.mark.real
-@pytest.mark.parametrize(
-    ("reader", "name"),
-    [
-        *((reader, name) for reader in ("trimesh", "openmesh") for name in ("spot_uv.obj", "cortex_sulc.ply")),
-        ("trimesh", "fuze_colours.ply"),
-        ("openmesh", "robot_hand.obj"),
-    ],
-)
-def test_other_readers_go_as_far_as_they_can(meshes, reader, name):
-    pytest.importorskip(reader)
-    ours, theirs = (read_mesh(meshes / "assets" / name, reader=who) for who in (None, reader))
-    held = {attribute.name for attribute in ours.mesh.attributes}
-    assert {attribute.name for attribute in theirs.mesh.attributes} <= held
-    if reader == "openmesh":
-        assert held == {attribute.name for attribute in theirs.mesh.attributes} | set(theirs.dropped)
-
-
 # ---------------------------------------------------------------------------------------------------- there and back
 
 

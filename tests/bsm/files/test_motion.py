@@ -73,25 +73,6 @@ def test_an_animation_is_sampled_at_the_rate_that_is_asked_for():
     assert len(slow) == 13 and np.allclose(slow, fast[::2], atol=1e-6)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["skinned", "morphing"])
-def test_a_moving_glb_through_the_program(tmp_path, capsys, name):
-    stream = tmp_path / "a.bsm"
-    assert bsm("encode", MOVING / f"{name}.glb", "--animation", 0, "-o", stream, "--preset", "fine") == 0
-    said = capsys.readouterr().err
-    assert "25 frames" in said and "normals" in said
-    assert bsm("decode", stream, "-o", tmp_path / "back.glb") == 0
-    (_, original), (again, back) = frames_of(MOVING / f"{name}.glb"), frames_of(tmp_path / "back.glb")
-    assert again.frame_rate == 24 and [one.name for one in again.attributes] == ["texcoord"]
-    _, same = cKDTree(original[0]).query(back[0])
-    diagonal = np.linalg.norm(np.ptp(original[0], axis=0))
-    assert len(set(same)) == len(same)
-    assert np.abs(back - original[:, same]).max() < 0.01 * diagonal
-    # Without being asked for, a GLB is the mesh that it always was.
-    assert bsm("encode", MOVING / f"{name}.glb", "-o", tmp_path / "still.bsm") == 0
-    assert "animations" in capsys.readouterr().err
-
-
 def painted(frames=COUNT):
     """A bending torus with texture coordinates at corners and colours."""
     positions, faces = bending(frames)
@@ -498,9 +479,3 @@ def test_curves_go_as_gltf_says():
     assert np.allclose(eighth, [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     with pytest.raises(FormatError):
         Curve(times[::-1], np.zeros((2, 1)), "LINEAR")
-
-
-def test_alembic_is_told_another_way(tmp_path):
-    (tmp_path / "a.abc").write_bytes(b"Ogawa")
-    with pytest.raises(UnsupportedError, match="Blender"):
-        open_sequence(str(tmp_path / "a.abc"))

@@ -76,26 +76,11 @@ def test_openmesh_reads_what_we_read(openmesh, kind, tmp_path):
     assert np.array_equal(ours.positions.astype(np.float32), theirs.positions)
 
 
-@pytest.mark.real
-@pytest.mark.parametrize("name", ["bunny_34834", "c3d_spot", "fandisk_6475", "cgal_elephant_with_holes"])
-def test_openmesh_reads_real_meshes_as_we_do(openmesh, meshes, name):
-    path = meshes / "static" / f"{name}.ply"
-    ours, theirs = read_mesh(path).mesh, read_mesh(path, reader="openmesh").mesh
-    assert np.array_equal(ours.faces, theirs.faces)
-    assert np.array_equal(ours.positions, theirs.positions)
-
-
 def test_what_openmesh_changes_is_said(openmesh):
     fin = TriangleMesh(np.eye(5)[:, :3], [[0, 1, 2], [0, 1, 3], [0, 1, 4]])
     source = read_mesh(format_mesh(fin, "ply"), reader="openmesh")
     assert len(source.mesh.positions) > 5
     assert "vertices of the 5 of the file" in source.notes[0]
-
-
-def test_openmesh_is_given_nothing_that_we_refuse(openmesh, capfd):
-    with pytest.raises(MeshError, match="not finite"):
-        read_mesh(b"v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", reader="openmesh")
-    assert capfd.readouterr() == ("", "")
 
 
 def test_openmesh_reads_only_its_formats(openmesh):
@@ -163,17 +148,6 @@ def test_formats_that_trimesh_writes(trimesh, kind, tmp_path):
 def torus_arrays():
     mesh = torus(10, 8)
     return mesh.positions, mesh.faces
-
-
-def test_glb_from_a_pipe(trimesh):
-    data = trimesh.Trimesh(*torus_arrays(), process=False).export(file_type="glb")
-    assert len(read_mesh(data).mesh.positions) == 80
-
-
-def test_trimesh_can_be_asked_for_our_formats(trimesh, tmp_path):
-    write_mesh(tmp_path / "a.ply", torus())
-    ours, theirs = (read_mesh(tmp_path / "a.ply", reader=reader).mesh for reader in ("bsm", "trimesh"))
-    assert np.array_equal(ours.faces, theirs.faces)
 
 
 @pytest.mark.parametrize("data", [b"glTF", b"glTF\2\0\0\0\xff\xff\xff\xff\0\0\0\0JSON{}", b"glTF" + bytes(100)])

@@ -100,13 +100,6 @@ def test_values_are_as_near_as_is_asked() -> None:
     assert len(data) > len(encoded(FRAMES)[0])
 
 
-def test_frames_are_as_without_attributes() -> None:
-    bare = [replace(frame, attributes=()) for frame in FRAMES]
-    with_them, without = decoded(encoded(FRAMES)[0]), decoded(encoded(bare)[0])
-    for one, other in zip(with_them, without, strict=True):
-        np.testing.assert_array_equal(one.positions, other.positions)
-
-
 def test_what_stays_costs_next_to_nothing() -> None:
     still = [replace(frame, attributes=FRAMES[0].attributes) for frame in FRAMES]
     bare = [replace(frame, attributes=()) for frame in FRAMES]
@@ -212,14 +205,6 @@ def test_vertices_at_one_place_of_different_colours_stay_two() -> None:
     assert errors(frames, encoder, decoded(data))["shade"] == 0.0
 
 
-def test_extremes_of_a_kind() -> None:
-    high = np.iinfo(np.uint32).max
-    values = [np.where(np.arange(len(MESH.positions)) % 2 == t % 2, high, 0).astype(np.uint32) for t in range(3)]
-    frames = [replace(MESH, attributes=(Attribute("ends", value),)) for value in values]
-    data, encoder = encoded(frames)
-    assert errors(frames, encoder, decoded(data))["ends rms"] <= 0.0025 * high
-
-
 def test_what_cannot_be_promised_is_refused() -> None:
     with pytest.raises(OptionError, match="cannot be kept exact: ask for a bound"):
         encoded(FRAMES, attributes={"heat": "exact"})
@@ -231,10 +216,3 @@ def test_what_cannot_be_promised_is_refused() -> None:
         encoded(vast)
     with pytest.raises(MeshError, match="not finite"):
         Attribute("heat", np.array([np.nan, 1.0]))
-
-
-def test_targets_take_attributes_along() -> None:
-    from bsm.codec.sequence.targets import SequenceTarget
-
-    data, encoder = encoded(FRAMES, target=SequenceTarget("kg", 1.0))
-    assert errors(FRAMES, encoder, decoded(data))["color rms"] <= 0.01 * extent("color")

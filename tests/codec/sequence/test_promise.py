@@ -15,7 +15,7 @@ from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
 from bsm.codec.sequence.step_search import Measured, Shading, StepSearch
-from bsm.codec.sequence.targets import SequenceTarget, flicker_of
+from bsm.codec.sequence.targets import flicker_of
 from tests.motion import bending
 
 
@@ -142,11 +142,6 @@ def test_what_cannot_be_kept_is_an_error() -> None:
     for bounds in ((0.0, 1.0), (0.01, 0.0), (float("inf"), 1.0)):
         with pytest.raises(OptionError, match="bounds"):
             Promise(*bounds)
-
-
-def test_a_promise_is_without_a_target() -> None:
-    with pytest.raises(OptionError, match="promise"):
-        SequenceOptions(promise=PROMISES["fine"], target=SequenceTarget("kg", 1.0))
 
 
 def test_errors_of_normals_are_angles() -> None:

@@ -9,17 +9,17 @@ from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Gop
 from bsm.bitstream.container.reader import NEED_DATA, Reader, Signal
 from bsm.bitstream.container.wire import FrameType, write_preamble
-from bsm.bitstream.errors import BsmError, CorruptError, MeshError, OptionError
+from bsm.bitstream.errors import CorruptError, MeshError, OptionError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
+from bsm.codec.sequence.decoder import SequenceDecoder
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.runs import KEPT_MESHES
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, HeaderEvent, LossEvent
-from tools.surgery import frames_of, stream_of
+from tools.surgery import frames_of
 from tools.vectors.meshes import torus
 
 WAYS = [{"gop": 4}, {"low_delay": 1, "gop": 3}]
@@ -119,20 +119,6 @@ def test_a_promise_holds_in_every_run():
         assert error <= 0.004 * np.linalg.norm(np.ptp(first.positions, axis=0))
 
 
-def test_bytes_one_by_one_give_the_same():
-    data = b"".join(encoded(meshes(*PIECES), gop=4)[1])
-    whole = frames_in(events_of(data))
-    with SequenceDecoder(threads=1) as decoder:
-        found = {}
-        for at in range(len(data)):
-            decoder.receive_data(data[at : at + 1])
-            while not isinstance(event := decoder.next_event(), Signal):
-                if isinstance(event, FrameEvent):
-                    found[event.index] = event
-    assert found.keys() == whole.keys()
-    assert all(np.array_equal(found[k].positions, whole[k].positions) for k in whole)
-
-
 def test_decoding_begins_at_any_frame():
     data = b"".join(encoded(meshes(*PIECES), gop=4)[1])
     whole = frames_in(events_of(data))
@@ -158,12 +144,6 @@ def test_a_target_is_for_frames_that_share_their_faces():
         encoded(meshes((10, 3), (7, 2)), target=SequenceTarget("kg", 0.5))
     same = meshes((10, 3))
     assert frames_in(events_of(b"".join(encoded(same, target=SequenceTarget("kg", 5.0))[1])))
-
-
-def test_they_are_no_array():
-    data = b"".join(encoded(meshes((10, 3), (7, 2)))[1])
-    with pytest.raises(MeshError, match="the faces change at frame 3"):
-        decode_sequence(data)
 
 
 def test_an_array_with_another_shape_is_refused():
@@ -319,14 +299,6 @@ def test_the_encoder_counts_what_decoders_keep(way, monkeypatch):
     for (own_memory, *own_rest), (memory, *rest) in zip(counted[:-1], seen[1:], strict=True):
         assert own_rest == rest
         assert memory - 8 * rest[0] <= own_memory <= memory
-
-
-def test_a_stream_of_two_meshes_of_one_run_is_refused():
-    data = b"".join(encoded(meshes((10, 2), (7, 2)))[1])
-    frames = frames_of(data)
-    place = [i for i, (kind, _) in enumerate(frames) if kind == FrameType.HEADER][1]
-    with pytest.raises(BsmError):
-        events_of(stream_of(frames[:place] + frames[place + 1 :]))
 
 
 # --------------------------------------------------------------------------------------------------- any kind of frame

@@ -140,13 +140,6 @@ def test_events_do_not_depend_on_how_bytes_are_cut(way, pieces):
         assert np.array_equal(a.positions, b.positions)
 
 
-def test_whole_and_streamed_decoding_agree():
-    positions, faces = bending(21)
-    data, _ = encoded(positions, faces)
-    streamed = frames_in(events_of(data, [data[i : i + 100] for i in range(0, len(data), 100)]))
-    assert np.array_equal(np.array([streamed[i] for i in range(21)]), decode_sequence(data)[0])
-
-
 @pytest.mark.parametrize("way", WAYS)
 def test_chunks_come_as_frames_do(way):
     positions, faces = bending(10)
@@ -198,15 +191,6 @@ def test_memory_does_not_grow_with_the_number_of_frames(way):
         work(8)
         short, long = peak_of(lambda: work(40)), peak_of(lambda: work(120))  # noqa: B023  (called at once)
         assert long < short + 27 * positions[0].nbytes, "a third of what the frames would take"
-
-
-def test_encoding_in_a_stream_differs_only_in_what_the_header_says():
-    positions, faces = bending(10)
-    unknown = b"".join(SequenceEncoder(faces, options()).chunks(iter(positions)))
-    known = encode_sequence(positions, faces, options())
-    assert next(e.header for e in events_of(unknown) if isinstance(e, HeaderEvent)).frames == 0
-    assert next(e.header for e in events_of(known) if isinstance(e, HeaderEvent)).frames == 10
-    assert np.array_equal(decode_sequence(unknown)[0], decode_sequence(known)[0])
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -262,13 +246,6 @@ def test_odd_meshes(mesh, way):
     assert np.abs(decode_sequence(data)[0] - original).max() < 0.02 * diagonal(original[0])
 
 
-def test_all_vertices_in_one_point():
-    mesh = torus(12, 8)
-    positions = np.full((3, len(mesh.positions), 3), 2.5)
-    data, original = encoded(positions, mesh.faces)
-    assert np.abs(decode_sequence(data)[0] - original).max() < 1e-2
-
-
 @pytest.mark.parametrize("way", WAYS)
 def test_motion_far_beyond_the_first_frame(way):
     positions, faces = bending(8)
@@ -277,13 +254,6 @@ def test_motion_far_beyond_the_first_frame(way):
     assert np.abs(decode_sequence(data)[0] - original).max() < 0.05
     with pytest.raises(OptionError, match="too fine"):
         encode_sequence(positions * [1e4, 1, 1] + 1e6, faces, options(step=2e-6, first_step=0.001, **way))
-
-
-@pytest.mark.parametrize("way", WAYS)
-def test_very_fine_steps(way):
-    positions, faces = bending(8)
-    data, original = encoded(positions, faces, step=1e-5, **way)
-    assert np.abs(decode_sequence(data)[0] - original).max() < 1e-4
 
 
 def test_vertices_without_faces_are_left_out():
