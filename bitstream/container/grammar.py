@@ -42,6 +42,10 @@ A HEADER behind a GOP begins the next run of a sequence; if it has the mesh of a
 """
 
 
+RESUMING = _BODY | {FrameType.HEADER}
+"""What reading may go on with behind damage (F 8.2), if it depends on nothing that is lost."""
+
+
 def _reachable(start: FrameType | None) -> frozenset[FrameType]:
     """Everything that may come at any distance behind a frame of type `start`."""
     found: set[FrameType] = set()
@@ -75,6 +79,7 @@ class Grammar:
         self._joining = joining
         self._last: FrameType | None = None
         self._allowed = FOLLOWERS[None]
+        self._resuming = False
         self._named: set[str] = set()  # names of metadata
         self._next_frame = 0
         self._begin_mesh()
@@ -96,7 +101,8 @@ class Grammar:
     @property
     def expected(self) -> frozenset[FrameType]:
         """The types of frame that may come next."""
-        return self._allowed if self.header is None or self.ended else self._allowed | {FrameType.METADATA}
+        closed = self.header is None or self.ended or self._resuming
+        return self._allowed if closed else self._allowed | {FrameType.METADATA}
 
     def announces(self, frame_type: int) -> bool:
         """Whether the header says that frames of this type may come; of those it need not announce, always."""
@@ -107,7 +113,7 @@ class Grammar:
     def problem(self, packet: Packet) -> str | None:
         """Why `packet` may not come here, or None if it may."""
         frame_type = FRAME_TYPES[type(packet)]
-        if frame_type not in self._allowed and frame_type not in self.expected:
+        if frame_type not in self.expected:
             expected = ", ".join(item.name for item in sorted(self.expected)) or "nothing"
             return f"{frame_type.name} may not come here, only {expected}"
         return self._disagreement(packet)
@@ -131,14 +137,14 @@ class Grammar:
         if isinstance(packet, Metadata):
             self._named |= packet.entries.keys()
         else:
-            self._last = frame_type
+            self._last, self._resuming = frame_type, False
             begun = isinstance(packet, Header) and packet.again is not None
             self._allowed = frozenset({FrameType.GOP}) if begun else FOLLOWERS[frame_type]
 
     def lose(self) -> None:
-        """Take note that an unknown number of frames is missing here: everything that can come later may come now."""
-        self._allowed = _reachable(self._last)
-        self._lossy = True
+        """Take note that an unknown number of frames is missing here: what does not depend on them may come now."""
+        self._allowed = _reachable(self._last) & RESUMING
+        self._lossy = self._resuming = True
 
     def _disagreement(self, packet: Packet) -> str | None:
         if self.header is None:
@@ -163,11 +169,13 @@ class Grammar:
                 return self._chunk_disagreement(self.header, packet, self._next_vertex)
             case Partition() if self.header.grid:
                 return "a PARTITION where there are no blocks"
-            case End() if not self._lossy and (missing := self._missing_values()):
-                return missing
-            case End() if self.header.grid and self._next_vertex < self.header.vertices and not self._lossy:
-                return f"the positions end at vertex {self._next_vertex} of {self.header.vertices}"
+            case End() if not self._lossy:
+                return self._missing_values() or self._missing_positions(self.header)
         return None
+
+    def _missing_positions(self, header: Header) -> str | None:
+        short = header.grid and self._next_vertex < header.vertices
+        return f"the positions end at vertex {self._next_vertex} of {header.vertices}" if short else None
 
     def _run_problem(self, before: Header, header: Header) -> str | None:
         """What keeps a run from following another."""
@@ -185,8 +193,8 @@ class Grammar:
 
     def _attribute_problem(self, header: Header, attribute: Attribute) -> str | None:
         index, declaration = attribute.index, attribute.declaration
-        following = max(self._declared, default=-1) + 1
-        if index < following or (index > following and not self._lossy) or index >= header.attributes:
+        following = len(self._declared)
+        if index != following or index >= header.attributes:
             return f"attribute {index} of {header.attributes}, where attribute {following} must follow"
         if declaration.name in {other.name for other in self._declared.values()}:
             return f"a second attribute is called {declaration.name!r}"
@@ -194,9 +202,9 @@ class Grammar:
             return "seams of an attribute that has none of its own"
         if declaration.seams_of:
             shared = self._declared.get(declaration.seams_of - 1)
-            if shared is None and not (self._lossy and declaration.seams_of <= index):
+            if shared is None:
                 return f"the seams of attribute {declaration.seams_of - 1}, which does not come before"
-            if shared is not None and (shared.domain != CORNER or shared.seams_of):
+            if shared.domain != CORNER or shared.seams_of:
                 return f"the seams of attribute {declaration.seams_of - 1}, which has none of its own"
         if declaration.leans and not header.grid:
             return "an attribute that leans on positions which are on no grid"
@@ -213,13 +221,11 @@ class Grammar:
         if values.attribute < self._valued:
             return f"values of attribute {values.attribute} come behind those of {self._valued}; they must ascend"
         following = self._next_value if values.attribute == self._valued else 0
-        if values.first < following or (values.first > following and not self._lossy):
+        if values.first != following:
             return f"values from {values.first} on where those from {following} on must follow"
         if not 0 < values.count <= declared.rows - values.first:
             return f"{values.count} values from {values.first} on, of {declared.rows}"
-        if values.attribute > self._valued and not self._lossy:
-            return self._missing_values(before=values.attribute)
-        return None
+        return self._missing_values(before=values.attribute) if values.attribute > self._valued else None
 
     def _missing_values(self, before: int | None = None) -> str | None:
         """What lacks of the values of the attributes, or of those before one."""
@@ -236,6 +242,8 @@ class Grammar:
             return _not_ascending(block.index, self._next_block)
         if block.index >= header.blocks:
             return f"block {block.index} of {header.blocks}"
+        if self._resuming and block.index % (header.key_interval or header.blocks):
+            return f"block {block.index} depends on one that is lost"
         if block.coefficients > header.coefficients:
             return f"{block.coefficients} coefficients where the header allows {header.coefficients}"
         return None
@@ -243,7 +251,7 @@ class Grammar:
     def _chunk_disagreement(self, header: Header, chunk: Grid | Refinement, following: int) -> str | None:
         if not self.announces(FRAME_TYPES[type(chunk)]):
             return f"{FRAME_TYPES[type(chunk)].name} in a stream whose header does not announce it"
-        if chunk.first < following or (chunk.first > following and not self._lossy):
+        if chunk.first != following:
             return f"vertices from {chunk.first} on where those from {following} on must follow"
         if not 0 < chunk.count <= header.vertices - chunk.first:
             return f"{chunk.count} vertices from {chunk.first} on, of {header.vertices}"

@@ -17,7 +17,6 @@ from bsm.bitstream.container.wire import (
     SKIPPABLE_TYPES,
     Frame,
     FrameType,
-    Tag,
     parse_frame,
     parse_preamble,
     parse_tag,
@@ -233,18 +232,18 @@ MAP_COST = 6e5
 
 @dataclass
 class _Damage:
-    """What is known of the damage at the buffer's start while its end is looked for."""
+    """Bytes that cannot be read, at the buffer's start, while what follows them is looked for."""
 
     reason: str
-    tag: Tag | None
-    whole: bool
-    """Whether the checksum is right, and so the length in the tag too."""
-    scanned: int = 0
-    """Offset before which no frame begins; 0 while the length in the tag is not refuted."""
+    type: FrameType | None
+    ways: list[tuple[int, bool]]
+    """Places from which to look, the last one first, and whether frames should stand there one behind the other."""
+    place: int = 0
+    sure: bool = True
 
 
 class TolerantReader(Reader):
-    """Returns a `Damaged` packet where a `Reader` raises, and goes on with the next frame that is whole."""
+    """Returns a `Damaged` packet where a `Reader` raises, and goes on with what depends on nothing that is lost."""
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS, spend: Spend = unpaid) -> None:
         super().__init__(limits, self._pay)
@@ -295,10 +294,11 @@ class TolerantReader(Reader):
         self._grammar.lose()
         try:
             tag = parse_tag(self._buffer, 0)
-            whole = parse_frame(self._buffer, 0, self._limits) is not None
         except BsmError:
-            tag, whole = _readable_tag(self._buffer), False
-        return _Damage(error.message, tag, whole)
+            tag = None
+        kind = FrameType(tag.type) if tag is not None and tag.type not in SKIPPABLE_TYPES else None
+        by_its_length = [(tag.end, True)] if tag is not None and tag.end <= len(self._buffer) else []
+        return _Damage(error.message, kind, [(1, False), *by_its_length])
 
     def _recover(self, damage: _Damage) -> Event:
         """Report the damage once it is known how far it reaches."""
@@ -308,64 +308,50 @@ class TolerantReader(Reader):
         self._damage = None
         self._behind_damage = True
         self.last_frame = FrameSpan(self._frames, self._offset, length)
-        seems = _frame_type(damage.tag) if length else FrameType.END
-        event = Damaged(seems, self._offset, length, damage.reason)
+        event = Damaged(damage.type if length else FrameType.END, self._offset, length, damage.reason)
         self._frames += 1
         self._drop(length)
         return event
 
     def _reach(self, damage: _Damage) -> int | None:
-        """Bytes up to the next whole frame or the end of the data; None if more data must come first."""
+        """Bytes up to where reading goes on, or to the end of the data; None if more data must come first."""
         available = len(self._buffer)
-        if self._grammar.ended:
-            return available
-        if damage.tag is not None and damage.tag.end <= available and damage.scanned == 0:
-            if damage.whole:
-                return damage.tag.end
-            fits = self._fits(damage.tag.end)
-            if fits or fits is None:
-                return damage.tag.end if fits else None
-        for start in range(max(damage.scanned, 1), available):
-            if start % STRIDE == 1:
+        while not self._grammar.ended and (damage.ways or damage.place < available):
+            if damage.place % STRIDE == 1:
                 self._pay(PLACE_COST * STRIDE, STRIDE)
-            damage.scanned = start
-            fits = self._fits(start)
-            if fits or fits is None:
-                return start if fits else None
-        return available if self._eof else None
+            step = self._step(damage.place, damage.sure)
+            if step is None:
+                return None
+            if step == 0:
+                return damage.place
+            if step > 1:
+                damage.place += step
+                damage.ways.clear()
+            else:
+                damage.place, damage.sure = damage.ways.pop() if damage.ways else (damage.place + 1, False)
+        return available if self._eof or self._grammar.ended else None
 
-    def _fits(self, start: int) -> bool | None:
-        """Whether a whole frame that may come here begins at `start`; None if more data must come first."""
+    def _step(self, place: int, sure: bool) -> int | None:
+        """Bytes of the frame at `place`; 0: reading goes on there, 1: there is none, None: more data must come first."""
         try:
-            tag = parse_tag(self._buffer, start)
+            tag = parse_tag(self._buffer, place)
             if tag is not None:
-                cost = tag.end - start
+                cost = tag.end - place
                 budget = SCAN_BYTES + SCAN_FACTOR * (self._offset + len(self._buffer))
-                if tag.type not in self._grammar.expected or self._scan_work + cost > budget:
-                    return False
+                if self._scan_work + cost > budget or not (sure or tag.type in self._grammar.expected):
+                    return 1
                 if tag.end <= len(self._buffer):
                     self._scan_work += cost
-            frame = parse_frame(self._buffer, start, self._limits)
-            if frame is not None:
-                self._pay(MAP_COST + BYTE_COST * frame.size, 0)
+            frame = parse_frame(self._buffer, place, self._limits)
+        except BsmError:
+            return 1
+        if frame is None:
+            return 1 if self._eof else None
+        if place > 0 and frame.type in self._grammar.expected:
+            self._pay(MAP_COST + BYTE_COST * frame.size, 0)
+            try:
                 self._parse(frame)
-                return True
-        except BsmError as error:
-            if error is self._refused:
-                raise
-            return False
-        return False if self._eof else None
-
-
-def _readable_tag(data: bytearray) -> Tag | None:
-    try:
-        return parse_tag(data, 0)
-    except BsmError:
-        return None
-
-
-def _frame_type(tag: Tag | None) -> FrameType | None:
-    try:
-        return None if tag is None else FrameType(tag.type)
-    except ValueError:
-        return None
+                return 0
+            except BsmError:
+                pass
+        return frame.size

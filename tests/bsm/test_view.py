@@ -317,7 +317,7 @@ def essence(event: Any) -> list[Any]:
         case bsm.BlockEvent():
             return ["block", event.index, len(event.vertices)]
         case bsm.RefinementEvent():
-            return ["refinement", event.layer, len(event.vertices)]
+            return ["refinement", len(event.vertices)]
         case bsm.FrameEvent():
             return ["frame", event.index]
         case bsm.LossEvent():

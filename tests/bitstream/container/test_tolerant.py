@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -10,7 +12,13 @@ from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.errors import BsmError
 from tests.bitstream.streams import SMALL_HEADER, STATIC, STREAMS, encoded, frame_ends, read_all
 
-LONG = [SMALL_HEADER, Connectivity(bytes(range(256)) * 8), *(Block(i, 5, bytes([i]) * 60) for i in range(3))]
+KEYED = [replace(STATIC[0], key_interval=1), *STATIC[1:]]
+"""Blocks of which none depends on another."""
+LONG = [
+    replace(SMALL_HEADER, key_interval=1),
+    Connectivity(bytes(range(256)) * 8),
+    *(Block(i, 5, bytes([i]) * 60) for i in range(3)),
+]
 
 
 def read(data: bytes, step: int | None = None) -> list:
@@ -25,25 +33,44 @@ def test_a_sound_stream_is_read_as_ever(name, step):
 
 @pytest.mark.parametrize("step", [None, 1])
 def test_a_damaged_block_is_lost_alone(step):
-    data = bytearray(encoded("static"))
+    data = bytearray(write_stream(KEYED))
     ends = frame_ends(bytes(data))
     data[ends[6] - 20] ^= 1
     packets = read(bytes(data), step)
-    assert packets[:5] == STATIC[:5]
+    assert packets[:5] == KEYED[:5]
     damaged = packets[5]
     assert (damaged.type, damaged.offset, damaged.length) == (FrameType.BLOCK, ends[5], ends[6] - ends[5])
     assert "checksum" in damaged.reason
-    assert packets[6:-1] == STATIC[6:]
+    assert packets[6:-1] == KEYED[6:]
     assert isinstance(packets[-1], End)
 
 
-@pytest.mark.parametrize(("name", "number"), [("grid", 3), ("refined", 2), ("refined", 3), ("refined", 4)])
-def test_what_follows_a_lost_chunk_is_read(name, number):
+@pytest.mark.parametrize("interval", [0, 2])
+@pytest.mark.parametrize("number", [0, 1, 2, 3])
+@pytest.mark.parametrize("step", [None, 1])
+def test_reading_goes_on_at_the_next_key_block(interval, number, step):
+    header = replace(SMALL_HEADER, vertices=200, faces=390, blocks=4, key_interval=interval)
+    stream = [header, Connectivity(b"faces"), *(Block(i, 5, bytes([i]) * 60) for i in range(4))]
+    data = bytearray(write_stream(stream))
+    data[frame_ends(bytes(data))[number + 3] - 5] ^= 1
+    packets = read(bytes(data), step)
+    behind = 4 if interval == 0 else 2 * (number // 2 + 1)
+    assert packets[: 2 + number] == stream[: 2 + number]
+    assert isinstance(packets[2 + number], Damaged)
+    assert packets[3 + number : -1] == stream[2 + behind :]
+    assert isinstance(packets[-1], End)
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "behind"),
+    [("grid", 3, 5), ("grid", 4, 5), ("refined", 2, 3), ("refined", 3, 5), ("animated", 2, 3)],
+)
+def test_what_depends_on_what_is_lost_is_not_read(name, number, behind):
     data = bytearray(encoded(name))
     data[frame_ends(bytes(data))[number + 1] - 5] ^= 1
     packets = read(bytes(data))
     assert isinstance(packets[number], Damaged)
-    assert packets[:number] + packets[number + 1 : -1] == STREAMS[name][:number] + STREAMS[name][number + 1 :]
+    assert packets[:number] + packets[number + 1 : -1] == STREAMS[name][:number] + STREAMS[name][behind:]
 
 
 def test_a_stream_cut_behind_its_blocks_has_them_all():
@@ -53,15 +80,15 @@ def test_a_stream_cut_behind_its_blocks_has_them_all():
     assert packets[3].type is FrameType.END
 
 
-@pytest.mark.parametrize("number", range(1, len(STATIC)))
-def test_a_frame_whose_length_is_wrong_is_lost_alone(number):
-    data = bytearray(encoded("static"))
+@pytest.mark.parametrize("number", range(1, len(KEYED)))
+def test_a_frame_whose_length_is_wrong_costs_no_key_block_behind_it(number):
+    data = bytearray(write_stream(KEYED))
     ends = frame_ends(bytes(data))
     data[ends[number]] ^= 0x30
     packets = read(bytes(data))
-    assert [packet for packet in packets[:-1] if not isinstance(packet, Damaged)] == [
-        packet for index, packet in enumerate(STATIC) if index != number
-    ]
+    behind = max(number + 1, 5)
+    found = [packet for packet in packets[:-1] if not isinstance(packet, Damaged)]
+    assert found == KEYED[:number] + KEYED[behind:]
     assert isinstance(packets[-1], End)
 
 
@@ -129,12 +156,12 @@ def test_a_damaged_header_is_fatal():
 
 @pytest.mark.parametrize("step", [None, 1])
 def test_every_changed_byte_behind_the_header_is_damage(step):
-    data = encoded("static")
+    data = write_stream(KEYED)
     for index in range(frame_ends(data)[1], len(data)):
         for mask in (0x01, 0x10, 0x80, 0xFF):
             damaged = bytearray(data)
             damaged[index] ^= mask
-            assert check_cover(bytes(damaged), step) >= len(STATIC) - 2
+            assert check_cover(bytes(damaged), step) >= 4
 
 
 @given(st.lists(st.tuples(st.integers(0, 10**6), st.binary(max_size=40)), max_size=5), st.integers(1, 50))

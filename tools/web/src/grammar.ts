@@ -30,6 +30,9 @@ export const PARSERS: Parsers = {
     },
 };
 
+/** What reading may go on with behind damage (F 8.2), if it depends on nothing that is lost. */
+const RESUMING: readonly Kind[] = ["block", "gop", "grid", "refinement", "header", "end"];
+
 /** Everything that may come at any distance behind a packet of a kind. */
 function reachable(kind: Kind | "start"): Kind[] {
     const found = new Set<Kind>();
@@ -47,6 +50,7 @@ export class Grammar {
     header?: Header;
     /** Whether an unknown number of frames was lost since the run began. */
     lossy = false;
+    private resuming = false;
     /** Whether the stream began with a run that was not the first. */
     joined = false;
     private last: Kind | "start" = "start";
@@ -76,13 +80,13 @@ export class Grammar {
 
     /** The kinds of packets that may come next. */
     get expected(): readonly Kind[] {
-        return this.header && !this.ended ? [...this.allowed, "metadata"] : this.allowed;
+        return this.header && !this.ended && !this.resuming ? [...this.allowed, "metadata"] : this.allowed;
     }
 
-    /** Take note that an unknown number of frames is missing here: everything that can come later may come now. */
+    /** Take note that an unknown number of frames is missing here: what does not depend on them may come now. */
     lose(): void {
-        this.allowed = reachable(this.last);
-        this.lossy = true;
+        this.allowed = reachable(this.last).filter((kind) => RESUMING.includes(kind));
+        this.lossy = this.resuming = true;
     }
 
     /** Throw what is wrong with a packet that comes here. */
@@ -100,8 +104,7 @@ export class Grammar {
         if (packet.type === "end" && !this.lossy) this.checkComplete();
         if (packet.type === "block") this.checkBlock(packet.index, packet.coefficients, header);
         if (packet.type === "gop") this.checkGop(packet.index, header);
-        if (packet.type === "grid") checkChunk(packet, this.nextVertex, header, this.lossy);
-        if (packet.type === "refinement") checkChunk(packet, this.nextVertex, header, this.lossy);
+        if (packet.type === "grid" || packet.type === "refinement") checkChunk(packet, this.nextVertex, header);
         if (packet.type === "partition" && header.grid.length > 0) throw new CorruptError("parts where there are no blocks");
         if (packet.type === "end" && header.grid.length > 0 && !this.lossy) checkWhole(this.nextVertex, header);
     }
@@ -119,6 +122,7 @@ export class Grammar {
         if (packet.type === "values") [this.valued, this.nextValue] = [packet.attribute, packet.first + packet.count];
         if (packet.type === "grid" || packet.type === "refinement") this.nextVertex = packet.first + packet.count;
         this.last = packet.type;
+        this.resuming = false;
         this.allowed = packet.type === "header" && packet.header.again !== undefined ? ["gop"] : AFTER[packet.type];
     }
 
@@ -145,8 +149,8 @@ export class Grammar {
 
     private checkAttribute({ index, declaration, seams }: Extract<Packet, { type: "attribute" }>, header: Header): void {
         const others = [...this.declared.values()];
-        const following = Math.max(-1, ...this.declared.keys()) + 1;
-        if (index < following || (index > following && !this.lossy) || index >= header.attributes) {
+        const following = this.declared.size;
+        if (index !== following || index >= header.attributes) {
             throw new CorruptError(`attribute ${index} of ${header.attributes}, where attribute ${following} must follow`);
         }
         const { name, domain, seamsOf, leans, coding } = declaration;
@@ -154,8 +158,8 @@ export class Grammar {
         if (seams.length > 0 && (domain !== CORNER || seamsOf)) throw new CorruptError("seams of an attribute that has none of its own");
         if (seamsOf) {
             const shared = this.declared.get(seamsOf - 1);
-            if (!shared && !(this.lossy && seamsOf <= index)) throw new CorruptError(`the seams of attribute ${seamsOf - 1}, which does not come before`);
-            if (shared && (shared.domain !== CORNER || shared.seamsOf)) throw new CorruptError(`the seams of attribute ${seamsOf - 1}, which has none of its own`);
+            if (!shared) throw new CorruptError(`the seams of attribute ${seamsOf - 1}, which does not come before`);
+            if (shared.domain !== CORNER || shared.seamsOf) throw new CorruptError(`the seams of attribute ${seamsOf - 1}, which has none of its own`);
         }
         if (leans && header.grid.length === 0) throw new CorruptError("an attribute that leans on positions which are on no grid");
         if (header.gopFrames > 0 && coding === RECOMPUTED) throw new CorruptError("an attribute of a sequence that is recomputed from positions");
@@ -166,9 +170,9 @@ export class Grammar {
         if (!declared) throw new CorruptError(`values of attribute ${attribute}, which is not declared`);
         if (attribute < this.valued) throw new CorruptError(`values of attribute ${attribute} come behind those of ${this.valued}; they must ascend`);
         const following = attribute === this.valued ? this.nextValue : 0;
-        if (first < following || (first > following && !this.lossy)) throw new CorruptError(`values from ${first} on where those from ${following} on must follow`);
+        if (first !== following) throw new CorruptError(`values from ${first} on where those from ${following} on must follow`);
         if (count === 0 || count > declared.rows - first) throw new CorruptError(`${count} values from ${first} on, of ${declared.rows}`);
-        if (attribute > this.valued && !this.lossy) this.checkComplete(attribute);
+        if (attribute > this.valued) this.checkComplete(attribute);
     }
 
     /** Check that the values of all attributes are there, or of those before one. */
@@ -182,6 +186,7 @@ export class Grammar {
     private checkBlock(index: number, coefficients: number, header: Header): void {
         if (index < this.nextBlock) throw new CorruptError("the indices of blocks must ascend");
         if (index >= header.blocks) throw new CorruptError(`block ${index} of ${header.blocks}`);
+        if (this.resuming && index % (header.keyInterval || header.blocks) > 0) throw new CorruptError(`block ${index} depends on one that is lost`);
         if (coefficients > header.coefficients) throw new CorruptError(`${coefficients} coefficients are too many`);
     }
 

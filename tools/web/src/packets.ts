@@ -86,11 +86,9 @@ export function checkNames(entries: Metadata, told: Set<string>): void {
     for (const name of entries.keys()) if (told.has(name)) throw new CorruptError(`metadata speak of "${name}" again`);
 }
 
-/** Check that vertices follow those before them; with `lossy` some may be missing. */
-export function checkChunk({ first, count }: { first: number; count: number }, following: number, header: Header, lossy = false): void {
-    if (first < following || (first > following && !lossy)) {
-        throw new CorruptError(`vertices from ${first} on where those from ${following} on must follow`);
-    }
+/** Check that vertices follow those before them. */
+export function checkChunk({ first, count }: { first: number; count: number }, following: number, header: Header): void {
+    if (first !== following) throw new CorruptError(`vertices from ${first} on where those from ${following} on must follow`);
     if (count === 0 || count > header.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
 }
 

@@ -12,20 +12,18 @@ const STRIDE = 4096;
 /** Nanoseconds of looking for a frame at one place, and of looking into one whose checksum is right. */
 const [PLACE, MAP] = [4e3, 6e5];
 
-/** What is known of the damage at the buffer's start while its end is looked for. */
+/** Bytes that cannot be read, at the buffer's start, while what follows them is looked for. */
 interface Damage {
     reason: string;
     kind?: Damaged["kind"];
-    /** Bytes of the frame by its tag, if that can be read. */
-    size?: number;
-    /** Whether the checksum is right, and so the length in the tag too. */
-    whole: boolean;
-    /** Offset before which no frame begins; 0 while the length in the tag is not refuted. */
-    scanned: number;
+    /** Places from which to look, the last one first, and whether frames should stand there one behind the other. */
+    ways: [place: number, sure: boolean][];
+    place: number;
+    sure: boolean;
 }
 
 /**
- * Gives `Damaged` where a `Reader` throws, and goes on with the next frame that is whole.
+ * Gives `Damaged` where a `Reader` throws, and goes on with what depends on nothing that is lost.
  *
  * Damage to the preamble or to the header is still thrown. The checksums computed while frames are searched for cover at
  * most so many bytes plus so many times the bytes received; a candidate beyond that is passed over.
@@ -65,15 +63,12 @@ export class TolerantReader extends Reader {
     }
 
     private inspect(error: BsmError): Damage {
-        this.lose();
+        this.damaged = true;
+        this.grammar.lose();
         const seen = this.tagAt(0);
-        let whole = false;
-        try {
-            whole = this.frame() !== undefined;
-        } catch (problem) {
-            if (!(problem instanceof BsmError)) throw problem;
-        }
-        return { reason: error.problem, kind: seen?.kind, size: seen?.size, whole, scanned: 0 };
+        const ways: Damage["ways"] = [[1, false]];
+        if (seen && seen.size <= this.end - this.begin) ways.push([seen.size, true]);
+        return { reason: error.problem, kind: seen?.kind, ways, place: 0, sure: true };
     }
 
     /** Report the damage once it is known how far it reaches. */
@@ -87,45 +82,48 @@ export class TolerantReader extends Reader {
         return found;
     }
 
-    /** Bytes up to the next whole frame or the end of the data; undefined if more data must come first. */
+    /** Bytes up to where reading goes on, or to the end of the data; undefined if more data must come first. */
     private reach(damage: Damage): number | undefined {
         const available = this.end - this.begin;
-        if (this.grammar.ended) return available;
-        if (damage.size !== undefined && damage.size <= available && damage.scanned === 0) {
-            if (damage.whole) return damage.size;
-            const fits = this.fits(damage.size);
-            if (fits !== false) return fits ? damage.size : undefined;
+        while (!this.grammar.ended && (damage.ways.length > 0 || damage.place < available)) {
+            if (damage.place % STRIDE === 1) this.pay(PLACE * STRIDE, STRIDE);
+            const step = this.step(damage.place, damage.sure);
+            if (step === undefined) return undefined;
+            if (step === 0) return damage.place;
+            if (step > 1) {
+                damage.place += step;
+                damage.ways = [];
+            } else [damage.place, damage.sure] = damage.ways.pop() ?? [damage.place + 1, false];
         }
-        for (let start = Math.max(damage.scanned, 1); start < available; start++) {
-            if (start % STRIDE === 1) this.pay(PLACE * STRIDE, STRIDE);
-            damage.scanned = start;
-            const fits = this.fits(start);
-            if (fits !== false) return fits ? start : undefined;
-        }
-        return this.eof ? available : undefined;
+        return this.eof || this.grammar.ended ? available : undefined;
     }
 
-    /** Whether a whole frame that may come here begins at `start`; undefined if more data must come first. */
-    private fits(start: number): boolean | undefined {
+    /** Bytes of the frame at `place`; 0: reading goes on there, 1: there is none, undefined: more data must come first. */
+    private step(place: number, sure: boolean): number | undefined {
         const available = this.end - this.begin;
+        const expects = (kind?: Kind): boolean => kind !== undefined && this.grammar.expected.includes(kind);
         try {
-            const seen = this.tagAt(start);
+            const seen = this.tagAt(place);
             if (seen) {
                 const budget = SCAN_BYTES + SCAN_FACTOR * (this.position + available);
-                if (!seen.kind || !this.grammar.expected.includes(seen.kind) || this.scanWork + seen.size > budget) return false;
-                if (start + seen.size <= available) this.scanWork += seen.size;
+                if (this.scanWork + seen.size > budget || !(sure || expects(seen.kind))) return 1;
+                if (place + seen.size <= available) this.scanWork += seen.size;
             }
-            const frame = this.frame(start);
-            if (frame) {
-                this.pay(MAP, 0);
+            const frame = this.frame(place);
+            if (!frame) return this.eof ? 1 : undefined;
+            if (place === 0 || !expects(kinds[frame.type])) return frame.size;
+            this.pay(MAP, 0);
+            try {
                 this.parse(frame.type, frame.payload);
-                return true;
+                return 0;
+            } catch (error) {
+                if (error instanceof BsmError) return frame.size;
+                throw error;
             }
         } catch (error) {
             if (!(error instanceof BsmError) || error === this.refused) throw error;
-            return false;
+            return 1;
         }
-        return this.eof ? false : undefined;
     }
 
     /** What the tag of the frame `ahead` bytes from here says, if it can be read: kind and bytes of the whole frame. */
@@ -139,11 +137,5 @@ export class TolerantReader extends Reader {
             if (error instanceof BsmError) return undefined;
             throw error;
         }
-    }
-
-    /** Take note that an unknown number of frames is missing here. */
-    private lose(): void {
-        this.damaged = true;
-        this.grammar.lose();
     }
 }
