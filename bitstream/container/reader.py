@@ -332,7 +332,7 @@ class TolerantReader(Reader):
         return available if self._eof or self._grammar.ended else None
 
     def _step(self, place: int, sure: bool) -> int | None:
-        """Bytes of the frame at `place`; 0: reading goes on there, 1: there is none, None: more data must come first."""
+        """Bytes of the frame at `place`; 0: reading goes on there, 1: there is none, None: more data must come."""
         try:
             tag = parse_tag(self._buffer, place)
             if tag is not None:
