@@ -32,6 +32,7 @@ typedef struct {
     ConstInts2 faces;      /* the row of each coded corner */
     Ints vertices;         /* the vertex of each row, -1 for loose ones; none for faces */
     void *values;          /* rows times components, of the kind */
+    void *moved;           /* the same in the frame told last, of one that moves; NULL: in the first one */
     double coding;         /* bytes that are kept while values come */
     int64_t coded;
     bool begun;
@@ -64,6 +65,10 @@ bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scr
 bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch);
 /* Normals that follow from positions (D 4.4). */
 bool recompute(Attributes *attributes, Attribute *one, ConstDoubles2 positions, Arena *scratch);
+
+/* What first values have beyond those of vertex 0; the values of a frame that differs from the first by so much (S 10). */
+void beyond_one(const Attribute *one, Doubles2 beyond);
+bool move_values(Context *context, Attribute *one, ConstDoubles2 change, void *moved);
 
 /* Values of rows from their pieces (D 3.2, D 4). */
 bool restore_values(Context *context, Attribute *one, int64_t first, int64_t count);

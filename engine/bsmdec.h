@@ -79,6 +79,7 @@ typedef struct {
     const bsmdec_limits *limits;
     const bsmdec_allocator *allocator;
     int tolerant; /* go on behind damage, and tell of it (specification, F 8) */
+    int64_t start; /* of a sequence: tell of no frame before this one, and decode no GOP that it does not need */
 } bsmdec_options;
 
 typedef enum {
@@ -99,6 +100,7 @@ typedef enum {
 typedef struct {
     bsmdec_event_type type;
     int64_t index;
+    int64_t count;           /* of a LOSS: so many frames from `index` on; 0 if it is of none */
     int64_t vertices, faces; /* as the user has them; 0 until they are known */
 } bsmdec_event;
 
@@ -111,6 +113,7 @@ typedef struct {
     int domain, semantic, kind, components;
     int64_t rows;     /* values; of corners, `indices` say which one each has */
     int64_t indices;  /* 3 faces for corners, 0 for others */
+    int moves;        /* whether frames have values of their own: those of the frame told last, before it of the first */
 } bsmdec_attribute;
 
 typedef struct bsmdec bsmdec;

@@ -133,6 +133,7 @@ static double lesser(double a, double b) { return a < b ? a : b; }
 bool spend(Context *context, double work, double received) {
     const bsmdec_limits *limits = &context->limits;
     Spent *spent = &context->spent;
+    if (context->prepaid) return true;
     double own = work - limits->work_per_byte * received;
     spent->spent += work;
     spent->owed += own > 0.0 ? own : 0.0;
@@ -141,10 +142,17 @@ bool spend(Context *context, double work, double received) {
         && within_limit(context, "work", spent->owed, lesser(granted, limits->most_work));
 }
 
+static double granted_memory(const bsmdec_limits *limits, int64_t vertices, double received) {
+    return lesser(limits->memory + limits->memory_per_vertex * (double)vertices + limits->memory_per_byte * received, limits->most_memory);
+}
+
 bool affords_memory(Context *context, double memory, int64_t vertices, double received) {
-    const bsmdec_limits *limits = &context->limits;
-    double granted = limits->memory + limits->memory_per_vertex * (double)vertices + limits->memory_per_byte * received;
-    return within_limit(context, "memory", memory, lesser(granted, limits->most_memory));
+    return within_limit(context, "memory", memory, granted_memory(&context->limits, vertices, received));
+}
+
+double memory_left(const Context *context) {
+    const Spent *spent = &context->spent;
+    return granted_memory(&context->limits, spent->vertices - spent->gone, spent->received) - spent->kept;
 }
 
 /* Memory for a while, beside what is kept (M 14.8). */

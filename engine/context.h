@@ -17,7 +17,8 @@ typedef struct {
     bsmdec_limits limits;
     bsmdec_allocator host;
     bsmdec_error error;
-    double heap; /* bytes that are held of the host */
+    double heap;  /* bytes that are held of the host */
+    bool prepaid; /* work that comes has been paid for */
     Spent spent;
 } Context;
 
@@ -88,6 +89,8 @@ bool within_limit(Context *context, const char *name, double value, double limit
 bool spend(Context *context, double work, double received);
 bool keep(Context *context, double memory, double received);
 bool afford(Context *context, double memory);
+/* Bytes for which there is room. */
+double memory_left(const Context *context);
 bool affords_memory(Context *context, double memory, int64_t vertices, double received);
 
 #endif

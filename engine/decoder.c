@@ -38,6 +38,8 @@ bsmdec *bsmdec_open(const bsmdec_options *options) {
     if (options != NULL && options->limits != NULL) context->limits = *options->limits;
     else bsmdec_default_limits(&context->limits);
     decoder->tolerant = options != NULL && options->tolerant != 0;
+    decoder->sequence.start = options != NULL ? options->start : 0;
+    decoder->sequence.waiting = arena_of(context);
     decoder->loss = context->error;
     decoder->scratch = decoder->shown = arena_of(context);
     begin_reader(&decoder->reader, context, decoder->tolerant);
@@ -48,6 +50,7 @@ void bsmdec_close(bsmdec *decoder) {
     if (decoder == NULL) return;
     Context *context = &decoder->context;
     if (decoder->has_mesh) end_mesh(&decoder->mesh);
+    close_sequence(decoder);
     release_all(&decoder->scratch);
     release_all(&decoder->shown);
     end_reader(&decoder->reader);
@@ -70,7 +73,7 @@ bsmdec_status bsmdec_finish(bsmdec *decoder) {
 }
 
 /* Have an event wait to be told. */
-bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index) {
+bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
     Context *context = &decoder->context;
     if (decoder->waiting == decoder->room) {
         int64_t room = 2 * decoder->room + 16;
@@ -84,7 +87,7 @@ bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index) {
     }
     const Mesh *mesh = &decoder->mesh;
     bool real = mesh->announced;
-    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room] = (bsmdec_event){type, index,
+    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room] = (bsmdec_event){type, index, count,
         real ? mesh->numbering.size : type == BSMDEC_HEADER ? mesh->header.vertices : 0, real || type == BSMDEC_HEADER ? mesh->header.faces : 0};
     return true;
 }
@@ -118,6 +121,11 @@ bsmdec_status bsmdec_next(bsmdec *decoder, bsmdec_event *event) {
     *event = decoder->queue[decoder->first];
     decoder->first = (decoder->first + 1) % decoder->room;
     decoder->waiting--;
+    if (event->type == BSMDEC_FRAME && !show(decoder, event->index)) {
+        decoder->waiting = 0;
+        *event = (bsmdec_event){.type = BSMDEC_ERROR};
+        return decoder->context.error.status;
+    }
     if (event->type == BSMDEC_LOSS) {
         decoder->loss = decoder->losses[0];
         memmove(decoder->losses, decoder->losses + 1, (size_t)--decoder->loss_count * sizeof *decoder->losses);
@@ -178,7 +186,7 @@ bsmdec_status bsmdec_attribute_at(const bsmdec *decoder, int index, bsmdec_attri
     const Declaration *d = &one->declaration;
     Given given = given_shape(one, &decoder->mesh.numbering);
     int64_t corners = given.domain == BSMDEC_CORNER ? 3 * decoder->mesh.faces.rows : 0;
-    *attribute = (bsmdec_attribute){d->name, given.domain, d->semantic, d->kind, d->components, given.rows, corners};
+    *attribute = (bsmdec_attribute){d->name, given.domain, d->semantic, d->kind, d->components, given.rows, corners, d->moves};
     return BSMDEC_OK;
 }
 
@@ -192,7 +200,7 @@ bsmdec_status bsmdec_attribute_values(bsmdec *decoder, int index, void *values, 
     Longs rows = take_longs(&own, shape.rows);
     bool done = rows.data != NULL && given_rows(one, &decoder->mesh.numbering, &own, rows);
     for (int64_t i = 0; done && i < shape.rows; i++)
-        memcpy((char *)values + (size_t)i * each, (const char *)one->values + (size_t)rows.data[i] * each, each);
+        memcpy((char *)values + (size_t)i * each, (const char *)(one->moved != NULL ? one->moved : one->values) + (size_t)rows.data[i] * each, each);
     release_all(&own);
     return done ? BSMDEC_OK : decoder->context.error.status;
 }

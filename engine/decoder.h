@@ -5,6 +5,7 @@
 #include "engine/assembly.h"
 #include "engine/attributes.h"
 #include "engine/fields.h"
+#include "engine/gop.h"
 #include "engine/reader.h"
 
 /* What is known of the present mesh. */
@@ -25,7 +26,42 @@ typedef struct {
     Layer layer;
     bool has_attributes;
     Attributes attributes;
+    /* Of a sequence: */
+    bool in_gops;
+    Doubles2 first_frame; /* in BSM units */
+    Mover *movers;
+    int mover_count;
+    Gops gops;
 } Mesh;
+
+/* A mesh that runs have had, the memory that is counted for it, and its vertices. */
+enum { SHELF = 8 };
+typedef struct {
+    int64_t run;
+    double memory;
+    int64_t vertices;
+    Mesh mesh;
+} Shelved;
+
+/* A GOP before what is wanted, that others may need. */
+typedef struct Skipped {
+    struct Skipped *next;
+    Span data;
+} Skipped;
+
+/* How far a sequence has come, over all of its runs (specification, S 1.3, S 9). */
+typedef struct {
+    bool is_one, lost, lossy, damaged;
+    int64_t start, next, announced, missing; /* frames: the first wanted, the next, of all runs, lost so far */
+    int64_t mesh, gop;                       /* the run that brought the present mesh; first frame of the GOP that is shown */
+    bsmdec_error damage, why;                /* the first since frames were lost; why the run is */
+    Shelved *shelf[SHELF];                   /* the one used last at the end */
+    int shelved;
+    double kept;
+    int64_t vertices;                        /* when the run began */
+    Arena waiting;
+    Skipped *first, *last;
+} Sequence;
 
 struct bsmdec {
     Context context;
@@ -33,6 +69,7 @@ struct bsmdec {
     Arena scratch;
     bool tolerant, has_mesh, ended;
     Mesh mesh;
+    Sequence sequence;
     /* Events that wait to be told, a ring. */
     bsmdec_event *queue;
     int64_t first, waiting, room;
@@ -45,12 +82,27 @@ struct bsmdec {
     int64_t loss_count, loss_room;
 };
 
-bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index);
+bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
 /* Take a packet in; what follows from it is told. */
 bool accept_packet(bsmdec *decoder, const Packet *packet);
 bool accept_damage(bsmdec *decoder);
 bool accept_end(bsmdec *decoder);
 void end_mesh(Mesh *mesh);
+void begin_mesh(bsmdec *decoder, const Header *header);
+bool take_in(bsmdec *decoder, const Packet *packet);
+/* Blocks, and all that takes them in, when they are first needed. */
+bool build(bsmdec *decoder);
+/* Have an error be told as a loss: of so many frames of a sequence from `index` on, or of a block. */
+bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
+
+/* The same for sequences. */
+bool accept_in_sequence(bsmdec *decoder, const Packet *packet);
+bool accept_damage_in_sequence(bsmdec *decoder);
+bool end_sequence(bsmdec *decoder);
+/* Make a frame that was told the one that is asked for. */
+bool show(bsmdec *decoder, int64_t index);
+void close_sequence(bsmdec *decoder);
+
 /* Bear an error as a loss of `block`, or of something else if that is -1: false where it is not to be borne. */
 bool bear(bsmdec *decoder, int64_t block, bool anywhere);
 

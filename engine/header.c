@@ -52,7 +52,7 @@ static void set_header(const Record *record, Header *header) {
         .light = (int)number[LIGHT_KEY][0], .counted = count[CORNER] > 0,
         .frames = (int64_t)number[SEQUENCE][0], .gop_frames = (int64_t)number[SEQUENCE][1],
         .run = (int64_t)number[RUN][0], .again = count[RUN] > 1 ? (int64_t)number[RUN][1] : -1,
-        .paper = {.power = 3, .iterations = 1, .key_iterations = 2, .springs = 1, .shift = 0x1p-7},
+        .paper = {.power = 3, .iterations = count[SEQUENCE] > 0 ? 2 : 1, .key_iterations = 2, .springs = 1, .shift = count[SEQUENCE] > 0 ? 0x1p-5 : 0x1p-7},
     };
     if (count[LATTICE] == 2) {
         header->cells = (int64_t)number[LATTICE][0];

@@ -6,7 +6,23 @@ static bool behind_positions(const Mesh *mesh) { return mesh->has_layer || mesh-
 void end_mesh(Mesh *mesh) {
     if (mesh->has_chains) end_chains(&mesh->chains);
     if (mesh->has_attributes) end_attributes(&mesh->attributes);
+    end_gops(&mesh->gops);
     release_all(&mesh->arena);
+}
+
+bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count) {
+    Context *context = &decoder->context;
+    if (decoder->loss_count == decoder->loss_room) {
+        int64_t room = 2 * decoder->loss_room + 16;
+        bsmdec_error *losses = host_take(context, (size_t)room * sizeof *losses);
+        if (losses == NULL) return false;
+        if (decoder->loss_count > 0) memcpy(losses, decoder->losses, (size_t)decoder->loss_count * sizeof *losses);
+        host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *losses);
+        decoder->losses = losses;
+        decoder->loss_room = room;
+    }
+    decoder->losses[decoder->loss_count++] = error;
+    return tell(decoder, BSMDEC_LOSS, index, count);
 }
 
 bool bear(bsmdec *decoder, int64_t block, bool anywhere) {
@@ -14,27 +30,13 @@ bool bear(bsmdec *decoder, int64_t block, bool anywhere) {
     bsmdec_status status = context->error.status;
     if (!decoder->tolerant || !anywhere || status == BSMDEC_NO_MEMORY || status == BSMDEC_OK) return false;
     locate(&context->error, decoder->reader.offset, -1, block);
-    if (decoder->loss_count == decoder->loss_room) {
-        int64_t room = 2 * decoder->loss_room + 16;
-        bsmdec_error error = take_error(context), *losses = host_take(context, (size_t)room * sizeof *losses);
-        if (losses == NULL) return false;
-        if (decoder->loss_count > 0) memcpy(losses, decoder->losses, (size_t)decoder->loss_count * sizeof *losses);
-        host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *losses);
-        decoder->losses = losses;
-        decoder->loss_room = room;
-        context->error = error;
-    }
-    decoder->losses[decoder->loss_count++] = take_error(context);
     if (block >= 0 && decoder->mesh.has_chains) lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, block);
-    return tell(decoder, BSMDEC_LOSS, block);
+    return tell_loss(decoder, take_error(context), block, 0);
 }
 
-static bool begin_mesh(bsmdec *decoder, const Header *header) {
-    Context *context = &decoder->context;
-    if (header->gop_frames > 0) return FAIL(context, UNSUPPORTED, "sequences are unknown to this decoder");
-    decoder->mesh = (Mesh){.header = *header, .arena = arena_of(context)};
+void begin_mesh(bsmdec *decoder, const Header *header) {
+    decoder->mesh = (Mesh){.header = *header, .arena = arena_of(&decoder->context)};
     decoder->has_mesh = true;
-    return tell(decoder, BSMDEC_HEADER, header->run);
 }
 
 static bool accept_connectivity(bsmdec *decoder, Span data) {
@@ -71,11 +73,10 @@ static bool announce(bsmdec *decoder) {
     if (mesh->announced) return true;
     if (mesh->has_attributes && !decoder->tolerant && !check_rows(&mesh->attributes, &mesh->numbering)) return false;
     mesh->announced = true;
-    return tell(decoder, BSMDEC_CONNECTIVITY, 0);
+    return tell(decoder, BSMDEC_CONNECTIVITY, 0, 0);
 }
 
-/* Blocks, and all that takes them in, when they are first needed. */
-static bool build(bsmdec *decoder) {
+bool build(bsmdec *decoder) {
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
     if (mesh->has_chains) return true;
@@ -105,7 +106,7 @@ static bool accept_block(bsmdec *decoder, const Packet *packet) {
     if (!decode_block(&mesh->chains, packet->index, packet->coefficients, packet->data, &decoder->scratch, &block))
         return bear(decoder, packet->index, mesh->header.gop_frames == 0);
     add_block(&mesh->assembly, &block);
-    return tell(decoder, BSMDEC_BLOCK, packet->index);
+    return tell(decoder, BSMDEC_BLOCK, packet->index, 0);
 }
 
 static bool begun_grid(bsmdec *decoder) {
@@ -119,7 +120,7 @@ static bool accept_grid(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     if (!begun_grid(decoder)) return false;
     if (mesh->grid.broken) return true;
-    if (decode_grid(&mesh->grid, packet->first, packet->count, packet->data, &decoder->scratch)) return tell(decoder, BSMDEC_BLOCK, mesh->chunks++);
+    if (decode_grid(&mesh->grid, packet->first, packet->count, packet->data, &decoder->scratch)) return tell(decoder, BSMDEC_BLOCK, mesh->chunks++, 0);
     mesh->grid.broken = true;
     return bear(decoder, -1, true);
 }
@@ -141,7 +142,7 @@ static bool accept_refinement(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     if (!begun_layer(decoder)) return false;
     if (decode_layer(&mesh->layer, packet->first, packet->count, packet->data, &decoder->scratch))
-        return tell(decoder, BSMDEC_REFINEMENT, packet->first + packet->count);
+        return tell(decoder, BSMDEC_REFINEMENT, packet->first + packet->count, 0);
     mesh->layer.lossy = true;
     return bear(decoder, -1, true);
 }
@@ -169,7 +170,7 @@ static bool accept_values(bsmdec *decoder, const Packet *packet) {
     if (!begun_values(decoder)) return false;
     if (mesh->has_grid && !mesh->grid.broken && mesh->grid.coded == mesh->header.vertices) places = const_ints2(mesh->grid.values);
     if (!decode_values(&mesh->attributes, packet, places, &decoder->scratch)) return bear(decoder, -1, mesh->header.gop_frames == 0);
-    return !mesh->attributes.one[packet->index]->whole || tell(decoder, BSMDEC_ATTRIBUTE, packet->index);
+    return !mesh->attributes.one[packet->index]->whole || tell(decoder, BSMDEC_ATTRIBUTE, packet->index, 0);
 }
 
 /* Positions as the encoder had them, in whatever unit, if they are there; no rows otherwise. */
@@ -197,20 +198,22 @@ static bool finish_attributes(bsmdec *decoder) {
         Attribute *one = mesh->attributes.one[k];
         if (one == NULL || one->declaration.coding != RECOMPUTED) continue;
         if (solid.rows == 0 && !find_solid(decoder, &solid)) return false;
-        if (solid.rows > 0 && (!recompute(&mesh->attributes, one, solid, &decoder->scratch) || !tell(decoder, BSMDEC_ATTRIBUTE, k))) return false;
+        if (solid.rows > 0 && (!recompute(&mesh->attributes, one, solid, &decoder->scratch) || !tell(decoder, BSMDEC_ATTRIBUTE, k, 0))) return false;
     }
     return true;
 }
 
-static bool take_in(bsmdec *decoder, const Packet *packet) {
+bool take_in(bsmdec *decoder, const Packet *packet) {
     const uint32_t EARLY = 1u << CONNECTIVITY_FRAME | 1u << PARTITION_FRAME | 1u << ORDER_FRAME | 1u << BLOCK_FRAME;
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
     /* Behind a loss the grammar does not know what came before it. */
     if (behind_positions(mesh) && EARLY >> packet->type & 1) return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
     switch (packet->type) {
-        case HEADER_FRAME: return begin_mesh(decoder, packet->header);
-        case METADATA_FRAME: return tell(decoder, BSMDEC_METADATA, decoder->reader.metadata.count);
+        case HEADER_FRAME:
+            begin_mesh(decoder, packet->header);
+            return tell(decoder, BSMDEC_HEADER, 0, 0);
+        case METADATA_FRAME: return tell(decoder, BSMDEC_METADATA, decoder->reader.metadata.count, 0);
         case CONNECTIVITY_FRAME: return accept_connectivity(decoder, packet->data);
         case PARTITION_FRAME: return accept_partition(decoder, packet->data);
         case ORDER_FRAME:
@@ -227,7 +230,8 @@ static bool take_in(bsmdec *decoder, const Packet *packet) {
 
 bool accept_packet(bsmdec *decoder, const Packet *packet) {
     Mark mark = mark_of(&decoder->scratch);
-    bool done = take_in(decoder, packet);
+    bool in_sequence = decoder->sequence.is_one || (packet->type == HEADER_FRAME && packet->header->gop_frames > 0);
+    bool done = (in_sequence ? accept_in_sequence : take_in)(decoder, packet);
     release_to(&decoder->scratch, mark);
     return done;
 }
@@ -240,6 +244,7 @@ bool accept_damage(bsmdec *decoder) {
     decoder->context.error = damage->why;
     decoder->context.error.status = BSMDEC_CORRUPT;
     locate(&decoder->context.error, decoder->reader.damaged_offset, -1, -1);
+    if (decoder->sequence.is_one) return accept_damage_in_sequence(decoder);
     if (mesh->has_grid) mesh->grid.broken = true;
     if (mesh->has_layer && !mesh->values_begun && damage->type != VALUES_FRAME) mesh->layer.lossy = true;
     return bearable && bear(decoder, -1, true);
@@ -267,9 +272,10 @@ static bool finish_positions(bsmdec *decoder) {
 /* Nothing follows. */
 bool accept_end(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
+    if (decoder->sequence.is_one) return end_sequence(decoder);
     if (!decoder->has_mesh || !mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
     if (mesh->header.on_grid ? !begun_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
     if (!finish_attributes(decoder) || !finish_positions(decoder)) return false;
     decoder->has_positions = decoder->ended = true;
-    return tell(decoder, BSMDEC_END, 0);
+    return tell(decoder, BSMDEC_END, 0, 0);
 }

@@ -16,6 +16,41 @@ static void store_number(void *values, int64_t place, int kind, double number) {
     }
 }
 
+static double load_number(const void *values, int64_t place, int kind) {
+    switch (kind) {
+        case BSMDEC_UINT8: return ((const uint8_t *)values)[place];
+        case BSMDEC_INT8: return ((const int8_t *)values)[place];
+        case BSMDEC_UINT16: return ((const uint16_t *)values)[place];
+        case BSMDEC_INT16: return ((const int16_t *)values)[place];
+        case BSMDEC_UINT32: return ((const uint32_t *)values)[place];
+        case BSMDEC_INT32: return ((const int32_t *)values)[place];
+        case BSMDEC_FLOAT32: return ((const float *)values)[place];
+        default: return ((const double *)values)[place];
+    }
+}
+
+void beyond_one(const Attribute *one, Doubles2 beyond) {
+    for (int64_t i = 0; i < beyond.rows * beyond.columns; i++)
+        beyond.data[i] = load_number(one->values, i, one->declaration.kind) - load_number(one->values, i % beyond.columns, one->declaration.kind);
+}
+
+bool move_values(Context *context, Attribute *one, ConstDoubles2 change, void *moved) {
+    static const double LOW[] = {0, -128, 0, -32768, 0, -2147483648.0}, HIGH[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647.0};
+    int kind = one->declaration.kind;
+    for (int64_t i = 0; i < change.rows * change.columns; i++) {
+        double number = load_number(one->values, i, kind) + change.data[i];
+        if (kind == BSMDEC_FLOAT32 && number * 0.0 == 0.0) number = (float)number;
+        if (number * 0.0 != 0.0) return FAIL(context, NUMERIC, "values of an attribute that moves are not finite");
+        if (kind < BSMDEC_FLOAT32) {
+            number = __builtin_rint(number);
+            number = number < LOW[kind] ? LOW[kind] : number > HIGH[kind] ? HIGH[kind] : number;
+        }
+        store_number(moved, i, kind, number);
+    }
+    one->moved = moved;
+    return true;
+}
+
 /* The direction of a place on the unfolded octahedron (D 4.2). */
 static void unfold(const int64_t *word, int64_t size, double *direction) {
     int64_t u = word[0] - size, v = word[1] - size, across = u < 0 ? -u : u, along = v < 0 ? -v : v;

@@ -34,7 +34,7 @@ struct Work { /* what codes a vertex needs to know */
     ValueModel model;
     Corners corners;
     Values values;
-    CodeVertex *code_vertex;
+    CodeVertex *code;
 };
 
 int64_t code_vertices(Coder given, Work *work, int64_t learners, int64_t first, int64_t count);

@@ -15,7 +15,7 @@ static bool fits(const Work *w, int64_t learners) {
 static bool code_one(void *work, int64_t i) {
     Work *w = work;
     const int32_t *order = w->values.order.data;
-    if (!w->code_vertex(w, order[i], i > 0 ? order[i - 1] : -1)) return false;
+    if (!w->code(w, order[i], i > 0 ? order[i - 1] : -1)) return false;
     pass_on(&w->corners, &w->values.values, &w->values.sums, order[i]);
     return true;
 }

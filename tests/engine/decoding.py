@@ -23,7 +23,7 @@ KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "floa
 
 
 class Event(Structure):
-    _fields_ = [("type", c_int), ("index", c_int64), ("vertices", c_int64), ("faces", c_int64)]
+    _fields_ = [("type", c_int), *((name, c_int64) for name in ("index", "count", "vertices", "faces"))]
 
 
 class Failure(Structure):
@@ -69,11 +69,12 @@ class Shape(Structure):
         *((name, c_int) for name in ("domain", "semantic", "kind", "components")),
         ("rows", c_int64),
         ("indices", c_int64),
+        ("moves", c_int),
     ]
 
 
 class Options(Structure):
-    _fields_ = [("limits", c_void_p), ("allocator", c_void_p), ("tolerant", c_int)]
+    _fields_ = [("limits", c_void_p), ("allocator", c_void_p), ("tolerant", c_int), ("start", c_int64)]
 
 
 @dataclass
@@ -84,6 +85,11 @@ class Decoded:
     message: str = ""
     arrays: dict[str, npt.NDArray[Any]] = field(default_factory=dict)
     losses: int = 0
+    moving: set[str] = field(default_factory=set)
+    lost: list[tuple[int, int]] = field(default_factory=list)
+    frames: list[tuple[int, npt.NDArray[Any]]] = field(default_factory=list)
+    shown: list[dict[str, npt.NDArray[Any]]] = field(default_factory=list)
+    runs: list[tuple[int, int, npt.NDArray[Any]]] = field(default_factory=list)
 
 
 def build(folder: Path, *flags: str) -> ctypes.CDLL:
@@ -115,17 +121,18 @@ def decode(
     *,
     tolerant: bool = False,
     pieces: int = 0,
+    start: int = 0,
     allocator: Allocator | None = None,
 ) -> Decoded:
     """Decode a stream, given at once or so many bytes at a time."""
     host = ctypes.addressof(allocator) if allocator else None
-    decoder = library.bsmdec_open(byref(Options(None, host, tolerant)))
+    decoder = library.bsmdec_open(byref(Options(None, host, tolerant, start)))
     if not decoder:
         return Decoded(NO_MEMORY)
     try:
         found, event = Decoded(), Event()
-        for start in range(0, len(stream), pieces or max(len(stream), 1)):
-            piece = stream[start : start + (pieces or len(stream))]
+        for begin in range(0, len(stream), pieces or max(len(stream), 1)):
+            piece = stream[begin : begin + (pieces or len(stream))]
             library.bsmdec_push(decoder, piece, len(piece))
             while pieces and library.bsmdec_next(decoder, byref(event)) == 0 and event.type != 0:
                 _take(library, decoder, event, found)
@@ -142,14 +149,44 @@ def decode(
 def _take(library: ctypes.CDLL, decoder: Any, event: Event, found: Decoded) -> None:
     if event.type == LOSS:
         found.losses += 1
-    if event.type == END:
-        faces, positions = np.zeros((event.faces, 3), np.uint32), np.zeros((event.vertices, 3))
-        assert library.bsmdec_faces(decoder, faces.ctypes.data, faces.size) == 0
+        found.lost += [(event.index, event.count)] if event.count else []
+    if event.type == CONNECTIVITY:
+        found.runs.append((len(found.frames), event.vertices, _faces(library, decoder, event)))
+        found.shown.clear()
+    if event.type in (FRAME, END) and not (event.type == END and found.frames):
+        positions = np.zeros((event.vertices, 3))
+        if event.type == END and library.bsmdec_positions(decoder, positions.ctypes.data, positions.size) != 0:
+            return  # a sequence without frames
         assert library.bsmdec_positions(decoder, positions.ctypes.data, positions.size) == 0
-        found.arrays = {"positions": positions, "faces": faces.astype(np.int32), **_attributes(library, decoder)}
+        arrays = _attributes(library, decoder, found)
+        if event.type == FRAME:
+            found.frames.append((event.index, positions))
+            found.shown.append(arrays)
+        found.arrays = {"positions": positions, "faces": _faces(library, decoder, event), **arrays}
 
 
-def _attributes(library: ctypes.CDLL, decoder: Any) -> dict[str, npt.NDArray[Any]]:
+def of_sequence(found: Decoded) -> dict[str, npt.NDArray[Any]]:
+    """The arrays of all frames of a sequence, as the vectors have them."""
+    arrays = {key: values for key, values in found.arrays.items() if key not in ("positions", "faces")}
+    for key in arrays:
+        each = [shown[key] for shown in found.shown]
+        if key in found.moving:
+            arrays[key] = np.array(each)
+    frames = [positions for _, positions in found.frames]
+    if len(found.runs) == 1:
+        return arrays | {"positions": np.array(frames).reshape(-1, found.runs[0][1], 3), "faces": found.runs[0][2]}
+    runs = np.array([(first, vertices, len(faces)) for first, vertices, faces in found.runs], np.int32)
+    faces = np.concatenate([faces for *_, faces in found.runs])
+    return arrays | {"positions": np.concatenate(frames), "faces": faces, "runs": runs}
+
+
+def _faces(library: ctypes.CDLL, decoder: Any, event: Event) -> npt.NDArray[np.int32]:
+    faces = np.zeros((event.faces, 3), np.uint32)
+    assert library.bsmdec_faces(decoder, faces.ctypes.data, faces.size) == 0
+    return faces.astype(np.int32)
+
+
+def _attributes(library: ctypes.CDLL, decoder: Any, found: Decoded) -> dict[str, npt.NDArray[Any]]:
     arrays: dict[str, npt.NDArray[Any]] = {}
     shape, number = Shape(), 0
     for index in range(library.bsmdec_attribute_count(decoder)):
@@ -159,6 +196,7 @@ def _attributes(library: ctypes.CDLL, decoder: Any) -> dict[str, npt.NDArray[Any
         assert library.bsmdec_attribute_values(decoder, index, values.ctypes.data, values.nbytes) in (0, NO_MEMORY)
         label = f"{SEMANTICS[shape.semantic]} {DOMAINS[shape.domain]} {shape.name.decode()}"
         arrays[f"attribute {number} {label}"] = values
+        found.moving |= {f"attribute {number} {label}"} if shape.moves else set()
         if shape.indices:
             indices = np.zeros((shape.indices // 3, 3), np.uint32)
             assert library.bsmdec_attribute_indices(decoder, index, indices.ctypes.data, indices.size) == 0

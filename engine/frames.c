@@ -1,0 +1,591 @@
+/* GOPs to frames (specification, S 3.7 to S 7, S 10): codec/sequence/gop.py, history.py and tracks.py. */
+#include "codec/signal/signal.h"
+#include "engine/gop.h"
+
+static const PredictionRules RULES = {.forgetting = 0.985, .ridge = 0.004, .noise = 30, .around = 30, .dense_rows = 16, .renewal = 8};
+static const int LAG[LAGS] = {1, 2, 3, 5, 8, 13, 21, 34};
+static const double SQUARES = 0.5, CUBES = 0.3, SMALLEST_RADIUS = 0x1p-24, TRACK_MEMORY = 40;
+static const double QUARTERS[4] = {1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605};
+
+int64_t lags_of(int64_t kept, bool brief) {
+    int64_t count = 0;
+    while (count < (brief ? 1 : LAGS) && LAG[count] < kept) count++;
+    return count;
+}
+
+static Doubles2 rows_from(Doubles2 all, int64_t first, int64_t count) { return (Doubles2){all.data + first * all.columns, count, all.columns}; }
+
+/* Some columns of a matrix, in a matrix of their own or as part of one, from column `to` on. */
+static void copy_columns(ConstDoubles2 from, int64_t first, int64_t count, Doubles2 into, int64_t to) {
+    for (int64_t r = 0; count > 0 && r < from.rows; r++)
+        memcpy(into.data + r * into.columns + to, from.data + r * from.columns + first, (size_t)count * sizeof *from.data);
+}
+
+static void gather_rows(ConstDoubles2 field, ConstInts vertices, Doubles2 rows) {
+    for (int64_t r = 0; field.columns > 0 && r < vertices.size; r++)
+        memcpy(rows.data + r * rows.columns, field.data + vertices.data[r] * field.columns, (size_t)field.columns * sizeof *field.data);
+}
+
+/* S 3.7. */
+typedef struct {
+    double centre[3], radius;
+} Bend;
+
+static Bend bend_of(ConstDoubles2 x) {
+    Bend bend = {{0, 0, 0}, 0};
+    double n = (double)x.rows;
+    for (int64_t r = 0; r < x.rows; r++)
+        for (int d = 0; d < 3; d++) bend.centre[d] += x.data[3 * r + d];
+    for (int d = 0; d < 3; d++) bend.centre[d] /= n;
+    for (int64_t r = 0; r < x.rows; r++) {
+        double a = x.data[3 * r] - bend.centre[0], b = x.data[3 * r + 1] - bend.centre[1], c = x.data[3 * r + 2] - bend.centre[2];
+        bend.radius += a * a + b * b + c * c;
+    }
+    bend.radius = __builtin_sqrt(bend.radius / n + SMALLEST_RADIUS);
+    return bend;
+}
+
+static void fill_bends(Bend bend, ConstDoubles2 x, Doubles2 columns) {
+    for (int64_t r = 0; r < x.rows; r++) {
+        double own[3], *to = columns.data + r * columns.columns;
+        for (int d = 0; d < 3; d++) {
+            *to++ = x.data[3 * r + d];
+            own[d] = (x.data[3 * r + d] - bend.centre[d]) / bend.radius;
+        }
+        for (int a = 0; a < 3; a++)
+            for (int b = a; b < 3; b++) *to++ = SQUARES * bend.radius * own[a] * own[b];
+        for (int a = 0; a < 3; a++)
+            for (int b = a; b < 3; b++)
+                for (int c = b; c < 3; c++) *to++ = CUBES * bend.radius * own[a] * own[b] * own[c];
+    }
+}
+
+/* Bends and first values at some vertices. */
+static bool fill_known(Bend bend, ConstDoubles2 first_frame, const Mover *movers, int count, ConstInts vertices, Arena *scratch, Doubles2 known) {
+    Doubles2 places = take_doubles2(scratch, vertices.size, 3);
+    if (failed(scratch->context)) return false;
+    gather_rows(first_frame, vertices, places);
+    fill_bends(bend, const_doubles2(places), known);
+    for (int64_t r = 0; r < vertices.size; r++) {
+        double *to = known.data + r * known.columns + BENDING;
+        for (int k = 0; k < count; to += movers[k++].width)
+            for (int64_t d = 0; d < movers[k].width; d++)
+                to[d] = movers[k].start.rows > 0 ? movers[k].start.data[vertices.data[r] * movers[k].width + d] : 0.0;
+    }
+    return true;
+}
+
+/* What is known of a part: around it, and its differences. */
+static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, const Mover *movers, int count, int64_t columns, Arena *scratch) {
+    const Site *part = gops->part + index;
+    int64_t n = part->patch.size, ends = part->around.size;
+    Doubles2 dictionary, here = take_doubles2(scratch, n, columns), around = take_doubles2(scratch, ends, columns);
+    Doubles2 expected = take_doubles2(scratch, n, columns), differences = take_doubles2(scratch, part->width, columns);
+    if (failed(gops->context) || !lend_dictionary(gops, index, scratch, &dictionary)) return false;
+    Doubles2 places = take_doubles2(scratch, n, 3);
+    if (failed(gops->context)) return false;
+    gather_rows(first_frame, part->patch.vertices, places);
+    Bend bend = bend_of(const_doubles2(places));
+    if (!fill_known(bend, first_frame, movers, count, part->patch.vertices, scratch, here)
+        || !fill_known(bend, first_frame, movers, count, const_ints(part->around), scratch, around)
+        || !extend_part(gops, part, const_doubles2(around), scratch, expected))
+        return false;
+    for (int64_t i = 0; i < n * columns; i++) here.data[i] -= expected.data[i];
+    project(const_doubles2(dictionary), const_doubles2(here), differences);
+    int64_t place = 0;
+    for (int k = 0; k < gops->tracks; k++) {
+        Doubles2 known = gops->track[k].known;
+        copy_columns(const_doubles2(around), place, known.columns, rows_from(known, part->first, ends), 0);
+        copy_columns(const_doubles2(differences), place, known.columns, rows_from(known, part->first + ends, part->width), 0);
+        place += known.columns;
+    }
+    return true;
+}
+
+bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, ConstInts2 faces,
+    ConstDoubles2 first_frame, int64_t given, const Mover *movers, int count, Arena *scratch) {
+    *gops = (Gops){.context = context, .header = header, .graph = graph, .blocks = blocks, .given = (double)given, .tracks = count + 1, .begun = true};
+    gops->arena = gops->dictionaries = gops->history = gops->levels = gops->frames = arena_of(context);
+    double work, widths = 0, n = (double)graph->size;
+    int64_t columns = BENDING;
+    for (int k = 0; k < count; k++) widths += (double)movers[k].width;
+    if (!find_parts(gops, faces, first_frame, scratch) || !reserve_dictionaries(gops, 0, 0, &work) || !keep(context, TRACK_MEMORY * n * widths, 0)
+        || !keep(context, 8 * (BENDING + widths) * gops->around, 0))
+        return false;
+    gops->track = take_zeros(&gops->arena, gops->tracks, sizeof *gops->track);
+    for (int k = 0; fine(context) && k <= count; k++) {
+        Track *track = gops->track + k;
+        track->width = k > 0 ? movers[k - 1].width : 3;
+        track->kept = k > 0 ? 2 : least(MOST_KEPT, largest(2, (1 << 19) / graph->size));
+        track->known = take_doubles2(&gops->arena, gops->rows, k > 0 ? track->width : BENDING);
+        track->starts_at_first = k == 0;
+        columns += k > 0 ? track->width : 0;
+    }
+    for (int64_t i = 0; fine(context) && i < gops->count; i++) {
+        Mark mark = mark_of(scratch);
+        know_part(gops, i, first_frame, movers, count, columns, scratch);
+        release_to(scratch, mark);
+    }
+    return fine(context);
+}
+
+void forget_frames(Gops *gops) { gops->can_follow = gops->can_inherit = false; }
+
+void suspend_gops(Gops *gops) {
+    if (!gops->begun) return;
+    forget_frames(gops);
+    release_all(&gops->history);
+    release_all(&gops->levels);
+    release_all(&gops->frames);
+    release_dictionaries(gops);
+}
+
+void end_gops(Gops *gops) {
+    if (!gops->begun) return;
+    release_all(&gops->history);
+    release_all(&gops->levels);
+    release_all(&gops->frames);
+    release_all(&gops->dictionaries);
+    release_all(&gops->arena);
+    gops->begun = false;
+}
+
+/* The orthonormal cosines of T frames: row t, column frequency (S 5.1). */
+static Doubles2 time_cosines(int64_t frames, Arena *arena) {
+    Doubles2 columns = take_doubles2(arena, frames, frames);
+    Doubles table = take_doubles(arena, frames + 8);
+    if (failed(arena->context)) return columns;
+    cosines(0, table, columns);
+    double scale = __builtin_sqrt(2.0 / (double)frames), first = __builtin_sqrt(1.0 / (double)frames);
+    for (int64_t i = 0; i < frames * frames; i++) columns.data[i] = i % frames == 0 ? first : columns.data[i] * scale;
+    return columns;
+}
+
+/* One payload of matrices of levels, of `rows[i]` rows (S 4); references begin where `references` tells, or are none. With a
+ * lead row 0 has `lead[i]` columns, and each next one `stair` more. */
+typedef struct {
+    int64_t rows, lead;
+    int32_t *levels;
+    const int32_t *reference;
+    int64_t reference_rows;
+} Matrix;
+
+static bool read_matrices(Context *context, Bank bank, Span payload, const Matrix *matrices, int64_t count, int64_t columns, int64_t stair, Arena *scratch) {
+    Reading reading;
+    Longs slow = take_longs(scratch, columns);
+    if (failed(context) || !begin_reading(context, payload, &reading)) return false;
+    for (int64_t i = 0; i < count && !ran_over(&reading); i++) {
+        const Matrix *m = matrices + i;
+        Ints2 levels = {m->levels, m->rows, columns};
+        ConstInts2 reference = {m->reference, m->reference_rows, columns};
+        if (m->lead > 0) code_matrix(reading.coder, bank, levels, reference, 0, least(m->lead, columns), least(stair, columns), m->rows, columns, slow);
+        else code_matrix(reading.coder, bank, levels, reference, 0, columns, 0, (m->rows + 2) / 3, 0, slow);
+    }
+    return finish_reading(&reading);
+}
+
+/* to += scalar * from. */
+static void add_row(double *to, double scalar, const double *from, int64_t count) {
+    for (int64_t i = 0; i < count; i++) to[i] += scalar * from[i];
+}
+
+/* Columns at right angles, of what is free in them, which they overwrite (S 5.3). */
+static void turn_columns(Doubles2 free, double *v, double *shares) {
+    int64_t rows = free.rows, columns = free.columns;
+    for (int64_t k = columns - 1; k >= 0; k--) {
+        double square = 0.0, turned = 0.0;
+        for (int64_t r = k; r < rows; r++) {
+            v[r] = free.data[r * columns + k];
+            square += v[r] * v[r];
+        }
+        if (!(square > 0.0)) continue;
+        v[k] += v[k] < 0.0 ? -__builtin_sqrt(square) : __builtin_sqrt(square);
+        for (int64_t r = k; r < rows; r++) turned += v[r] * v[r];
+        int64_t count = columns - k - 1;
+        for (int64_t i = 0; i < count; i++) shares[i] = 0.0;
+        for (int64_t r = k; r < rows; r++) add_row(shares, v[r], free.data + r * columns + k + 1, count);
+        for (int64_t i = 0; i < count; i++) shares[i] *= 2.0 / turned;
+        for (int64_t r = k; r < rows; r++) add_row(free.data + r * columns + k + 1, -v[r], shares, count);
+    }
+}
+
+/* B: number 0 of all frames, then number 1, and so on (S 5.2, S 5.3). */
+static bool decode_basis(Context *context, const GopField *field, int64_t frames, Arena *arena, Arena *scratch, Doubles2 *basis) {
+    int64_t width = field->width, r = field->components, size = frames * r;
+    Mark mark = mark_of(scratch);
+    *basis = zero_doubles2(arena, width * frames, r);
+    Bank bank = make_level_bank(scratch);
+    Matrix *matrices = take_memory(scratch, width, sizeof *matrices);
+    Ints levels = zero_ints(scratch, width * size);
+    Doubles2 turned = take_doubles2(scratch, width * frames, r), time = time_cosines(frames, scratch);
+    Doubles vector = take_doubles(scratch, width * frames), shares = take_doubles(scratch, r);
+    bool done = fine(context);
+    for (int64_t c = 0; done && c < width; c++)
+        matrices[c] = (Matrix){frames, c + 1, levels.data + c * size, levels.data + (c > 0 ? c - 1 : 0) * size, c > 0 ? frames : 0};
+    done = done && read_matrices(context, bank, field->basis, matrices, width, r, width, scratch);
+    for (int64_t c = 0; done && c < width; c++) {
+        int state = 0;
+        for (int64_t i = 0; i < size; i++) {
+            int32_t level = levels.data[c * size + i], exponent = field->exponents.data[i % r];
+            double step = QUARTERS[exponent % 4];
+            for (int32_t e = exponent / 4; e > 0; e--) step *= 0.5;
+            turned.data[(i / r * width + c) * r + i % r] = 0.5 * trellis_point(state, level) * step;
+            state = trellis_following(state, level);
+        }
+    }
+    if (done) turn_columns(turned, vector.data, shares.data);
+    for (int64_t c = 0; done && c < width; c++)
+        for (int64_t t = 0; t < frames; t++)
+            for (int64_t f = 0; f < frames; f++)
+                add_row(basis->data + (c * frames + t) * r, time.data[t * frames + f], turned.data + (f * width + c) * r, r);
+    release_to(scratch, mark);
+    return done;
+}
+
+/* A closed loop over the rows of a part (S 6): `decoded` from levels, given what is known around it and in it. */
+static bool follow_loop(Context *context, ConstDoubles2 around, ConstDoubles2 ends, ConstDoubles2 known, ConstInts2 levels, double step, Arena *scratch, Doubles2 decoded) {
+    int64_t width = known.columns + levels.columns, rows = known.columns + least(levels.columns, INHERITED);
+    Mark mark = mark_of(scratch);
+    Doubles2 moments = take_doubles2(scratch, rows, width), factor = zero_doubles2(scratch, rows, width);
+    Doubles row = take_doubles(scratch, width), expected = take_doubles(scratch, width);
+    double spoiled = 0.0;
+    if (fine(context)) {
+        learn_around(around, ends, moments, step, RULES, expected, row);
+        follow_rows(known, levels, decoded, moments, step, RULES, factor, row, expected);
+        for (int64_t i = 0; i < decoded.rows * decoded.columns; i++) spoiled += decoded.data[i] * 0.0;
+    }
+    release_to(scratch, mark);
+    return fine(context) && (spoiled == 0.0 || FAIL(context, NUMERIC, "the levels reconstruct to coefficients that are not finite"));
+}
+
+/* Columns of two matrices side by side. */
+static Doubles2 beside(Doubles2 one, Doubles2 other, Arena *scratch) {
+    if (other.columns == 0) return one;
+    Doubles2 both = take_doubles2(scratch, one.rows, one.columns + other.columns);
+    if (failed(scratch->context)) return both;
+    copy_columns(const_doubles2(one), 0, one.columns, both, 0);
+    copy_columns(const_doubles2(other), 0, other.columns, both, one.columns);
+    return both;
+}
+
+/* What is told of each part, in turn. */
+typedef struct {
+    const Gop *gop;
+    Ints *levels;        /* of each track */
+    Doubles2 *found;     /* of each track: what is inherited, or what low-delay frames are; stacked rows */
+    Doubles2 time;
+} Telling;
+
+/* Differences of a part in a learnt field (S 7.1), which is `ends` around it. */
+static bool decode_learnt_part(Gops *gops, const Telling *telling, int k, const Site *part, ConstDoubles2 ends, ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+    const GopField *field = telling->gop->field + k;
+    Track *track = gops->track + k;
+    int64_t m = ends.rows, c = part->width;
+    Doubles2 before = telling->gop->method == LEARNT_NEXT ? track->inherited : (Doubles2){NULL, gops->rows, 0};
+    Doubles2 known = beside(rows_from(track->known, part->first, m + c), rows_from(before, part->first, m + c), scratch), found = telling->found[k];
+    if (field->components > 0
+        && (failed(gops->context) || !follow_loop(gops->context, const_doubles2(rows_from(known, 0, m)), ends, const_doubles2(rows_from(known, m, c)),
+               levels, field->step, scratch, differences)))
+        return false;
+    copy_columns(ends, 0, found.columns, rows_from(found, part->first, m), 0);
+    copy_columns(const_doubles2(differences), 0, found.columns, rows_from(found, part->first + m, c), 0);
+    return true;
+}
+
+/* The frame that is `age` before the GOP, and the first one before all. */
+static const double *kept_frame(const Track *track, int64_t age) {
+    return track->ring[(track->latest + least(age, track->count - 1)) % track->kept].data;
+}
+
+/* What low-delay frames start from: `base`, of `rows` rows from `first` on (S 7.2). */
+static void fill_base(const Track *track, const GopField *field, ConstDoubles2 time, int64_t first, Doubles2 base) {
+    int64_t width = track->width;
+    for (int64_t i = 0; i < base.rows * base.columns; i++) base.data[i] = 0.0;
+    for (int64_t t = 0; t < time.rows; t++) {
+        const double *begun = kept_frame(track, field->back > 0 ? field->back - 1 - t : 0) + first * width;
+        for (int64_t r = 0; r < base.rows; r++)
+            for (int64_t f = 0; f < time.rows; f++)
+                for (int64_t d = 0; d < width; d++)
+                    base.data[r * base.columns + f * width + d] += begun[r * width + d] * time.data[t * time.rows + f];
+    }
+}
+
+/* Columns that are known of low-delay frames, in some stacked rows (S 7.2). */
+static void fill_references(const Track *track, const GopField *field, int64_t first, Doubles2 known) {
+    int64_t width = track->width, lags = lags_of(track->kept, field->brief);
+    const double *latest = kept_frame(track, 0);
+    for (int64_t r = 0; r < known.rows; r++) {
+        double *to = known.data + r * known.columns;
+        int64_t row = first + r;
+        for (int64_t d = 0; d < width; d++) *to++ = track->known.data[row * track->known.columns + d];
+        for (int64_t d = 0; d < width; d++) *to++ = latest[row * width + d];
+        for (int64_t i = 0; i < lags; i++) {
+            const double *late = kept_frame(track, i > 0 ? LAG[i - 1] : 0), *early = kept_frame(track, LAG[i]);
+            for (int64_t d = 0; d < width; d++) *to++ = late[row * width + d] - early[row * width + d];
+        }
+        if (field->back == 0) continue;
+        const double *back = kept_frame(track, field->back - 1);
+        for (int64_t d = 0; d < width; d++) *to++ = back[row * width + d] - latest[row * width + d];
+    }
+}
+
+/* What a part is in low-delay frames, as cosines over time. */
+static bool decode_next_part(Gops *gops, const Telling *telling, int k, const Site *part, ConstDoubles2 ends, ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+    const GopField *field = telling->gop->field + k;
+    Track *track = gops->track + k;
+    int64_t m = ends.rows, c = part->width, columns = ends.columns;
+    Doubles2 own = rows_from(telling->found[k], part->first, m + c), inside = rows_from(own, m, c);
+    fill_base(track, field, const_doubles2(telling->time), part->first, own);
+    if (field->components > 0) {
+        int64_t wide = track->width * (2 + lags_of(track->kept, field->brief) + (field->back > 0));
+        Doubles2 known = take_doubles2(scratch, m + c, wide), changes = take_doubles2(scratch, m, columns);
+        if (failed(gops->context)) return false;
+        fill_references(track, field, part->first, known);
+        for (int64_t i = 0; i < m * columns; i++) changes.data[i] = ends.data[i] - own.data[i];
+        if (!follow_loop(gops->context, const_doubles2(rows_from(known, 0, m)), const_doubles2(changes), const_doubles2(rows_from(known, m, c)),
+                levels, field->step, scratch, differences))
+            return false;
+        for (int64_t i = 0; i < c * columns; i++) inside.data[i] += differences.data[i];
+        copy_columns(ends, 0, columns, own, 0);
+    }
+    copy_columns(const_doubles2(inside), 0, columns, differences, 0);
+    return true;
+}
+
+/* Fill a part of the field from what is told of it. */
+static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_t *begin, Arena *scratch) {
+    Context *context = gops->context;
+    const Site *part = gops->part + index;
+    int64_t n = part->patch.size, m = part->around.size, c = part->width, total = gops->field.columns, place = 0;
+    Doubles2 dictionary;
+    if (!lend_dictionary(gops, index, scratch, &dictionary)) return false;
+    Doubles2 around = take_doubles2(scratch, m, total), differences = take_doubles2(scratch, c, total);
+    Doubles2 positions = take_doubles2(scratch, n, total), extension = take_doubles2(scratch, n, total);
+    if (failed(context)) return false;
+    gather_rows(const_doubles2(gops->field), const_ints(part->around), around);
+    for (int k = 0; k < gops->tracks; k++) {
+        int64_t columns = gops->basis[k].columns;
+        Mark mark = mark_of(scratch);
+        Doubles2 ends = take_doubles2(scratch, m, columns), own = take_doubles2(scratch, c, columns);
+        if (failed(context)) return false;
+        copy_columns(const_doubles2(around), place, columns, ends, 0);
+        ConstInts2 levels = {telling->levels[k].data + *begin * columns, c, columns};
+        bool done = (has_basis(telling->gop) ? decode_learnt_part : decode_next_part)(gops, telling, k, part, const_doubles2(ends), levels, scratch, own);
+        if (!done) return false;
+        copy_columns(const_doubles2(own), 0, columns, differences, place);
+        place += columns;
+        release_to(scratch, mark);
+    }
+    *begin += c;
+    if (total == 0) return true;
+    if (!extend_part(gops, part, const_doubles2(around), scratch, extension)) return false;
+    reconstruct(const_doubles2(dictionary), const_doubles2(differences), positions);
+    for (int64_t r = 0; r < n; r++)
+        for (int64_t j = 0; j < total; j++)
+            gops->field.data[part->patch.vertices.data[r] * total + j] = positions.data[r * total + j] + extension.data[r * total + j];
+    return true;
+}
+
+static bool place_parts(Gops *gops, const Telling *telling, Arena *scratch) {
+    int64_t begin = 0;
+    bool done = fine(gops->context);
+    for (int64_t i = 0; done && i < gops->count; i++) {
+        Mark mark = mark_of(scratch);
+        done = place_part(gops, telling, i, &begin, scratch);
+        release_to(scratch, mark);
+    }
+    return done;
+}
+
+static int64_t coded_rows(const Gops *gops) {
+    int64_t rows = 0;
+    for (int64_t i = 0; i < gops->count; i++) rows += gops->part[i].width;
+    return rows;
+}
+
+/* The levels of all parts in a field, whose references are the parts before (no `before`) or the same parts there. */
+static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int32_t *before, int64_t columns, Arena *scratch, Ints levels) {
+    Mark mark = mark_of(scratch);
+    Matrix *matrices = take_memory(scratch, gops->count, sizeof *matrices);
+    if (failed(gops->context)) return false;
+    int64_t begin = 0;
+    for (int64_t i = 0; i < gops->count; i++) {
+        int64_t rows = gops->part[i].width, earlier = i > 0 && before == NULL ? gops->part[i - 1].width : 0;
+        int32_t *own = levels.data + begin * columns;
+        matrices[i] = (Matrix){rows, 0, own, before != NULL ? before + begin * columns : own - earlier * columns, before != NULL ? rows : earlier};
+        begin += rows;
+    }
+    bool done = read_matrices(gops->context, bank, field->levels, matrices, gops->count, columns, 0, scratch);
+    release_to(scratch, mark);
+    return done;
+}
+
+/* Make room for the field of a GOP, and for batches of its frames. */
+static bool begin_field(Gops *gops, const Gop *gop) {
+    Context *context = gops->context;
+    int64_t columns = 0, n = gops->graph->size, shown = least(gop->frames, BATCH);
+    for (int k = 0; k < gops->tracks; k++) columns += gops->basis[k].columns;
+    gops->field = zero_doubles2(&gops->frames, n, columns);
+    gops->batch = take_memory(&gops->frames, gops->tracks, sizeof *gops->batch);
+    for (int k = 0; fine(context) && k < gops->tracks; k++) gops->batch[k] = take_doubles2(&gops->frames, shown * n, gops->track[k].width);
+    gops->batched = -1;
+    return fine(context);
+}
+
+static bool decode_learnt(Gops *gops, const Gop *gop, Arena *scratch) {
+    Context *context = gops->context;
+    bool follows = gop->method == LEARNT_NEXT;
+    if (follows && !gops->can_inherit) return FAIL(context, CORRUPT, "a GOP refers to one that is not there");
+    forget_frames(gops);
+    Telling telling = {.gop = gop, .levels = take_memory(scratch, gops->tracks, sizeof(Ints)), .found = take_memory(scratch, gops->tracks, sizeof(Doubles2))};
+    if (failed(context)) return false;
+    for (int k = 0; k < gops->tracks; k++) {
+        const GopField *field = gop->field + k;
+        if (field->step > 0) {
+            if (!decode_basis(context, field, gop->told, &gops->frames, scratch, gops->basis + k)) return false;
+        } else {
+            gops->basis[k] = (Doubles2){take_memory(&gops->frames, 0, 1), field->width * gop->told, 0};
+        }
+    }
+    for (int k = 0; k < gops->tracks; k++) {
+        const GopField *field = gop->field + k;
+        telling.levels[k] = zero_ints(scratch, coded_rows(gops) * field->components);
+        telling.found[k] = take_doubles2(scratch, gops->rows, least(field->components, INHERITED));
+        Mark mark = mark_of(scratch);
+        Bank bank = make_level_bank(scratch);
+        if (failed(context) || (field->step > 0 && !read_levels(gops, bank, field, NULL, field->components, scratch, telling.levels[k]))) return false;
+        release_to(scratch, mark);
+    }
+    if (!begin_field(gops, gop) || !place_parts(gops, &telling, scratch)) return false;
+    release_all(&gops->history);
+    for (int k = 0; k < gops->tracks; k++) {
+        gops->track[k].inherited = take_doubles2(&gops->history, gops->rows, telling.found[k].columns);
+        if (failed(context)) return false;
+        copy_columns(const_doubles2(telling.found[k]), 0, telling.found[k].columns, gops->track[k].inherited, 0);
+    }
+    gops->can_inherit = true;
+    return true;
+}
+
+/* Key frames begin a history of their own, with the first frame (S 7.3, S 10.3). */
+static bool begin_history(Gops *gops) {
+    release_all(&gops->history);
+    gops->together = 0;
+    for (int k = 0; fine(gops->context) && k < gops->tracks; k++) {
+        Track *track = gops->track + k;
+        memset(track->ring, 0, sizeof track->ring);
+        track->bank = make_level_bank(&gops->history);
+        track->latest = 0;
+        track->count = 1;
+        track->ring[0] = zero_doubles(&gops->history, gops->rows * track->width);
+        if (failed(gops->context)) return false;
+        if (track->starts_at_first)
+            copy_columns(const_doubles2(track->known), 0, track->width, (Doubles2){track->ring[0].data, gops->rows, track->width}, 0);
+    }
+    return fine(gops->context);
+}
+
+/* Make frames the latest (S 7.2): `spectra` are of all stacked rows, as cosines over time. */
+static bool keep_frames(Gops *gops, Track *track, ConstDoubles2 time, ConstDoubles2 spectra) {
+    int64_t width = track->width, frames = time.rows;
+    for (int64_t t = largest(0, frames - track->kept); t < frames; t++) {
+        track->latest = (track->latest + track->kept - 1) % track->kept;
+        Doubles *frame = track->ring + track->latest;
+        if (frame->data == NULL) *frame = take_doubles(&gops->history, gops->rows * width);
+        if (failed(gops->context)) return false;
+        for (int64_t r = 0; r < gops->rows; r++)
+            for (int64_t d = 0; d < width; d++) {
+                double sum = 0.0;
+                for (int64_t f = 0; f < frames; f++) sum += spectra.data[r * spectra.columns + f * width + d] * time.data[t * frames + f];
+                frame->data[r * width + d] = sum;
+            }
+        track->count = least(track->count + 1, track->kept);
+    }
+    return true;
+}
+
+/* The basis of low-delay frames: each cosine by itself in one number after the other. */
+static Doubles2 held_cosines(int64_t width, ConstDoubles2 time, Arena *arena) {
+    Doubles2 basis = zero_doubles2(arena, width * time.rows, width * time.rows);
+    for (int64_t d = 0; fine(arena->context) && d < width; d++)
+        for (int64_t t = 0; t < time.rows; t++)
+            for (int64_t f = 0; f < time.rows; f++) basis.data[(d * time.rows + t) * basis.columns + f * width + d] = time.data[t * time.rows + f];
+    return basis;
+}
+
+static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
+    Context *context = gops->context;
+    if (gop->method == KEY_FRAMES) {
+        if (!begin_history(gops)) return false;
+    } else if (!gops->can_follow) {
+        forget_frames(gops);
+        return FAIL(context, CORRUPT, "a frame refers to one that is not there");
+    }
+    forget_frames(gops);
+    Telling telling = {.gop = gop, .levels = take_memory(scratch, gops->tracks, sizeof(Ints)), .found = take_memory(scratch, gops->tracks, sizeof(Doubles2))};
+    telling.time = time_cosines(gop->frames, &gops->frames);
+    int64_t rows = coded_rows(gops);
+    if (failed(context)) return false;
+    if (gops->together != gop->frames) release_all(&gops->levels);
+    for (int k = 0; k < gops->tracks; k++) {
+        const GopField *field = gop->field + k;
+        Track *track = gops->track + k;
+        int64_t columns = track->width * gop->frames;
+        if (field->back > track->count) return FAIL(context, CORRUPT, "a frame refers to one # before it, where # are kept", field->back, track->count);
+        if (gops->together != gop->frames) track->levels = zero_ints(&gops->levels, rows * columns);
+        telling.levels[k] = zero_ints(scratch, rows * columns);
+        telling.found[k] = take_doubles2(scratch, gops->rows, columns);
+        gops->basis[k] = held_cosines(track->width, const_doubles2(telling.time), &gops->frames);
+        if (failed(context)) return false;
+        if (field->components > 0 && !read_levels(gops, track->bank, field, track->levels.data, columns, scratch, telling.levels[k])) return false;
+    }
+    gops->together = gop->frames;
+    if (!begin_field(gops, gop) || !place_parts(gops, &telling, scratch)) return false;
+    for (int k = 0; k < gops->tracks; k++) {
+        Track *track = gops->track + k;
+        memcpy(track->levels.data, telling.levels[k].data, (size_t)track->levels.size * sizeof *track->levels.data);
+        if (!keep_frames(gops, track, const_doubles2(telling.time), const_doubles2(telling.found[k]))) return false;
+    }
+    gops->can_follow = true;
+    return true;
+}
+
+bool decode_gop(Gops *gops, const Gop *gop, Arena *scratch) {
+    release_all(&gops->frames);
+    gops->gop = *gop;
+    gops->basis = take_memory(&gops->frames, gops->tracks, sizeof *gops->basis);
+    Longs shown = take_longs(&gops->frames, gop->frames);
+    if (failed(gops->context)) return false;
+    memcpy(shown.data, gop->shown.data, (size_t)gop->frames * sizeof *shown.data);
+    gops->gop.shown = shown;
+    Mark mark = mark_of(scratch);
+    bool done = (has_basis(gop) ? decode_learnt : decode_next)(gops, gop, scratch);
+    release_to(scratch, mark);
+    return done;
+}
+
+static bool show_batch(Gops *gops, int64_t first, Arena *scratch) {
+    int64_t shown = least(BATCH, gops->gop.frames - first), n = gops->graph->size, place = 0;
+    for (int k = 0; k < gops->tracks; k++) {
+        Doubles2 basis = gops->basis[k], weights;
+        int64_t width = gops->track[k].width, told = basis.rows / width;
+        Mark mark = mark_of(scratch);
+        weights = zero_doubles2(scratch, basis.columns, width * BATCH);
+        if (failed(gops->context)) return false;
+        for (int64_t i = 0; i < basis.columns; i++)
+            for (int64_t d = 0; d < width; d++)
+                for (int64_t t = 0; t < shown; t++)
+                    weights.data[i * weights.columns + d * BATCH + t] = basis.data[(d * told + gops->gop.shown.data[first + t]) * basis.columns + i];
+        show_frames(const_doubles2(gops->field), place, const_doubles2(weights), (Doubles2){gops->batch[k].data, shown * n, width});
+        release_to(scratch, mark);
+        place += basis.columns;
+    }
+    gops->batched = first;
+    return true;
+}
+
+bool show_frame(Gops *gops, int64_t t, Arena *scratch, int track, ConstDoubles2 *frame) {
+    if (gops->batched != t - t % BATCH && !show_batch(gops, t - t % BATCH, scratch)) return false;
+    *frame = const_doubles2(rows_from(gops->batch[track], t % BATCH * gops->graph->size, gops->graph->size));
+    return true;
+}

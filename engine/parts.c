@@ -1,0 +1,232 @@
+/* Parts of a mesh whose frames move: the weights of their edges, what they hang on, and their dictionaries (S 3, S 8.2). */
+#include "codec/signal/signal.h"
+#include "engine/gop.h"
+
+static const double FLATNESS = 0x1p-12, SMALLNESS = 0x1p-48, SMALLEST_WEIGHT = 0x1p-5, LARGEST_WEIGHT = 8, BEND = 0x1p-6, TETHER = 0x1p-16;
+static const double SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4, SPARE_MEMORY = 4 * 0x1p20;
+
+/* S 3.1. */
+static bool weigh_edges(Context *context, const Graph *graph, ConstInts2 faces, ConstDoubles2 positions, Doubles weights) {
+    bool finite = true;
+    cotangents(graph->offsets, graph->neighbours, faces, positions, FLATNESS, SMALLNESS, weights);
+    for (int64_t i = 0; i < weights.size; i++) {
+        double t = weights.data[i];
+        finite = finite && t - t == 0.0;
+        double p = 0.5 * (t + __builtin_sqrt(t * t + BEND));
+        weights.data[i] = SMALLEST_WEIGHT + LARGEST_WEIGHT * p / (LARGEST_WEIGHT + p);
+    }
+    return finite || FAIL(context, NUMERIC, "the first frame is too large for weights of its edges");
+}
+
+static void sift(int32_t *heap, int64_t root, int64_t count) {
+    for (int64_t child; (child = 2 * root + 1) < count; root = child) {
+        if (child + 1 < count && heap[child + 1] > heap[child]) child++;
+        if (heap[root] >= heap[child]) return;
+        int32_t other = heap[root];
+        heap[root] = heap[child];
+        heap[child] = other;
+    }
+}
+
+static void sort_numbers(int32_t *numbers, int64_t count) {
+    for (int64_t root = count / 2; root-- > 0;) sift(numbers, root, count);
+    for (int64_t end = count; end-- > 1;) {
+        int32_t last = numbers[end];
+        numbers[end] = numbers[0];
+        numbers[0] = last;
+        sift(numbers, 0, end);
+    }
+}
+
+/* Number the vertices around a part, ascending; `place`, one for each vertex of the mesh, holds -1 before and after. */
+static Ints number_around(Ints outer, Ints place, Arena *scratch) {
+    Ints around = take_ints(scratch, outer.size);
+    if (failed(scratch->context)) return around;
+    around.size = 0;
+    for (int64_t i = 0; i < outer.size; i++) {
+        if (place.data[outer.data[i]] < 0) around.data[around.size++] = outer.data[i];
+        place.data[outer.data[i]] = 0;
+    }
+    sort_numbers(around.data, around.size);
+    for (int64_t i = 0; i < around.size; i++) place.data[around.data[i]] = (int32_t)i;
+    for (int64_t i = 0; i < outer.size; i++) outer.data[i] = place.data[outer.data[i]];
+    for (int64_t i = 0; i < around.size; i++) place.data[around.data[i]] = -1;
+    return around;
+}
+
+/* S 3.2. */
+static bool hang_part(const Graph *graph, ConstDoubles weights, ConstInts rank, Ints place, Arena *scratch, Site *part) {
+    Patch *patch = &part->patch;
+    int64_t n = patch->size, room = 0;
+    for (int64_t r = 0; r < n; r++) room += graph->offsets.data[patch->vertices.data[r] + 1] - graph->offsets.data[patch->vertices.data[r]];
+    Doubles inner = take_doubles(scratch, patch->neighbours.size);
+    part->springs = take_doubles(scratch, n);
+    part->starts = take_ints(scratch, n + 1);
+    part->outer = take_ints(scratch, room);
+    part->stiffness = take_doubles(scratch, room);
+    if (failed(scratch->context)) return false;
+    part->outer.size = part->stiffness.size = hold(graph->offsets, graph->neighbours, weights, rank, patch->vertices, patch->offsets,
+        patch->neighbours, inner, part->springs, part->starts, part->outer, part->stiffness);
+    part->around = number_around(part->outer, place, scratch);
+    patch->weights = const_doubles(inner);
+    part->pulling = 0.0;
+    for (int64_t r = 0; fine(scratch->context) && r < n; r++) {
+        patch->diagonal.data[r] = 0.0;
+        for (int64_t i = patch->offsets.data[r]; i < patch->offsets.data[r + 1]; i++) patch->diagonal.data[r] += inner.data[i];
+        part->pulling += part->springs.data[r];
+    }
+    return fine(scratch->context);
+}
+
+/* What stays of a part, from where it was made. */
+#define STAY(arena, array)                                                                                              \
+    do {                                                                                                                \
+        void *copy_ = take_memory(arena, (array).size, sizeof *(array).data);                                           \
+        if (copy_ == NULL) return false;                                                                                \
+        if ((array).size > 0) memcpy(copy_, (array).data, (size_t)(array).size * sizeof *(array).data);                 \
+        (array).data = copy_;                                                                                           \
+    } while (false)
+
+static bool keep_part(Arena *arena, Site *part) {
+    Patch *patch = &part->patch;
+    Fronts *fronts = &patch->fronts;
+    STAY(arena, patch->vertices);
+    STAY(arena, patch->offsets);
+    STAY(arena, patch->neighbours);
+    STAY(arena, patch->weights);
+    STAY(arena, patch->diagonal);
+    STAY(arena, fronts->rows);
+    STAY(arena, fronts->steps);
+    STAY(arena, fronts->owners);
+    STAY(arena, fronts->firsts);
+    STAY(arena, fronts->starts);
+    STAY(arena, fronts->borders);
+    STAY(arena, fronts->places);
+    STAY(arena, fronts->sums);
+    STAY(arena, part->springs);
+    STAY(arena, part->stiffness);
+    STAY(arena, part->starts);
+    STAY(arena, part->outer);
+    STAY(arena, part->around);
+    return true;
+}
+
+static bool find_part(Gops *gops, int64_t index, ConstDoubles weights, ConstInts rank, Ints place, Arena *scratch, Site *part) {
+    Context *context = gops->context;
+    int64_t size = gops->blocks->cores.data[index];
+    *part = (Site){.work = -1, .first = gops->rows};
+    if (!spend(context, block_work((double)size, (double)gops->blocks->edges.data[index], 0) - UNCODED_WORK, 0)
+        || !order_patch(context, gops->graph, members_of(gops->blocks, index, size), scratch, &part->patch)
+        || !hang_part(gops->graph, weights, rank, place, scratch, part) || !find_patch_fronts(context, scratch, &part->patch))
+        return false;
+    const Fronts *fronts = &part->patch.fronts;
+    double factor = fronts->places.data[fronts->places.size - 1];
+    if (!keep(context, SITE_MEMORY + ROW_MEMORY * (double)size + 8 * factor, 0) || !spend(context, 2 * factor_work(fronts), 0)
+        || !keep_part(&gops->arena, part))
+        return false;
+    part->width = least(gops->header->coefficients, size);
+    part->making = patch_memory(fronts, part->width);
+    return factorize_patch(context, &part->patch, const_doubles(part->springs), TETHER, &gops->arena, &part->factor);
+}
+
+bool find_parts(Gops *gops, ConstInts2 faces, ConstDoubles2 first_frame, Arena *scratch) {
+    Context *context = gops->context;
+    const Graph *graph = gops->graph;
+    const Blocks *blocks = gops->blocks;
+    Doubles weights = zero_doubles(scratch, graph->neighbours.size);
+    Ints rank = take_ints(scratch, graph->size), place = take_ints(scratch, graph->size);
+    gops->count = blocks->count;
+    gops->part = take_zeros(&gops->arena, blocks->count, sizeof *gops->part);
+    if (failed(context) || !weigh_edges(context, graph, faces, first_frame, weights)) return false;
+    for (int64_t v = 0; v < graph->size; v++) place.data[v] = -1;
+    for (int64_t i = 0; i < blocks->count; i++) {
+        ConstInts core = members_of(blocks, i, blocks->cores.data[i]);
+        for (int64_t r = 0; r < core.size; r++) rank.data[core.data[r]] = (int32_t)i;
+    }
+    for (int64_t i = 0; i < blocks->count; i++) {
+        Site *part = gops->part + i;
+        Mark mark = mark_of(scratch);
+        bool found = find_part(gops, i, const_doubles(weights), const_ints(rank), place, scratch, part);
+        release_to(scratch, mark);
+        if (!found) return false;
+        gops->rows += part->around.size + part->width;
+        gops->around += (double)part->around.size;
+        gops->wide = largest(gops->wide, part->around.size + part->width);
+        gops->largest = largest(gops->largest, part->patch.size);
+        gops->making = gops->making > part->making ? gops->making : part->making;
+    }
+    return true;
+}
+
+static double dictionary_memory(const Site *part) { return 8.0 * (double)part->patch.size * (double)part->width; }
+
+/* Those that are kept are always the first ones. */
+static void drop_from(Gops *gops, int64_t count) {
+    if (count < gops->count && gops->part[count].dictionary.rows > 0) release_to(&gops->dictionaries, gops->part[count].before);
+    for (int64_t i = count; i < gops->count; i++) gops->part[i].dictionary.rows = 0;
+}
+
+void release_dictionaries(Gops *gops) {
+    if (gops->part != NULL) drop_from(gops, 0);
+    gops->context->spent.kept -= gops->reserved;
+    gops->reserved = gops->use = 0;
+    gops->kept = 0;
+}
+
+/* Have room for what comes next, and keep as many dictionaries as there is room for besides; the `work` of making others. */
+bool reserve_dictionaries(Gops *gops, double memory, double use, double *work) {
+    Context *context = gops->context;
+    double free_memory = memory_left(context), room = free_memory + gops->reserved - memory - use - SPARE_MEMORY, all = 0, held = 0;
+    bool whole = true;
+    int64_t count = 0;
+    for (int64_t i = 0; i < gops->count; i++) {
+        whole = whole && gops->part[i].dictionary.rows > 0;
+        all += dictionary_memory(gops->part + i);
+    }
+    double making = whole && all <= room ? 0 : gops->making;
+    if (!afford(context, free_memory - room + making)) return false;
+    while (count < gops->count && held + dictionary_memory(gops->part + count) <= room - making) held += dictionary_memory(gops->part + count++);
+    if (!keep(context, memory + held - gops->reserved, 0)) return false;
+    gops->reserved = memory + held;
+    gops->use = use;
+    drop_from(gops, count);
+    *work = 0;
+    for (int64_t i = least(gops->kept, count); i < gops->count; i++) *work += gops->part[i].work > 0 ? gops->part[i].work : 0;
+    gops->kept = count;
+    return true;
+}
+
+bool lend_dictionary(Gops *gops, int64_t index, Arena *scratch, Doubles2 *dictionary) {
+    Context *context = gops->context;
+    Site *part = gops->part + index;
+    *dictionary = part->dictionary;
+    if (part->dictionary.rows > 0) return true;
+    if (!afford(context, part->making + gops->use)) return false;
+    bool stays = index < gops->kept;
+    Mark mark = mark_of(scratch);
+    double before = context->spent.spent;
+    part->before = mark_of(&gops->dictionaries);
+    context->prepaid = part->work >= 0; /* by who has reserved */
+    bool made = key_dictionary(context, gops->header, &part->patch, const_doubles(part->springs), NULL, part->width,
+        stays ? &gops->dictionaries : scratch, scratch, dictionary);
+    if (part->work < 0 && made) part->work = context->spent.spent - before;
+    context->prepaid = false;
+    if (stays) release_to(scratch, mark);
+    if (stays && made) part->dictionary = *dictionary;
+    if (!made) release_to(&gops->dictionaries, part->before);
+    return made;
+}
+
+bool extend_part(Gops *gops, const Site *part, ConstDoubles2 ends, Arena *scratch, Doubles2 extension) {
+    int64_t n = part->patch.size, m = ends.columns;
+    Mark mark = mark_of(scratch);
+    Doubles2 pulls = take_doubles2(scratch, n, m);
+    Doubles room = take_doubles(scratch, m + solving_space(n, m));
+    if (fine(gops->context)) {
+        pull(const_ints(part->starts), const_ints(part->outer), const_doubles(part->stiffness), ends, pulls);
+        continue_known(part->patch.fronts, part->factor.values, const_doubles(part->factor.inverse), const_doubles(part->springs),
+            part->pulling, const_doubles2(pulls), room, extension);
+    }
+    release_to(scratch, mark);
+    return fine(gops->context);
+}

@@ -1,0 +1,391 @@
+/* Sequences: runs, one behind the other, each a mesh and its GOPs (specification, S 1, S 9): codec/sequence/decoder.py and
+ * run_decoding.py. */
+#include "engine/decoder.h"
+
+static bool is_tolerable(const bsmdec *decoder) {
+    return decoder->tolerant && failed(&decoder->context) && decoder->context.error.status != BSMDEC_NO_MEMORY;
+}
+
+/* Frames are lost; how many is known when the next ones come. */
+static void lose(Sequence *sequence, bsmdec_error error) {
+    if (!sequence->damaged) sequence->damage = error;
+    sequence->damaged = true;
+}
+
+static void forget_skipped(Sequence *sequence) {
+    release_all(&sequence->waiting);
+    sequence->first = sequence->last = NULL;
+}
+
+static void forget(bsmdec *decoder) {
+    forget_skipped(&decoder->sequence);
+    if (decoder->mesh.gops.begun) forget_frames(&decoder->mesh.gops);
+}
+
+/* Say that so many frames are lost, or fail with that. */
+static bool report_loss(bsmdec *decoder, int64_t frames) {
+    Sequence *sequence = &decoder->sequence;
+    Context *context = &decoder->context;
+    int64_t first = sequence->next;
+    if (!decoder->tolerant) return FAIL(context, CORRUPT, "# frames from number # on are missing", frames, first);
+    if (!sequence->damaged) {
+        FAIL(context, CORRUPT, "a GOP is missing");
+        lose(sequence, take_error(context));
+    }
+    sequence->damaged = false;
+    sequence->next += frames;
+    sequence->missing += frames;
+    sequence->lossy = true;
+    return tell_loss(decoder, sequence->damage, first, frames);
+}
+
+/* The place of a mesh on the shelf, -1 if it is not there. */
+static int place_of_mesh(const Sequence *sequence, int64_t run) {
+    int place = sequence->shelved - 1;
+    while (place >= 0 && sequence->shelf[place]->run != run) place--;
+    return place;
+}
+
+static Shelved *take_off(Sequence *sequence, int place) {
+    Shelved *taken = sequence->shelf[place];
+    for (sequence->shelved--; place < sequence->shelved; place++) sequence->shelf[place] = sequence->shelf[place + 1];
+    return taken;
+}
+
+static void drop_shelved(Context *context, Shelved *one) {
+    end_mesh(&one->mesh);
+    host_give(context, one, sizeof *one);
+}
+
+static void count_anew(bsmdec *decoder) {
+    decoder->sequence.kept = decoder->context.spent.kept;
+    decoder->sequence.vertices = decoder->context.spent.vertices;
+}
+
+static void give_back(Context *context, double memory, int64_t vertices) {
+    context->spent.kept -= memory;
+    context->spent.gone += vertices;
+}
+
+/* The run is over: its mesh is kept for later ones, or nothing of it. */
+static void leave_run(bsmdec *decoder) {
+    Sequence *sequence = &decoder->sequence;
+    Context *context = &decoder->context;
+    forget(decoder);
+    suspend_gops(&decoder->mesh.gops);
+    double memory = context->spent.kept - sequence->kept;
+    int64_t vertices = context->spent.vertices - sequence->vertices;
+    int place = decoder->has_mesh ? place_of_mesh(sequence, sequence->mesh) : -1;
+    if (place >= 0) {
+        sequence->shelf[place]->memory += memory;
+        sequence->shelf[place]->vertices += vertices;
+        sequence->shelf[place]->mesh = decoder->mesh;
+    } else {
+        give_back(context, memory, vertices);
+        if (decoder->has_mesh) end_mesh(&decoder->mesh);
+    }
+    decoder->mesh = (Mesh){.arena = arena_of(context)};
+    decoder->has_mesh = decoder->has_positions = false;
+    count_anew(decoder);
+}
+
+/* Another mesh comes: where there is no room for it, the one that was used longest ago is given up. */
+static void make_room(bsmdec *decoder) {
+    Sequence *sequence = &decoder->sequence;
+    if (sequence->shelved < SHELF) return;
+    Shelved *oldest = take_off(sequence, 0);
+    give_back(&decoder->context, oldest->memory, oldest->vertices);
+    drop_shelved(&decoder->context, oldest);
+    count_anew(decoder);
+}
+
+/* Keep the present mesh, from now on. */
+static bool put_on_shelf(bsmdec *decoder) {
+    Sequence *sequence = &decoder->sequence;
+    if (place_of_mesh(sequence, sequence->mesh) >= 0) return true;
+    Shelved *place = host_take(&decoder->context, sizeof *place);
+    if (place == NULL) return false;
+    *place = (Shelved){.run = sequence->mesh, .mesh.arena = arena_of(&decoder->context)};
+    sequence->shelf[sequence->shelved++] = place;
+    return true;
+}
+
+void close_sequence(bsmdec *decoder) {
+    Sequence *sequence = &decoder->sequence;
+    int present = decoder->has_mesh ? place_of_mesh(sequence, sequence->mesh) : -1;
+    for (int i = 0; i < sequence->shelved; i++) {
+        if (i == present) host_give(&decoder->context, sequence->shelf[i], sizeof *sequence->shelf[i]);
+        else drop_shelved(&decoder->context, sequence->shelf[i]);
+    }
+    forget_skipped(sequence);
+}
+
+/* A run that has the mesh of an earlier one (S 9.3). */
+static bool resume(bsmdec *decoder, const Header *header) {
+    Sequence *sequence = &decoder->sequence;
+    Context *context = &decoder->context;
+    int place = place_of_mesh(sequence, sequence->mesh);
+    if (place < 0) return FAIL(context, CORRUPT, "run # has the mesh of run #, which is not there any more", header->run, header->again);
+    Shelved *found = take_off(sequence, place);
+    sequence->shelf[sequence->shelved++] = found;
+    decoder->mesh = found->mesh;
+    found->mesh = (Mesh){.arena = arena_of(context)};
+    decoder->has_mesh = true;
+    Header *own = &decoder->mesh.header;
+    if (own->vertices != header->vertices || own->faces != header->faces)
+        return FAIL(context, CORRUPT, "run # has another mesh than the run that it names", header->run);
+    own->frames = header->frames;
+    own->gop_frames = header->gop_frames;
+    own->run = header->run;
+    for (int k = 0; k < MOST_ATTRIBUTES; k++)
+        if (decoder->mesh.attributes.one[k] != NULL) decoder->mesh.attributes.one[k]->moved = NULL;
+    return tell(decoder, BSMDEC_HEADER, header->run, 0) && tell(decoder, BSMDEC_CONNECTIVITY, 0, 0);
+}
+
+static bool begin_run(bsmdec *decoder, const Header *header) {
+    Sequence *sequence = &decoder->sequence;
+    Context *context = &decoder->context;
+    if (sequence->is_one) leave_run(decoder);
+    sequence->announced = header->frames;
+    sequence->mesh = header->again >= 0 ? header->again : header->run;
+    if (header->again >= 0) {
+        if (!resume(decoder, header)) return false;
+    } else {
+        make_room(decoder);
+        if (header->smoothing != 0.0) return FAIL(context, UNSUPPORTED, "smoothing of sequences is unknown to this decoder");
+        if (!WITHIN(context, sequence_bytes, 8.0 * (double)header->vertices * (double)header->coefficients)) return false;
+        begin_mesh(decoder, header);
+        if (!tell(decoder, BSMDEC_HEADER, header->run, 0)) return false;
+    }
+    sequence->lost = false;
+    return sequence->is_one = true;
+}
+
+/* What comes before the GOPs of the run is not whole; the next run is waited for. */
+static bool lose_run(bsmdec *decoder) {
+    if (!is_tolerable(decoder) || !decoder->sequence.is_one) return false;
+    locate(&decoder->context.error, decoder->reader.offset, decoder->reader.frames, -1);
+    decoder->sequence.why = take_error(&decoder->context);
+    lose(&decoder->sequence, decoder->sequence.why);
+    leave_run(decoder);
+    return decoder->sequence.lost = true;
+}
+
+/* Blocks and attributes, when the first thing behind the faces comes. */
+static bool begin_first_frame(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (!mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
+    return build(decoder) && (!mesh->has_attributes || begin_values(&mesh->attributes, &mesh->numbering, &decoder->scratch));
+}
+
+static bool find_movers(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    Context *context = &decoder->context;
+    mesh->movers = take_zeros(&mesh->arena, mesh->has_attributes ? mesh->attributes.count : 0, sizeof *mesh->movers);
+    for (int k = 0; mesh->has_attributes && k < MOST_ATTRIBUTES && fine(context); k++) {
+        const Attribute *one = mesh->attributes.one[k];
+        if (one == NULL || !one->declaration.moves) continue;
+        if (one->declaration.rows != mesh->header.vertices)
+            return FAIL(context, CORRUPT, "attribute # moves, and what no face uses has values of it", k);
+        if (!one->whole && !decoder->tolerant) return FAIL(context, CORRUPT, "attribute # moves, and not all of its first values have come", k);
+        Mover *mover = mesh->movers + mesh->mover_count++;
+        *mover = (Mover){.number = k, .width = one->declaration.components};
+        mover->start = take_doubles2(&mesh->arena, one->whole ? one->rows : 0, mover->width);
+        if (fine(context)) beyond_one(one, mover->start);
+    }
+    return fine(context);
+}
+
+/* The first frame is there, and GOPs come. */
+static bool enter_gops(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (mesh->in_gops) return true;
+    if (!begin_first_frame(decoder)) return false;
+    if (mesh->next_block < mesh->header.blocks)
+        return FAIL(&decoder->context, CORRUPT, "the first frame ends after # of # blocks", mesh->next_block, mesh->header.blocks);
+    end_chains(&mesh->chains);
+    mesh->in_gops = find_movers(decoder)
+        && blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &mesh->first_frame);
+    return mesh->in_gops;
+}
+
+/* A GOP cannot be decoded, or was not there. */
+static bool lose_gop(bsmdec *decoder) {
+    if (!is_tolerable(decoder)) return false;
+    locate(&decoder->context.error, decoder->reader.offset, decoder->reader.frames, -1);
+    lose(&decoder->sequence, take_error(&decoder->context));
+    forget(decoder);
+    return true;
+}
+
+static bool read_gop(bsmdec *decoder, Span data, Gop *gop) {
+    Mesh *mesh = &decoder->mesh;
+    return parse_gop(&decoder->context, data, mesh->header.gop_frames, mesh->header.run, mesh->movers, mesh->mover_count, decoder->tolerant,
+        &decoder->scratch, gop);
+}
+
+static bool parse_next(bsmdec *decoder, const Packet *packet, Gop *gop) {
+    const Header *header = &decoder->mesh.header;
+    Context *context = &decoder->context;
+    if (packet->index < decoder->sequence.next)
+        return FAIL(context, CORRUPT, "frame # comes again behind frame #", packet->index, decoder->sequence.next - 1);
+    if (!read_gop(decoder, packet->data, gop) || !WITHIN(context, sequence_bytes, gop_memory(header->vertices, gop, 0))) return false;
+    int64_t last = packet->index + gop->frames - 1;
+    return header->frames == 0 || last < header->frames || FAIL(context, CORRUPT, "frames # to # of #", packet->index, last, header->frames);
+}
+
+/* Frames and bytes of a GOP pay for what is made when the first is there. */
+static bool pay_for(bsmdec *decoder, const Gop *gop, double received) {
+    Mesh *mesh = &decoder->mesh;
+    Context *context = &decoder->context;
+    if (!keep(context, 0, received)) return false;
+    context->spent.shown += mesh->header.vertices * gop->frames;
+    if (mesh->gops.begun) return true;
+    bool begun = begin_gops(&mesh->gops, context, &mesh->header, &mesh->graph, &mesh->blocks, const_ints2(mesh->faces),
+        const_doubles2(mesh->first_frame), mesh->numbering.size, mesh->movers, mesh->mover_count, &decoder->scratch);
+    if (!begun) end_gops(&mesh->gops);
+    return begun;
+}
+
+static bool skip_gop(Sequence *sequence, Span data) {
+    Skipped *one = take_memory(&sequence->waiting, 1, sizeof *one);
+    uint8_t *copy = take_memory(&sequence->waiting, data.size, 1);
+    if (one == NULL || copy == NULL) return false;
+    memcpy(copy, data.data, (size_t)data.size);
+    *one = (Skipped){NULL, {copy, data.size}};
+    if (sequence->first == NULL) sequence->first = one;
+    else sequence->last->next = one;
+    sequence->last = one;
+    return true;
+}
+
+/* Decode a GOP, or keep it, where no frame of it is wanted and others may depend on it. */
+static bool decode_frames(bsmdec *decoder, const Gop *gop, Span data) {
+    Sequence *sequence = &decoder->sequence;
+    Gops *gops = &decoder->mesh.gops;
+    if (!reserve_gop(gops, gop, (double)data.size)) return false;
+    if (gop->method == LEARNT || gop->method == KEY_FRAMES) forget_skipped(sequence);
+    if (sequence->next + gop->frames <= sequence->start) return skip_gop(sequence, data);
+    for (const Skipped *one = sequence->first; one != NULL; one = one->next) {
+        Gop earlier;
+        Mark mark = mark_of(&decoder->scratch);
+        bool done = read_gop(decoder, one->data, &earlier) && decode_gop(gops, &earlier, &decoder->scratch);
+        release_to(&decoder->scratch, mark);
+        if (!done) return false;
+    }
+    forget_skipped(sequence);
+    return decode_gop(gops, gop, &decoder->scratch);
+}
+
+static bool accept_gop(bsmdec *decoder, const Packet *packet) {
+    Sequence *sequence = &decoder->sequence;
+    Gop gop;
+    decoder->has_positions = false;
+    if (packet->index > sequence->next) {
+        if (!report_loss(decoder, packet->index - sequence->next)) return false;
+        forget(decoder);
+    }
+    if (!parse_next(decoder, packet, &gop)) return lose_gop(decoder);
+    if (!pay_for(decoder, &gop, (double)packet->data.size)) return false;
+    if (!decode_frames(decoder, &gop, packet->data)) {
+        decoder->context.spent.shown -= decoder->mesh.header.vertices * gop.frames;
+        return lose_gop(decoder);
+    }
+    sequence->gop = sequence->next;
+    sequence->next += gop.frames;
+    for (int64_t t = sequence->gop; t < sequence->next; t++)
+        if (t >= sequence->start && !tell(decoder, BSMDEC_FRAME, t, 0)) return false;
+    return true;
+}
+
+bool show(bsmdec *decoder, int64_t index) {
+    Mesh *mesh = &decoder->mesh;
+    Gops *gops = &mesh->gops;
+    int64_t t = index - decoder->sequence.gop;
+    ConstDoubles2 frame;
+    if (!show_frame(gops, t, &decoder->scratch, 0, &frame)) return false;
+    decoder->positions = frame;
+    decoder->has_positions = into_unit(&decoder->context, &mesh->header, (Doubles2){(double *)frame.data, frame.rows, 3});
+    for (int k = 0; k < mesh->mover_count && decoder->has_positions; k++) {
+        Attribute *one = mesh->attributes.one[mesh->movers[k].number];
+        if (!one->whole) continue;
+        void *moved = one->moved != NULL ? one->moved : take_memory(&mesh->arena, one->rows * one->declaration.components, kind_size(one->declaration.kind));
+        if (moved == NULL || !show_frame(gops, t, &decoder->scratch, k + 1, &frame)) return false;
+        decoder->has_positions = move_values(&decoder->context, one, frame, moved);
+    }
+    return decoder->has_positions;
+}
+
+/* A frame that may not come here. */
+static bool misplaced(bsmdec *decoder, const Packet *packet) {
+    FAIL(&decoder->context, CORRUPT, "a frame of type # may not come here", packet->type);
+    return lose_gop(decoder);
+}
+
+static bool accept_block(bsmdec *decoder, const Packet *packet) {
+    Mesh *mesh = &decoder->mesh;
+    if (!begin_first_frame(decoder)) return false;
+    if (packet->index != mesh->next_block)
+        return FAIL(&decoder->context, CORRUPT, "block # of the first frame where block # belongs", packet->index, mesh->next_block);
+    return keep(&decoder->context, 0, (double)packet->data.size + BLOCK_FRAME_BYTES) && take_in(decoder, packet);
+}
+
+static bool accept_values(bsmdec *decoder, const Packet *packet) {
+    if (!begin_first_frame(decoder) || decoder->mesh.next_block < decoder->mesh.header.blocks) return enter_gops(decoder);
+    return take_in(decoder, packet) || bear(decoder, -1, true);
+}
+
+static bool take_in_run(bsmdec *decoder, const Packet *packet) {
+    Mesh *mesh = &decoder->mesh;
+    if (packet->type == HEADER_FRAME) return begin_run(decoder, packet->header);
+    if (packet->type == METADATA_FRAME) return take_in(decoder, packet);
+    if (decoder->sequence.lost) return true;
+    if (!mesh->in_gops) {
+        if (!mesh->has_faces && packet->type != CONNECTIVITY_FRAME)
+            return FAIL(&decoder->context, CORRUPT, "a frame of type # may not come here", packet->type);
+        if (packet->type == BLOCK_FRAME) return accept_block(decoder, packet);
+        if (packet->type == VALUES_FRAME) return accept_values(decoder, packet);
+        if (!mesh->has_chains && packet->type != GOP_FRAME && packet->type != END_FRAME) return take_in(decoder, packet);
+    }
+    if (!enter_gops(decoder)) return false;
+    bool done = packet->type == GOP_FRAME ? accept_gop(decoder, packet) : packet->type == END_FRAME || misplaced(decoder, packet);
+    return done && put_on_shelf(decoder);
+}
+
+bool accept_in_sequence(bsmdec *decoder, const Packet *packet) { return take_in_run(decoder, packet) || lose_run(decoder); }
+
+static bool take_in_damage(bsmdec *decoder, FrameType type) {
+    Mesh *mesh = &decoder->mesh;
+    bool before = mesh->has_faces && !mesh->has_chains && (type == BLOCK_FRAME || type == ATTRIBUTE_FRAME);
+    bool behind = mesh->has_chains && !mesh->in_gops && mesh->next_block == mesh->header.blocks && type == VALUES_FRAME;
+    if (before || behind) return bear(decoder, -1, true);
+    if (!mesh->has_chains || mesh->next_block < mesh->header.blocks) return false;
+    bsmdec_error error = take_error(&decoder->context);
+    if (!enter_gops(decoder) || !put_on_shelf(decoder)) return false;
+    if (type == END_FRAME && decoder->sequence.lossy) return true;
+    decoder->context.error = error;
+    return lose_gop(decoder);
+}
+
+/* The error is the context's. */
+bool accept_damage_in_sequence(bsmdec *decoder) {
+    if (decoder->sequence.lost) {
+        take_error(&decoder->context);
+        return true;
+    }
+    return take_in_damage(decoder, decoder->reader.damage.type) || lose_run(decoder);
+}
+
+/* Nothing follows. */
+bool end_sequence(bsmdec *decoder) {
+    Sequence *sequence = &decoder->sequence;
+    if (!sequence->lost && !enter_gops(decoder) && !lose_run(decoder)) return false;
+    if (sequence->lost && sequence->next <= sequence->missing) {
+        decoder->context.error = sequence->why;
+        return false;
+    }
+    int64_t missing = sequence->announced > 0 ? sequence->announced - sequence->next : 0;
+    if ((missing != 0 || (sequence->damaged && sequence->announced == 0)) && !report_loss(decoder, missing)) return false;
+    decoder->ended = true;
+    return tell(decoder, BSMDEC_END, 0, 0);
+}
