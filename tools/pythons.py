@@ -2,6 +2,7 @@
 
     python3 -m tools.pythons          which there are
     python3 -m tools.pythons --try    oldest Python with the oldest numpy, newest with the newest: install, demo, tests
+    python3 -m tools.pythons --try --within ENV    the oldest as it is installed in an environment, if that has it
 
 Knows the standard library alone: it runs before anything is installed.
 """
@@ -28,15 +29,23 @@ def main() -> None:
     """List, or try."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--try", dest="tried", action="store_true", help="install and test on the oldest and newest")
+    parser.add_argument(
+        "--within", type=Path, metavar="ENV", help="where the package is installed already; its numpy goes"
+    )
+    args = parser.parse_args()
     found = pythons()
     if not found:
         raise SystemExit("there is no Python 3.11 or later here")
-    if not parser.parse_args().tried:
+    if not args.tried:
         for version, python in found.items():
             print(f"{_text(version)} {python}")
         return
-    oldest, newest = min(found), max(found)
-    attempt(found[oldest], f"numpy=={lowest('numpy')}.*")
+    oldest, newest, old = min(found), max(found), f"numpy=={lowest('numpy')}.*"
+    own = args.within and args.within.resolve() / "bin" / "python"
+    if own and _version(own) == oldest:
+        trial(own, old)
+    else:
+        attempt(found[oldest], old)
     attempt(found[newest], "numpy")
 
 
@@ -44,13 +53,20 @@ def pythons() -> dict[tuple[int, int], Path]:
     """Every Python from the oldest that is allowed on, by version: on PATH, and those of pyenv."""
     found: dict[tuple[int, int], Path] = {}
     for path in _candidates():
-        code = "import sys; print(*sys.version_info[:2])"
-        done = subprocess.run([path, "-c", code], capture_output=True, text=True, check=False)
-        if done.returncode == 0:
-            major, minor = map(int, done.stdout.split())
-            if (major, minor) >= tuple(map(int, required().split("."))):
-                found.setdefault((major, minor), path)
+        version = _version(path)
+        if version and version >= tuple(map(int, required().split("."))):
+            found.setdefault(version, path)
     return dict(sorted(found.items()))
+
+
+def _version(python: Path) -> tuple[int, int] | None:
+    """Of a Python that runs."""
+    code = "import sys; print(*sys.version_info[:2])"
+    done = subprocess.run([python, "-c", code], capture_output=True, text=True, check=False)
+    if done.returncode:
+        return None
+    major, minor = map(int, done.stdout.split())
+    return major, minor
 
 
 def _candidates() -> Iterator[Path]:
@@ -79,21 +95,26 @@ def _project(pattern: str) -> str:
 
 
 def attempt(python: Path, numpy: str) -> None:
-    """Install the package beside one numpy in an environment of its own, run the demonstration and a few tests."""
+    """Install the package beside one numpy in an environment of its own, and try it."""
     with tempfile.TemporaryDirectory() as folder:
         environment = Path(folder, "venv")
         subprocess.run([python, "-m", "venv", environment], check=True)
-        own = environment / "bin" / "python"
-        clean = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
-        pip: list[str | Path] = [own, "-m", "pip", "install", "-q", "--disable-pip-version-check"]
-        subprocess.run([*pip, f"{ROOT}[eval]", numpy, "pytest", "zstandard"], check=True, env=clean)
-        code = "import sys, numpy; print(f'Python {sys.version.split()[0]}, numpy {numpy.__version__}')"
-        subprocess.run([own, "-c", code], check=True, env=clean)
-        bsm = environment / "bin" / "bsm"
+        trial(environment / "bin" / "python", f"{ROOT}[eval]", numpy)
+
+
+def trial(own: Path, *packages: str) -> None:
+    """Install what is missing, run the demonstration and a few tests."""
+    clean = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
+    pip: list[str | Path] = [own, "-m", "pip", "install", "-q", "--disable-pip-version-check"]
+    subprocess.run([*pip, *packages, "pytest", "zstandard"], check=True, env=clean)
+    code = "import sys, numpy; print(f'Python {sys.version.split()[0]}, numpy {numpy.__version__}')"
+    subprocess.run([own, "-c", code], check=True, env=clean)
+    bsm = own.parent / "bsm"
+    with tempfile.TemporaryDirectory() as folder:
         subprocess.run([bsm, "demo", "-q", "-o", "plain", "--vertices", "2000"], check=True, env=clean, cwd=folder)
         subprocess.run([bsm, "verify", "plain/bsm_demo.bsm"], check=True, env=clean, cwd=folder)
-        tests: list[str | Path] = [own, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-k", CHOSEN, *TESTS]
-        subprocess.run(tests, check=True, env=clean, cwd=ROOT)
+    tests: list[str | Path] = [own, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-k", CHOSEN, *TESTS]
+    subprocess.run(tests, check=True, env=clean, cwd=ROOT)
 
 
 def _text(version: tuple[int, int]) -> str:
