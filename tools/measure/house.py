@@ -30,11 +30,11 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 35_100,
+    "product Python, lines": 35_050,
     "all Python, lines": 77_300,
-    "product modules": 222,
+    "product modules": 217,
     "product C files and headers": 74,
-    "docstring lines of the product, percent": 12.7,
+    "docstring lines of the product, percent": 12.5,
     "header fields": 19,
     "fields of EncodeOptions": 28,
     "settings of --set": 19,
