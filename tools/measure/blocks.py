@@ -1,4 +1,4 @@
-"""Errors inside blocks, at their boundaries and along their chain: for the report on the paper, and tables of figures."""
+"""Errors inside blocks, at their boundaries and along their chain: for the report on the paper, and for figures."""
 
 from __future__ import annotations
 
