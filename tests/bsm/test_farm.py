@@ -415,11 +415,11 @@ def test_what_is_not_ours_is_not_written_over(sources, tmp_path, capsys):
     assert [facts.get("exit") for facts in done] == [9, None]
     assert (tmp_path / "00.bsm").read_bytes() == b"mine"
     with pytest.raises(FileExistsError):
-        bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json")
+        bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json", grid=8)
     with pytest.raises(OptionError, match="--report"):
-        bsm.encode_many(sources[:2], tmp_path, resume=True)
+        bsm.encode_many(sources[:2], tmp_path, resume=True, grid=8)
     (tmp_path / "r.json").write_text('{"files": 3}')
     with pytest.raises(FormatError, match="no report"):
-        bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json", resume=True)
+        bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json", resume=True, grid=8)
     with pytest.raises(ArgumentError, match="teta"):
         bsm.encode_many(sources[:2], tmp_path, teta=3)

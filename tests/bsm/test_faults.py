@@ -47,7 +47,7 @@ def test_killed_in_mid_encode(number, folder, tmp_path):
             assert process.poll() is None
             time.sleep(0.05)
         process.send_signal(number)
-        said = process.communicate(timeout=30)[1].decode()
+        said = process.communicate(timeout=120)[1].decode()
     assert process.returncode == {signal.SIGTERM: 143, signal.SIGINT: 130, signal.SIGKILL: -9}[number], said
     assert not output.exists()
     if number != signal.SIGKILL:
@@ -62,7 +62,7 @@ def test_killed_in_mid_decode(folder, tmp_path):
         process.stdin.flush()
         time.sleep(1)
         process.terminate()
-        assert process.wait(timeout=30) in (-15, 143)
+        assert process.wait(timeout=120) in (-15, 143)
     assert list(tmp_path.iterdir()) == []
 
 
