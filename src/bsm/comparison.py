@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -45,7 +46,10 @@ def read_permutation(path: str | os.PathLike[str]) -> Order:
 
 def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
     """Number the vertices as the input of the encoder did, without those that no face used."""
-    places = _places(order, len(mesh.positions))
+    if len(order) != len(mesh.positions):
+        raise MeshError(f"the permutation is of {len(order)} vertices, the mesh has {len(mesh.positions)}")
+    places = np.empty(len(order), np.int64)  # the rank of each entry
+    places[np.argsort(order)] = np.arange(len(order))
     before, every_face = np.argsort(places), np.arange(len(mesh.faces))
     attributes = tuple(attribute.taken(before, every_face) for attribute in mesh.attributes)
     faces = places[mesh.faces].astype(np.int32)
@@ -109,15 +113,6 @@ def unsplit(original: TriangleMesh, other: TriangleMesh) -> TriangleMesh | None:
     positions = other.positions[some]
     fits = np.array_equal(whole[other.faces], faces) and np.array_equal(positions[faces], other.positions[other.faces])
     return TriangleMesh(positions, faces) if fits else None
-
-
-def _places(order: Order, count: int) -> Order:
-    """The rank of each entry: its place among the vertices that are used."""
-    if len(order) != count:
-        raise MeshError(f"the permutation is of {len(order)} vertices, the mesh has {count}")
-    places = np.empty(count, dtype=np.int64)
-    places[np.argsort(order)] = np.arange(count)
-    return places
 
 
 def _canonical(faces: Faces) -> Faces:
@@ -191,33 +186,24 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
     return Pair(original, positions, corners, others, joined)
 
 
-def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:
-    positions = compare(paired.original.positions, paired.positions, paired.original.faces)
-    return MeshComparison(**asdict(positions), attributes=_compare_attributes(original, decoded, paired))
-
-
 def _comparable(original: TriangleMesh, decoded: TriangleMesh) -> bool:
     """Whether they have the same vertices, in an order that is known."""
-    if len(original.positions) != len(decoded.positions):
-        return False
-    try:
-        in_order_of(original, decoded)
-    except MeshError:
-        return False
-    return True
+    with suppress(MeshError):
+        if len(original.positions) == len(decoded.positions):
+            in_order_of(original, decoded)
+            return True
+    return False
 
 
-def _compare_attributes(
-    original: TriangleMesh, decoded: TriangleMesh, paired: Pair
-) -> dict[str, AttributeComparison | None]:
+def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:
+    positions = compare(paired.original.positions, paired.positions, paired.original.faces)
     found: dict[str, AttributeComparison | None] = {}
     after = {attribute.name: attribute for attribute in decoded.attributes}
     for attribute in original.attributes:
         other = after.get(attribute.name)
-        if other is None or other.components != attribute.components:
-            found[attribute.name] = None
-            continue
-        values = at_corners(attribute, original.faces).reshape(-1, attribute.components)[paired.corners]
-        others = at_corners(other, decoded.faces).reshape(-1, attribute.components)[paired.others]
-        found[attribute.name] = compare_values(values, others, normals=attribute.semantic == "normal")
-    return found
+        found[attribute.name] = None
+        if other is not None and other.components == attribute.components:
+            values = at_corners(attribute, original.faces).reshape(-1, attribute.components)[paired.corners]
+            others = at_corners(other, decoded.faces).reshape(-1, attribute.components)[paired.others]
+            found[attribute.name] = compare_values(values, others, normals=attribute.semantic == "normal")
+    return MeshComparison(**asdict(positions), attributes=found)

@@ -15,11 +15,11 @@ All else stays as it is: connectivity, quantisation, entropy coding, smoothing. 
 codec does, `blocks` gives what the codec itself works on. Names here may change with any release.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from functools import partial
+from types import SimpleNamespace
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -38,9 +38,6 @@ from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.libraries import as_mesh
-
-if TYPE_CHECKING:
-    from bsm.evaluation.curve import Align
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Integers: TypeAlias = npt.NDArray[np.int32]
@@ -181,36 +178,24 @@ def curves(
         raise OptionError('"ours" is what the codec does; call the idea something else')
     given, found = join(as_mesh(mesh).bare, keep=False).mesh, {}
     for name, idea in {"ours": Idea(), **ideas}.items():
-        codecs = [_Tried(idea, EncodeOptions(**{"threads": 1, **keywords, "step": step})) for step in steps]
+        codecs = [_tried(idea, EncodeOptions(**{"threads": 1, **keywords, "step": step})) for step in steps]
         found[name] = run_curve(Curve(name, name, tuple(codecs)), given, "mesh")
         rate = compare_curves(found["ours"], found[name])["bd_rate_percent"]["theta_deg"]
         found[name]["bytes_of_ours"] = None if rate is None else 1.0 + rate / 100.0
     return found
 
 
-@dataclass(frozen=True)
-class _Tried:
+def _tried(idea: Idea, options: EncodeOptions) -> Any:
     """An idea at one operating point, as a codec of `bsm.evaluation.curve`."""
+    from bsm.evaluation.curve import Spectral as Ours
 
-    idea: Idea
-    options: EncodeOptions
-
-    @property
-    def settings(self) -> dict[str, Any]:
-        return {"step": self.options.step}
-
-    def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
-        prepared = _prepared(mesh, self.idea, self.options)
+    def encode(mesh: TriangleMesh) -> tuple[bytes, Any]:
+        prepared = _prepared(mesh, idea, options)
         place = np.argsort(prepared.vertex_order)
-        return b"".join(_draft(prepared, self.idea, self.options).frames), lambda decoded: decoded.positions[place]
+        return b"".join(_draft(prepared, idea, options).frames), lambda decoded: decoded.positions[place]
 
-    def decode(self, data: bytes) -> TriangleMesh:
-        return _decoded(data, self.idea, DEFAULT_LIMITS, self.options.threads)
-
-    def parts(self, data: bytes) -> dict[str, Any]:
-        from bsm.evaluation.curve import Spectral as Ours
-
-        return Ours(self.options).parts(data)
+    decode = partial(_decoded, idea=idea, limits=DEFAULT_LIMITS, threads=options.threads)
+    return SimpleNamespace(settings={"step": options.step}, encode=encode, decode=decode, parts=Ours(options).parts)
 
 
 def _draft(prepared: Prepared, idea: Idea, options: EncodeOptions) -> Draft:
@@ -234,21 +219,20 @@ def _decoded(stream: bytes, idea: Idea, limits: Limits, threads: int | None = No
 def _trial(idea: Idea) -> Trial:
     """An idea as the codec takes it; what its functions give is looked at before it is used."""
 
+    def site_of(around: Surroundings, columns: Columns | None = None) -> Site:
+        block = around.laplacian.block
+        known = around.springs, around.pulls, around.continuation
+        return Site(block.vertices, block.offsets, block.neighbours, *known, columns)
+
     def dictionary(around: Surroundings, width: int, columns: Columns) -> Floats:
-        site = _site(around, columns)
+        site = site_of(around, columns)
         return _checked("dictionary", (idea.dictionary or Site.ours)(site, width), (site.size, width))
 
     def predictor(around: Surroundings) -> Floats:
-        site = _site(around, None)
+        site = site_of(around)
         return _checked("predictor", idea.predictor(site) if idea.predictor else site.prediction, (site.size, 3))
 
     return Trial(dictionary=dictionary if idea.dictionary else None, predictor=predictor if idea.predictor else None)
-
-
-def _site(around: Surroundings, columns: Columns | None) -> Site:
-    block = around.laplacian.block
-    graph = block.vertices, block.offsets, block.neighbours
-    return Site(*graph, around.springs, around.pulls, around.continuation, columns)
 
 
 def _checked(what: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> Floats:

@@ -1,7 +1,6 @@
 """bsm encode: mesh files to streams."""
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
@@ -47,7 +46,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     members: tuple[str, ...] = ()
-    if not args.recursive and is_one_sequence(args.inputs, args.output):
+    one_stream = (args.output or "").lower().endswith(".bsm") and not Path(args.output).is_dir()
+    if args.piped_frames and args.format not in (None, "npy"):
+        raise OptionError(f"--frames takes npy arrays, and --format says {args.format}")
+    if len(args.inputs) > 1 and one_stream and not args.recursive:
         members, args.inputs = tuple(args.inputs), [common_name(args.inputs)]
     elif args.output is None and len(args.inputs) > 1 and look_like_frames(args.inputs):
         console.note(
@@ -68,20 +70,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     many, options = run_of(args), options_of(args)
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
     more = {"output": "", "metadata": _metadata(args), "options": options, "threads": threads, "members": members}
-    more["format"] = _form(args)
+    more["format"] = "npy" if args.piped_frames else args.format
     job = asked(EncodeJob, args, **more, compared=not args.quiet or args.json)
     return run_jobs(many, job, console, encode_one, jobs)
-
-
-def is_one_sequence(inputs: Sequence[str], output: str | None) -> bool:
-    """Whether many inputs are the frames of one stream."""
-    return len(inputs) > 1 and output is not None and output.lower().endswith(".bsm") and not Path(output).is_dir()
-
-
-def _form(args: argparse.Namespace) -> str | None:
-    if args.piped_frames and args.format not in (None, "npy"):
-        raise OptionError(f"--frames takes npy arrays, and --format says {args.format}")
-    return "npy" if args.piped_frames else args.format
 
 
 def _metadata(args: argparse.Namespace) -> dict[str, str]:

@@ -84,6 +84,11 @@ def _worded(summary: Facts) -> str:
     total = summary["bytes"]["total"]
     sizes = {("positions" if name == "coefficients" else name): size for name, size in summary["bytes"].items()}
     shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in sizes.items()]
+    rates = []
+    if not summary["frames"]:
+        rates = [f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for positions"]
+        packed, *_ = summary["header"]["paper"] or (0,)
+        rates[0] += f", {summary['bpv_paper']:.3f} by the paper's formula" if packed else ""
     counts = summary["metadata_bytes"]
     texts = {name: f"{counts[name]} bytes" if name in counts else value for name, value in summary["metadata"].items()}
     said = [printable(f"  {name}: {value}") for name, value in texts.items()]
@@ -93,7 +98,7 @@ def _worded(summary: Facts) -> str:
         *_sequence_lines(summary),
         "bytes:",
         *shares,
-        *_rate_lines(summary),
+        *rates,
         *map(_attribute_line, summary["attributes"]),
         *(["metadata:", *said] if said else []),
     ]
@@ -109,15 +114,6 @@ def _position_lines(summary: dict[str, Any]) -> list[str]:
         f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
         f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
     ]
-
-
-def _rate_lines(summary: dict[str, Any]) -> list[str]:
-    """Bits per vertex of a mesh; with a fixed number of bits, as the paper counts them, too."""
-    if summary["frames"]:
-        return []
-    rates = f"bits per vertex: {summary['bpv_total']:.3f} in all, {summary['bpv_geometry']:.3f} for positions"
-    packed, *_ = summary["header"]["paper"] or (0,)
-    return [f"{rates}, {summary['bpv_paper']:.3f} by the paper's formula" if packed else rates]
 
 
 def _attribute_line(attribute: dict[str, Any]) -> str:

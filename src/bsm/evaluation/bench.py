@@ -20,7 +20,7 @@ from bsm.bitstream.errors import NumericError
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import cosine_columns, hash_columns, orthogonal_iteration
-from bsm.codec.blocks.overlap import Blend, Block, Blocks, block_size, degree_weights, grow_blocks
+from bsm.codec.blocks.overlap import Blend, Block, block_size, degree_weights, grow_blocks
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -134,17 +134,12 @@ def time_solvers(mesh: TriangleMesh, sample: int, repeats: int) -> list[Result]:
             times[solver.name] = seconds
             rows.append({"solver": solver.name, **facts, "seconds": seconds, "nmsve_db": exact_db, "exact": True})
         for power in POWERS:
-            work = partial(iterated_all, blocks, width, power)
+            work = partial(lambda width, power: [iterated(block, width, power) for block in ordered], width, power)
             seconds = least_time(work, repeats)
             speedups = {"against_svd": times[EXACT[0].name] / seconds, "against_fastest": min(times.values()) / seconds}
             row = {"solver": f"OI, R^{power}", **facts, "seconds": seconds, "nmsve_db": nmsve_db(work())}
             rows.append({**row, "exact": False, **speedups})
     return rows
-
-
-def iterated_all(blocks: Blocks, width: int, power: int) -> list[Matrix]:
-    """The dictionary of each block by one orthogonal iteration from cosines."""
-    return [iterated(blocks.block(index), width, power) for index in range(blocks.count)]
 
 
 def iterated(block: Block, width: int, power: int) -> Matrix:

@@ -97,15 +97,11 @@ def gunzipped(data: bytes, limits: Limits) -> bytes:
                 pieces.append(member.decompress(given, _PIECE))
                 size += len(pieces[-1])
                 require_inflated(2 * size, len(data), limits)  # pieces, and all of it
-            begin = _behind_zeros(data, at - len(member.unused_data))
+            rest = _OTHER.search(data, at - len(member.unused_data))  # zeros may follow
+            begin = rest.start() if rest else len(data)
     except zlib.error as error:
         raise CorruptError(f"what gzip has compressed is damaged: {error}") from error
     return b"".join(pieces)
-
-
-def _behind_zeros(data: bytes, begin: int) -> int:
-    found = _OTHER.search(data, begin)
-    return found.start() if found else len(data)
 
 
 def require_room(kind: str, data: bytes, limits: Limits) -> None:
@@ -115,7 +111,8 @@ def require_room(kind: str, data: bytes, limits: Limits) -> None:
     lines = data.count(b"\n") + data.count(b"\r") + 1
     vertices = lines // 3  # the other two are faces; where they are none, too many lines are refused all the same
     if kind == "obj":
-        counts = {name: _lines_that_begin(data, key) for key, name in _KEYWORDS.items()}
+        begins = [(end, gap) for end in "\n\r" for gap in " \t"]
+        counts = {n: sum(data.count(f"{end}{k}{gap}".encode()) for end, gap in begins) for k, n in _KEYWORDS.items()}
         for name, count in counts.items():
             require_count(name, count, limits)
         vertices = counts["vertices"]
@@ -134,10 +131,6 @@ def _is_text(kind: str, data: bytes) -> bool:
     if kind == "stl":
         return len(data) != 84 + 50 * int.from_bytes(data[80:84], "little")
     return b"format ascii" in data[:1024]
-
-
-def _lines_that_begin(data: bytes, keyword: str) -> int:
-    return sum(data.count(f"{end}{keyword}{gap}".encode()) for end in "\n\r" for gap in " \t")
 
 
 def _words(data: bytes) -> int:

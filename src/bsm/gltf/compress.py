@@ -88,7 +88,10 @@ def as_mesh(document: Document, primitives: Sequence[Tree]) -> Carried | str:
     """Primitives that are alike as one mesh, or why they stay as they are."""
     if primitives[0].get("mode", _TRIANGLES) != _TRIANGLES:
         return "no triangles"
-    _check_room(document, primitives)
+    indexes = [*{index for primitive in primitives for index in arrays_of(primitive).values()}]
+    indexes += [primitive["indices"] for primitive in primitives if "indices" in primitive]
+    # Accessors may share bytes.
+    DEFAULT_LIMITS.check_memory(PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
     tables: dict[str, int] = {}  # where the vertices of which accessors begin
     parts: list[dict[str, npt.NDArray[Any]]] = []
     faces: list[npt.NDArray[np.int64]] = []
@@ -133,14 +136,6 @@ def as_mesh(document: Document, primitives: Sequence[Tree]) -> Carried | str:
     return Carried(mesh, accessors, qualities)
 
 
-def _check_room(document: Document, primitives: Sequence[Tree]) -> None:
-    """Bound what is made of accessors, which may share bytes."""
-    given = {index for primitive in primitives for index in arrays_of(primitive).values()}
-    numbers = sum(map(document.claimed, given))
-    numbers += sum(document.claimed(primitive["indices"]) for primitive in primitives if "indices" in primitive)
-    DEFAULT_LIMITS.check_memory(PER_NUMBER * numbers, 0, document.received)
-
-
 def _vertices(document: Document, primitive: Tree) -> dict[str, npt.NDArray[Any]] | str:
     """What each vertex of a primitive has, or why that cannot be coded."""
     arrays: dict[str, npt.NDArray[Any]] = {}
@@ -148,7 +143,8 @@ def _vertices(document: Document, primitive: Tree) -> dict[str, npt.NDArray[Any]
         array = document.array(index)
         if array is None:
             return "accessors without plain bytes"
-        arrays[name] = _floats(array, _is_normalized(document, index)) if _is_geometry(name) else array
+        geometry = name.rpartition("/")[2].startswith(("POSITION", "NORMAL", "TANGENT", "TEXCOORD_"))
+        arrays[name] = _floats(array, _is_normalized(document, index)) if geometry else array
     positions = arrays.get("POSITION")
     if positions is None or positions.dtype != np.float32 or not np.isfinite(positions).all():
         return "positions that are not plain floats"
@@ -159,11 +155,6 @@ def _vertices(document: Document, primitive: Tree) -> dict[str, npt.NDArray[Any]
 
 def _is_normalized(document: Document, index: int) -> bool:
     return bool(document.tree["accessors"][index].get("normalized"))
-
-
-def _is_geometry(name: str) -> bool:
-    base = name.rpartition("/")[2]
-    return base in ("POSITION", "NORMAL", "TANGENT") or base.startswith("TEXCOORD_")
 
 
 def _floats(array: npt.NDArray[Any], normalized: bool) -> npt.NDArray[Any]:
@@ -535,15 +526,11 @@ class _Scene:
                 continue
             image.pop("uri", None)
             image |= {"mimeType": f"image/{rule.kind}", "bufferView": self._add_bytes(found)}
-            if rule.kind == "webp":
-                self._refer_to_webp(number)
-
-    def _refer_to_webp(self, image: int) -> None:
-        for texture in self.tree.get("textures", []):
-            if texture.get("source") == image:
-                del texture["source"]
-                texture.setdefault("extensions", {})[WEBP] = {"source": image}
-                self._use(WEBP, required=True)
+            for texture in self.tree.get("textures", []) if rule.kind == "webp" else ():
+                if texture.get("source") == number:
+                    del texture["source"]
+                    texture.setdefault("extensions", {})[WEBP] = {"source": number}
+                    self._use(WEBP, required=True)
 
     def _use(self, extension: str, *, required: bool) -> None:
         for key in ("extensionsUsed", "extensionsRequired") if required else ("extensionsUsed",):

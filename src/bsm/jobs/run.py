@@ -2,9 +2,9 @@
 
 import os
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing, suppress
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 
@@ -18,7 +18,6 @@ from bsm.jobs.report import (
     Earlier,
     Facts,
     Job,
-    Numbered,
     Outcome,
     Outcomes,
     Report,
@@ -172,11 +171,16 @@ def run_many(
     done: list[Facts] = [{} for _ in jobs]
     waiting: dict[int, Outcome] = {}
     following = 0
-    tasks = _tasks(asked, jobs, earlier, repeats=run.dask is not None)
+    given = ((number, task_of(asked, job, earlier)) for number, job in enumerate(jobs))
+    # A cluster may do a job once more whose worker died, and does not say so.
+    tasks = ((number, task if run.dask is None else task.repeated()) for number, task in given)
     try:
         with console.progress("files", "files") as progress, closing(_outcomes(run, console, work, tasks)) as outcomes:
             for count, (number, outcome) in enumerate(outcomes, 1):
-                done[number] = _facts(jobs[number], outcome)
+                done[number] = outcome.facts
+                if outcome.error is not None:
+                    failed = {"error": worded(outcome.error), "exit": exit_of(outcome.error).code}
+                    done[number] = {**asdict(jobs[number]), **failed}
                 if report:
                     report.take(number, done[number])
                 waiting[number] = outcome
@@ -194,7 +198,7 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     """What is asked, for one job."""
     before = earlier.files.get(job.output)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
-    there = {name for name in replaceable if _is_there(name)}
+    there = {n for n in replaceable if (state_of_remote(n) is not None if is_url(n) else os.path.lexists(n))}
     named = replaceable & earlier.outputs.keys()
     mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == digest_of(name))
     return replace(
@@ -206,13 +210,6 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
         doubtful=frozenset() if asked.force else frozenset(named - mine),
         fresh=frozenset(replaceable - named - there),
     )
-
-
-def _tasks(asked: Task, jobs: Sequence[Job], earlier: Earlier, *, repeats: bool) -> Iterator[Numbered]:
-    for number, job in enumerate(jobs):
-        task = task_of(asked, job, earlier)
-        # A cluster may do a job once more whose worker died, and does not say so.
-        yield number, task.repeated() if repeats else task
 
 
 def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks) -> Outcomes:
@@ -230,20 +227,9 @@ def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks) -> Outcomes:
     return in_processes(work, tasks, processes) if run.dask is None else on_cluster(work, tasks, run.dask)
 
 
-def _facts(job: Job, outcome: Outcome) -> Facts:
-    if outcome.error is None:
-        return outcome.facts
-    code = exit_of(outcome.error).code
-    return {"input": job.input, "output": job.output, "error": worded(outcome.error), "exit": code}
-
-
 def anywhere(name: str) -> str:
     """A name that means the same in every folder of a machine, and on every machine that has the same folders."""
     return name if not name or is_url(name) else os.path.abspath(name)
-
-
-def _is_there(path: str) -> bool:
-    return state_of_remote(path) is not None if is_url(path) else os.path.lexists(path)
 
 
 def came_to(taken: int | None, given: int) -> str:

@@ -96,14 +96,6 @@ def _end_with_parent() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-def _task(work: Work, task: Task) -> Outcome:
-    try:
-        return far_outcome(work, task)
-    except Terminated:
-        # What was begun is cleared away; nothing else is to be taken up.
-        os._exit(exit_of(Terminated()).code)
-
-
 @contextmanager
 def _interrupts_ignored() -> Iterator[None]:
     """Let processes that begin here leave Ctrl-C to this one from their first moment on."""
@@ -180,3 +172,10 @@ def _of_cluster(future: Any) -> Outcome | None:
             raise
         raise DependencyError(f"scheduler and workers need this package: pip install bsm-codec ({missing})") from error
     return outcome
+
+
+def _task(work: Work, task: Task) -> Outcome:
+    try:
+        return far_outcome(work, task)
+    except Terminated:  # what was begun is cleared away; nothing else is to be taken up
+        os._exit(exit_of(Terminated()).code)

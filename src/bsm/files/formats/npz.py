@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from tokenize import TokenError
-from typing import IO, Any, BinaryIO, Protocol, TypeAlias, get_args
+from typing import IO, Any, BinaryIO, Protocol, TypeAlias, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -299,7 +299,8 @@ def column_of(archive: Archive, name: str, values: Array, mesh: TriangleMesh, in
     domain, _, rest = name.partition("/")
     vertices, faces = len(mesh.positions), len(mesh.faces)
     if domain not in get_args(Domain) or not rest:
-        domain, rest = _domain_of(values.shape, vertices, faces), name
+        domain = "corner" if values.ndim == 3 else "vertex" if values.shape[:1] == (vertices,) else "face"
+        rest = name
     indices = None
     if domain == "corner" and indexed:
         (indices,) = read_arrays(archive, f"{name}/indices")
@@ -312,16 +313,8 @@ def column_of(archive: Archive, name: str, values: Array, mesh: TriangleMesh, in
     rows = {"vertex": vertices, "face": faces, "corner": 3 * faces if indices is None else len(values)}
     if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS or rows.get(domain) != len(values):
         return None
-    return Column(rest, values.astype(values.dtype.newbyteorder("=")), _DOMAINS[domain], meaning_of(rest), indices)
-
-
-_DOMAINS: dict[str, Domain] = {"vertex": "vertex", "face": "face", "corner": "corner"}
-
-
-def _domain_of(shape: tuple[int, ...], vertices: int, faces: int) -> str:
-    if len(shape) == 3:
-        return "corner"
-    return "vertex" if shape[:1] == (vertices,) else "face"
+    native = values.astype(values.dtype.newbyteorder("="))
+    return Column(rest, native, cast(Domain, domain), meaning_of(rest), indices)
 
 
 def _parse_metadata(data: bytes) -> Metadata:

@@ -18,7 +18,9 @@ _ATTRIBUTE = "attribute"
 
 def read_stl(data: bytes, limits: Limits) -> Polygons:
     """Read a binary or a text STL; corners with exactly equal coordinates are one vertex, in order of appearance."""
-    binary = _is_binary_stl(data)
+    # Binary files may begin with "solid" too; their length tells.
+    claimed = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
+    binary = len(data) == 84 + 50 * claimed or not data.lstrip().startswith(b"solid")
     soup = _soup_binary(data) if binary else _soup_text(data)
     soup = soup + 0.0  # so that -0 equals 0 byte by byte too
     order = np.lexsort(soup.T)
@@ -36,12 +38,6 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
     records = np.frombuffer(data, _RECORD, len(soup) // 3, 84)["attribute"] if binary else np.zeros(0, np.uint16)
     columns = (Column(_ATTRIBUTE, records[:, None], "face"),) if records.any() else ()
     return Polygons(soup[first[by_appearance]], np.full(len(soup) // 3, 3), corners, (note,), (), columns)
-
-
-def _is_binary_stl(data: bytes) -> bool:
-    # Binary files may begin with "solid" too; their length tells.
-    claimed = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
-    return len(data) == 84 + 50 * claimed or not data.lstrip().startswith(b"solid")
 
 
 def _soup_binary(data: bytes) -> Doubles:

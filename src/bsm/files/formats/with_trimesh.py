@@ -63,41 +63,26 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         with np.errstate(all="ignore"):  # what is not finite is refused later
             scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
             found = joined(scene, limits, len(data))
-        up, unread = _up_axis(data, kind), _unread(data, kind)
-        absent = _absent_images(data, kind, path)
+        tree, up = {}, re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
+        if kind in ("glb", "gltf"):
+            tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")] if kind == "glb" else data)
+        absent, unread = _absent_images(tree, path), _unread(tree)
     except (BsmError, MemoryError):
         raise
     except Exception as error:  # it promises nothing about what damaged files raise
         raise FormatError(f"trimesh cannot read this file: {type(error).__name__}: {error}") from error
-    metadata = {**up, **found.metadata}
+    axis = {"up": "y"} if tree else {"up": up[1].decode().lower()} if up else {}
+    metadata = {**axis, **found.metadata}
     if metadata.get("name") == Path(path or "").name:
         del metadata["name"]  # trimesh calls it like the file
     return replace(found, metadata=metadata, notes=(*found.notes, *absent), dropped=(*found.dropped, *unread))
 
 
-def _up_axis(data: bytes, kind: str) -> dict[str, str]:
-    """The axis that points up, where the format or the file says it."""
-    if kind in ("glb", "gltf"):
-        return {"up": "y"}
-    match = re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
-    return {"up": match[1].decode().lower()} if match else {}
-
-
-def _tree(data: bytes, kind: str) -> dict[str, Any]:
-    if kind == "glb":
-        data = data[20 : 20 + int.from_bytes(data[12:16], "little")]
-    elif kind != "gltf":
-        return {}
-    tree: dict[str, Any] = json.loads(data)
-    return tree
-
-
-def _absent_images(data: bytes, kind: str, path: str | None) -> list[str]:
+def _absent_images(tree: dict[str, Any], path: str | None) -> list[str]:
     """Notes about images that a glTF names, and that do not lie in its folder or below."""
-    named = [image["uri"] for image in _tree(data, kind).get("images", []) if "uri" in image]
-    notes = []
+    named, notes = [image["uri"] for image in tree.get("images", []) if "uri" in image], []
+    folder = None if path is None else Path(path).resolve().parent
     for name in (unquote(one) for one in named if not one.startswith("data:")):
-        folder = None if path is None else Path(path).resolve().parent
         image = None if folder is None else (folder / name).resolve()
         if folder is None or image is None or not image.is_relative_to(folder):
             notes.append(f"the image {name} was left out: it is not in the folder of the mesh")
@@ -106,9 +91,8 @@ def _absent_images(data: bytes, kind: str, path: str | None) -> list[str]:
     return notes
 
 
-def _unread(data: bytes, kind: str) -> list[str]:
+def _unread(tree: dict[str, Any]) -> list[str]:
     """What a glTF holds and trimesh does not tell of."""
-    tree = _tree(data, kind)
     told = {"animations": "animations (--animation encodes one)", "skins": "skins", "cameras": "cameras"}
     found = [told[name] for name in told if tree.get(name)]
     found += [name for name in tree.get("extensionsUsed", []) if name not in _READ_BY_TRIMESH]

@@ -159,7 +159,11 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
     """Write the materials of a mesh beneath it; returns them by their numbers, and the metadata that are said so."""
     stage, shade = mesh.GetPrim().GetStage(), pxr.UsdShade
     words, images = materials_in(shown.metadata), images_in(shown.metadata)
-    files = {} if folder is None else dict(_written_images(images, folder))
+    files: dict[int, str] = {}
+    for number, (_, data) in images.items() if folder else ():
+        if (kind := kind_of_image(data)) in ("png", "jpg", "exr"):  # those that USD knows
+            files[number] = f"image_{number}.{kind}"
+            Path(str(folder), files[number]).write_bytes(data)
     said = {f"image.{number}.{what}" for number in files for what in ("name", "data")}
     bound: dict[int, Any] = {}
     for number, known in words.items():
@@ -193,15 +197,6 @@ def bind_materials(pxr: Any, mesh: Any, shown: TriangleMesh, bound: Mapping[int,
         subset.CreateFamilyNameAttr(family)
         subset.CreateIndicesAttr().Set(places, code)
         api.Apply(subset.GetPrim()).Bind(material)
-
-
-def _written_images(images: Mapping[int, tuple[str, bytes]], folder: Path) -> Iterator[tuple[int, str]]:
-    """Write images that USD knows; their numbers and names."""
-    for number, (_, data) in images.items():
-        if (kind := kind_of_image(data)) in ("png", "jpg", "exr"):
-            name = f"image_{number}.{kind}"
-            (folder / name).write_bytes(data)
-            yield number, name
 
 
 class _Surface:
@@ -413,19 +408,15 @@ class _Stage:
             self.stage = pxr.Usd.Stage.Open(path)
         except Exception as error:  # of the library's own kind
             raise FormatError(f"usd-core cannot read this file: {str(error).strip().splitlines()[-1]}") from error
-        self._bake()
+        if any(prim.IsA(pxr.UsdSkel.Root) for prim in self.stage.Traverse()):
+            # Skeletons move the points, in a layer that is not saved.
+            self.stage.SetEditTarget(self.stage.GetSessionLayer())
+            pxr.UsdSkel.BakeSkinning(self.stage.Traverse())
         self.parts = [_Part(pxr, prim) for prim in self.stage.Traverse() if prim.IsA(pxr.UsdGeom.Mesh)]
         self.parts = [part for part in self.parts if len(part.counts)]
         if not self.parts:
             raise FormatError("this stage has no meshes")
         self._require_counts()
-
-    def _bake(self) -> None:
-        """Let skeletons move the points, in a layer that is not saved."""
-        pxr = self.pxr
-        if any(prim.IsA(pxr.UsdSkel.Root) for prim in self.stage.Traverse()):
-            self.stage.SetEditTarget(self.stage.GetSessionLayer())
-            pxr.UsdSkel.BakeSkinning(self.stage.Traverse())
 
     @property
     def times(self) -> list[float]:
@@ -505,23 +496,17 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     require_count("frames", count, limits)
     still = stage.mesh(stage.at(first))
 
-    def frames() -> Iterator[Positions]:
-        for number in range(count):
-            yield stage.at(first + number * codes / rate)
-
-    mesh = still.mesh
+    every = [first + number * codes / rate for number in range(count)]
+    mesh, notes = still.mesh, (f"{count} frames at {rate:g} per second", *still.notes)
     if wanted.runs and stage.changes():
 
         def meshes() -> Iterator[TriangleMesh]:
-            for number in range(count):
-                time = first + number * codes / rate
+            for time in every:
                 stage.turn_to(time)
                 yield stage.mesh(stage.at(time)).mesh
 
-        notes = (f"{count} frames at {rate:g} per second", *still.notes)
         return Frames(mesh.faces, count, iter(()), mesh.attributes, notes, rate, mesh.metadata, meshes())
-    checked = checked_frames(path, frames(), len(mesh.positions))
-    notes = (f"{count} frames at {rate:g} per second", *still.notes)
+    checked = checked_frames(path, map(stage.at, every), len(mesh.positions))
     return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, mesh.metadata)
 
 
