@@ -37,7 +37,6 @@ _OWN = ("position", "sharp_face", "material_index", "custom_normal")
 
 
 def data_of(mesh: TriangleMesh, name: str) -> Any:
-    """A mesh as Blender's, with everything that it carries."""
     made = bpy.data.meshes.new(name)
     made.vertices.add(len(mesh.positions))
     made.vertices.foreach_set("co", mesh.positions.astype(np.float32).reshape(-1))
@@ -204,8 +203,7 @@ def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
 # ------------------------------------------------------------------------------------------------------------------- in
 
 
-STREAM = "bsm_stream"
-"""The property of an object that holds its stream, so that a project keeps it, packed or moved."""
+STREAM = "bsm_stream"  # the property of an object that holds its stream, so that a project keeps it, packed or moved
 MOST_STREAM_BYTES = 1 << 28
 _MODIFIER = "BSM"
 Progress = Callable[[int, int], None]
@@ -385,8 +383,6 @@ def _points(data: Any, place: Any) -> Positions:
 
 
 class _Evaluated:
-    """An object's mesh as the scene shows it, and where it is."""
-
     def __init__(self, moving: Any) -> None:
         self._found = moving.evaluated_get(bpy.context.evaluated_depsgraph_get())
 

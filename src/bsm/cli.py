@@ -146,7 +146,6 @@ class Parser(argparse.ArgumentParser):
         return f"{names} [options]" if inputs else " COMMAND ..."
 
     def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
-        """Parse the words behind a command."""
         # argparse forgets a "--" between the two passes that mixed words take it.
         parse = self.parse_known_args if "--" in words else self.parse_known_intermixed_args
         args, unknown = parse(words)

@@ -155,8 +155,6 @@ class MeshComparison(Comparison):
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two meshes whose vertices correspond."""
-
     original: TriangleMesh
     positions: Positions
     corners: Order

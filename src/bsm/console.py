@@ -15,8 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 _PATIENCE, _SECOND = 0.5, 1.0
-_RUNNING = "{desc}: {elapsed}"
-"""Of a line of which nobody knows how long it will be."""
+_RUNNING = "{desc}: {elapsed}"  # of a line of which nobody knows how long it will be
 _TYPICAL_ROUNDS = 6
 _USUAL_SHAPE = (80, 24)
 
@@ -27,7 +26,6 @@ class Console:
     kept: list[str] | None = None
 
     def note(self, text: str) -> None:
-        """Say something by the way, in one line."""
         text = printable(text)
         if self.kept is not None:
             self.kept.append(text)

@@ -9,8 +9,7 @@ from bsm.bitstream.errors import ArgumentError, OptionError
 
 LENGTH = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?) *(%|[a-zA-Zµ]*)")
 """A number, and what it is in: % of the diagonal, or whatever the mesh's unit is called; neither: diagonals."""
-LENGTHS = ("max_error",)
-"""Options that are lengths."""
+LENGTHS = ("max_error",)  # options that are lengths
 IN_METRES = {
     **dict.fromkeys(("m", "meter", "metre"), 1.0),
     **dict.fromkeys(("dm", "decimeter", "decimetre"), 0.1),

@@ -23,18 +23,15 @@ if TYPE_CHECKING:
 TARGETS = {"nmsve_db": "nmsve_db", "theta": "theta_deg", "bpv": "bpv", "size": "size"}
 """Keyword of each target of a mesh, and its kind, see `codec.static.targets`."""
 
-BOUNDS = ("look", "max_error")
-"""Keywords of bounds of a mesh; any of them hold together."""
+BOUNDS = ("look", "max_error")  # keywords of bounds of a mesh; any of them hold together
 
-SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}
-"""The same for sequences."""
+SEQUENCE_TARGETS = {"kg": "kg", "bpvf": "bpvf", "theta": "theta_deg", "nmsve_db": "nmsve_db"}  # the same for sequences
 
 SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007, "near-lossless": 0.0001}
 """The presets of sequences that are sent frame by frame, which promise nothing."""
 
 
 def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptions:
-    """The options for a mesh that keywords ask for."""
     from bsm.codec.static.options import CODING, PRESETS, EncodeOptions
     from bsm.codec.static.targets import Target
 
@@ -69,7 +66,6 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
 
 
 def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
-    """The options for a sequence that keywords ask for."""
     from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
     from bsm.codec.sequence.targets import SequenceTarget
 

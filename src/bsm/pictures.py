@@ -12,8 +12,7 @@ from bsm.codec.arrays import Faces, Positions
 
 SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
 """Colours from 0 to 1, evenly: after ColorBrewer's RdYlBu."""
-_LOUDER = 4.0
-"""How much larger a difference is drawn than it is."""
+_LOUDER = 4.0  # how much larger a difference is drawn than it is
 
 
 def side_by_side(first: npt.NDArray[Any], second: npt.NDArray[Any]) -> npt.NDArray[Any]:
@@ -66,7 +65,6 @@ def render(
     bounds: tuple[npt.NDArray[np.float64], float] | None = None,
     colors: npt.NDArray[np.float64] | None = None,
 ) -> Image:
-    """Draw a mesh, each face in one shade, on white."""
     view = DEFAULT_VIEW if view is None else view
     center, radius = bounds_of(positions, view) if bounds is None else bounds
     fine = size * _SUPERSAMPLING

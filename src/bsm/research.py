@@ -45,8 +45,7 @@ Integers: TypeAlias = npt.NDArray[np.int32]
 MARK = b"BSM research\n"
 """Before streams that only their own idea can decode, so that no decoder takes them for ordinary ones."""
 __all__ = ["BlockArrays", "Idea", "Site", "blocks", "curves", "decode", "encode"]
-CLOSE = 1e-6
-"""How far what is decoded may be from what the encoder expects, in diagonals."""
+CLOSE = 1e-6  # how far what is decoded may be from what the encoder expects, in diagonals
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,7 +235,6 @@ def _trial(idea: Idea) -> Trial:
 
 
 def _checked(what: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> Floats:
-    """What an own function gives, as an array."""
     array = np.asarray(values, np.float64)
     if array.shape != shape or not np.isfinite(array).all():
         raise ArgumentError(f"the {what} must give finite numbers of shape {shape}, not {array.shape}")
@@ -245,8 +243,6 @@ def _checked(what: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> Floats
 
 @dataclass(frozen=True)
 class _OwnParts(Parts):
-    """Parts that somebody's own function finds."""
-
     labelled: Callable[[Integers, Integers, int], npt.ArrayLike] = field(kw_only=True)
 
     def cut(self, graph: Graph) -> Partition:

@@ -19,8 +19,7 @@ from bsm.files.stream import events, peek_header
 
 NOISE = 2.0**-46
 """Of the greatest number of each column: what rounding does to a dictionary on its way, and room to spare."""
-RMS, PEAK = 1e-9, 1e-8
-"""How far two decoders may be apart, in extents (M 15.2)."""
+RMS, PEAK = 1e-9, 1e-8  # how far two decoders may be apart, in extents (M 15.2)
 
 
 def shaken(values: Matrix) -> Matrix:

@@ -83,7 +83,6 @@ class Playback:
         return tuple(number / self.rate for number in range(self.count)) if self.rate else ()
 
     def number_at(self, time: float) -> int:
-        """The frame that is shown at a time."""
         return min(max(round(time * self.rate), 0), self.count - 1)
 
 

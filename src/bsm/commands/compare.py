@@ -45,10 +45,8 @@ if TYPE_CHECKING:
     from bsm.codec.look.measure import Look
 
 
-COLORED = ("ply", "obj", "glb")
-"""Formats that hold colours of vertices."""
-SHOWN = 99.0
-"""Percentile of the distances that has the last colour: single vertices shall not make all others blue."""
+COLORED = ("ply", "obj", "glb")  # formats that hold colours of vertices
+SHOWN = 99.0  # percentile of the distances that has the last colour: single vertices shall not make all others blue
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -195,7 +193,6 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
 
 
 def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
-    """Compare two sequences; False if neither is one."""
     paths, changing = (args.original, args.decoded), Wanted(runs=True)
     with console.progress("reading", "frames") as progress:
         sides = [_load_sequence(path, args, changing if names_many(path) else None) for path in paths]
@@ -277,7 +274,6 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
 def _in_one_order(
     original: tuple[Positions, Faces], decoded: tuple[Positions, Faces], order: Order | None
 ) -> tuple[Positions, Positions, Faces]:
-    """The frames of both in one order of vertices, and their faces."""
     (first, faces), (second, other_faces) = original, decoded
     mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
     other, other_kept = TriangleMesh(second[0], other_faces).without_isolated_vertices()
@@ -286,7 +282,6 @@ def _in_one_order(
 
 
 def _of_frames(one: Positions, two: Positions) -> list[dict[str, float]]:
-    """The errors of each frame, in diagonals of the first."""
     diagonal = float(np.linalg.norm(np.ptp(one[0], axis=0))) or 1.0
     distances = np.linalg.norm(one - two, axis=2) / diagonal
     rms, farthest = np.sqrt(np.square(distances).mean(axis=1)), distances.max(axis=1)
@@ -331,7 +326,6 @@ def _write_map(path: str, original: TriangleMesh, positions: Positions, *, overw
 
 
 def _picture(mesh: TriangleMesh, shares: npt.NDArray[np.float64]) -> bytes:
-    """A PNG of the mesh from the front and the back."""
     faces = colors_of(shares)[mesh.faces].mean(axis=1) / 255.0
     behind = DEFAULT_VIEW * np.array([[-1.0], [1.0], [-1.0]])
     return png(np.hstack([render(mesh.positions, mesh.faces, view=v, colors=faces) for v in (DEFAULT_VIEW, behind)]))

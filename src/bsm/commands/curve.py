@@ -38,7 +38,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    """Run, write, read again, compare and draw."""
     from bsm.evaluation.curve import read_results, run_curve, write_result
     from bsm.evaluation.plots import draw_all
 

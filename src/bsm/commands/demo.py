@@ -18,8 +18,7 @@ from bsm.pictures import bounds_of, colors_of, png, render
 if TYPE_CHECKING:
     from bsm.codec.geometry.mesh import TriangleMesh
 
-_PLAIN_BYTES = (12, 12)
-"""Bytes of a vertex and of a face as float32 and int32."""
+_PLAIN_BYTES = (12, 12)  # bytes of a vertex and of a face as float32 and int32
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,7 +30,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    """Make the sample, encode it, decode it, compare, and draw both."""
     stream_path, picture_path = Path(args.output, "bsm_demo.bsm"), Path(args.output, "bsm_demo.png")
     for path in (stream_path, picture_path):
         refuse_to_overwrite(path, args.force)
@@ -84,7 +82,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 
 def _draw(path: Path, sample: TriangleMesh, decoded: TriangleMesh, *, overwrite: bool) -> None:
-    """Both meshes side by side, and where they differ."""
     bounds = bounds_of(sample.positions)
     distance = np.linalg.norm(decoded.positions - sample.positions, axis=1)
     heat = colors_of(distance / (float(np.percentile(distance, 99)) or 1.0))[sample.faces].mean(axis=1) / 255.0

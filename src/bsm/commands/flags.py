@@ -240,7 +240,6 @@ def settings_of(args: argparse.Namespace) -> dict[str, Any]:
 
 
 def options_of(args: argparse.Namespace) -> dict[str, Any]:
-    """What the command line asks for, as keywords of `bsm.options`."""
     given = {name: getattr(args, name) for name in _KEYWORDS if hasattr(args, name)}
     if hasattr(args, "attributes"):
         given["attributes"] = dict(args.attributes)
@@ -280,7 +279,6 @@ def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:
 
 
 def add_limits_flag(parser: argparse.ArgumentParser) -> None:
-    """Add it; `limits_of` says what was asked for."""
     parser.add_argument(
         "--limits",
         choices=tuple(NAMED_LIMITS),
@@ -295,7 +293,6 @@ def limits_of(name: str) -> Limits:
 
 
 def add_reader_flag(parser: argparse.ArgumentParser) -> None:
-    """Add it; `args.reader` goes to `read_mesh` and `open_sequence`."""
     parser.add_argument(
         "--reader",
         choices=READERS,

@@ -14,8 +14,7 @@ from bsm.gltf.compress import ImageRule, compress, count_primitives
 from bsm.gltf.document import read_document
 from bsm.gltf.write import moving_scene
 
-MANY = 16
-"""Primitives from which on a page waits longer for decoding than for the bytes that it saves."""
+MANY = 16  # primitives from which on a page waits longer for decoding than for the bytes that it saves
 PRESETS = ("balanced", "fine", "near-lossless", "grid14")
 
 
@@ -53,7 +52,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    """Read, code, write, and say what stayed as it was."""
     import bsm
 
     rule = ImageRule.parse(args.images) if args.images else None

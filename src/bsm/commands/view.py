@@ -35,7 +35,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Write the page, or serve it until interrupted."""
     if args.follow and (args.save or args.original):
         raise OptionError(f"{'--save' if args.save else '--original'} needs streams that are written: no --follow")
     reading = console.progress("reading and comparing" if args.original else "reading")
@@ -75,7 +74,6 @@ def _contents(args: argparse.Namespace, console: Console) -> list[Content]:
 
 
 def _served(args: argparse.Namespace, console: Console) -> list[Content | Growing]:
-    """All inputs: what is still being written while it comes."""
     return [
         _growing(name, path) if args.follow or path == "-" else Content(name, _stream(path, args.reader, console))
         for name, path in _named(args.inputs).items()

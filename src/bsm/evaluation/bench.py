@@ -45,8 +45,7 @@ class Solver:
 
     name: str
     solve: Callable[[Matrix, int], Matrix]
-    whole: bool = False
-    """It finds all of them, however many are asked for."""
+    whole: bool = False  # it finds all of them, however many are asked for
 
 
 def _arpack(laplacian: Matrix, width: int) -> Matrix:

@@ -113,8 +113,6 @@ PARTS = ("connectivity", "partition", "order", "coefficients", "framing")
 
 
 class Codec(Protocol):
-    """A codec at one setting."""
-
     @property
     def settings(self) -> dict[str, Any]:
         """What tells this setting from others, ready for JSON."""
@@ -192,10 +190,8 @@ class Curve:
 
 
 PAPER_KEEPS = (0.05, 0.10, 0.15, 0.20, 0.25)
-PAPER_THRESHOLDS = (0.14, 0.1, 0.07, 0.05, 0.035)
-"""eps_h of dynamic orthogonal iterations; eps_l is a tenth less."""
-EXACT_BASES: dict[str, Any] = {"key_interval": 1, "key_seed": "svd"}
-"""Every block in its exact basis, as by SVD."""
+PAPER_THRESHOLDS = (0.14, 0.1, 0.07, 0.05, 0.035)  # eps_h of dynamic orthogonal iterations; eps_l is a tenth less
+EXACT_BASES: dict[str, Any] = {"key_interval": 1, "key_seed": "svd"}  # every block in its exact basis, as by SVD
 COLD_STARTS: dict[str, Any] = {"key_interval": 1, "key_seed": "cosines", "key_iterations": 1}
 """Every block by one orthogonal iteration from cosines."""
 PAPER_LINES: tuple[tuple[str, str, dict[str, Any]], ...] = (
@@ -281,7 +277,6 @@ def run_curve(
     repeats: int = 1,
     progress: Callable[[int, int], None] = lambda done, count: None,
 ) -> Result:
-    """All operating points of one codec on a mesh of that name."""
     mesh = mesh.without_isolated_vertices()[0]
     reference = Reference(mesh.positions, mesh.faces)
     # Loads the compiled kernels, so that no time contains that.
@@ -426,8 +421,7 @@ SEQUENCE_STEPS = (0.016, 0.008, 0.004, 0.002, 0.001, 0.0005)
 SEQUENCE_BITS = (7, 8, 9, 10, 11, 12)
 LINES = {"ours": "ours", "ours-low-delay": "ours, low delay", "draco": "Draco, frame by frame"}
 SEQUENCE_MEASURES = {"kg": "KG error, percent", "theta_deg": "θ, degrees"}
-FRAMES_OF_DRACO = 16
-"""Frames that Draco is asked for, spread over the sequence: it treats all alike."""
+FRAMES_OF_DRACO = 16  # frames that Draco is asked for, spread over the sequence: it treats all alike
 
 
 def measure_lines(frames: Positions, faces: Faces, name: str, progress: Callable[[int, int], None]) -> dict[str, Any]:

@@ -62,7 +62,6 @@ def draw_rates(
 
 
 def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
-    """A PNG of the errors of each frame of a sequence."""
     figure = new_figure(7.0, 4.0)
     axes = figure.subplots()
     axes.grid(alpha=0.3)
@@ -119,7 +118,6 @@ def title_of(result: Result) -> str:
 
 
 def import_matplotlib() -> ModuleType:
-    """matplotlib, without a screen."""
     try:
         import matplotlib
     except ImportError as error:

@@ -9,8 +9,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 Doubles = npt.NDArray[np.float64]
 
 _TUBE = 0.5
-_ASPECT = 10.0
-"""Length of the knot over the circumference of its tube, about."""
+_ASPECT = 10.0  # length of the knot over the circumference of its tube, about
 
 
 def knot(vertices: int = 20_000, seed: int = 1) -> TriangleMesh:

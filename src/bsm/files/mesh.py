@@ -30,18 +30,12 @@ from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
 from bsm.files.pipes import Source, as_input, is_url
 from bsm.files.room import gunzipped, require_archive, require_counts_of_head, require_room
 
-_PLAIN = ("obj", "off", "ply", "stl")
-"""Read whole, with nothing but what the bytes say."""
-MESH_FORMATS = ("npz", "vtp", *_PLAIN)
-"""What we read and write ourselves."""
-USD_FORMATS = ("usd", "usda", "usdc", "usdz")
-"""Read with usd-core."""
-WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "ply", "stl", "vtp")
-"""What we write."""
-_HEAD = 1 << 16
-"""Bytes in which a file tells of its size, if it does."""
-READERS = ("bsm", "openmesh", "trimesh")
-"""Who can be asked to read a file: ourselves, or a library."""
+_PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
+MESH_FORMATS = ("npz", "vtp", *_PLAIN)  # what we read and write ourselves
+USD_FORMATS = ("usd", "usda", "usdc", "usdz")  # read with usd-core
+WRITTEN_FORMATS = ("glb", "npz", "obj", "off", "ply", "stl", "vtp")  # what we write
+_HEAD = 1 << 16  # bytes in which a file tells of its size, if it does
+READERS = ("bsm", "openmesh", "trimesh")  # who can be asked to read a file: ourselves, or a library
 
 
 _ROOMS = {**{kind: f"bsm.files.formats.{kind}" for kind in MESH_FORMATS}, "glb": "bsm.gltf.write"}
@@ -176,13 +170,11 @@ def _sibling(path: str | os.PathLike[str], name: str) -> str | None:
 
 
 def format_of_name(path: str | os.PathLike[str]) -> str | None:
-    """The format that a file name's suffix tells, or None."""
     suffix = Path(path).suffix[1:].lower()
     return suffix if suffix in WRITTEN_FORMATS else None
 
 
 def format_of_bytes(data: bytes) -> str | None:
-    """The format that the content of a file tells, or None."""
     head = data[:1024].lstrip()
     if head.startswith(b"ply"):
         return "ply"

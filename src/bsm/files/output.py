@@ -169,7 +169,6 @@ def termination_as_exception() -> Iterator[None]:
 
 
 def default_output(path: str, suffix: str) -> str:
-    """`path` with another suffix; "-" (a pipe) stays."""
     if path == "-":
         return "-"
     if is_url(path):
@@ -184,7 +183,6 @@ def default_output(path: str, suffix: str) -> str:
 
 
 def output_inside(folder: str, path: str, suffix: str) -> str:
-    """The name that the output of `path` has in a folder."""
     name = _with_suffix(path, suffix).name
     return inside(folder, name) if is_url(folder) else str(Path(folder, name))
 

@@ -275,7 +275,6 @@ class Input:
         return b"".join(pieces)
 
     def _hold(self, size: int) -> None:
-        """Wait for `size` bytes, or the end."""
         pieces, held = [self._held], len(self._held)
         while held < size and (piece := self._receive()):
             pieces.append(piece)
@@ -302,7 +301,6 @@ class Input:
         return bytes(piece)
 
     def close(self) -> None:
-        """Close what was opened here; nothing more is read."""
         if self._opened and self._file is not None:
             self._file.close()
             self._file, self._opened = io.BytesIO(), False
@@ -334,14 +332,12 @@ def read_chunks(source: Source) -> Iterator[bytes]:
 
 
 def standard_input() -> BinaryIO:
-    """Raises `OSError` if it is closed."""
     if sys.stdin is None:
         raise OSError(errno.EBADF, "standard input is closed")
     return sys.stdin.buffer
 
 
 def standard_output() -> BinaryIO:
-    """Raises `OSError` if it is closed."""
     if sys.stdout is None:
         raise OSError(errno.EBADF, "standard output is closed")
     return sys.stdout.buffer
@@ -357,8 +353,7 @@ def about(path: str) -> Iterator[None]:
         raise
 
 
-State = list[object]
-"""Name, size and version of each file, as JSON gives it back."""
+State = list[object]  # name, size and version of each file, as JSON gives it back
 
 
 def files_behind(path: str) -> Iterator[str]:

@@ -15,14 +15,10 @@ from bsm.bitstream.errors import CorruptError, FormatError, LimitError, MeshErro
 from bsm.bitstream.limits import Limits
 from bsm.files.rows import without_comments
 
-LINE, WORD = 250.0, 330.0
-"""Bytes that a line of text, and a word of it, are kept in while numbers are made of them."""
-AS_NUMBERS = 8
-"""Bytes of a coordinate or an index as readers make it, however narrow the file has it."""
-TREE = 32
-"""Bytes that a byte of JSON may become."""
-TAG = 150
-"""Bytes that a tag of XML becomes in the tree of a library."""
+LINE, WORD = 250.0, 330.0  # bytes that a line of text, and a word of it, are kept in while numbers are made of them
+AS_NUMBERS = 8  # bytes of a coordinate or an index as readers make it, however narrow the file has it
+TREE = 32  # bytes that a byte of JSON may become
+TAG = 150  # bytes that a tag of XML becomes in the tree of a library
 _PIECE = 1 << 18
 _OTHER = re.compile(rb"[^\0]")
 _COUNTED = {b"vertex": "vertices", b"face": "faces"}

@@ -26,12 +26,10 @@ from bsm.files.pipes import Source, as_input, is_pipe, is_url
 
 ZIP = b"PK\x03\x04"
 GLTF = ("glb", "gltf")
-ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)
-"""Forms of a whole sequence in one file."""
+ONE_FILE = ("npz", "npy", *CACHES, "glb", *USD_FORMATS)  # forms of a whole sequence in one file
 SEQUENCE_FORMATS = (*ONE_FILE, *(name for name in WRITTEN_FORMATS if name not in ONE_FILE))
 """What `bsm decode` can make of a sequence; a form of a mesh is a file for each frame."""
-SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS)
-"""Forms of a whole sequence in one file that are read."""
+SEQUENCES_READ = ("npz", "npy", *CACHES, *GLTF, *USD_FORMATS)  # forms of a whole sequence in one file that are read
 
 
 def open_sequence(

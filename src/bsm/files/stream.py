@@ -81,8 +81,7 @@ class StreamInfo:
     coefficients: tuple[int, ...]
     gops: tuple[GopInfo, ...]
     attributes: tuple[AttributeInfo, ...]
-    sizes: dict[str, int]
-    """Bytes by what they carry, "framing" nothing of all that; "total" is the whole."""
+    sizes: dict[str, int]  # bytes by what they carry, "framing" nothing of all that; "total" is the whole
     runs: tuple[RunInfo, ...]
 
     @property
@@ -180,7 +179,6 @@ def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:
 def decode_whole(
     chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, layers: int | None = None
 ) -> TriangleMesh:
-    """Decode a stream to its end, or to that of so many layers."""
     from bsm.codec.static.decoder import Decoder
 
     with Decoder(limits, threads, layers=layers) as decoder:
@@ -312,8 +310,7 @@ class _Part:
 
 
 _POINTS = 64
-MOST_FRAMES = 4096
-"""Beyond, nothing is said: each frame is compared with each."""
+MOST_FRAMES = 4096  # beyond, nothing is said: each frame is compared with each
 
 
 class Loops:
@@ -489,7 +486,6 @@ def all_frames(stream: SequenceStream) -> Pieces:
 
 
 def pieces_of(frames: Iterable[tuple[Positions, Faces]]) -> Pieces:
-    """Frames with their faces, those together that share them."""
     found: list[tuple[list[Positions], Faces]] = []
     for positions, faces in frames:
         same = found and len(found[-1][0][0]) == len(positions) and np.array_equal(found[-1][1], faces)

@@ -46,10 +46,8 @@ _SEMANTICS: dict[str, tuple[Semantic, int]] = {
     "TEXCOORD_1": ("texcoord", 2),
 }
 _LARGEST = {np.dtype(np.uint8): 255, np.dtype(np.uint16): 65535}
-_PIECE = "material"
-"""The attribute of faces by which decoders sort them."""
-_GRID = 2.0**-15
-"""How far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits."""
+_PIECE = "material"  # the attribute of faces by which decoders sort them
+_GRID = 2.0**-15  # how far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits
 _QUALITIES = {
     "NORMAL": "10bits",
     "TANGENT": "9bits",
@@ -57,8 +55,7 @@ _QUALITIES = {
     "TEXCOORD_1": "12bits",
     "COLOR_0": "8bits",
 }
-_TURN = "0.002"
-"""Of what targets add to directions: a tenth of a degree."""
+_TURN = "0.002"  # of what targets add to directions: a tenth of a degree
 
 
 @dataclass(frozen=True, eq=False)

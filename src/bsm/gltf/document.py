@@ -25,8 +25,7 @@ VECTORS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _WIDTHS = {**VECTORS, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 EXTENSION, WEBP = "EXT_bsm_compression", "EXT_texture_webp"
-PER_NUMBER = 48
-"""Bytes that a number of an accessor takes while it is made into what a mesh has."""
+PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
 _COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
 MOST_NUMBERS = 1 << 27
 """In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""

@@ -107,8 +107,6 @@ class Skin:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """The triangles of one primitive, where the scene has them once."""
-
     node: int
     base: Doubles
     targets: Doubles
@@ -165,7 +163,6 @@ class Scene:
 
     @property
     def moves(self) -> bool:
-        """Whether a curve reaches something that is seen."""
         moved = {node for node, _ in self._curves}
         for node, parent in self._parents.items():  # parents come first
             if parent in moved:
@@ -459,7 +456,6 @@ def _chosen(document: Document, wish: str) -> tuple[int, Tree]:
 
 
 def _rate(keys: Doubles) -> float:
-    """The rate of the keys, as far as it can be told."""
     rate = rate_of_times(keys)
     if 5 <= rate <= 240:
         return rate

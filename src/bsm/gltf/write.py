@@ -43,8 +43,7 @@ USUAL_RATE = 24.0
 _MOST_BYTES = (1 << 32) - 1
 _FLOAT, _UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
 _TYPES = {width: name for name, width in VECTORS.items()}
-_SORTING = ("part", "material")
-"""Attributes of faces that only sort these."""
+_SORTING = ("part", "material")  # attributes of faces that only sort these
 _HALF = 0.5**0.5
 _TURNS = {"x": [0.0, 0.0, _HALF, _HALF], "z": [-_HALF, 0.0, 0.0, _HALF]}
 """What turns the axis that a sequence calls up to that of glTF."""
@@ -257,7 +256,6 @@ class _Moving(_Still):
             primitive["targets"].append({"POSITION": positions, "NORMAL": normals})
 
     def animate(self, rate: float) -> None:
-        """Let the targets be shown one after the other."""
         count = self._frames - 1
         if not count:
             return

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -157,7 +157,6 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
 
 
 def _finish(job: EncodeJob, console: Console, notes: list[str], order: npt.NDArray[np.int64], summary: str) -> None:
-    """Tell notes and what came out, and write the permutation."""
     for note in notes:
         console.note(f"{job.input}: {note}")
     if job.permutation:
@@ -177,24 +176,14 @@ def _staged(
         yield frame
 
 
-@dataclass(frozen=True, eq=False)
-class Kept:
-    """A frame in half its memory: in single precision within its box, which is finer than any error that is told."""
-
-    middle: Positions
-    size: float
-    offsets: npt.NDArray[np.float32]
-
-    @classmethod
-    def of(cls, positions: Positions) -> Kept:
-        """Keep positions, shape (n, 3); of such as are not finite anything, since the encoder refuses them."""
-        with np.errstate(all="ignore"):
-            low, high = positions.min(axis=0), positions.max(axis=0)
-            middle, size = low / 2 + high / 2, float((high / 2 - low / 2).max()) or 1.0
-            return cls(middle, size, ((positions - middle) / size).astype(np.float32))
-
-    def rows(self, order: np.ndarray) -> Positions:
-        return np.asarray(self.offsets[order].astype(np.float64) * self.size + self.middle)
+def kept(positions: Positions) -> Callable[[np.ndarray], Positions]:
+    """What gives some rows of positions again, kept in half their memory: in single precision within their box, which
+    is finer than any error that is told; of such as are not finite anything, since the encoder refuses them."""
+    with np.errstate(all="ignore"):
+        low, high = positions.min(axis=0), positions.max(axis=0)
+        middle, size = low / 2 + high / 2, float((high / 2 - low / 2).max()) or 1.0
+        offsets = ((positions - middle) / size).astype(np.float32)
+    return lambda order: np.asarray(offsets[order].astype(np.float64) * size + middle)
 
 
 @dataclass
@@ -203,7 +192,7 @@ class Echo:
 
     frames: int = 0
     loops: Loops = field(default_factory=Loops)
-    _waiting: deque[Kept] = field(default_factory=deque)
+    _waiting: deque[Callable[[np.ndarray], Positions]] = field(default_factory=deque)
     _squares: float = 0.0
     _extent: float = 0.0
 
@@ -213,15 +202,15 @@ class Echo:
         self._decoder = SequenceDecoder()
 
     def taken(
-        self, frames: Iterator[Positions] | Iterator[TriangleMesh], kept: bool
+        self, frames: Iterator[Positions] | Iterator[TriangleMesh], compared: bool
     ) -> Iterator[Positions | TriangleMesh]:
         """The frames, which are also kept until they have been compared."""
         for frame in frames:
             positions = frame.positions if isinstance(frame, TriangleMesh) else frame
             self.frames += 1
             self.loops.take(positions)
-            if kept:
-                self._waiting.append(Kept.of(positions))
+            if compared:
+                self._waiting.append(kept(positions))
             yield frame
 
     def compare(self, chunk: bytes, order: np.ndarray) -> None:
@@ -232,7 +221,7 @@ class Echo:
         self._decoder.receive_data(chunk)
         while not isinstance(event := self._decoder.next_event(), Signal):
             if isinstance(event, FrameEvent):
-                frame = self._waiting.popleft().rows(order)
+                frame = self._waiting.popleft()(order)
                 self._squares += float(np.square(event.positions - frame).sum())
                 self._extent += float(np.square(frame - frame.mean(axis=0)).sum())
 

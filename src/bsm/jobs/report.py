@@ -18,8 +18,7 @@ from bsm.files.output import open_output
 from bsm.files.pipes import about, files_behind, read_bytes, read_chunks, state_of
 
 _Same = TypeVar("_Same", bound="Task")
-Facts = dict[str, Any]
-"""What came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up."""
+Facts = dict[str, Any]  # what came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up
 
 
 @dataclass(frozen=True)
@@ -80,10 +79,8 @@ class UnexpectedError(Exception):
 
 
 Numbered: TypeAlias = tuple[int, Task]
-Tasks: TypeAlias = Iterable[Numbered]
-"""Made as they are needed."""
-Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]
-"""Numbers of jobs and what came of them, as they end."""
+Tasks: TypeAlias = Iterable[Numbered]  # made as they are needed
+Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]  # numbers of jobs and what came of them, as they end
 
 
 def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
@@ -110,10 +107,8 @@ def far_outcome(work: Work, task: Task) -> Outcome:
 
 
 _OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
-_EVERY = 1.0
-"""Seconds between two versions of a report, at least."""
-_SHARE = 0.02
-"""Of all time that goes into writing them, at most."""
+_EVERY = 1.0  # seconds between two versions of a report, at least
+_SHARE = 0.02  # of all time that goes into writing them, at most
 _ROWS = 60
 
 
@@ -156,8 +151,6 @@ class Report:
 
 @dataclass(frozen=True)
 class Earlier:
-    """What an earlier report says."""
-
     outputs: Mapping[str, str | None]
     files: Mapping[str, Facts]
 

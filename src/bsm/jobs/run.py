@@ -195,7 +195,6 @@ def run_many(
 
 
 def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
-    """What is asked, for one job."""
     before = earlier.files.get(job.output)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
     there = {n for n in replaceable if (state_of_remote(n) is not None if is_url(n) else os.path.lexists(n))}
@@ -213,7 +212,6 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
 
 
 def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks) -> Outcomes:
-    """Where jobs are done."""
     if run.jobs < 0:
         raise OptionError(f"-j {run.jobs}: at least one input at a time, or 0")
     from bsm.codec.threads import available_threads

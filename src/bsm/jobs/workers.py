@@ -22,16 +22,13 @@ from bsm.exits import exit_of
 from bsm.files.output import Terminated, termination_as_exception
 from bsm.jobs.report import Numbered, Outcome, Outcomes, Task, Tasks, Work, far_outcome
 
-AHEAD = 2
-"""Jobs handed out for each process, and for each thread of a cluster."""
-GRACE = 3.0
-"""Seconds that a process has to clear away, once its parent is gone, and once it was told to end."""
+AHEAD = 2  # jobs handed out for each process, and for each thread of a cluster
+GRACE = 3.0  # seconds that a process has to clear away, once its parent is gone, and once it was told to end
 
 Handed = dict[int, Task]
 
 
 def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
-    """Do jobs in so many processes at a time."""
     waiting = iter(tasks)
     with termination_as_exception():
         while suspects := (yield from _until_one_dies(work, waiting, processes)):

@@ -31,10 +31,8 @@ from bsm.files.pipes import Input
 from bsm.files.stream import decode_whole, peek_header
 
 _CHUNK = 1 << 18
-_PAUSE = 0.05
-"""Seconds between looks at a file that has not grown."""
-_PATIENCE = 1.0
-"""Seconds between looks whether a page is still there."""
+_PAUSE = 0.05  # seconds between looks at a file that has not grown
+_PATIENCE = 1.0  # seconds between looks whether a page is still there
 
 
 class Growing:
@@ -61,14 +59,12 @@ class Growing:
             self.end()
 
     def take(self, chunk: bytes) -> None:
-        """Take bytes that have come."""
         with self._change:
             self._data += chunk
             self._scan()
             self._change.notify_all()
 
     def end(self) -> None:
-        """Take note that no more bytes come."""
         with self._change:
             self._over = True
             self._change.notify_all()
@@ -155,8 +151,6 @@ class Rival:
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """One stream of the viewer."""
-
     name: str
     stream: bytes
     original: npt.NDArray[np.float32] | None = None
@@ -275,7 +269,6 @@ class PageServer(ThreadingHTTPServer):
 
     @property
     def host(self) -> str:
-        """Address and port."""
         return f"{LOOPBACK}:{self.server_address[1]}"
 
 

@@ -29,8 +29,7 @@ _MTL_IMAGES = re.compile(r"map_\w+|bump|disp|decal|norm|refl", re.IGNORECASE)
 _MTL_OPTIONS = re.compile(
     r"((?:-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)", re.IGNORECASE
 )
-_NAMED_APART = 16
-"""Names that have an entry each; there can be 256 in all."""
+_NAMED_APART = 16  # names that have an entry each; there can be 256 in all
 _TO_GLTF = {
     "map_Kd": "baseColorTexture",
     "map_Ke": "emissiveTexture",
@@ -73,7 +72,6 @@ def kind_of_image(data: bytes) -> str | None:
 
 
 def refers_to_image(parameter: str) -> bool:
-    """Whether a parameter's value is the number of an image."""
     return parameter.endswith("Texture") or _MTL_IMAGES.fullmatch(parameter) is not None
 
 
@@ -85,7 +83,6 @@ def named(names: Sequence[str], what: str) -> dict[str, str]:
 
 
 def names_in(metadata: Metadata, what: str) -> dict[int, str]:
-    """What things are called, by their numbers."""
     together = metadata.get(f"{what}.names")
     found = dict(enumerate(together.split("\n"))) if isinstance(together, str) else {}
     for key, name in metadata.items():
@@ -95,7 +92,6 @@ def names_in(metadata: Metadata, what: str) -> dict[int, str]:
 
 
 def materials_in(metadata: Metadata) -> dict[int, Material]:
-    """The materials that metadata speak of, by their numbers."""
     found: dict[int, Material] = {number: {"name": name} for number, name in names_in(metadata, "material").items()}
     for kind, number, name, value in _entries(metadata):
         if kind == "material" and not isinstance(value, bytes):
@@ -289,10 +285,8 @@ def _beside(folder: Path | None, name: str, most: int) -> bytes | str:
     return "there is no such file beside the mesh"
 
 
-_MOST_BYTES = 1 << 15
-"""Of the remarks of one file."""
-_MOST_ENTRIES = MAX_ENTRIES - 16
-"""That are taken from a file: some may be added."""
+_MOST_BYTES = 1 << 15  # of the remarks of one file
+_MOST_ENTRIES = MAX_ENTRIES - 16  # that are taken from a file: some may be added
 _ENTRY_BYTES = 16
 _REMARK = re.compile(r"meta ([\w.-]{1,255}): (.+)")
 

@@ -107,8 +107,7 @@ Archive: TypeAlias = "str | os.PathLike[str] | BinaryIO | zipfile.ZipFile"
 """A path, a seekable binary file, or an archive that is open and stays so."""
 
 _MAX_BYTES = 1 << 32
-MOST_NAMED = 16
-"""Arrays that a note names, of those that are left out."""
+MOST_NAMED = 16  # arrays that a note names, of those that are left out
 # A damaged archive may send zipfile to places before the beginning of the file: ValueError.
 _NO_ARCHIVE = (zipfile.BadZipFile, NotImplementedError, RuntimeError, ValueError)
 _DAMAGE = (EOFError, OSError, ValueError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)

@@ -36,8 +36,7 @@ STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """What holds for all faces behind a keyword, and the keyword."""
 _OF_CORNERS: dict[bytes, Literal["texcoord", "normal"]] = {b"vt": "texcoord", b"vn": "normal"}
 _DROPPED = {b"l": "lines", b"p": "points", b"vp": "parameter space", b"curv": "curves", b"surf": "surfaces"}
-_COLORS = 3
-"""Numbers of a colour that every reader takes; some count a fourth as a coordinate."""
+_COLORS = 3  # numbers of a colour that every reader takes; some count a fourth as a coordinate
 _FEW = 8
 _MOST_NUMBERS = 3  # of a texture coordinate or a normal
 
@@ -88,8 +87,6 @@ def read_obj(data: bytes, limits: Limits) -> Polygons:
 
 
 class _Lines:
-    """The lines of the file, by their keywords."""
-
     def __init__(self, text: bytes) -> None:
         parts = [line.split(None, 1) or [b""] for line in text.splitlines()]
         self._parts = parts
@@ -100,7 +97,6 @@ class _Lines:
         return found
 
     def of(self, keyword: bytes) -> list[bytes]:
-        """What stands behind a keyword, line by line."""
         return [b"".join(self._parts[i][1:]) for i in np.flatnonzero(self.are(keyword)).tolist()]
 
 
@@ -120,7 +116,6 @@ class _References:
         self._starts, self._slashes = numbers.starts, slashes
 
     def of(self, which: int) -> Ints:
-        """The number of each corner's vertex (0), texture coordinate (1) or normal (2), as written; 0: none."""
         last = max(len(self._numbers) - 1, 0)
         numbers = self._numbers if len(self._numbers) else np.zeros(1, np.int64)
         there = self._slashes >= which

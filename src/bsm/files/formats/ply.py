@@ -35,12 +35,9 @@ _TYPES = {
 }  # fmt: skip
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _MAX_ELEMENTS = 64
-_MAX_PROPERTIES = 256
-"""Of one element: rows are walked once for each list."""
-COMMENTS = ("comment", "obj_info")
-"""What a line begins with that anybody may write anything in."""
-IMAGE = "TextureFile"
-"""A comment that begins so names an image; their numbers are those of the property texnumber."""
+_MAX_PROPERTIES = 256  # of one element: rows are walked once for each list
+COMMENTS = ("comment", "obj_info")  # what a line begins with that anybody may write anything in
+IMAGE = "TextureFile"  # a comment that begins so names an image; their numbers are those of the property texnumber
 
 
 @dataclass(frozen=True)
@@ -173,7 +170,6 @@ def tables_of(header: Header, body: bytes) -> dict[str, Table]:
 
 
 def _text_tables(header: Header, body: bytes) -> dict[str, Table]:
-    """Elements as text: one row, one line."""
     lines = [line for line in body.splitlines() if line.strip()]
     require_lines(len(lines), sum(element.count for element in header.elements))
     ends = np.cumsum([element.count for element in header.elements]).tolist()
@@ -297,8 +293,6 @@ def _uniform_table(element: Element, order: str, body: bytes, offset: int) -> _U
 
 @dataclass
 class _RaggedTable:
-    """Rows whose lists differ in length."""
-
     element: Element
     order: str
     raw: npt.NDArray[np.uint8]
@@ -442,8 +436,7 @@ _PLY_TYPES = {
     "int8": "char", "uint8": "uchar", "int16": "short", "uint16": "ushort", "int32": "int", "uint32": "uint",
     "float32": "float", "float64": "double",
 }  # fmt: skip
-_MOST_TEXT = 1 << 13
-"""Characters of a comment; readers look for the end of a header in its first 64 KiB."""
+_MOST_TEXT = 1 << 13  # characters of a comment; readers look for the end of a header in its first 64 KiB
 _PROPERTIES = {
     ("normal", 3): ("nx", "ny", "nz"),
     ("color", 3): ("red", "green", "blue"),

@@ -137,7 +137,6 @@ def named_column(name: str, values: Array, domain: Domain, meaning: Semantic | N
 
 
 def meaning_of(name: str) -> Semantic:
-    """What the name of an attribute tells of its meaning."""
     meanings: tuple[Semantic, ...] = ("color", "normal", "texcoord")
     bare = re.sub(r"^(vertex|corner|face)_", "", name.lower())
     return next((meaning for meaning in meanings if bare.startswith(meaning)), "generic")

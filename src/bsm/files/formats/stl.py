@@ -61,7 +61,6 @@ def _soup_text(data: bytes) -> Doubles:
 
 
 def write_stl(mesh: TriangleMesh, stem: str) -> Written:
-    """The binary STL of a mesh."""
     if not single_suffices(mesh.positions):
         raise MeshError("the coordinates need double precision, which STL does not have; write PLY, OBJ or OFF")
     triangles = np.zeros(len(mesh.faces), _RECORD)

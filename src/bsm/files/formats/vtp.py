@@ -36,8 +36,7 @@ _TYPES = {
 }
 _NAMES = {kind: name for name, kind in _TYPES.items()}
 _UNDERSCORE = re.compile(rb"\s*_")
-_TAGS = ("VTKFile", "Piece", "PointData", "CellData")
-"""Elements whose attributes are of use."""
+_TAGS = ("VTKFile", "Piece", "PointData", "CellData")  # elements whose attributes are of use
 _HEADS = {"UInt32": "u4", "UInt64": "u8"}
 _MOST_DEEP, _MOST_ARRAYS, _MOST_TAGS = 16, 1024, 8192
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
@@ -291,7 +290,6 @@ def _metadata(document: _Document, numbers: _Numbers) -> tuple[Metadata, list[st
 
 
 def _fields(metadata: Metadata) -> Iterator[tuple[str, str, Array]]:
-    """Name, type and numbers of what belongs to the whole mesh."""
     for name, value in metadata.items():
         if isinstance(value, str):
             text = value.replace("\0", "").encode(errors="replace")

@@ -29,8 +29,7 @@ from bsm.files.room import require_count
 from bsm.files.rows import Doubles
 
 _ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
-PER_TRIANGLE, PER_PART = 150, 2000
-"""Bytes that parts take while they are joined: for each triangle, and for each part."""
+PER_TRIANGLE, PER_PART = 150, 2000  # bytes that parts take while they are joined: for each triangle, and for each part
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _KNOWN_TO_TRIMESH = re.compile(r"POSITION|NORMAL|TEXCOORD_0|COLOR_0|_.*")
 _READ_BY_TRIMESH = ("EXT_texture_webp", "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization")
@@ -145,7 +144,6 @@ class _Part:
 
     @property
     def rows(self) -> dict[Domain, int]:
-        """How many values a column of each domain has."""
         return {"vertex": len(self.mesh.vertices), "face": len(self.mesh.faces)}
 
     def columns(self) -> list[Column]:

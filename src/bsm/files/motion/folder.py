@@ -56,7 +56,6 @@ def separate_meshes(path: str, file_format: str | None = None, reader: str | Non
 
 
 def in_order(names: Sequence[str]) -> list[str]:
-    """Names in the order of the numbers in them."""
     ordered = sorted(names, key=_natural)
     numbers = _numbers(ordered)
     steps = np.diff(numbers)

@@ -55,8 +55,7 @@ _PAINTED = {
     "normal": "normalTexture",
     "occlusion": "occlusionTexture",
 }
-_COORDINATES = "st"
-"""What texture coordinates are called."""
+_COORDINATES = "st"  # what texture coordinates are called
 
 
 # ----------------------------------------------------------------------------------------------------------------- in
@@ -141,7 +140,6 @@ class Materials:
 
     @staticmethod
     def _value(shader: Any, name: str, width: int) -> list[float] | None:
-        """The numbers of an input, if they are told there."""
         given = shader.GetInput(name)
         value = given.Get() if given else None
         numbers = np.array([] if value is None else value, np.float64).reshape(-1)
@@ -200,8 +198,6 @@ def bind_materials(pxr: Any, mesh: Any, shown: TriangleMesh, bound: Mapping[int,
 
 
 class _Surface:
-    """The preview surface of a material."""
-
     def __init__(self, pxr: Any, material: Any, images: Mapping[int, str]) -> None:
         self._pxr, self._types, self._images = pxr, pxr.Sdf.ValueTypeNames, images
         self._stage, self._path = material.GetPrim().GetStage(), material.GetPath()
@@ -236,7 +232,6 @@ class _Surface:
         return said
 
     def _paint(self, name: str, kind: Any, file: str, scale: list[float] | None) -> None:
-        """Connect an input with a texture."""
         types = self._types
         reader = self._shader("coordinates", _READER)
         reader.CreateInput("varname", types.String).Set(_COORDINATES)
@@ -266,10 +261,8 @@ class _Surface:
 
 
 USUAL_RATE = 24.0
-PER_COMMA = 350.0
-"""Bytes that a number of a text takes in usd-core while it is read."""
-MOST_NESTED = 256
-"""Prims, lists and dictionaries in each other in a text."""
+PER_COMMA = 350.0  # bytes that a number of a text takes in usd-core while it is read
+MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
 _OPENING, _CLOSING = ([ord(one) for one in ones] for ones in ("([{", ")]}"))
 _PIECE = 1 << 18
 _UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}
@@ -343,7 +336,6 @@ class _Part:
 
     @property
     def rows(self) -> dict[Domain, int]:
-        """How many values a column of each domain has."""
         return {"vertex": self.vertices, "face": len(self.counts), "corner": len(self.corners)}
 
     def columns(self) -> list[Column]:
@@ -398,8 +390,6 @@ def _require_room(path: str, limits: Limits) -> None:
 
 
 class _Stage:
-    """What is seen of a stage."""
-
     def __init__(self, path: str, limits: Limits) -> None:
         self._limits, self._path = limits, path
         self.pxr = pxr = import_usd()
@@ -430,7 +420,6 @@ class _Stage:
         return any(one.GetNumTimeSamples() > 1 for part in self.parts for one in (part.counts_attr, part.corners_attr))
 
     def turn_to(self, time: float) -> None:
-        """Have the faces and attributes of a time."""
         self.parts = [_Part(self.pxr, part.prim, time) for part in self.parts]
         self._require_counts()
 
