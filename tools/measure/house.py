@@ -30,18 +30,18 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 35_050,
-    "all Python, lines": 77_300,
-    "product modules": 217,
+    "product Python, lines": 34_800,
+    "all Python, lines": 76_900,
+    "product modules": 216,
     "product C files and headers": 74,
-    "docstring lines of the product, percent": 12.5,
+    "docstring lines of the product, percent": 12.2,
     "header fields": 19,
     "fields of EncodeOptions": 28,
     "settings of --set": 19,
     "words of spec/*.md": 25_000,
     "words of the core": 11_000,
     "tuned constants of the search": 97,
-    "files that encoding a mesh walks through": 73,
+    "files that encoding a mesh walks through": 72,
 }
 
 
