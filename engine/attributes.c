@@ -288,7 +288,7 @@ bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 plac
     if (one == NULL) return FAIL(context, CORRUPT, "attribute # is not declared", packet->index);
     if (one->whole) return FAIL(context, CORRUPT, "attribute # has all its values already", packet->index);
     if (!one->begun && !begin_one(attributes, one, places, scratch)) return false;
-    if (!keep(context, 0, bytes) || !spend(context, chunk_work(bytes), bytes)) return false;
+    if (!keep(context, 0, bytes) || !spend(context, chunk_work(bytes, (double)one->rows), bytes)) return false;
     if (packet->first != one->coded) return FAIL(context, CORRUPT, "the values before number # are missing", packet->first);
     Cursor cursor = {context, packet->data};
     one->coded = INT64_MAX; /* until all of it is there: nothing goes on behind a part */

@@ -24,9 +24,9 @@ static const double BLOCK_FRAME_BYTES = 5;
 INLINE double grid_work(double n, double m) { return 1650 * n + 150 * m; }
 INLINE double light_work(double n, double m) { return 200 * n + 40 * m; }
 INLINE double grid_chunk_work(double bytes) { return 3.5e4 + 800 * bytes; }
-INLINE double light_chunk_work(double bytes) { return 3.5e4 + 120 * bytes; }
+INLINE double light_chunk_work(double bytes) { return 5e4 + 120 * bytes; }
 INLINE double floats_work(double n, double span) { return 400 * n + 4 * span; }
-INLINE double chunk_work(double bytes) { return 8e4 + 800 * bytes; }
+INLINE double chunk_work(double bytes, double values) { return 8e4 + 800 * bytes + 2 * values; }
 INLINE double layer_work(double n, double m, double axes) { return n * (400 + 230 * axes) + 130 * m; }
 static const double VALUE_MODEL_BYTES = 4.0 * (6 * 512 * 66 + 7 * (32 + 2 * 512)), LEVEL_MODEL_BYTES = 4.0 * (2 * 5 * 512 * 32);
 INLINE double grid_charge(double n, double m) { return 84 * n + 48 * m + VALUE_MODEL_BYTES + (1 << 20); }

@@ -36,9 +36,9 @@ static uint32_t reachable(FrameType type) {
 
 static void begin_mesh(Grammar *grammar) {
     grammar->next_block = grammar->next_vertex = grammar->valued = grammar->next_value = 0;
-    grammar->declared_count = grammar->next_attribute = 0;
+    grammar->declared_count = 0;
     memset(grammar->declared, 0, sizeof grammar->declared);
-    grammar->lossy = false;
+    grammar->lossy = grammar->resuming = false;
 }
 
 void begin_grammar(Grammar *grammar, bool joining) {
@@ -56,14 +56,14 @@ bool announces(const Grammar *grammar, int type) {
 }
 
 uint32_t expected_types(const Grammar *grammar) {
-    bool open = grammar->header != NULL && grammar->last != END_FRAME;
+    bool open = grammar->header != NULL && grammar->last != END_FRAME && !grammar->resuming;
     return open ? grammar->allowed | BIT(METADATA_FRAME) : grammar->allowed;
 }
 
-/* An unknown number of frames is missing here: everything that can come later may come now (F 8.3). */
+/* An unknown number of frames is missing here: what does not depend on them may come now (F 8.2). */
 void lose_frames(Grammar *grammar) {
-    grammar->allowed = reachable(grammar->last);
-    grammar->lossy = true;
+    grammar->allowed = reachable(grammar->last) & (BODY | BIT(HEADER_FRAME));
+    grammar->lossy = grammar->resuming = true;
 }
 
 /* Whether the values of the attributes before one are there. */
@@ -99,8 +99,8 @@ static bool is_called(const Declaration *a, const Declaration *b) {
 static bool check_attribute(Context *context, const Grammar *grammar, const Packet *packet) {
     const Declaration *d = packet->declaration;
     int64_t index = packet->index;
-    if (index < grammar->next_attribute || (index > grammar->next_attribute && !grammar->lossy) || index >= grammar->header->attributes)
-        return FAIL(context, CORRUPT, "attribute #, where attribute # must follow", index, grammar->next_attribute);
+    if (index != grammar->declared_count || index >= grammar->header->attributes)
+        return FAIL(context, CORRUPT, "attribute #, where attribute # must follow", index, grammar->declared_count);
     for (int k = 0; k < MOST_ATTRIBUTES; k++)
         if (grammar->declared[k] != NULL && is_called(grammar->declared[k], d))
             return FAIL(context, CORRUPT, "attribute # has the name of attribute #", index, k);
@@ -108,8 +108,7 @@ static bool check_attribute(Context *context, const Grammar *grammar, const Pack
     if (packet->data.size > 0 && !own_seams) return FAIL(context, CORRUPT, "seams of an attribute that has none of its own");
     if (d->seams_of > 0) {
         const Declaration *shared = d->seams_of <= MOST_ATTRIBUTES ? grammar->declared[d->seams_of - 1] : NULL;
-        bool may_be_lost = grammar->lossy && d->seams_of <= index;
-        if (shared == NULL ? !may_be_lost : shared->domain != BSMDEC_CORNER || shared->seams_of > 0)
+        if (shared == NULL || shared->domain != BSMDEC_CORNER || shared->seams_of > 0)
             return FAIL(context, CORRUPT, "the seams of attribute #, which has none that come before", d->seams_of - 1);
     }
     if (d->leans && !grammar->header->on_grid)
@@ -126,11 +125,11 @@ static bool check_values(Context *context, const Grammar *grammar, const Packet 
     if (packet->index < grammar->valued)
         return FAIL(context, CORRUPT, "values of attribute # behind those of #", packet->index, grammar->valued);
     int64_t following = packet->index == grammar->valued ? grammar->next_value : 0;
-    if (packet->first < following || (packet->first > following && !grammar->lossy))
+    if (packet->first != following)
         return FAIL(context, CORRUPT, "values from # on where those from # on must follow", packet->first, following);
     if (packet->count == 0 || packet->count > declared->rows - packet->first)
         return FAIL(context, CORRUPT, "# values from # on, of #", packet->count, packet->first, declared->rows);
-    return packet->index == grammar->valued || grammar->lossy || check_values_before(context, grammar, packet->index);
+    return packet->index == grammar->valued || check_values_before(context, grammar, packet->index);
 }
 
 static bool check_block(Context *context, const Grammar *grammar, const Packet *packet) {
@@ -139,12 +138,14 @@ static bool check_block(Context *context, const Grammar *grammar, const Packet *
     if (packet->index >= header->blocks) return FAIL(context, CORRUPT, "block # of #", packet->index, header->blocks);
     if (packet->coefficients > header->coefficients)
         return FAIL(context, CORRUPT, "# coefficients where the header allows #", packet->coefficients, header->coefficients);
+    if (grammar->resuming && packet->index % chain_length(header) != 0)
+        return FAIL(context, CORRUPT, "block # depends on one that is lost", packet->index);
     return true;
 }
 
 static bool check_chunk(Context *context, const Grammar *grammar, const Packet *packet) {
     int64_t following = grammar->next_vertex;
-    if (packet->first < following || (packet->first > following && !grammar->lossy))
+    if (packet->first != following)
         return FAIL(context, CORRUPT, "vertices from # on where those from # on must follow", packet->first, following);
     if (packet->count == 0 || packet->count > grammar->header->vertices - packet->first)
         return FAIL(context, CORRUPT, "# vertices from # on, of #", packet->count, packet->first, grammar->header->vertices);
@@ -204,13 +205,13 @@ void advance_grammar(Grammar *grammar, const Packet *packet, Declaration *declar
     if (packet->type == ATTRIBUTE_FRAME) {
         grammar->declared[packet->index] = declaration;
         grammar->declared_count++;
-        grammar->next_attribute = (int)packet->index + 1;
     }
     if (packet->type == VALUES_FRAME) {
         grammar->valued = packet->index;
         grammar->next_value = packet->first + packet->count;
     }
     grammar->last = packet->type;
+    grammar->resuming = false;
     bool again = packet->type == HEADER_FRAME && packet->header->again >= 0;
     grammar->allowed = again ? BIT(GOP_FRAME) : followers(packet->type);
 }

@@ -74,7 +74,7 @@ static bool slide(Layer *layer, Arena *scratch) {
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch) {
     Context *context = layer->context;
     Reading reading;
-    if (!spend(context, chunk_work((double)payload.size), (double)payload.size)) return false;
+    if (!spend(context, chunk_work((double)payload.size, 0), (double)payload.size)) return false;
     if (first != layer->coded) return FAIL(context, CORRUPT, "the layer lacks the vertices before #: the rest is lost", first);
     if (!begin_reading(context, payload, &reading)) return false;
     int64_t done = code_levels(reading.coder, layer->bank, layer->corners, layer->levels, first, count);

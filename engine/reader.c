@@ -4,7 +4,7 @@
 enum { MAGIC = 4, PREAMBLE = 5, SHORT = 128, TAG = 6 };
 static const uint8_t BEGINNING[PREAMBLE] = {0x89, 'B', 'S', 'M', 0};
 /* Work of a frame, whatever it is, and of each of its bytes; of looking at a place, and into a frame there (M 14.3, F 8). */
-static const double FRAME_WORK = 8e3, BYTE_WORK = 8, PLACE_WORK = 4e3, MAP_WORK = 6e5;
+static const double FRAME_WORK = 8e3, BYTE_WORK = 8, PLACE_WORK = 4e3, MAP_WORK = 6e5, METADATA_WORK = 2e4, ENTRY_WORK = 8e3;
 enum { STRIDE = 4096, SCAN_BYTES = 1 << 20, SCAN_FACTOR = 64 };
 
 void begin_reader(Reader *reader, Context *context, bool tolerant) {
@@ -140,6 +140,7 @@ static bool read_metadata(Reader *reader, Span payload, bool adding) {
         else if (reader->grammar.header != NULL && knows_name(&reader->metadata, map->key[i].bytes))
             done = FAIL(context, CORRUPT, "METADATA speaks of a name again");
     }
+    if (done && adding) done = pay(reader, METADATA_WORK + ENTRY_WORK * map->count, 0);
     release_to(&reader->scratch, mark);
     return done;
 }
@@ -260,61 +261,65 @@ static Arrival next_whole(Reader *reader, Packet *packet) {
 static void inspect(Reader *reader) {
     Frame frame = {0};
     Damage *damage = &reader->damage;
-    *damage = (Damage){.found = true, .why = take_error(reader->context), .type = NO_FRAME, .size = -1};
+    *damage = (Damage){.found = true, .sure = true, .why = take_error(reader->context), .type = NO_FRAME, .by_length = -1, .from_next = true};
     reader->damaged = true;
     lose_frames(&reader->grammar);
-    if (read_tag(waiting(reader), &frame) > 0) {
-        damage->size = frame.size;
-        damage->type = is_skippable(frame.type) ? NO_FRAME : (FrameType)frame.type;
-    }
-    damage->whole = read_frame(reader, waiting(reader), &frame) && frame.size > 0;
-    take_error(reader->context);
+    if (read_tag(waiting(reader), &frame) <= 0) return;
+    if (!is_skippable(frame.type)) damage->type = (FrameType)frame.type;
+    if (frame.size <= waiting(reader).size) damage->by_length = frame.size;
 }
 
-typedef enum { FITS, FITS_NOT, FITS_PERHAPS } Fit;
+enum { GO_ON = 0, NO_FRAME_HERE = 1, MORE_FIRST = -1 };
 
-/* Whether a whole frame that may come here begins `ahead` bytes from here. */
-static Fit fits(Reader *reader, int64_t ahead) {
+/* Bytes of the frame `place` bytes from here, or one of these. */
+static int64_t step_from(Reader *reader, int64_t place, bool sure) {
     Context *context = reader->context;
-    Span bytes = {waiting(reader).data + ahead, waiting(reader).size - ahead};
+    Span bytes = {waiting(reader).data + place, waiting(reader).size - place};
+    uint32_t expected = expected_types(&reader->grammar);
     Frame frame = {0};
     Packet packet;
     int head = read_tag(bytes, &frame);
-    if (head < 0) return FITS_NOT;
+    if (head < 0) return NO_FRAME_HERE;
     if (head > 0) {
         double budget = SCAN_BYTES + (double)SCAN_FACTOR * (double)(reader->offset + reader->end - reader->begin);
-        if (!(expected_types(&reader->grammar) >> frame.type & 1) || reader->scanned + (double)frame.size > budget) return FITS_NOT;
+        if (reader->scanned + (double)frame.size > budget || !(sure || expected >> frame.type & 1)) return NO_FRAME_HERE;
         if (frame.size <= bytes.size) reader->scanned += (double)frame.size;
     }
     bool whole = read_frame(reader, bytes, &frame);
-    if (whole && frame.size > 0)
-        whole = pay(reader, MAP_WORK + BYTE_WORK * (double)frame.size, 0) && read_packet(reader, frame, &packet);
-    if (reader->refused) return FITS_NOT;
     take_error(context);
-    if (!whole) return FITS_NOT;
-    if (frame.size > 0) return FITS;
-    return reader->finished ? FITS_NOT : FITS_PERHAPS;
+    if (!whole) return NO_FRAME_HERE;
+    if (frame.size == 0) return reader->finished ? NO_FRAME_HERE : MORE_FIRST;
+    if (place > 0 && expected >> frame.type & 1) {
+        if (!pay(reader, MAP_WORK + BYTE_WORK * (double)frame.size, 0)) return MORE_FIRST;
+        bool legal = read_packet(reader, frame, &packet);
+        take_error(context);
+        if (legal) return GO_ON;
+    }
+    return frame.size;
 }
 
-/* Bytes up to the next whole frame or the end of the data; -1 if more must come first, or work is refused. */
+/* Bytes up to where reading goes on, or to the end of the data; -1 if more must come first, or work is refused. */
 static int64_t reach(Reader *reader) {
     Damage *damage = &reader->damage;
     int64_t available = waiting(reader).size;
-    if (reader->grammar.last == END_FRAME) return available;
-    if (damage->size >= 0 && damage->size <= available && damage->scanned == 0) {
-        if (damage->whole) return damage->size;
-        Fit fit = fits(reader, damage->size);
-        if (reader->refused || fit == FITS_PERHAPS) return -1;
-        if (fit == FITS) return damage->size;
+    bool ended = reader->grammar.last == END_FRAME;
+    while (!ended && (damage->from_next || damage->place < available)) {
+        if (damage->place % STRIDE == 1 && !pay(reader, PLACE_WORK * STRIDE, STRIDE)) return -1;
+        int64_t step = step_from(reader, damage->place, damage->sure);
+        if (reader->refused || step == MORE_FIRST) return -1;
+        if (step == GO_ON) return damage->place;
+        if (step > NO_FRAME_HERE) {
+            damage->place += step;
+            damage->by_length = -1;
+            damage->from_next = false;
+            continue;
+        }
+        damage->sure = damage->by_length >= 0;
+        damage->place = damage->sure ? damage->by_length : damage->from_next ? 1 : damage->place + 1;
+        if (!damage->sure) damage->from_next = false;
+        damage->by_length = -1;
     }
-    for (int64_t at = largest(damage->scanned, 1); at < available; at++) {
-        if (at % STRIDE == 1 && !pay(reader, PLACE_WORK * STRIDE, STRIDE)) return -1;
-        damage->scanned = at;
-        Fit fit = fits(reader, at);
-        if (reader->refused || fit == FITS_PERHAPS) return -1;
-        if (fit == FITS) return at;
-    }
-    return reader->finished ? available : -1;
+    return reader->finished || ended ? available : -1;
 }
 
 static Arrival recover(Reader *reader) {

@@ -48,10 +48,10 @@ typedef struct {
     const Header *header; /* of the present run, NULL before the first */
     FrameType last;       /* NO_FRAME before the first */
     uint32_t allowed;     /* bit k: type k */
-    bool lossy, joining, joined;
+    bool lossy, resuming, joining, joined; /* resuming: behind damage, before anything else has come */
     int64_t next_block, next_frame, next_vertex, valued, next_value;
     Declaration *declared[MOST_ATTRIBUTES];
-    int declared_count, next_attribute;
+    int declared_count;
 } Grammar;
 
 void begin_grammar(Grammar *grammar, bool joining);
@@ -62,12 +62,14 @@ bool check_packet(Context *context, const Grammar *grammar, const Packet *packet
 /* What an attribute's packet declares has to stay: `declaration` is the grammar's own copy of it. */
 void advance_grammar(Grammar *grammar, const Packet *packet, Declaration *declaration);
 
-/* What a tolerant reader knows of damage while it looks for its end (F 8.2). */
+/* Bytes that cannot be read, while what follows them is looked for (F 8.2): from a place on, where frames should stand one
+ * behind the other if that is `sure`, and then from others. */
 typedef struct {
-    bool found, whole;
+    bool found, sure;
     bsmdec_error why;
     FrameType type;
-    int64_t size, scanned; /* by its tag, -1 if that cannot be read; where no frame begins before */
+    int64_t place, by_length; /* where the frame ends by its tag, -1 if that is not there, or was tried */
+    bool from_next;           /* the place behind the first byte was not tried */
 } Damage;
 
 typedef struct {
