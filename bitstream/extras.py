@@ -19,12 +19,12 @@ def how_to_install(extra: str) -> str:
         return f"pip install '{checkout}[{extra}]'"
     if origin is None:
         return f"pip install '{DISTRIBUTION}[{extra}]'"
-    told = json.loads(origin)
-    url = told["url"]
-    if "vcs_info" in told:
-        url = f"{told['vcs_info']['vcs']}+{url}@{told['vcs_info']['commit_id']}"
-    editable = "-e " if told.get("dir_info", {}).get("editable") else ""
-    if url.startswith("file://") and "dir_info" in told:
+    source = json.loads(origin)
+    url = source["url"]
+    if "vcs_info" in source:
+        url = f"{source['vcs_info']['vcs']}+{url}@{source['vcs_info']['commit_id']}"
+    editable = "-e " if source.get("dir_info", {}).get("editable") else ""
+    if url.startswith("file://") and "dir_info" in source:
         return f"pip install {editable}'{_path(url)}[{extra}]'"
     return f"pip install '{DISTRIBUTION}[{extra}] @ {url}'"
 

@@ -62,7 +62,7 @@ MAX_EXPONENT = 400
 METHODS, RUNS = 8, 32
 """The first byte is the method, and so many times the number of the run, counted modulo `RUNS`."""
 WITH_ATTRIBUTES = 4
-"""Added to the method where attributes are told of."""
+"""Added to the method where there are attributes."""
 
 
 class GopMethod(IntEnum):
@@ -117,18 +117,18 @@ class GopBody:
     shown: npt.NDArray[np.int64] | None = None
 
     @property
-    def told(self) -> int:
-        """How many frames fields tell of."""
+    def coded(self) -> int:
+        """How many frames are coded; others show these again."""
         return self.frames if self.shown is None else int(self.shown.max()) + 1
 
     @property
     def places(self) -> npt.NDArray[np.int64]:
-        """Which of those told of each frame is, shape (T,): `shown`, or all in their order."""
+        """Which coded frame each frame shows, shape (T,): `shown`, or all in their order."""
         return np.arange(self.frames) if self.shown is None else self.shown
 
 
 def still(width: int) -> GopField:
-    """A field of so many columns of which nothing is told."""
+    """A field of so many columns that is not coded."""
     return GopField(width, 0.0, 0, np.empty(0, np.int32), b"", b"")
 
 
@@ -137,14 +137,14 @@ def write_gop_body(body: GopBody, run: int = 0, numbers: Sequence[int] = ()) -> 
     positions, *attributes = (_write_field(field, body.method) for field in body.fields)
     if not positions:
         raise OptionError("a GOP needs positions")
-    told = [(number, data) for number, data in zip(numbers, attributes, strict=True) if data]
-    first = body.method + (WITH_ATTRIBUTES if told else 0) + METHODS * (run % RUNS)
+    moved = [(number, data) for number, data in zip(numbers, attributes, strict=True) if data]
+    first = body.method + (WITH_ATTRIBUTES if moved else 0) + METHODS * (run % RUNS)
     parts = [bytes([first]), write_varint(body.frames)]
     if body.method.has_basis:
         parts.append(write_stretches(body.shown))
-    if told:
-        parts.append(write_varint(len(told)))
-        for number, data in told:
+    if moved:
+        parts.append(write_varint(len(moved)))
+        for number, data in moved:
             parts += [write_varint(number), write_varint(len(data)), data]
     return b"".join([*parts, positions])
 
@@ -173,15 +173,15 @@ def parse_gop_body(
     method, frames, with_attributes = _parse_beginning(cursor, longest, run)
     shown = parse_stretches(cursor, frames) if method.has_basis else None
     body = GopBody(method, frames, (), shown)
-    told = cursor.varint() if with_attributes else 0
-    if with_attributes and not told:
-        raise CorruptError("a GOP that tells of no attribute, and says that it does")
+    count = cursor.varint() if with_attributes else 0
+    if with_attributes and not count:
+        raise CorruptError("a GOP with attributes that has none")
     fields = {number: still(width) for number, width in widths.items()}
     before = -1
-    for _ in range(told):
+    for _ in range(count):
         number, part = cursor.varint(), cursor.take(cursor.varint())
         if number <= before or not (tolerant or number in widths):
-            raise CorruptError(f"a GOP tells of attribute {number}, which does not move, or is not the next one")
+            raise CorruptError(f"a GOP has attribute {number}, which does not move, or is not the next one")
         before = number
         if number in widths:
             fields[number] = _parse_field(part, body, widths[number])
@@ -199,7 +199,7 @@ def frames_of_gop(data: bytes, longest: int, run: int = 0) -> int:
 
 
 def _parse_beginning(cursor: Cursor, longest: int, run: int) -> tuple[GopMethod, int, bool]:
-    """Method, frames, and whether attributes are told of."""
+    """Method, frames, and whether there are attributes."""
     of_run, kind = divmod(cursor.take(1)[0], METHODS)
     if of_run != run % RUNS:
         raise CorruptError(f"a GOP of another run than run {run}")
@@ -220,8 +220,8 @@ def _parse_field(data: bytes, body: GopBody, width: int) -> GopField:
             raise CorruptError(f"{body.frames} frames that start from those {back} before them")
         return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest(), back, bool(brief))
     components = cursor.varint()
-    if components > width * body.told:
-        raise CorruptError(f"{components} components for {body.told} frames")
+    if components > width * body.coded:
+        raise CorruptError(f"{components} components for {body.coded} frames")
     exponents = _parse_exponents(cursor, components)
     basis = cursor.take(cursor.varint())
     return GopField(width, step, components, exponents, basis, cursor.rest())

@@ -376,7 +376,7 @@ def record_of(kind: type[Record], what: str, entries: list[tuple[Any, Any]]) -> 
 def _refuse_unknown(
     entries: list[tuple[Any, Any]], names: dict[int, str], declarations: dict[str, Any], what: str
 ) -> None:
-    """What is of a later version is told as that, whatever else may seem to be wrong with it."""
+    """What is of a later version is refused as that, whatever else may seem to be wrong with it."""
     for key, value in entries:
         if type(key) is not int or key < 0:
             raise CorruptError(f"{what} key {key!r} is not an unsigned integer")

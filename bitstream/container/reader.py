@@ -95,7 +95,7 @@ class Reader:
         self._offset = 0  # of the buffer's first byte in the stream
         self._frames = 0
         self._crc = 0
-        self._told = 0  # bytes of metadata
+        self._metadata_bytes = 0
         self._started = False
         self._eof = False
         self._grammar = self._fresh_grammar()
@@ -180,7 +180,7 @@ class Reader:
         if problem:
             raise CorruptError(problem)
         if isinstance(packet, Metadata):
-            self._limits.check("metadata_bytes", self._told + len(frame.payload))
+            self._limits.check("metadata_bytes", self._metadata_bytes + len(frame.payload))
         if isinstance(packet, End):
             self._check_end(packet)
         return packet
@@ -196,7 +196,7 @@ class Reader:
         if packet is not None:
             self._grammar.advance(packet)
         if isinstance(packet, Metadata):
-            self._told += len(frame.payload)
+            self._metadata_bytes += len(frame.payload)
         with memoryview(self._buffer) as view:
             self._crc = zlib.crc32(view[: frame.size], self._crc)
         self._frames += 1

@@ -86,7 +86,7 @@ def decode_order(data: bytes, faces: Ints, vertices: int, limits: Limits) -> tup
 def _sources(kinds: Ints, back: Ints, vertices: int) -> Ints:
     """The vertex that each given one is, numbered as they are met; -1 for loose ones."""
     if (np.bincount(kinds, minlength=3)[[FIRST, COPY]] != (vertices, len(back))).any():
-        raise CorruptError("the kinds of given vertices are not as many as was said")
+        raise CorruptError("the kinds of given vertices are not as many as announced")
     source = np.full(len(kinds), -1, np.int64)
     source[kinds == FIRST] = np.arange(vertices)
     known = np.cumsum(kinds == FIRST)[kinds == COPY]

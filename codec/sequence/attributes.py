@@ -183,7 +183,7 @@ class Mover:
     def note(self) -> str:
         """What has become of it."""
         if self.bound.amount is None:
-            return self._carried.said
+            return self._carried.note
         return f"{self.name}: per vertex, moves, {self.bound} in every frame"
 
     def begin(self, positions: GopEncoder, setting: Setting, number: int) -> None:

@@ -290,7 +290,7 @@ class SequenceEncoder:
         carried: tuple[PreparedAttribute, ...],
     ) -> Iterator[packets.Packet]:
         """What comes before the GOPs of a run with a mesh of its own."""
-        notes = (one.said for one in carried if not one.declaration.moves)
+        notes = (one.note for one in carried if not one.declaration.moves)
         self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *notes)))
         body = (*prepared.before_blocks, *(block.packet for block in blocks))
         draft = Draft(replace(header, run=(index,) if index else ()), body, run.given.positions)

@@ -276,7 +276,7 @@ class GopDecoder:
         self.forget()  # until all has gone well
         if before is None:
             raise CorruptError("a GOP refers to one that is not there")
-        bases = [decode_basis(field, body.told) if field.step else _nothing(field, body) for field in body.fields]
+        bases = [decode_basis(field, body.coded) if field.step else _nothing(field, body) for field in body.fields]
         read = []
         for field in body.fields:
             levels = setting.empty_levels(field.components)
@@ -303,14 +303,14 @@ class GopDecoder:
         components, places = setting.field(sum(widths), decoded), np.cumsum([0, *widths[:-1]])
         self._inherited = found
         batches = (
-            frames_of(components, int(first), basis.reshape(own.width, body.told, own.components)[:, body.places])
+            frames_of(components, int(first), basis.reshape(own.width, body.coded, own.components)[:, body.places])
             for own, first, basis in zip(body.fields, places, bases, strict=True)
         )
         return zip(*batches, strict=True)
 
 
 def _nothing(field: GopField, body: GopBody) -> Matrix:
-    return np.empty((field.width * body.told, 0))
+    return np.empty((field.width * body.coded, 0))
 
 
 def _apart(one: Matrix, other: Matrix) -> float:

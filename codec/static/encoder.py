@@ -107,7 +107,7 @@ class Encoder:
         """What was changed on the way in, and what becomes of attributes."""
         sent = {one.name for one, _ in self._wanted}
         left = [one.name for one in self._given.attributes if one.name not in sent]
-        said = (*(one.said for one in self._carried), *([f"left out: {', '.join(left)}"] if left else []))
+        said = (*(one.note for one in self._carried), *([f"left out: {', '.join(left)}"] if left else []))
         return (*self._joined.notes, *said)
 
     @property

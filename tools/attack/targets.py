@@ -203,7 +203,7 @@ def gops(data: bytes) -> None:
     body = parse_gop_body(data[1:], 64, widths={0: 1, 2: 4}, tolerant=data[:1] > b"\x7f")
     for field in body.fields:
         if body.method.has_basis:
-            levels = np.zeros((field.width, body.told, field.components), np.int32)
+            levels = np.zeros((field.width, body.coded, field.components), np.int32)
             leads = basis_leads(field.width)
             decode_levels(make_level_bank(), field.basis, list(levels), [levels[0], *levels[:-1]], leads)
         levels = np.zeros((2, 10, field.components), np.int32)

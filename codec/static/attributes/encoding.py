@@ -71,7 +71,7 @@ class PreparedAttribute:
     seams: bytes
     surface: Surface
     levels: Words
-    said: str
+    note: str
 
     @cached_property
     def plain(self) -> tuple[bytes, ...]:
@@ -142,8 +142,8 @@ def _carry(
     )
     surface = surface_of(domain, place.corners.faces, vertices, len(loose), joins)
     what = "" if attribute.semantic in (attribute.name, "generic") else f"{attribute.semantic} "
-    said = f"{attribute.name}: {what}per {attribute.domain}, {result.said}"
-    return PreparedAttribute(declaration, seams, surface, levels, said), joins
+    note = f"{attribute.name}: {what}per {attribute.domain}, {result.note}"
+    return PreparedAttribute(declaration, seams, surface, levels, note), joins
 
 
 def _rows(place: Place, attribute: Attribute) -> tuple[Order, Order, Order]:
@@ -167,7 +167,7 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
     head, body = draft.body[:before], draft.body[before:]
     late = {name: value for name, value in metadata.items() if isinstance(value, bytes)}
     early = {name: value for name, value in metadata.items() if name not in late}
-    told, images = (((packets.Metadata(entries),) if entries else ()) for entries in (early, late))
+    early_metadata, images = (((packets.Metadata(entries),) if entries else ()) for entries in (early, late))
     declared: list[Packet] = []
     values: list[Packet] = []
     header = draft.header
@@ -178,7 +178,7 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
             for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
         header = replace(header, attributes=len(carried))
-    return replace(draft, header=header, body=(*told, *head, *declared, *body, *values, *images))
+    return replace(draft, header=header, body=(*early_metadata, *head, *declared, *body, *values, *images))
 
 
 def cheaper(one: PreparedAttribute, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:

@@ -43,7 +43,7 @@ class QuantizedValues:
 
     fields: dict[str, Any]
     levels: Words
-    said: str
+    note: str
 
 
 def restored(declaration: Declaration, levels: Words) -> Values:
@@ -98,8 +98,8 @@ def _whole(values: Values, quality: Quality) -> QuantizedValues:
     levels = (wide - low + step // 2) // step
     while (low + levels.max(axis=0) * step > np.iinfo(values.dtype).max).any():
         levels = np.minimum(levels, (np.iinfo(values.dtype).max - low) // step)
-    said = "exact" if step == 1 else f"in steps of {step}"
-    return QuantizedValues(_affine(LEVELS, levels, low.astype(float), float(step)), levels, said)
+    note = "exact" if step == 1 else f"in steps of {step}"
+    return QuantizedValues(_affine(LEVELS, levels, low.astype(float), float(step)), levels, note)
 
 
 def _exact(values: Values) -> QuantizedValues:
@@ -169,13 +169,13 @@ def _octahedral(values: Values, quality: Quality, name: str) -> QuantizedValues:
             break
     else:
         raise TargetError(f"{name!r}: normals can be kept within {off:.2g} degrees, not {quality.amount:g}")
-    said = [f"{bits} bits, within {off:.2g} degrees"]
+    note = [f"{bits} bits, within {off:.2g} degrees"]
     if not (lengths > 0.0).all():
-        said.append(f"{int((lengths == 0.0).sum())} of no length")
+        note.append(f"{int((lengths == 0.0).sum())} of no length")
     if np.abs(lengths - 1.0)[lengths > 0.0].max(initial=0.0) > 1e-3:
-        said.append("all of length one now")
+        note.append("all of length one now")
     fields = {"coding": OCTAHEDRAL, "largest": (largest, largest)}
-    return QuantizedValues(fields, levels, ", ".join(said))
+    return QuantizedValues(fields, levels, ", ".join(note))
 
 
 def _affine(coding: int, levels: Words, offset: Reals, step: float) -> dict[str, Any]:

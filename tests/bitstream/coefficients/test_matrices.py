@@ -149,7 +149,7 @@ def test_bodies(body):
     data = write_gop_body(body, 37, list(widths))
     assert frames_of_gop(data, 4, 37) == body.frames
     parsed = parse_gop_body(data, 4, 37, widths)
-    assert (parsed.method, parsed.frames, parsed.told) == (body.method, body.frames, body.told)
+    assert (parsed.method, parsed.frames, parsed.coded) == (body.method, body.frames, body.coded)
     assert parsed.places.tolist() == body.places.tolist()
     for one, other in zip(parsed.fields, body.fields, strict=True):
         assert (one.width, one.step, one.components) == (other.width, other.step, other.components)
