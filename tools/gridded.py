@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
 from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.layout import parse_grid
+from bsm.bitstream.container.layout import PARSERS
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
 from bsm.bitstream.fields.corners import MOST_LARGEST, FieldDecoder, FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, light_field
@@ -52,7 +52,9 @@ def lightened(stream: bytes, *counts: int) -> bytes:
     vertices, of_faces, largest = (header[HEADER_FIELDS[name].key] for name in ("vertices", "faces", "grid"))
     data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
     faces = decode_connectivity(data, vertices, of_faces)
-    chunks = [parse_grid(payload, DEFAULT_LIMITS) for kind, payload in frames if kind == FrameType.GRID]
+    chunks: list[Any] = [
+        PARSERS[FrameType.GRID](payload, DEFAULT_LIMITS) for kind, payload in frames if kind == FrameType.GRID
+    ]
     decoder, values = FieldDecoder(grid_field(faces, vertices, largest)), np.zeros((vertices, 3), np.int32)
     for chunk in chunks:
         known, coded = decoder.chunk(chunk.data, chunk.count)

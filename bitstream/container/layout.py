@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, TypeVar
+from dataclasses import fields
+from typing import Any
 
 from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.header import entries_of, header_from_entries, header_to_entries, record_of
@@ -31,8 +32,6 @@ MOST_HEADER = 1 << 16
 MOST_DECLARATION = 1 << 16
 """Bytes of their maps."""
 LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes")
-
-Coded = TypeVar("Coded", Connectivity, Partition, Order)
 
 
 def write_header(header: Header) -> bytes:
@@ -75,58 +74,21 @@ def parse_metadata(payload: bytes, limits: Limits) -> Metadata:
         raise CorruptError(error.message) from error
 
 
-def write_coded(packet: Connectivity | Partition | Order) -> bytes:
-    """Its data."""
-    return packet.data
+def write_plain(packet: Any) -> bytes:
+    """Varints, as many as the packet has numbers, then its data."""
+    *numbers, data = vars(packet).values()
+    return bytes(b"".join(map(write_varint, numbers)) + data)
 
 
-def parse_coded(make: Callable[[bytes], Coded]) -> Callable[[bytes, Limits], Coded]:
-    """Inverse of `write_coded` for the packet type `make`."""
-    return lambda payload, limits: make(payload)
+def parse_plain(kind: type[Any]) -> Callable[[bytes, Limits], Any]:
+    """Inverse of `write_plain`."""
+    numbers = len(fields(kind)) - 1
 
+    def parse(payload: bytes, limits: Limits) -> Any:
+        cursor = Cursor(payload)
+        return kind(*(cursor.varint() for _ in range(numbers)), cursor.rest())
 
-def write_block(block: Block) -> bytes:
-    """Varint index, varint c_i, coefficient bytes."""
-    return write_varint(block.index) + write_varint(block.coefficients) + block.data
-
-
-def parse_block(payload: bytes, limits: Limits) -> Block:
-    """Inverse of `write_block`."""
-    cursor = Cursor(payload)
-    return Block(cursor.varint(), cursor.varint(), cursor.rest())
-
-
-def write_gop(gop: Gop) -> bytes:
-    """Varint index, then data."""
-    return write_varint(gop.index) + gop.data
-
-
-def parse_gop(payload: bytes, limits: Limits) -> Gop:
-    """Inverse of `write_gop`."""
-    cursor = Cursor(payload)
-    return Gop(cursor.varint(), cursor.rest())
-
-
-def write_grid(grid: Grid) -> bytes:
-    """Varint number of the first vertex, varint number of vertices, coded positions."""
-    return write_varint(grid.first) + write_varint(grid.count) + grid.data
-
-
-def parse_grid(payload: bytes, limits: Limits) -> Grid:
-    """Inverse of `write_grid`."""
-    cursor = Cursor(payload)
-    return Grid(cursor.varint(), cursor.varint(), cursor.rest())
-
-
-def write_refinement(refinement: Refinement) -> bytes:
-    """Varint number of the first vertex, varint number of vertices, coded levels."""
-    return write_varint(refinement.first) + write_varint(refinement.count) + refinement.data
-
-
-def parse_refinement(payload: bytes, limits: Limits) -> Refinement:
-    """Inverse of `write_refinement`."""
-    cursor = Cursor(payload)
-    return Refinement(cursor.varint(), cursor.varint(), cursor.rest())
+    return parse
 
 
 def write_attribute(attribute: Attribute) -> bytes:
@@ -146,18 +108,6 @@ def parse_attribute(payload: bytes, limits: Limits) -> Attribute:
     return Attribute(index, declaration, cursor.rest())
 
 
-def write_values(values: Values) -> bytes:
-    """Varint attribute, varint number of the first value, varint number of values, coded values."""
-    numbers = (values.attribute, values.first, values.count)
-    return b"".join(map(write_varint, numbers)) + values.data
-
-
-def parse_values(payload: bytes, limits: Limits) -> Values:
-    """Inverse of `write_values`."""
-    cursor = Cursor(payload)
-    return Values(cursor.varint(), cursor.varint(), cursor.varint(), cursor.rest())
-
-
 def write_end(end: End) -> bytes:
     """Varint number of frames, CRC-32 little-endian."""
     return write_varint(end.frames) + end.crc.to_bytes(4, "little")
@@ -171,47 +121,23 @@ def parse_end(payload: bytes, limits: Limits) -> End:
     return end
 
 
-FRAME_TYPES: dict[type, FrameType] = {
-    Header: FrameType.HEADER,
-    Metadata: FrameType.METADATA,
-    Connectivity: FrameType.CONNECTIVITY,
-    Partition: FrameType.PARTITION,
-    Order: FrameType.ORDER,
-    Attribute: FrameType.ATTRIBUTE,
-    Block: FrameType.BLOCK,
-    Gop: FrameType.GOP,
-    Grid: FrameType.GRID,
-    Refinement: FrameType.REFINEMENT,
-    Values: FrameType.VALUES,
-    End: FrameType.END,
+_PLAIN: dict[FrameType, type[Any]] = {
+    FrameType.CONNECTIVITY: Connectivity,
+    FrameType.PARTITION: Partition,
+    FrameType.ORDER: Order,
+    FrameType.BLOCK: Block,
+    FrameType.GOP: Gop,
+    FrameType.GRID: Grid,
+    FrameType.REFINEMENT: Refinement,
+    FrameType.VALUES: Values,
 }
-
-WRITERS: dict[FrameType, Callable[[Any], bytes]] = {
-    FrameType.HEADER: write_header,
-    FrameType.METADATA: write_metadata,
-    FrameType.CONNECTIVITY: write_coded,
-    FrameType.PARTITION: write_coded,
-    FrameType.ORDER: write_coded,
-    FrameType.BLOCK: write_block,
-    FrameType.GOP: write_gop,
-    FrameType.GRID: write_grid,
-    FrameType.REFINEMENT: write_refinement,
-    FrameType.ATTRIBUTE: write_attribute,
-    FrameType.VALUES: write_values,
-    FrameType.END: write_end,
+_OTHERS: dict[FrameType, tuple[type[Any], Callable[[Any], bytes], Callable[[bytes, Limits], Packet]]] = {
+    FrameType.HEADER: (Header, write_header, parse_header),
+    FrameType.METADATA: (Metadata, write_metadata, parse_metadata),
+    FrameType.ATTRIBUTE: (Attribute, write_attribute, parse_attribute),
+    FrameType.END: (End, write_end, parse_end),
 }
-
-PARSERS: dict[FrameType, Callable[[bytes, Limits], Packet]] = {
-    FrameType.HEADER: parse_header,
-    FrameType.METADATA: parse_metadata,
-    FrameType.CONNECTIVITY: parse_coded(Connectivity),
-    FrameType.PARTITION: parse_coded(Partition),
-    FrameType.ORDER: parse_coded(Order),
-    FrameType.BLOCK: parse_block,
-    FrameType.GOP: parse_gop,
-    FrameType.GRID: parse_grid,
-    FrameType.REFINEMENT: parse_refinement,
-    FrameType.ATTRIBUTE: parse_attribute,
-    FrameType.VALUES: parse_values,
-    FrameType.END: parse_end,
-}
+_LAYOUTS = {kind: (made, write_plain, parse_plain(made)) for kind, made in _PLAIN.items()} | _OTHERS
+FRAME_TYPES: dict[type, FrameType] = {made: kind for kind, (made, _, _) in _LAYOUTS.items()}
+WRITERS: dict[FrameType, Callable[[Any], bytes]] = {kind: write for kind, (_, write, _) in _LAYOUTS.items()}
+PARSERS: dict[FrameType, Callable[[bytes, Limits], Packet]] = {kind: parse for kind, (_, _, parse) in _LAYOUTS.items()}
