@@ -109,7 +109,10 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if seen:
         parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
-    print("".join((*lines, *map(_worded, attributes.items()))), end="")
+    for name, errors in attributes.items():
+        said = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
+        lines.append(f"{printable(name)}: {'not there any more' if said is None else said}\n")
+    print("".join(lines), end="")
 
 
 def _compared(
@@ -123,7 +126,10 @@ def _compared(
     if args.map:
         _write_map(args.map, paired.original, paired.positions, overwrite=args.force)
     result = asdict(compare_meshes(original, decoded, paired))
-    attributes = {name: errors and _known(errors) for name, errors in result.pop("attributes").items()}
+    attributes = {
+        name: errors and {what: value for what, value in errors.items() if value is not None}
+        for name, errors in result.pop("attributes").items()
+    }
     if args.surface:
         result |= _surface(paired.original, paired.positions)
     return {**{name: finite(value) for name, value in result.items()}, "attributes": attributes}
@@ -152,17 +158,6 @@ def _look(original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespac
         with open_output(args.picture, overwrite=args.force) as file:
             file.write(picture)
     return seen
-
-
-def _known(errors: dict[str, float | None]) -> dict[str, float]:
-    return {name: value for name, value in errors.items() if value is not None}
-
-
-def _worded(attribute: tuple[str, dict[str, float] | None]) -> str:
-    name, errors = printable(attribute[0]), attribute[1]
-    if errors is None:
-        return f"{name}: not there any more\n"
-    return f"{name}: {', '.join(f'{what} {value:.4g}' for what, value in errors.items())}\n"
 
 
 def _surface(original: TriangleMesh, positions: Positions) -> dict[str, float]:

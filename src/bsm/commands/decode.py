@@ -12,12 +12,12 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
+from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, refuse_two_on_one_pipe, run_of
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.motion.frames import Shared
-from bsm.files.output import default_output, output_inside, refuse_terminal, refuse_to_overwrite
+from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
 from bsm.files.stream import (
@@ -71,8 +71,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     jobs = plan(args.inputs, args.output, lambda _: f".{args.format or 'ply'}", sole_folder=True)
-    if jobs[0].output == "-" and args.json:
-        raise OptionError("--json and -o - would both write to standard output")
     if args.permutation and len(jobs) > 1:
         raise OptionError("--permutation is for one input")
     if args.permutation and (args.blocks is not None or args.tolerant):
@@ -81,7 +79,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise OptionError("--layers is for whole layers; leave out --blocks and --tolerant")
     if args.blocks is not None and args.tolerant:
         raise OptionError("--blocks stops early and --tolerant goes on: choose one")
-    refuse_terminal(jobs[0].output)
+    refuse_two_on_one_pipe(args, jobs[0].output)
     given = args.output and (anywhere(args.output) if args.dask else args.output)
     job = asked(DecodeJob, args, output="", given=given, many=len(jobs) > 1)
     return run_jobs(run_of(args), job, console, decode_one, jobs)
@@ -128,16 +126,8 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     console.note(
         f"{args.input} -> {output}: {vertices} vertices, {faces} faces, {came_to(taken, written)}, {seconds:.2f} s"
     )
-    return {
-        "input": args.input,
-        "output": output,
-        "vertices": vertices,
-        "faces": faces,
-        "input_bytes": taken,
-        "output_bytes": written,
-        "seconds": seconds,
-        "left_out": list(left_out),
-    }
+    facts = {"input": args.input, "output": output, "vertices": vertices, "faces": faces}
+    return facts | {"input_bytes": taken, "output_bytes": written, "seconds": seconds, "left_out": list(left_out)}
 
 
 def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes]) -> Facts:

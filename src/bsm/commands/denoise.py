@@ -16,13 +16,13 @@ import numpy as np
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.metrics import mean_edge_length
-from bsm.commands.flags import add_inputs, add_reader_flag, asked, run_of
+from bsm.commands.flags import add_inputs, add_reader_flag, asked, refuse_two_on_one_pipe, run_of
 from bsm.console import Console, Progress
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import separate_meshes
 from bsm.files.motion.frames import Frames
-from bsm.files.output import output_inside, refuse_terminal, refuse_to_overwrite
+from bsm.files.output import output_inside, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 from bsm.jobs.report import Facts, Task
@@ -102,9 +102,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         args.output = args.output.rstrip("/") + "/"
     beside = "" if args.output else ".denoised"
     jobs = plan(inputs, args.output, lambda name: beside + _suffix(name), sole_folder=True)
-    if jobs[0].output == "-" and args.json:
-        raise OptionError("--json and -o - would both write to standard output")
-    refuse_terminal(jobs[0].output)
+    refuse_two_on_one_pipe(args, jobs[0].output)
     given = {name: getattr(args, name) for name in _OPTIONS if hasattr(args, name)}
     return run_jobs(run_of(args), asked(DenoiseJob, args, output="", options=given), console, denoise_one, jobs)
 

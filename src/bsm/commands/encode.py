@@ -4,11 +4,18 @@ import argparse
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import add_encode_flags, add_inputs, add_reader_flag, asked, options_of, run_of
+from bsm.commands.flags import (
+    add_encode_flags,
+    add_inputs,
+    add_reader_flag,
+    asked,
+    options_of,
+    refuse_two_on_one_pipe,
+    run_of,
+)
 from bsm.console import Console
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
-from bsm.files.output import refuse_terminal
 from bsm.files.sequence import SEQUENCES_READ
 from bsm.jobs.encode import EncodeJob, encode_one
 from bsm.jobs.run import plan, plan_trees, refuse_collisions, run_jobs
@@ -64,9 +71,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         if len(jobs) > 1:
             raise OptionError("--permutation is for one input")
         refuse_collisions(args.inputs, [jobs[0].output, args.permutation])
-    if jobs[0].output == "-" and args.json:
-        raise OptionError("--json and -o - would both write to standard output")
-    refuse_terminal(jobs[0].output)
+    refuse_two_on_one_pipe(args, jobs[0].output)
     many, options = run_of(args), options_of(args)
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
     more = {"output": "", "metadata": _metadata(args), "options": options, "threads": threads, "members": members}

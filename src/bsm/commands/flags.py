@@ -5,9 +5,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
+from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.cli import suggestion
 from bsm.files.mesh import READERS
+from bsm.files.output import refuse_terminal
 from bsm.jobs.report import Run
 
 
@@ -266,6 +268,13 @@ def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | N
         )
     else:
         parser.set_defaults(output=None, report=None, resume=False)
+
+
+def refuse_two_on_one_pipe(args: argparse.Namespace, output: str) -> None:
+    """Raise `OptionError` where a file and JSON would both go to standard output, or bytes to a terminal."""
+    if output == "-" and args.json:
+        raise OptionError("--json and -o - would both write to standard output")
+    refuse_terminal(output)
 
 
 def run_of(args: argparse.Namespace) -> Run:

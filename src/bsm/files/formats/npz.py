@@ -125,33 +125,27 @@ class NpzArray:
 
     def __init__(self, archive: Archive, name: str) -> None:
         self._name = name
-        self._ours = not isinstance(archive, zipfile.ZipFile)
-        self._archive = archive if isinstance(archive, zipfile.ZipFile) else opened_archive(archive)
-        try:
-            self._entry = self._archive.open(f"{name}.npy")
-            self.shape, self._fortran, self._kind = read_header(self._entry)
-        except BaseException as error:
-            self._close_archive()
-            if isinstance(error, BsmError):
+        with ExitStack() as opened:
+            if not isinstance(archive, zipfile.ZipFile):
+                archive = opened.enter_context(opened_archive(archive))
+            try:
+                self._entry = opened.enter_context(archive.open(f"{name}.npy"))
+                self.shape, self._fortran, self._kind = read_header(self._entry)
+            except BsmError:
                 raise
-            if isinstance(error, KeyError):
+            except KeyError:
                 raise FormatError(f"the npz file has no array {name}; it needs positions and faces") from None
-            if isinstance(error, _DAMAGE):
+            except _DAMAGE as error:
                 raise CorruptError(f"the array {name} cannot be read: {error}") from error
-            if isinstance(error, _NO_ARCHIVE):
+            except _NO_ARCHIVE as error:
                 raise FormatError(f"this is not an npz file that can be read: {error}") from error
-            raise
+            self._opened = opened.pop_all()
 
     def __enter__(self) -> NpzArray:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._entry.close()
-        self._close_archive()
-
-    def _close_archive(self) -> None:
-        if self._ours:
-            self._archive.close()
+        self._opened.close()
 
     @property
     def size(self) -> int:
