@@ -152,7 +152,7 @@ class Limits:
     def _check_sum(self, name: str, value: float, granted: Callable[[Limits], float]) -> None:
         if value > granted(self):
             raise LimitError(
-                f"{name} = {value:g} is over the limit of {granted(self):g} for what the stream holds; "
+                f"{name} = {_worded(value)} is over the limit of {granted(self):g} for what the stream holds; "
                 + _cure(name, lambda limits: value <= granted(limits))
             )
 

@@ -9,6 +9,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -96,8 +97,8 @@ def off(mesh):
 
 
 SECONDS = 10.0
-SOON = 30.0
-"""Seconds; two on a machine that has nothing else to do."""
+SOON = 2.0
+"""Seconds, where a request takes a tenth of that when nothing is wrong; as many times longer where it takes longer."""
 
 
 @pytest.fixture(scope="module")
@@ -184,21 +185,24 @@ def test_a_service_takes_no_odd_heads(service, lines, status):
 @pytest.mark.skipif(sys.platform != "linux", reason="workers are looked for as on Linux")
 def test_a_service_goes_on_whatever_hangs_dies_or_never_comes(server):
     process, service = server
+    soon = max(SOON, 10.0 * max(answered_in(service) for _ in range(3)))
     for pid in workers_of(process):
         os.kill(pid, signal.SIGSTOP)
-    status, said = post(f"{service}/encode", off(knot(200)))
-    assert status == 503 and said.startswith(b"TimeoutError: ")
+    with ThreadPoolExecutor(2) as clients:
+        hanging = [clients.submit(post, f"{service}/encode", off(knot(200))) for _ in range(2)]
+    assert all(status == 503 and b"Error: " in said for status, said in (one.result() for one in hanging))
     for pid in workers_of(process):
         os.kill(pid, signal.SIGKILL)
     waits = [answered_in(service), answered_in(service)]
     head = b"POST /encode HTTP/1.0\r\nContent-Length: 1000\r\n\r\n"
     silent = [send(service, words, more=True) for words in (head, head + b"OFF", b"POST /enc")]
     waits.append(answered_in(service))
-    assert max(waits) < SOON, waits
+    print("waits", waits, "soon", soon)
+    assert max(waits) < soon, waits
     for connection, said in zip(silent, (b" 408 ", b" 408 ", b"")):
         with connection, connection.makefile("rb") as file:
             assert said in file.read(), "it is let go of"
-    assert answered_in(service) < SOON
+    assert answered_in(service) < soon
     crowd = [send(service, b"POST", more=True) for _ in range(40)]
     answers = [connection.makefile("rb").readline() for connection in crowd[20:]]
     assert all(b" 503 " in answer for answer in answers)
