@@ -197,7 +197,6 @@ def test_a_service_goes_on_whatever_hangs_dies_or_never_comes(server):
     head = b"POST /encode HTTP/1.0\r\nContent-Length: 1000\r\n\r\n"
     silent = [send(service, words, more=True) for words in (head, head + b"OFF", b"POST /enc")]
     waits.append(answered_in(service))
-    print("waits", waits, "soon", soon)
     assert max(waits) < soon, waits
     for connection, said in zip(silent, (b" 408 ", b" 408 ", b"")):
         with connection, connection.makefile("rb") as file:

@@ -1,14 +1,17 @@
 """A part of the walk over all readers of files; `python -m tools.attack readers` is the whole."""
 
+import json
 import os
 import sys
+from random import Random
 
 import pytest
 
 from bsm.bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
-from tools.attack.readers import Case, Sample, numbers, problems, read_all, samples, warm_up
+from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up
+from tools.attack.search import KINDS, Repeated, growth, searched, words
 from tools.attack.taken import Taken
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
@@ -45,3 +48,36 @@ def test_a_usd_file_that_is_nested_too_deep_is_refused_before_its_library_sees_i
     pytest.importorskip("pxr")
     (tmp_path / "a.usda").write_bytes(b"#usda 1.0\n" + b'def "a" {\n' * 20_000 + b"}\n" * 20_000)
     assert "nested 20000 deep" in read_all(tmp_path / "a.usda", Limits()).outcome
+
+
+@linux
+def test_files_that_are_slow_for_their_bytes_are_found():
+    warm_up()
+    assert set(KINDS) - {"gltf"} <= set(samples()) and {b"<AppendedData", b"usemtl"} <= set(words())
+    seen = [taken for _, taken in searched("obj", 1.0, Random(0))]
+    assert len(seen) >= 48 and not any(taken.escaped for taken in seen)
+    assert {taken.outcome == "read" for taken in seen} == {True, False}
+
+
+@linux
+def test_what_takes_longer_than_its_size_grows_is_found(monkeypatch):
+    spaces = Repeated(samples()["off"], b"OFF", b"\n", b"x")
+    assert growth(spaces.of) is None
+
+    def quadratic(path, limits):
+        size = path.stat().st_size
+        return (sum(range((size >> 6) ** 2)), Taken("read"))[1]
+
+    monkeypatch.setattr("tools.attack.readers.read_all", quadratic)
+    assert "times as long" in growth(spaces.of)
+
+
+@linux
+def test_nodes_of_a_gltf_that_are_nested_deep_are_refused_before_its_library_climbs_them(tmp_path):
+    for name, about in (("glb, a chain of nodes", "deep"), ("glb, materials", "read")):
+        (tmp_path / "a.glb").write_bytes(_grown(1 << 17)[name]().data)
+        assert about in read_all(tmp_path / "a.glb", Limits()).outcome
+    tree = _json_of(samples()["glb"].data)
+    tree["accessors"][0]["count"] = 10**400
+    (tmp_path / "a.gltf").write_text(json.dumps(tree))
+    assert "Error: " in read_all(tmp_path / "a.gltf", Limits()).outcome

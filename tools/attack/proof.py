@@ -74,7 +74,7 @@ def main() -> int:
     args = parser.parse_args()
     begin = time.monotonic()
     if args.short:
-        args.mutants, args.differential, args.encodes = min(args.mutants, 20_000), min(args.differential, 2_000), 100
+        args.mutants, args.differential, args.encodes = min(args.mutants, 4_000), min(args.differential, 500), 50
     parts = [part for part in plan(args) if not args.only or part.suite in args.only]
     findings = args.folder.resolve() / args.seed
     print(f"seed {args.seed}, {len(parts)} shards, findings are kept in {findings}", flush=True)

@@ -143,7 +143,8 @@ def main() -> int:
     warm_up()
     findings = 0
     for kind in args.kinds or KINDS:
-        seen, refused = [], 0
+        seen: list[tuple[float, int, Repeated]] = []
+        refused = 0
         for file, taken in searched(kind, args.seconds, Random(f"{args.seed}/{kind}")):
             seen.append((taken.seconds / (taken.size + 256), len(seen), file))
             refused += taken.outcome != "read"

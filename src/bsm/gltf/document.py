@@ -26,6 +26,8 @@ _WIDTHS = {**VECTORS, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 EXTENSION, WEBP = "EXT_bsm_compression", "EXT_texture_webp"
 PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
+MOST_NESTED = 1000
+PER_PAIR = 20.0  # nanoseconds of trimesh, which looks through all nodes so far at each that it climbs
 _COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
 MOST_NUMBERS = 1 << 27
 """In one accessor, and in all morph targets: those without a buffer are zeros, for which no byte pays."""
@@ -278,6 +280,25 @@ def require_room_for_meshes(data: bytes, limits: Limits, folder: Path | None = N
             if where is not None and ("bufferView" in document.item("accessors", where) or primitive.get("extensions")):
                 named.add(where)
         vertices = sum(document.count(index) for index in named)
+        depths = _depths(document.items("nodes"))
+        climbed = sum(depths[number] ** 2 for number, node in enumerate(document.items("nodes")) if "mesh" in node)
     beside = sum(_count(buffer, "byteLength") for buffer in document.items("buffers") if "uri" in buffer)
+    if (deepest := max(depths.values(), default=0)) > MOST_NESTED:
+        raise LimitError(f"the nodes of this glTF are nested {deepest} deep; the limit is {MOST_NESTED}")
     require_count("vertices", vertices, limits)
     limits.check_memory(PER_NUMBER * numbers, vertices, len(data) + beside)
+    limits.check_work(PER_PAIR * climbed, vertices, len(data) + beside)
+
+
+def _depths(nodes: list[Tree]) -> dict[int, int]:
+    """How many nodes each is below, itself included; a loop is climbed once."""
+    parents = {child: number for number, node in enumerate(nodes) for child in node.get("children", [])}
+    depths: dict[int, int] = {}
+    for number in range(len(nodes)):
+        path, at = [], number
+        while at in range(len(nodes)) and at not in depths:
+            depths[at] = 0
+            path.append(at)
+            at = parents.get(at, -1)
+        depths.update((one, steps) for steps, one in enumerate(reversed(path), depths.get(at, 0) + 1))
+    return depths

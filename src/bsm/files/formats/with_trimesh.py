@@ -230,7 +230,7 @@ def _metadata(parts: list[_Part], of_scene: dict[str, Any]) -> dict[str, Value]:
 
 
 def _materials(parts: list[_Part]) -> tuple[dict[str, Value], Array]:
-    known: list[Material] = []
+    known: dict[frozenset[tuple[str, Value]], tuple[int, Material]] = {}
     images: list[bytes] = []
     numbers = [np.empty(0, np.int32)]
     for part in parts:
@@ -238,11 +238,9 @@ def _materials(parts: list[_Part]) -> tuple[dict[str, Value], Array]:
         places = np.zeros(max(len(several), 1), np.int32)
         for place, material in enumerate(several or [None]):
             words = {} if material is None else _words_of(material, images)
-            if words not in known:
-                known.append(words)
-            places[place] = known.index(words)
+            places[place], _ = known.setdefault(frozenset(words.items()), (len(known), words))
         numbers.append(places[of_faces])
-    metadata = described(dict(enumerate(known)))
+    metadata = described(dict(known.values()))
     metadata |= {f"image.{number}.data": data for number, data in enumerate(images)}
     return metadata, np.concatenate(numbers)
 
