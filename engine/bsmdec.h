@@ -116,6 +116,17 @@ typedef struct {
     int moves;        /* whether frames have values of their own: those of the frame told last, before it of the first */
 } bsmdec_attribute;
 
+/* What the author says of a mesh, one entry: a whole number, a number, UTF-8 (ends with 0) or bytes. */
+enum { BSMDEC_WHOLE = 1, BSMDEC_NUMBER, BSMDEC_TEXT, BSMDEC_BYTES };
+typedef struct {
+    const char *name;
+    int type;
+    int64_t whole;
+    double number;
+    const void *bytes;
+    size_t size;
+} bsmdec_metadata;
+
 typedef struct bsmdec bsmdec;
 
 BSMDEC_API void bsmdec_default_limits(bsmdec_limits *limits);
@@ -132,10 +143,14 @@ BSMDEC_API bsmdec_status bsmdec_finish(bsmdec *decoder);
 BSMDEC_API bsmdec_status bsmdec_next(bsmdec *decoder, bsmdec_event *event);
 
 /* Each fills an array of the caller of exactly so many numbers, and is BSMDEC_MISUSED, with nothing written, where the size is
- * another or what is asked for is not there. Positions are those of the frame told last, or of the whole mesh. */
+ * another or what is asked for is not there. Positions are those of the frame told last, or of the mesh; before its END as far
+ * as they are known then, and not a number (NaN) where nothing is. */
 BSMDEC_API bsmdec_status bsmdec_faces(bsmdec *decoder, uint32_t *corners, size_t count);
 BSMDEC_API bsmdec_status bsmdec_positions(bsmdec *decoder, double *coordinates, size_t count);
 BSMDEC_API bsmdec_status bsmdec_positions_single(bsmdec *decoder, float *coordinates, size_t count);
+
+/* Entry `index` of those that have come; its text lives as long as the decoder. */
+BSMDEC_API bsmdec_status bsmdec_metadata_at(const bsmdec *decoder, int64_t index, bsmdec_metadata *entry);
 
 BSMDEC_API int bsmdec_attribute_count(const bsmdec *decoder);
 BSMDEC_API bsmdec_status bsmdec_attribute_at(const bsmdec *decoder, int index, bsmdec_attribute *attribute);

@@ -148,8 +148,9 @@ static const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose) 
     return coded < 0 ? numbering->loose.data + 3 * (*loose)++ : decoder->positions.data + 3 * coded;
 }
 
-static bool can_show(const bsmdec *decoder, const void *to, size_t count) {
-    return decoder != NULL && to != NULL && decoder->has_positions && count == (size_t)(3 * decoder->mesh.numbering.size);
+static bool can_show(bsmdec *decoder, const void *to, size_t count) {
+    return decoder != NULL && to != NULL && count == (size_t)(3 * decoder->mesh.numbering.size)
+        && (decoder->has_positions || look_at_positions(decoder));
 }
 
 bsmdec_status bsmdec_positions(bsmdec *decoder, double *coordinates, size_t count) {
@@ -166,6 +167,13 @@ bsmdec_status bsmdec_positions_single(bsmdec *decoder, float *coordinates, size_
         const double *place = place_of(decoder, (int64_t)v, &loose);
         for (int d = 0; d < 3; d++) coordinates[3 * v + (size_t)d] = (float)place[d];
     }
+    return BSMDEC_OK;
+}
+
+bsmdec_status bsmdec_metadata_at(const bsmdec *decoder, int64_t index, bsmdec_metadata *entry) {
+    if (decoder == NULL || entry == NULL || index < 0 || index >= decoder->reader.metadata.count) return BSMDEC_MISUSED;
+    const Saying *said = decoder->reader.metadata.said[index];
+    *entry = (bsmdec_metadata){(const char *)said->name.data, said->kind, said->whole, said->number, said->bytes.data, (size_t)said->bytes.size};
     return BSMDEC_OK;
 }
 

@@ -87,6 +87,8 @@ bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count)
 bool accept_packet(bsmdec *decoder, const Packet *packet);
 bool accept_damage(bsmdec *decoder);
 bool accept_end(bsmdec *decoder);
+/* Positions of a mesh that is not whole yet, as far as they are known. */
+bool look_at_positions(bsmdec *decoder);
 void end_mesh(Mesh *mesh);
 void begin_mesh(bsmdec *decoder, const Header *header);
 bool take_in(bsmdec *decoder, const Packet *packet);

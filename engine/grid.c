@@ -53,8 +53,9 @@ bool begin_grid(GridField *field, Context *context, const Header *header, ConstI
     if (!charge(context, header) || !link_mesh(context, faces, n, arena, scratch, &field->corners)) return false;
     field->largest = take_ints(arena, AXES);
     field->values = zero_ints2(arena, n, AXES);
-    field->positions = zero_doubles2(arena, n, AXES);
+    field->positions = take_doubles2(arena, n, AXES);
     if (failed(context)) return false;
+    for (int64_t i = 0; i < AXES * n; i++) field->positions.data[i] = __builtin_nan("");
     memcpy(field->largest.data, header->grid, sizeof header->grid);
     if (header->light == LIGHT) begin_light(field, arena);
     else begin_full(field, arena, scratch);

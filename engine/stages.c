@@ -266,7 +266,17 @@ static bool finish_positions(bsmdec *decoder) {
         return false;
     }
     decoder->positions = const_doubles2(positions);
-    return into_unit(&decoder->context, &mesh->header, positions);
+    if (!into_unit(&decoder->context, &mesh->header, positions)) return false;
+    for (int64_t v = 0; v < positions.rows; v++)
+        for (int d = 0; d < 3 && !(mesh->assembly.blend.weights.data[v] > 0.0); d++) positions.data[3 * v + d] = __builtin_nan("");
+    return true;
+}
+
+bool look_at_positions(bsmdec *decoder) {
+    const Mesh *mesh = &decoder->mesh;
+    if (decoder->ended || decoder->sequence.is_one || !(mesh->has_grid || mesh->has_chains)) return false;
+    release_all(&decoder->shown);
+    return finish_positions(decoder);
 }
 
 /* Nothing follows. */

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import subprocess
-from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_int, c_int64, c_size_t, c_void_p
+from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -73,6 +73,20 @@ class Shape(Structure):
     ]
 
 
+class Entry(Structure):
+    """An entry of metadata."""
+
+    _fields_ = [
+        *(("name", c_char_p), ("type", c_int), ("whole", c_int64)),
+        *(("number", c_double), ("bytes", c_void_p), ("size", c_size_t)),
+    ]
+
+    @property
+    def value(self) -> int | float | str | bytes:
+        data = ctypes.string_at(self.bytes, self.size) if self.bytes else b""
+        return (self.whole, self.number, data.decode() if self.type == 3 else "", data)[self.type - 1]
+
+
 class Options(Structure):
     _fields_ = [("limits", c_void_p), ("allocator", c_void_p), ("tolerant", c_int), ("start", c_int64)]
 
@@ -102,12 +116,17 @@ def build(folder: Path, *flags: str) -> ctypes.CDLL:
     library.bsmdec_open.restype = c_void_p
     library.bsmdec_last_error.restype = POINTER(Failure)
     names = "close push finish next faces positions last_error"
-    for name in (*names.split(), *(f"attribute_{name}" for name in ("count", "at", "values", "indices"))):
+    for name in (
+        *names.split(),
+        "metadata_at",
+        *(f"attribute_{name}" for name in ("count", "at", "values", "indices")),
+    ):
         getattr(library, f"bsmdec_{name}").argtypes = {
             "push": [c_void_p, c_char_p, c_size_t],
             "next": [c_void_p, POINTER(Event)],
             "faces": [c_void_p, c_void_p, c_size_t],
             "positions": [c_void_p, c_void_p, c_size_t],
+            "metadata_at": [c_void_p, c_int64, POINTER(Entry)],
             "attribute_at": [c_void_p, c_int, POINTER(Shape)],
             "attribute_values": [c_void_p, c_int, c_void_p, c_size_t],
             "attribute_indices": [c_void_p, c_int, c_void_p, c_size_t],

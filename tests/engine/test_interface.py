@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bsm
-from tests.engine.decoding import NO_MEMORY, Allocator, Event, build, decode
+from tests.engine.decoding import BLOCK, END, END_OF_STREAM, NO_MEMORY, Allocator, Entry, Event, build, decode
 from tools.amalgamate import ROOT
 
 MISUSED = 2
@@ -23,6 +23,38 @@ def test_pieces_make_no_difference(library: ctypes.CDLL, name: str) -> None:
     assert at_once.status == bytewise.status == 0
     assert at_once.arrays.keys() == bytewise.arrays.keys()
     assert all(np.array_equal(values, bytewise.arrays[key]) for key, values in at_once.arrays.items())
+
+
+def test_positions_are_known_as_far_as_they_have_come(library: ctypes.CDLL) -> None:
+    stream = (VECTORS / "good-keys.bsm").read_bytes()
+    decoder, event, known = library.bsmdec_open(None), Event(), []
+    library.bsmdec_push(decoder, stream, len(stream))
+    library.bsmdec_finish(decoder)
+    while library.bsmdec_next(decoder, byref(event)) == 0 and event.type != END_OF_STREAM:
+        if event.type in (BLOCK, END):
+            positions = np.zeros((event.vertices, 3))
+            assert library.bsmdec_positions(decoder, positions.ctypes.data, positions.size) == 0
+            known.append(int(np.isfinite(positions).all(axis=1).sum()))
+    library.bsmdec_close(decoder)
+    assert known == sorted(known)
+    assert 0 < known[0] < known[-1] == len(bsm.decode(stream).positions)
+
+
+def test_what_authors_say_comes_back(library: ctypes.CDLL) -> None:
+    said = {"bytes": b"\x00\x01", "float": 0.5, "int": -7, "text": "ä"}
+    stream = bsm.encode(bsm.load(VECTORS.parent / "vectors" / "good-tetrahedron.bsm"), metadata=said)
+    decoder, event, entry = library.bsmdec_open(None), Event(), Entry()
+    library.bsmdec_push(decoder, stream, len(stream))
+    library.bsmdec_finish(decoder)
+    while library.bsmdec_next(decoder, byref(event)) == 0 and event.type != END_OF_STREAM:
+        pass
+    found = {}
+    for index in range(len(said)):
+        assert library.bsmdec_metadata_at(decoder, index, byref(entry)) == 0
+        found[entry.name.decode()] = entry.value
+    assert library.bsmdec_metadata_at(decoder, len(said), byref(entry)) == MISUSED
+    library.bsmdec_close(decoder)
+    assert found == said
 
 
 def test_calls_out_of_order_are_refused_and_touch_nothing(library: ctypes.CDLL) -> None:
