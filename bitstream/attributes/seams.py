@@ -33,8 +33,6 @@ _SLOTS = 32 * 32 + 9 * 16 + 256 + 9
 
 @dataclass(frozen=True, eq=False)
 class Joins:
-    """Which corners share a value."""
-
     corners: Corners
     seams: Flags
 
@@ -59,7 +57,6 @@ class Joins:
 
     @property
     def vertices(self) -> Ints:
-        """The vertex of each value, shape (k,)."""
         return self.corners.faces.ravel()[self.first]
 
 
@@ -84,7 +81,6 @@ def find_seams(corners: Corners, values: npt.ArrayLike) -> Flags:
 
 
 def encode_seams(corners: Corners, seams: Flags, earlier: tuple[Flags, ...] = ()) -> bytes:
-    """Code seams."""
     coder = start_writing(len(seams) + 64)
     _code(coder, corners, seams.copy(), earlier)
     return finish_writing(coder)

@@ -55,7 +55,6 @@ def make_past(width: int) -> Past:
 
 
 def copy_past(past: Past) -> Past:
-    """An independent copy."""
     return Past(past.current.copy(), past.before.copy(), past.usual.copy(), past.blocks.copy())
 
 
@@ -105,7 +104,6 @@ class Experience:
     slots: npt.NDArray[np.uint16]
 
     def to_bytes(self) -> bytes:
-        """As in the file."""
         return b"".join(
             array.astype(kind).tobytes()
             for array, kind in ((self.expectations, "<u2"), (self.mixing, "<i2"), (self.slots, "<u2"))
@@ -113,7 +111,6 @@ class Experience:
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Experience:
-        """Twin of `to_bytes`."""
         first = 2 * int(np.prod(_SHAPES["expectations"]))
         second = first + 2 * int(np.prod(_SHAPES["mixing"]))
         return cls(
@@ -163,7 +160,6 @@ class CoefficientModel:
         self.expectations = self.experience.expectations.astype(np.int32).reshape(-1, NEIGHBOURS)
 
     def copy(self) -> CoefficientModel:
-        """An independent copy of the present state."""
         twin = CoefficientModel(self.width, self.experience)
         twin.bank = copy_bank(self.bank)
         twin.past = copy_past(self.past)

@@ -75,7 +75,6 @@ def pack_coefficients(values: npt.NDArray[Any], bits: int) -> bytes:
 
 
 def unpack_coefficients(data: bytes, count: int, bits: int) -> npt.NDArray[np.uint32]:
-    """Inverse of `pack_coefficients`."""
     _check_bits(bits)
     packed = np.frombuffer(decompress(data, (count * bits + 7) // 8), dtype=np.uint8)
     digits = np.unpackbits(packed)

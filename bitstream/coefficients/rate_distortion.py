@@ -24,8 +24,6 @@ COSTS = np.rint(_BIT * -np.log2(np.minimum(_PROBABILITIES, 1.0))).astype(np.int6
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """Levels for one block."""
-
     levels: Levels
     width: int
 

@@ -30,8 +30,6 @@ Ints = npt.NDArray[np.int32]
 
 
 class Surface(NamedTuple):
-    """A closed surface."""
-
     twin: Ints
     corner: Ints
     valence: Ints
@@ -82,14 +80,12 @@ class Front(NamedTuple):
 
 
 def make_front(capacity: int) -> Front:
-    """An empty front for at most `capacity` nodes."""
     heads = np.full(_TAILS + _BUCKETS, -1, np.int32)
     heads[_MADE] = heads[_ALIVE] = 0
     return Front(np.empty((capacity, _NODE_COLUMNS), np.int32), heads)
 
 
 def enlarge_front(front: Front) -> Front:
-    """A front with twice the capacity."""
     return Front(np.concatenate([front.nodes, np.empty_like(front.nodes)]), front.heads)
 
 
@@ -125,7 +121,6 @@ def make_models(vertex_count: int) -> Models:
 
 
 def code_rare(coder: Coder, models: Models, kind: int, value: int) -> int:
-    """Code an unsigned integer of a rare kind."""
     return code_unsigned(coder, models.rare, np.zeros(1, np.int64), 0, _RARE_UNARY, value, kind)
 
 
@@ -148,8 +143,6 @@ class Guide(NamedTuple):
 
 
 class Conquest(NamedTuple):
-    """What both sides know."""
-
     front: Front
     vertices: npt.NDArray[np.int64]
     faces: Ints
@@ -170,13 +163,11 @@ def make_guide(surface: Surface, face_count: int) -> Guide:
 
 
 def no_guide() -> Guide:
-    """The guide of a decoder, which has none."""
     nothing = np.empty(0, np.int32)
     return make_guide(Surface(nothing, nothing, nothing, nothing), 0)
 
 
 def make_conquest(face_count: int, fans: int, dummies: int) -> Conquest:
-    """The state before the first triangle."""
     tallies = np.zeros(_TALLIES, np.int64)
     tallies[_DUMMIES] = dummies
     tallies[_TURNS] = 4 * face_count  # each real face has at most three dummy neighbours
@@ -186,7 +177,6 @@ def make_conquest(face_count: int, fans: int, dummies: int) -> Conquest:
 
 
 def enlarge_conquest(conquest: Conquest) -> Conquest:
-    """State of a conquest with room for more nodes."""
     return conquest._replace(front=enlarge_front(conquest.front))
 
 
@@ -246,8 +236,6 @@ _BYTES_PER_FAN = 32  # more than the vertex of a fan, or a corner of a degenerat
 
 @dataclass(frozen=True, eq=False)
 class EncodedConnectivity:
-    """What `encode_connectivity` returns."""
-
     payload: bytes
     vertex_order: Ints
     face_order: Ints
@@ -255,7 +243,6 @@ class EncodedConnectivity:
 
 
 def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConnectivity:
-    """Encode triangles."""
     given = _check_faces(faces, vertex_count)
     degenerate = (given[:, 0] == given[:, 1]) | (given[:, 1] == given[:, 2]) | (given[:, 2] == given[:, 0])
     proper, improper = np.flatnonzero(~degenerate), np.flatnonzero(degenerate)

@@ -99,8 +99,6 @@ def _is_permutation(values: Ints) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """What `read_arrangement` returns."""
-
     vertex_order: Ints
     face_order: Ints
     faces: Ints

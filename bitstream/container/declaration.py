@@ -69,14 +69,12 @@ class Declaration:
 
     @property
     def words(self) -> int:
-        """Numbers in a coded value."""
         return {OCTAHEDRAL: 2, RECOMPUTED: 0, BITS: self.components * (self.kind - FLOAT32 + 1)}.get(
             self.coding, self.components
         )
 
     @property
     def is_float(self) -> bool:
-        """Whether values are floats."""
         return self.kind >= FLOAT32
 
     @property

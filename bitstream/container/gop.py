@@ -103,14 +103,11 @@ class GopField:
 
     @property
     def size(self) -> int:
-        """Bytes of all levels."""
         return len(self.basis) + len(self.levels)
 
 
 @dataclass(frozen=True, eq=False)
 class GopBody:
-    """The data of a GOP."""
-
     method: GopMethod
     frames: int
     fields: tuple[GopField, ...]
@@ -168,7 +165,6 @@ def _write_field(field: GopField, method: GopMethod) -> bytes:
 def parse_gop_body(
     data: bytes, longest: int, run: int = 0, widths: Mapping[int, int] = MappingProxyType({}), *, tolerant: bool = False
 ) -> GopBody:
-    """Inverse of `write_gop_body`."""
     cursor = Cursor(data)
     method, frames, with_attributes = _parse_beginning(cursor, longest, run)
     shown = parse_stretches(cursor, frames) if method.has_basis else None
@@ -189,7 +185,6 @@ def parse_gop_body(
 
 
 def method_of(first: int) -> GopMethod:
-    """The method that the first byte of a GOP tells."""
     return GopMethod(first % WITH_ATTRIBUTES)
 
 

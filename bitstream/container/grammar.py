@@ -92,12 +92,10 @@ class Grammar:
 
     @property
     def ended(self) -> bool:
-        """Whether END was there."""
         return self._last is FrameType.END
 
     @property
     def expected(self) -> frozenset[FrameType]:
-        """The types of frame that may come next."""
         closed = self.header is None or self.ended or self._resuming
         return self._allowed if closed else self._allowed | {FrameType.METADATA}
 
@@ -108,7 +106,6 @@ class Grammar:
         return bool(getattr(self.header, ANNOUNCED[frame_type]))
 
     def problem(self, packet: Packet) -> str | None:
-        """Why `packet` may not come here, or None if it may."""
         frame_type = FRAME_TYPES[type(packet)]
         if frame_type not in self.expected:
             expected = ", ".join(item.name for item in sorted(self.expected)) or "nothing"

@@ -64,7 +64,6 @@ def _plain(kind: Kind, value: Any) -> Any:
 
 
 def integer(key: int, low: int, high: int, default: Any = MISSING) -> Any:
-    """Declare an integer field."""
     return field(default=default, metadata={"wire": Field(key, int, low, high)})
 
 
@@ -74,17 +73,14 @@ def method(key: int, known: int, default: int = 0) -> Any:
 
 
 def real(key: int, low: float, high: float, default: Any = MISSING) -> Any:
-    """Declare a float field."""
     return field(default=default, metadata={"wire": Field(key, float, low, high)})
 
 
 def reals(key: int, low: float, high: float, lengths: tuple[int, int], default: tuple[float, ...]) -> Any:
-    """Declare a field that is a list of floats."""
     return field(default=default, metadata={"wire": Field(key, tuple, low, high, lengths=lengths)})
 
 
 def integers(key: int, low: int, high: int, lengths: tuple[int, int], default: tuple[int, ...]) -> Any:
-    """Declare a field that is a list of integers."""
     return field(default=default, metadata={"wire": Field(key, tuple, low, high, lengths=lengths, item=int)})
 
 
@@ -196,12 +192,10 @@ class Header:
 
     @property
     def constants(self) -> Paper:
-        """How blocks are coded."""
         return paper_of(self.paper, self.law)
 
     @property
     def layer(self) -> Layer | None:
-        """The layer of refinement."""
         return Layer(*self.refinement) if len(self.refinement) == 2 else None
 
     @property
@@ -226,7 +220,6 @@ class Header:
 
 
 def fields_of(kind: Kind) -> dict[str, Field]:
-    """The declared fields of a class, by name."""
     return {item.name: item.metadata["wire"] for item in fields(kind)}
 
 

@@ -66,7 +66,6 @@ def write_metadata(metadata: Metadata) -> bytes:
 
 
 def parse_metadata(payload: bytes, limits: Limits) -> Metadata:
-    """Inverse of `write_metadata`."""
     limits.check("metadata_bytes", len(payload))
     try:
         return Metadata(dict(parse_map(payload)))
@@ -81,7 +80,6 @@ def write_plain(packet: Any) -> bytes:
 
 
 def parse_plain(kind: type[Any]) -> Callable[[bytes, Limits], Any]:
-    """Inverse of `write_plain`."""
     numbers = len(fields(kind)) - 1
 
     def parse(payload: bytes, limits: Limits) -> Any:
@@ -114,7 +112,6 @@ def write_end(end: End) -> bytes:
 
 
 def parse_end(payload: bytes, limits: Limits) -> End:
-    """Inverse of `write_end`."""
     cursor = Cursor(payload)
     end = End(cursor.varint(), int.from_bytes(cursor.take(4), "little"))
     cursor.finish()

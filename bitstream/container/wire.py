@@ -161,7 +161,6 @@ class Cursor:
         self._offset = 0
 
     def varint(self) -> int:
-        """The next varint."""
         parsed = parse_varint(self._payload, self._offset)
         if parsed is None:
             raise CorruptError("payload ends inside a varint")
@@ -169,19 +168,16 @@ class Cursor:
         return value
 
     def take(self, count: int) -> bytes:
-        """The next `count` bytes."""
         if count > len(self._payload) - self._offset:
             raise CorruptError(f"payload ends where {count} more bytes should be")
         self._offset += count
         return self._payload[self._offset - count : self._offset]
 
     def rest(self) -> bytes:
-        """Everything that is left."""
         return self.take(len(self._payload) - self._offset)
 
     @property
     def ended(self) -> bool:
-        """Whether nothing is left."""
         return self._offset == len(self._payload)
 
     def finish(self) -> None:

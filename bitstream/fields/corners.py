@@ -144,8 +144,6 @@ class FieldEncoder(_FieldCoder):
 
 
 class FieldDecoder(_FieldCoder):
-    """Twin of `FieldEncoder`."""
-
     def __init__(self, field: Field, limits: Limits = DEFAULT_LIMITS) -> None:
         limits.check("field_bytes", field.charge)
         super().__init__(field.start())
@@ -169,7 +167,6 @@ def write_rows(code: Kernel, first: int, count: int, row_bytes: int = 4) -> byte
 
 
 def read_rows(code: Kernel, payload: bytes, first: int, count: int) -> None:
-    """Twin of `write_rows`."""
     coder = start_reading(payload)
     done = code(coder, first, count)
     if overran(coder):

@@ -122,7 +122,6 @@ class Adaptive:
 
     @cached_property
     def model(self) -> CoefficientModel:
-        """What the chain has taught."""
         return CoefficientModel(self.width)
 
     def begin(self) -> Adaptive:

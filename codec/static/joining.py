@@ -36,7 +36,6 @@ def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
 
 
 def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool = True) -> JoinedMesh:
-    """Make vertices one."""
     notes = []
     faces = index[mesh.faces]
     collapsed = _degenerate(faces) & ~_degenerate(mesh.faces)

@@ -64,7 +64,6 @@ class Structure:
 
     @cached_property
     def scheme(self) -> Scheme:
-        """How blocks are coded."""
         header, setup = self.header, self.setup
         copies = header.blocks * header.block_size
         self.allowance.keep(COPY_MEMORY * copies)
@@ -90,8 +89,6 @@ class DecoderSetup:
 
 @dataclass(frozen=True, eq=False)
 class HeaderStage:
-    """Waits for the header."""
-
     setup: DecoderSetup
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
@@ -104,8 +101,6 @@ class HeaderStage:
 
 @dataclass(frozen=True, eq=False)
 class ConnectivityStage:
-    """Waits for connectivity."""
-
     setup: DecoderSetup
     header: Header
 

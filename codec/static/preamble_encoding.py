@@ -64,12 +64,10 @@ class Prepared:
 
     @cached_property
     def positions(self) -> Matrix:
-        """Positions of `mesh` in BSM units, shape (n, 3)."""
         return self.units.into(self.mesh.positions)
 
     @cached_property
     def component_sizes(self) -> Indices:
-        """Vertices of each connected component, shape (k,)."""
         return component_sizes(self.graph)
 
     @property
@@ -80,12 +78,10 @@ class Prepared:
 
     @cached_property
     def partition(self) -> Partition:
-        """The parts that blocks grow from."""
         return self.parts.cut(self.graph)
 
     @property
     def block_count(self) -> int:
-        """How many blocks there are."""
         return self.parts.count(self.graph.size)
 
     @property
@@ -99,7 +95,6 @@ class Prepared:
 
     @cached_property
     def blocks(self) -> Blocks:
-        """The blocks that the parts grow to."""
         return grow_blocks(self.graph, self.partition, self.size)
 
     @property
@@ -126,7 +121,6 @@ class Parts:
         return max(1, round(vertices / self.size))
 
     def cut(self, graph: Graph) -> Partition:
-        """The partition of a graph."""
         parts = self.count(graph.size)
         return metis_partition(graph, parts) if self.metis else derive_partition(graph, parts)
 

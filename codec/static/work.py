@@ -39,7 +39,6 @@ def mesh_cost(vertices: int, faces: int, received: int) -> float:
 
 
 def order_cost(vertices: int, faces: int, received: int) -> float:
-    """Work of restoring the order that a mesh had."""
     return 500.0 * vertices + 750.0 * faces + 100.0 * received
 
 
@@ -55,7 +54,6 @@ def run_cost(*, mesh: bool) -> float:
 
 
 def labels_cost(graph: Graph, received: int) -> float:
-    """Work of decoding the labels of parts."""
     return 300.0 * graph.size + 30.0 * len(graph.neighbours) + 100.0 * received
 
 
@@ -90,12 +88,10 @@ def block_memory(laplacian: Laplacian, columns: int) -> int:
 
 
 def grid_cost(vertices: int, faces: int) -> float:
-    """Work of a grid, before its bytes are counted."""
     return 1650.0 * vertices + 150.0 * faces
 
 
 def light_cost(vertices: int, faces: int) -> float:
-    """Work of a light grid, before its bytes are counted."""
     return 200.0 * vertices + 40.0 * faces
 
 
@@ -105,12 +101,10 @@ def layer_cost(vertices: int, faces: int, axes: int) -> float:
 
 
 def grid_chunk_cost(received: int) -> float:
-    """Work of a frame of a grid."""
     return 3.5e4 + CODED * received
 
 
 def light_chunk_cost(received: int) -> float:
-    """Work of a frame of a light grid."""
     return 5e4 + 120.0 * received
 
 
@@ -125,12 +119,10 @@ def floats_cost(vertices: int, largest: int) -> float:
 
 
 def grid_memory(vertices: int, faces: int) -> float:
-    """Bytes for decoding a grid, and its positions."""
     return 80.0 * vertices + grid_charge(vertices, faces)
 
 
 def layer_memory(vertices: int, faces: int) -> float:
-    """Bytes for decoding a layer of refinement, and its levels that wait."""
     return (28.0 + 48.0 * AXES) * vertices + levels_charge(vertices, faces)
 
 
@@ -155,7 +147,6 @@ def values_memory(values: int, faces: int, components: int) -> float:
 
 
 def recomputing_memory(values: int, faces: int) -> float:
-    """Bytes for making normals."""
     return 200.0 * faces + 100.0 * values
 
 
@@ -183,7 +174,6 @@ class Allowance:
 
     @property
     def limits(self) -> Limits:
-        """What the caller grants."""
         return self._limits
 
     @property
@@ -193,12 +183,10 @@ class Allowance:
 
     @property
     def spent(self) -> float:
-        """All work so far, in nanoseconds."""
         return self._spent
 
     @property
     def kept(self) -> float:
-        """Bytes that are kept now."""
         return self._kept
 
     def follow(self, other: Allowance) -> None:

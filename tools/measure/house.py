@@ -30,11 +30,11 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_800,
-    "all Python, lines": 76_900,
+    "product Python, lines": 34_650,
+    "all Python, lines": 76_800,
     "product modules": 216,
     "product C files and headers": 74,
-    "docstring lines of the product, percent": 12.2,
+    "docstring lines of the product, percent": 12,
     "header fields": 19,
     "fields of EncodeOptions": 28,
     "settings of --set": 19,

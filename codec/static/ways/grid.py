@@ -69,7 +69,6 @@ class Grid:
 
 
 def grid_of(header: Header) -> Grid:
-    """The grid of a stream."""
     exact = header.light == EXACT
     light = bool(header.light) and not exact
     return Grid(header.center, header.scale, header.grid, header.lattice, header.corner, light, exact)
@@ -191,7 +190,6 @@ class OnGrid:
     known: np.ndarray[Any, np.dtype[np.bool_]]
 
     def mesh(self) -> TriangleMesh:
-        """The mesh in its own unit."""
         numbering = self.structure.numbering
         return TriangleMesh(numbering.arranged(self.positions), numbering.faces)
 
@@ -200,5 +198,4 @@ class OnGrid:
         return Solid(self.positions, self.places) if self.known.all() else None
 
     def losses(self) -> Losses:
-        """What is missing."""
         return Losses(np.sort(self.structure.numbering.of(np.flatnonzero(~self.known).astype(np.int32))))

@@ -36,7 +36,6 @@ BENT_BY = 2
 
 
 def encode_layer(faces: Indices, levels: Levels) -> list[packets.Refinement]:
-    """The packets of levels, shape (n, 3)."""
     encoder, size = FieldEncoder(levels_field(faces, len(levels)), levels), len(levels)
     chunks = [(start, min(CHUNK, size - start)) for start in range(0, size, CHUNK)]
     return [packets.Refinement(start, count, encoder.chunk(count)) for start, count in chunks]
@@ -154,7 +153,6 @@ class Refined:
         return RefinementEvent(numbers, positions[rows])
 
     def mesh(self) -> TriangleMesh:
-        """The mesh in its own unit."""
         numbering = self._structure.numbering
         return TriangleMesh(numbering.arranged(self._structure.units.back(self._positions)), numbering.faces)
 
