@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 34_650,
-    "all Python, lines": 76_800,
+    "all Python, lines": 77_000,
     "product modules": 216,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
