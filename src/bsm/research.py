@@ -37,6 +37,7 @@ from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
+from bsm.files.pipes import Source, read_chunks
 from bsm.libraries import as_mesh
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -140,9 +141,9 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
     return MARK + stream if idea.needed_to_decode else stream
 
 
-def decode(data: bytes, idea: Idea | None = None, /, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:
-    """Decode what `encode` gave, with the same idea."""
-    idea = idea or Idea()
+def decode(stream: Source, idea: Idea | None = None, /, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:
+    """Decode what `encode` gave, as `bsm.decode` takes it, with the same idea."""
+    idea, data = idea or Idea(), b"".join(read_chunks(stream))
     if data.startswith(MARK) and not idea.needed_to_decode:
         raise FormatError("this stream was made with a dictionary or predictor of somebody's own, which is not given")
     return _decoded(data.removeprefix(MARK), idea, limits)
