@@ -7,6 +7,8 @@ import numpy.typing as npt
 
 Matrix = npt.NDArray[np.float64]
 """Real numbers, of any shape."""
+Basis = npt.NDArray[np.float32]
+"""Columns of a dictionary, and what its solver works on: single precision, shape (n, c)."""
 Positions = npt.NDArray[np.float64]
 """Coordinates of vertices, shape (n, 3), or of frames, shape (T, n, 3)."""
 Faces = npt.NDArray[np.int32]
@@ -21,3 +23,8 @@ Integers = npt.NDArray[np.signedinteger]
 """Whole numbers of any width."""
 Mask = npt.NDArray[np.bool_]
 """What holds for which vertex."""
+
+
+def sum_in_order(rows: Matrix) -> Matrix:
+    """Sum over the first axis, one row after the other (specification, M 1.3)."""
+    return np.asarray(np.add.accumulate(rows, axis=0)[-1])

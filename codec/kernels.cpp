@@ -93,28 +93,27 @@ NB_MODULE(_kernels, m) {
           Unlocked());
     m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a,
           "column"_a, "scratch"_a, "values"_a, "inverse"_a, Unlocked());
-    m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "power"_a, "scratch"_a,
-          "solution"_a, Unlocked());
-    m.def("cosines", &cosines, "first"_a, "table"_a, "columns"_a, Unlocked());
+    m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "scratch"_a, "solution"_a, Unlocked());
+    m.def("cosines", &cosines, "table"_a, "columns"_a, Unlocked());
     m.def("resize_columns", &resize_columns, "previous"_a, "table"_a, "columns"_a, Unlocked());
     m.def("iteration_space", &iteration_space, "n"_a, "c"_a);
-    m.def("iterate", &iterate, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "power"_a, "iterations"_a, "once"_a,
+    m.def("iterate", checked<&iterate>, "fronts"_a, "values"_a, "inverse"_a, "start"_a, "solutions"_a, "care"_a,
           "scratch"_a, "subspace"_a, Unlocked());
-    m.def("cholesky_onorm", &cholesky_onorm, "columns"_a, "once"_a, "scratch"_a, "subspace"_a, Unlocked());
     m.def("completion_space", &completion_space, "h"_a);
     m.def("complete_columns", checked<&complete_columns>, "first"_a, "least_pivot"_a, "scratch"_a,
           "whole"_a, Unlocked());
-    m.def("householder", &householder, "work"_a, "scratch"_a, "q"_a, Unlocked());
     m.def("project", &project, "subspace"_a, "values"_a, "coefficients"_a, Unlocked());
     m.def("reconstruct", &reconstruct, "subspace"_a, "coefficients"_a, "values"_a, Unlocked());
     m.def("show_frames", checked<&show_frames>, "field"_a, "first"_a, "weights"_a, "frames"_a, Unlocked());
+    m.def("multiply_matrices", checked<&multiply_matrices>, "left"_a, "right"_a, "result"_a, Unlocked());
+    m.def("turn_columns", checked<&turn_columns>, "free"_a, "vector"_a, "shares"_a, Unlocked());
     m.def("back_into_unit", checked<&back_into_unit>, "positions"_a, "scale"_a, "center"_a, "moved"_a, Unlocked());
     m.def("look_around", &look_around, "offsets"_a, "neighbours"_a, "vertices"_a, "inside"_a, "sums"_a, "weights"_a,
           "stiffness"_a, "springs"_a, "pulls"_a, Unlocked());
-    m.def("continue_known", &continue_known, "fronts"_a, "values"_a, "inverse"_a, "springs"_a, "total"_a, "pulls"_a,
+    m.def("continue_known", checked<&continue_known>, "fronts"_a, "values"_a, "inverse"_a, "springs"_a, "pulls"_a,
           "scratch"_a, "continued"_a, Unlocked());
     m.def("suspend", checked<&suspend>, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a, "springs"_a,
-          "pulls"_a, "shift"_a, "scratch"_a, "values"_a, "inverse"_a, "continued"_a, Unlocked());
+          "pulls"_a, "shift"_a, "sums"_a, "column"_a, "scratch"_a, "values"_a, "inverse"_a, "continued"_a, Unlocked());
     m.def("place_block", checked<&place_block>, "prediction"_a, "subspace"_a, "levels"_a, "half_step"_a, "scratch"_a,
           "positions"_a, Unlocked());
     m.def("apply_powers", &apply_powers, "offsets"_a, "neighbours"_a, "terms"_a, "degree"_a, Unlocked());

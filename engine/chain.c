@@ -52,7 +52,7 @@ static bool begin_chain(Chains *chains, int64_t number) {
     if (chains->knows && chains->number >= 0) forget_positions(chains);
     chains->number = number;
     chains->first = chains->next = number * chain_length(chains->header);
-    chains->subspace = (Doubles2){NULL, 0, 0};
+    chains->subspace = (Singles2){NULL, 0, 0};
     end_chains(chains);
     chains->bank = make_bank(&chains->chain, (BankPlan){.slots = LEVEL_SLOTS, .selectors = SELECTORS * NODES, .inputs = EXPECTATIONS,
                                                  .limit = LEVEL_LIMIT, .rate = LEVEL_RATE});
@@ -97,19 +97,20 @@ static bool read_levels(Chains *chains, Span payload, Ints2 levels) {
 static bool suspend_patch(Chains *chains, const Patch *patch, Arena *scratch, Doubles springs, Factor *factor, Doubles2 continued) {
     int64_t n = patch->size;
     Doubles2 pulls = zero_doubles2(scratch, n, 3);
-    Doubles room = take_doubles(scratch, 2 * n + 4 + solving_space(n, 3));
-    int64_t size = patch->fronts.places.data[patch->fronts.places.size - 1];
-    *factor = (Factor){take_doubles(scratch, size + 7), take_doubles(scratch, n)};
+    Singles room = take_singles(scratch, solving_space(n, 3));
+    Doubles sums = take_doubles(scratch, n);
+    Words column = take_words(scratch, n + 1);
+    *factor = factor_room(scratch, patch);
     if (failed(chains->context)) return false;
     if (chains->knows)
         look_around(chains->graph->offsets, chains->graph->neighbours, patch->vertices, chains->inside, const_doubles2(chains->known.sums),
             const_doubles(chains->known.weights), STIFFNESS, springs, pulls);
     suspend(patch->offsets, patch->neighbours, patch->weights, const_doubles(patch->diagonal), patch->fronts, const_doubles(springs),
-        const_doubles2(pulls), chains->header->paper.shift, room, factor->values, factor->inverse, continued);
+        const_doubles2(pulls), chains->header->paper.shift, sums, column, room, factor->values, factor->inverse, continued);
     return true;
 }
 
-static bool make_dictionary(Chains *chains, const Patch *patch, ConstDoubles springs, const Factor *factor, int64_t width, Arena *scratch, Doubles2 *dictionary) {
+static bool make_dictionary(Chains *chains, const Patch *patch, ConstDoubles springs, const Factor *factor, int64_t width, Arena *scratch, Singles2 *dictionary) {
     Arena *arena = &chains->subspaces[!chains->present];
     if (chains->subspace.rows == patch->size)
         return following_dictionary(chains->context, chains->header, patch, factor, chains->subspace, width, arena, scratch, dictionary);
@@ -117,7 +118,7 @@ static bool make_dictionary(Chains *chains, const Patch *patch, ConstDoubles spr
 }
 
 /* What is decoded of a block becomes what the next one knows. */
-static void commit(Chains *chains, Doubles2 dictionary, const DecodedBlock *decoded) {
+static void commit(Chains *chains, Singles2 dictionary, const DecodedBlock *decoded) {
     chains->subspace = dictionary;
     release_all(&chains->subspaces[chains->present]);
     chains->present = !chains->present;
@@ -134,17 +135,18 @@ static bool place(Chains *chains, const Patch *patch, int64_t index, int64_t wid
     Context *context = chains->context;
     int64_t n = patch->size;
     Doubles springs = zero_doubles(scratch, n), weights = take_doubles(scratch, n), room = take_doubles(scratch, 3 * width);
-    Doubles2 continued = take_doubles2(scratch, n, 3), positions = take_doubles2(scratch, n, 3), dictionary;
+    Doubles2 continued = take_doubles2(scratch, n, 3), positions = take_doubles2(scratch, n, 3);
+    Singles2 dictionary;
     Factor factor;
     if (failed(context) || !suspend_patch(chains, patch, scratch, springs, &factor, continued)) return false;
     if (!make_dictionary(chains, patch, const_doubles(springs), &factor, width, scratch, &dictionary)
         || !spend(context, ground_work(&patch->fronts, width), 0))
         return false;
     if (chains->header->paper.bits > 0) {
-        reconstruct(const_doubles2(dictionary), const_doubles2(coefficients), positions);
+        reconstruct(const_singles2(dictionary), const_doubles2(coefficients), positions);
         for (int64_t i = 0; i < 3 * n; i++) positions.data[i] = continued.data[i] + positions.data[i];
     } else {
-        place_block(const_doubles2(continued), const_doubles2(dictionary), const_ints2(levels), chains->header->step / 2, room, positions);
+        place_block(const_doubles2(continued), const_singles2(dictionary), const_ints2(levels), chains->header->step / 2, room, positions);
     }
     *decoded = decoded_block(patch, index, positions, weights);
     commit(chains, dictionary, decoded);

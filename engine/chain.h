@@ -8,7 +8,7 @@
 
 /* C and D^-1 of L + diagonal. */
 typedef struct {
-    Doubles values, inverse;
+    Singles values, inverse;
 } Factor;
 
 /* How a dictionary is iterated: z, t, and at most how many columns that gives (M 8.4, M 8.7). */
@@ -19,16 +19,17 @@ typedef struct {
 /* U of a patch that follows none (M 8.3 to M 8.5), of `width` columns, in `arena`; `held` is the factor of L + springs + shift,
  * or NULL. */
 bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs, const Factor *held,
-    int64_t width, Arena *arena, Arena *scratch, Doubles2 *dictionary);
+    int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary);
 /* U of a patch whose predecessor has as many rows, and the dictionary `previous`. */
-bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor, Doubles2 previous,
-    int64_t width, Arena *arena, Arena *scratch, Doubles2 *dictionary);
+bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor, Singles2 previous,
+    int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary);
 bool factorize_patch(Context *context, const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor);
 /* Columns that follow from L, of a block of so many rows (M 8.7). */
 INLINE int64_t iterated_columns(const Header *header, int64_t rows) {
     return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 2) / 3 : rows;
 }
-INLINE int64_t solving_space(int64_t rows, int64_t columns) { return (rows + 4) * (columns + 8) + 7; }
+INLINE int64_t solving_space(int64_t rows, int64_t columns) { return (rows + 4) * (columns + 16) + 15; }
+Factor factor_room(Arena *arena, const Patch *patch);
 
 /* Sums of weight times position, and weights. */
 typedef struct {
@@ -44,7 +45,7 @@ typedef struct {
     const Blocks *blocks;
     Arena chain, subspaces[2]; /* what the coder has learnt; the present dictionary, and the next */
     int present;
-    Doubles2 subspace;         /* of the block before; no rows if there is none */
+    Singles2 subspace;         /* of the block before; no rows if there is none */
     bool knows;                /* whether blocks know of others' positions */
     Blended known;
     Bytes inside;

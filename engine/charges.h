@@ -34,23 +34,20 @@ INLINE double grid_memory(double n, double m) { return 80 * n + grid_charge(n, m
 INLINE double levels_charge(double n, double m) { return (24 + 36) * n + 48 * m + LEVEL_MODEL_BYTES + (1 << 17); }
 INLINE double layer_memory(double n, double m) { return (28 + 48 * 3) * n + levels_charge(n, m); }
 
-/* Dictionaries: columns count as they are computed, in vectors of eight. */
-INLINE double whole_columns(int64_t columns) { return (double)((columns + 7) / 8 * 8); }
+/* Dictionaries: columns count as they are computed, in vectors of sixteen. */
+INLINE double whole_columns(int64_t columns) { return (double)((columns + 15) / 16 * 16); }
 INLINE double solve_work(const Fronts *fronts, int64_t columns) {
-    return 50 + fronts->sums.data[0] * (0.6 * (double)((columns + 31) / 32) + 0.035 * whole_columns(columns));
+    return 50 + fronts->sums.data[0] * (0.3 * (double)((columns + 63) / 64) + 0.02 * whole_columns(columns));
 }
-INLINE double factor_work(const Fronts *fronts) { return fronts->sums.data[1] / 14 + 40.0 * (double)fronts->rows.size + 4000; }
+INLINE double factor_work(const Fronts *fronts) { return fronts->sums.data[1] / 6 + 50.0 * (double)fronts->rows.size + 4000; }
 INLINE double onorm_work(double rows, int64_t columns) {
     double c = whole_columns(columns);
-    return rows * (3 + 0.5 * c + c * c / 29) + 1500;
+    return rows * (3 + 0.4 * c + c * c / 80) + 3000;
 }
-INLINE double reflection_work(double rows, double columns) { return 0.35 * rows * columns * columns + 4000; }
-INLINE double dictionary_work(const Fronts *fronts, int64_t columns, double power, double iterations) {
+INLINE double dictionary_work(const Fronts *fronts, int64_t columns, double solutions, double care) {
     double rows = (double)fronts->rows.size;
-    return 5 * rows * whole_columns(columns) + iterations * (power * solve_work(fronts, columns) + onorm_work(rows, columns));
-}
-INLINE double careful_work(const Fronts *fronts, int64_t columns, double steps) {
-    return steps * (solve_work(fronts, columns) + 1.1 * onorm_work((double)fronts->rows.size, columns));
+    double rounds = solutions * solve_work(fronts, columns) + (solutions + 1) * onorm_work(rows, columns);
+    return 5 * rows * whole_columns(columns) + rounds + 6 * rows * (double)columns * care;
 }
 INLINE double completion_work(double rows, double first, double columns) {
     double more = above_zero(columns - first);

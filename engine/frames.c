@@ -79,7 +79,8 @@ static bool fill_known(Bend bend, ConstDoubles2 first_frame, const Mover *movers
 static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, const Mover *movers, int count, int64_t columns, Arena *scratch) {
     const Site *part = gops->part + index;
     int64_t n = part->patch.size, ends = part->around.size;
-    Doubles2 dictionary, here = take_doubles2(scratch, n, columns), around = take_doubles2(scratch, ends, columns);
+    Singles2 dictionary;
+    Doubles2 here = take_doubles2(scratch, n, columns), around = take_doubles2(scratch, ends, columns);
     Doubles2 expected = take_doubles2(scratch, n, columns), differences = take_doubles2(scratch, part->width, columns);
     if (failed(gops->context) || !lend_dictionary(gops, index, scratch, &dictionary)) return false;
     Doubles2 places = take_doubles2(scratch, n, 3);
@@ -91,7 +92,7 @@ static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, cons
         || !extend_part(gops, part, const_doubles2(around), scratch, expected))
         return false;
     for (int64_t i = 0; i < n * columns; i++) here.data[i] -= expected.data[i];
-    project(const_doubles2(dictionary), const_doubles2(here), differences);
+    project(const_singles2(dictionary), const_doubles2(here), differences);
     int64_t place = 0;
     for (int k = 0; k < gops->tracks; k++) {
         Doubles2 known = gops->track[k].known;
@@ -155,7 +156,7 @@ static Doubles2 time_cosines(int64_t frames, Arena *arena) {
     Doubles2 columns = take_doubles2(arena, frames, frames);
     Doubles table = take_doubles(arena, frames + 8);
     if (failed(arena->context)) return columns;
-    cosines(0, table, columns);
+    cosines(table, columns);
     double scale = __builtin_sqrt(2.0 / (double)frames), first = __builtin_sqrt(1.0 / (double)frames);
     for (int64_t i = 0; i < frames * frames; i++) columns.data[i] = i % frames == 0 ? first : columns.data[i] * scale;
     return columns;
@@ -189,26 +190,6 @@ static void add_row(double *to, double scalar, const double *from, int64_t count
     for (int64_t i = 0; i < count; i++) to[i] += scalar * from[i];
 }
 
-/* Columns at right angles, of what is free in them, which they overwrite (S 5.3). */
-static void turn_columns(Doubles2 free, double *v, double *shares) {
-    int64_t rows = free.rows, columns = free.columns;
-    for (int64_t k = columns - 1; k >= 0; k--) {
-        double square = 0.0, turned = 0.0;
-        for (int64_t r = k; r < rows; r++) {
-            v[r] = free.data[r * columns + k];
-            square += v[r] * v[r];
-        }
-        if (!(square > 0.0)) continue;
-        v[k] += v[k] < 0.0 ? -__builtin_sqrt(square) : __builtin_sqrt(square);
-        for (int64_t r = k; r < rows; r++) turned += v[r] * v[r];
-        int64_t count = columns - k - 1;
-        for (int64_t i = 0; i < count; i++) shares[i] = 0.0;
-        for (int64_t r = k; r < rows; r++) add_row(shares, v[r], free.data + r * columns + k + 1, count);
-        for (int64_t i = 0; i < count; i++) shares[i] *= 2.0 / turned;
-        for (int64_t r = k; r < rows; r++) add_row(free.data + r * columns + k + 1, -v[r], shares, count);
-    }
-}
-
 /* B: number 0 of all frames, then number 1, and so on (S 5.2, S 5.3). */
 static bool decode_basis(Context *context, const GopField *field, int64_t frames, Arena *arena, Arena *scratch, Doubles2 *basis) {
     int64_t width = field->width, r = field->components, size = frames * r;
@@ -233,7 +214,7 @@ static bool decode_basis(Context *context, const GopField *field, int64_t frames
             state = trellis_following(state, level);
         }
     }
-    if (done) turn_columns(turned, vector.data, shares.data);
+    if (done) turn_columns(turned, vector, shares);
     for (int64_t c = 0; done && c < width; c++)
         for (int64_t t = 0; t < frames; t++)
             for (int64_t f = 0; f < frames; f++)
@@ -357,7 +338,7 @@ static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_
     Context *context = gops->context;
     const Site *part = gops->part + index;
     int64_t n = part->patch.size, m = part->around.size, c = part->width, total = gops->field.columns, place = 0;
-    Doubles2 dictionary;
+    Singles2 dictionary;
     if (!lend_dictionary(gops, index, scratch, &dictionary)) return false;
     Doubles2 around = take_doubles2(scratch, m, total), differences = take_doubles2(scratch, c, total);
     Doubles2 positions = take_doubles2(scratch, n, total), extension = take_doubles2(scratch, n, total);
@@ -379,7 +360,7 @@ static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_
     *begin += c;
     if (total == 0) return true;
     if (!extend_part(gops, part, const_doubles2(around), scratch, extension)) return false;
-    reconstruct(const_doubles2(dictionary), const_doubles2(differences), positions);
+    reconstruct(const_singles2(dictionary), const_doubles2(differences), positions);
     for (int64_t r = 0; r < n; r++)
         for (int64_t j = 0; j < total; j++)
             gops->field.data[part->patch.vertices.data[r] * total + j] = positions.data[r * total + j] + extension.data[r * total + j];

@@ -44,12 +44,11 @@ int64_t lags_of(int64_t kept, bool brief);
 typedef struct {
     Patch patch;
     Doubles springs, stiffness;
-    double pulling;       /* the sum of springs */
     Ints starts, outer, around; /* `outer`: which of the vertices `around` each spring goes to */
     Factor factor;
     int64_t width, first; /* columns of the dictionary; row of the first vertex around it, where rows of all parts are stacked */
     double making, work;  /* bytes that making the dictionary takes; nanoseconds that it took, -1 before */
-    Doubles2 dictionary;  /* no rows unless it is kept */
+    Singles2 dictionary;  /* no rows unless it is kept */
     Mark before;
 } Site;
 
@@ -110,7 +109,7 @@ bool find_parts(Gops *gops, ConstInts2 faces, ConstDoubles2 first_frame, Arena *
 bool reserve_dictionaries(Gops *gops, double memory, double use, double *work);
 void release_dictionaries(Gops *gops);
 /* U of a part, until `scratch` is released or room is reserved again. */
-bool lend_dictionary(Gops *gops, int64_t index, Arena *scratch, Doubles2 *dictionary);
+bool lend_dictionary(Gops *gops, int64_t index, Arena *scratch, Singles2 *dictionary);
 /* What continues a field into a part, of which `ends` are the rows around it. */
 bool extend_part(Gops *gops, const Site *part, ConstDoubles2 ends, Arena *scratch, Doubles2 extension);
 

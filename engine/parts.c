@@ -69,11 +69,9 @@ static bool hang_part(const Graph *graph, ConstDoubles weights, ConstInts rank, 
         patch->neighbours, inner, part->springs, part->starts, part->outer, part->stiffness);
     part->around = number_around(part->outer, place, scratch);
     patch->weights = const_doubles(inner);
-    part->pulling = 0.0;
     for (int64_t r = 0; fine(scratch->context) && r < n; r++) {
         patch->diagonal.data[r] = 0.0;
         for (int64_t i = patch->offsets.data[r]; i < patch->offsets.data[r + 1]; i++) patch->diagonal.data[r] += inner.data[i];
-        part->pulling += part->springs.data[r];
     }
     return fine(scratch->context);
 }
@@ -196,7 +194,7 @@ bool reserve_dictionaries(Gops *gops, double memory, double use, double *work) {
     return true;
 }
 
-bool lend_dictionary(Gops *gops, int64_t index, Arena *scratch, Doubles2 *dictionary) {
+bool lend_dictionary(Gops *gops, int64_t index, Arena *scratch, Singles2 *dictionary) {
     Context *context = gops->context;
     Site *part = gops->part + index;
     *dictionary = part->dictionary;
@@ -221,11 +219,11 @@ bool extend_part(Gops *gops, const Site *part, ConstDoubles2 ends, Arena *scratc
     int64_t n = part->patch.size, m = ends.columns;
     Mark mark = mark_of(scratch);
     Doubles2 pulls = take_doubles2(scratch, n, m);
-    Doubles room = take_doubles(scratch, m + solving_space(n, m));
+    Singles room = take_singles(scratch, solving_space(n, m));
     if (fine(gops->context)) {
         pull(const_ints(part->starts), const_ints(part->outer), const_doubles(part->stiffness), ends, pulls);
-        continue_known(part->patch.fronts, part->factor.values, const_doubles(part->factor.inverse), const_doubles(part->springs),
-            part->pulling, const_doubles2(pulls), room, extension);
+        continue_known(part->patch.fronts, part->factor.values, const_singles(part->factor.inverse), const_doubles(part->springs),
+            const_doubles2(pulls), room, extension);
     }
     release_to(scratch, mark);
     return fine(gops->context);

@@ -624,42 +624,149 @@ def surroundings(graph, block, known):
         for w, k in hooks:
             if known.weights[w] > 0:
                 springs[r] += k
-                pulls[r] += k * known.sums[w] / known.weights[w]
+                pulls[r] += k * (known.sums[w] / known.weights[w])
     return springs, pulls
 
 
-def extend(laplacian, springs, pulls, shift):
-    """M 7.4."""
-    if springs.sum() == 0.0:
-        return np.zeros_like(pulls)
-    mean = pulls.sum(axis=0) / springs.sum()
-    matrix = laplacian + np.diag(springs + shift)
-    return mean + np.linalg.solve(matrix, pulls - springs[:, None] * mean)
+def ordered_sum(terms):
+    """M 1.3: one term after the other."""
+    return np.add.accumulate(terms, axis=0)[-1] if len(terms) else np.zeros(terms.shape[1:])
+
+
+def product(left, right):
+    """M 1.3: sums of products, one term after the other."""
+    result = np.zeros((len(left), right.shape[1]), np.result_type(left, right))
+    for k in range(left.shape[1]):
+        result += left[:, k, None] * right[k]
+    return result
+
+
+class Solver:
+    """M 7.5 to M 7.7: (L + S + shift I)^-1 in single precision."""
+
+    def __init__(self, laplacian, springs, shift):
+        size = len(laplacian)
+        farthest = [max(np.flatnonzero(row), default=0) for row in laplacian]
+        self.order = elimination_order(list(range(size)), 0, size, farthest)
+        matrix = laplacian.copy()
+        matrix[range(size), range(size)] += springs + shift
+        self.c, self.d = matrix[np.ix_(self.order, self.order)].astype(np.float32), np.zeros(size, np.float32)
+        for k in range(size):
+            own = self.c[k, k + 1 :].copy()
+            self.d[k] = np.float32(1) / self.c[k, k]
+            self.c[k, k + 1 :] = own * self.d[k]
+            self.c[k + 1 :, k + 1 :] -= self.c[k, k + 1 :, None] * own
+
+    def solve(self, columns):
+        """M 7.7, of rows in the order of elimination."""
+        x = columns.astype(np.float32)
+        for k in range(len(x)):
+            x[k + 1 :] -= self.c[k, k + 1 :, None] * x[k]
+        x *= self.d[:, None]
+        for k in reversed(range(len(x))):
+            x[:k] -= self.c[:k, k, None] * x[k]
+        return x
+
+    def extend(self, springs, pulls):
+        """M 7.4."""
+        total = ordered_sum(springs)
+        if total == 0.0:
+            return np.zeros_like(pulls)
+        mean, result = ordered_sum(pulls) / total, np.zeros_like(pulls)
+        result[self.order] = self.solve((pulls - springs[:, None] * mean)[self.order])
+        return result + mean
+
+    def iterate(self, start, solutions):
+        """M 8.4."""
+        columns = start[self.order]
+        for _ in range(solutions):
+            columns = onorm(self.solve(columns), self.order)
+        result = np.zeros_like(start)
+        result[self.order] = onorm(columns, self.order)
+        return result
+
+
+def elimination_order(rows, first, last, farthest):
+    """M 7.5: the rows of a segment, of those that are in no separator yet."""
+    if last - first <= LEAF:
+        return rows
+    cut = (first + last) // 2
+    separator = [r for r in rows if r < cut <= farthest[r]]
+    halves = [r for r in rows if r < cut and farthest[r] < cut], [r for r in rows if r >= cut]
+    before = elimination_order(halves[0], first, cut, farthest) + elimination_order(halves[1], cut, last, farthest)
+    return before + separator
+
+
+def onorm(columns, order):
+    """M 8.1."""
+    x, lengths = columns.copy(), ordered_sum(columns * columns)
+    for begin in range(0, x.shape[1], 64):
+        panel = x[:, begin : begin + 64]
+        width = panel.shape[1]
+        c, e, good = product(panel.T, panel), np.zeros(width, np.float32), width
+        for j in range(width):
+            for i in range(j):
+                c[j, j:] -= c[i, j] * c[i, j:]
+            if not np.float32(2.0**-14) * lengths[begin + j] < c[j, j] < np.inf:
+                good = j
+                break
+            e[j] = np.float32(1) / np.sqrt(c[j, j])
+            c[j, j:] *= e[j]
+        t = np.zeros((good, good), np.float32)
+        for j in reversed(range(good)):
+            for i in range(j + 1, good):
+                t[j] -= c[j, i] * e[j] * t[i]
+            t[j, j] = e[j]
+        panel[:, :good] = product(panel[:, :good], t)
+        for j in range(good, width):
+            panel[:, j] = cleaned(x[:, : begin + j], panel[:, j], order)
+        behind = x[:, begin + 64 :]
+        shares = product(panel.T, behind)
+        for i in range(width):
+            behind -= panel[:, i, None] * shares[i]
+    return x
+
+
+def cleaned(before, column, order):
+    """M 8.8."""
+    v, times = column.copy(), 0
+    while times < 8:
+        square = ordered_sum(v * v)
+        if times == 4 or (times < 4 and not 0 < square < np.inf):
+            j, times = before.shape[1], 4
+            v = np.array([hash_entry(row, j) for row in order]).astype(np.float32)
+            square = ordered_sum(v * v)
+        if not 0 < square < np.inf:
+            break
+        v *= np.float32(1) / np.sqrt(square)
+        shares = product(before.T, v[:, None])
+        for i in range(before.shape[1]):
+            v -= before[:, i] * shares[i]
+        square, times = ordered_sum(v * v), times + 1
+        if square > 0.25:
+            return v * (np.float32(1) / np.sqrt(square))
+    raise NumericError("columns cannot be made orthonormal")
 
 
 def cosine_columns(rows, first, last):
-    """M 8.2."""
-    r, j = np.arange(rows)[:, None], np.arange(first, last)[None, :]
-    return np.cos(np.pi / (2 * rows) * ((2 * r + 1) * j % (4 * rows)))
+    """M 8.2, before they are rounded."""
+    k, unit = np.arange(rows + 1), 3.141592653589793 / (2 * rows)
+    low, high = k * unit, (rows - k) * unit
+    value, slope = np.ones(rows + 1), np.ones(rows + 1)
+    for n in range(20, 0, -2):
+        value = 1.0 - value * low * low / (n * (n - 1))
+        slope = 1.0 - slope * high * high / (n * (n + 1))
+    table = np.where(k <= rows // 2, value, slope * high)
+    angle = (2 * np.arange(rows)[:, None] + 1) * np.arange(first, last)[None, :] % (4 * rows)
+    fold = np.minimum(angle, 4 * rows - angle)
+    return table[np.minimum(fold, 2 * rows - fold)] * np.where(fold <= rows, 1.0, -1.0)
 
 
-def onorm(columns):
-    """M 8.1."""
-    q, r = np.linalg.qr(columns)
-    return q * np.where(np.diag(r) < 0, -1.0, 1.0)
-
-
-def orthogonal_iterations(laplacian, start, diagonal, power, iterations):
-    """M 8.4, orthonormalised after every solution."""
-    matrix, subspace = laplacian + np.diag(diagonal), start
-    for _ in range(iterations * power):
-        subspace = onorm(np.linalg.solve(matrix, subspace))
-    return subspace
-
-
-def noisy_columns(rows, columns):
-    """M 8.3, M 8.5."""
-    return cosine_columns(rows, 0, columns) + 0.25 * hash_columns(rows, columns)
+def start_columns(previous, rows, columns, noise):
+    """M 8.3: of a predecessor's columns, and cosines where it has fewer."""
+    had = previous.shape[1]
+    start = np.hstack([previous, cosine_columns(rows, had, max(had, columns)).astype(np.float32)])[:, :columns]
+    return start + (noise * hash_columns(rows, columns)).astype(np.float32) if noise else start
 
 
 def connected(laplacian):
@@ -673,21 +780,15 @@ def connected(laplacian):
     return len(found) == len(laplacian)
 
 
-def exact_basis(laplacian, columns, springs):
-    """M 8.5."""
-    start = noisy_columns(len(laplacian), columns)
-    return orthogonal_iterations(laplacian, start, springs + 2.0**-5, 2, 128)
-
-
 def key_dictionary(header, laplacian, columns, springs):
     """M 8: of a block that follows none."""
-    first = min(columns, iterated(header, len(laplacian)))
-    if header["exact"] == 1:
-        return completed(exact_basis(laplacian, first, springs), columns)
-    start = cosine_columns(len(laplacian), 0, first) if connected(laplacian) else noisy_columns(len(laplacian), first)
-    diagonal = springs + header["shift"]
-    found = orthogonal_iterations(laplacian, start, diagonal, header["power"], header["key_iterations"])
-    return completed(found, columns)
+    first, rows = min(columns, iterated(header, len(laplacian))), len(laplacian)
+    exact, nothing = header["exact"] == 1, np.zeros((rows, 0), np.float32)
+    start = start_columns(nothing, rows, first, 0.25 if exact or not connected(laplacian) else 0.0)
+    if exact:  # M 8.5
+        return completed(Solver(laplacian, springs, 2.0**-5).iterate(start, 256), columns)
+    solver = Solver(laplacian, springs, header["shift"])
+    return completed(solver.iterate(start, header["power"] * header["key_iterations"]), columns)
 
 
 def iterated(header, rows):
@@ -700,35 +801,36 @@ def completed(found, columns):
     rows, h = found.shape
     if columns == h:
         return found
-    both = found + np.eye(rows, h)
-    if least_pivot(both[:h]) < 2.0**-20:
-        raise NumericError("a dictionary cannot be completed")
-    others = np.eye(rows)[:, h:] - both @ np.linalg.solve(both[:h].T, found[h:].T)
+    both = found + np.eye(rows, h, dtype=np.float32)
+    upper, z = both[:h].T.copy(), found[h:].T.copy()
+    for k in range(h):
+        if not upper[k, k] >= 2.0**-20:
+            raise NumericError("a dictionary cannot be completed")
+        share = upper[k + 1 :, k] * (np.float32(1) / upper[k, k])
+        upper[k + 1 :] -= share[:, None] * upper[k]
+        z[k + 1 :] -= share[:, None] * z[k]
+    for k in reversed(range(h)):
+        for j in range(h - 1, k, -1):
+            z[k] -= upper[k, j] * z[j]
+        z[k] *= np.float32(1) / upper[k, k]
+    others = np.eye(rows, dtype=np.float32)[:, h:]
+    for k in range(h):
+        others = others - both[:, k, None] * z[k]
     return np.concatenate([found, others], axis=1)[:, :columns]
 
 
-def least_pivot(matrix):
-    """M 8.7: of an elimination without exchanges."""
-    rest, pivots = matrix.copy(), []
-    for k in range(len(rest)):
-        pivots.append(rest[k, k])
-        if not pivots[-1] > 0:
-            break
-        rest[k + 1 :] -= np.outer(rest[k + 1 :, k] / rest[k, k], rest[k])
-    return min(pivots)
+def hash_entry(row, column):
+    """M 8.6."""
+    z = ((row << 32) + column + 1) * 0x9E3779B97F4A7C15 % 2**64
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 % 2**64
+    z = (z ^ z >> 27) * 0x94D049BB133111EB % 2**64
+    z ^= z >> 31
+    return (z >> 11) * 2.0**-52 - 1.0
 
 
 def hash_columns(rows, columns):
     """M 8.6."""
-
-    def entry(row, column):
-        z = ((row << 32) + column + 1) * 0x9E3779B97F4A7C15 % 2**64
-        z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 % 2**64
-        z = (z ^ z >> 27) * 0x94D049BB133111EB % 2**64
-        z ^= z >> 31
-        return (z >> 11) * 2.0**-52 - 1.0
-
-    return np.array([[entry(r, j) for j in range(columns)] for r in range(rows)])
+    return np.array([[hash_entry(r, j) for j in range(columns)] for r in range(rows)]).reshape(rows, columns)
 
 
 # ---------------------------------------------------------------- M 9: coefficients
@@ -898,25 +1000,27 @@ def unzipped(data, size):
 
 
 def smoothing_powers(amount):
-    """M 12.3: coefficients of x^2 to x^5, by solving for the values at the four nodes."""
-    nodes = np.array([0.4, 0.9, 1.4, 1.8])
-    matrix = nodes[:, None] ** np.arange(2, 6)
-    return np.linalg.solve(matrix, 1 / (1 + amount * nodes**2) - 1)
+    """M 12.3: coefficients of x^2 to x^5."""
+    nodes = [0.4, 0.9, 1.4, 1.8]
+    table = [-amount / (1.0 + amount * x * x) for x in nodes]
+    for level in range(1, 4):
+        for i in range(3, level - 1, -1):
+            table[i] = (table[i] - table[i - 1]) / (nodes[i] - nodes[i - level])
+    powers = [0.0] * 4
+    for node, value in zip(reversed(nodes), reversed(table)):
+        powers = [before - node * own for before, own in zip([value, *powers], powers)]
+    return powers
 
 
 def smooth(graph, positions, amount):
     """M 12.2, M 12.4."""
     if amount == 0.0:
         return positions
-    walk = np.zeros((len(graph), len(graph)))
-    for v, row in enumerate(graph):
-        if row:
-            walk[v, v] = 1.0
-            walk[v, row] = -1.0 / len(row)
-    current, result = walk @ positions, positions
-    for coefficient in smoothing_powers(amount):
-        current = walk @ current
-        result = result + coefficient * current
+    current, result = positions, positions
+    for k, power in enumerate([0.0, *smoothing_powers(amount)]):
+        around = [ordered_sum(current[row]) * (1.0 / len(row)) if row else own for row, own in zip(graph, current)]
+        current = current - around
+        result = result + power * current if k else result
     return result
 
 
@@ -935,11 +1039,11 @@ class Allowance:
         if header["exact"] == 1 and not follows:
             power, iterations = 2, 128
         h = min(columns, iterated(header, rows))
-        whole, all_columns = -(-h // 8) * 8, -(-columns // 8) * 8
+        whole, all_columns = -(-h // 16) * 16, -(-columns // 16) * 16
         require_limit(8 * (6 * rows * all_columns + 2 * all_columns**2), MOST_MEMORY + 1024 * self.vertices, "memory")
-        solution = 40 * rows * (0.6 * -(-h // 32) + 0.035 * whole)
-        rounding = rows * (3 + 0.5 * whole + whole**2 / 29)
-        self.work += 5 * rows * whole + iterations * (power * solution + rounding)
+        solution = 40 * rows * (0.3 * -(-h // 64) + 0.02 * whole)
+        rounding = rows * (3 + 0.4 * whole + whole**2 / 80)
+        self.work += 5 * rows * whole + iterations * power * solution + (iterations * power + 1) * rounding
         if columns > h:  # M 8.7
             self.work += (h**3 / 3 + (columns - h) * h * (h + rows)) / 15 + 2 * rows * columns
         require_limit(self.work, MOST_WORK + 3.2e4 * (self.before + self.vertices + self.shown), "work")
@@ -1068,6 +1172,11 @@ def decode_grid(mesh, grids):
     return np.array(positions), reader.x
 
 
+def dot(a, b):
+    """M 1.3: scalar products of rows."""
+    return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
+
+
 def refine(mesh, positions, refinements):
     """M 17: base positions and what the layer adds to them."""
     (step, ratio), count = mesh.header["refinement"], len(positions)
@@ -1077,10 +1186,10 @@ def refine(mesh, positions, refinements):
         for v in (a, b, c):
             sums[v] += normal
     pole, axes = np.array([0.48, 0.6, 0.64]), np.array([[-0.8, 0.0, 0.6], [0.36, -0.8, 0.48]])
-    tilted = sums + (2.0**-10 * math.sqrt((sums**2).sum() / count) + 2.0**-33) * pole
-    normals = tilted / np.sqrt((tilted**2).sum(axis=1) + 2.0**-200)[:, None]  # M 17.2
-    along = np.maximum(1 + normals @ pole, 2.0**-20)
-    frames = [normals, *(axis - (normals @ axis / along)[:, None] * (pole + normals) for axis in axes)]
+    tilted = sums + (math.sqrt(ordered_sum(dot(sums, sums)) / count) * 2.0**-10 + 2.0**-33) * pole
+    normals = tilted / np.sqrt(dot(tilted, tilted) + 2.0**-200)[:, None]  # M 17.2
+    along = np.maximum(1.0 + dot(pole, normals), 2.0**-20)
+    frames = [normals, *(axis - (dot(axis, normals) / along)[:, None] * (pole + normals) for axis in axes)]
     reader, coded = LevelsReader(mesh.faces, count), 0  # M 17.3
     for _, size, payload in refinements:
         reader.read(payload, size)
@@ -1105,16 +1214,17 @@ def tangent_ratios(faces, places, ratio):
         for v, start, end in ((a, b, c), (b, c, a), (c, a, b)):
             rim = places[end] - places[start]
             sums[v] += normal
-            areas[v] += math.sqrt(normal @ normal)
+            areas[v] += math.sqrt(dot(normal, normal))
             rims[v] += rim
-            lengths[v] += math.sqrt(rim @ rim)
-    own = 1 - np.sqrt((sums**2).sum(axis=1)) / (areas + 2.0**-200)
-    own += np.sqrt((rims**2).sum(axis=1)) / (lengths + 2.0**-200)
+            lengths[v] += math.sqrt(dot(rim, rim))
+    open_ = np.sqrt(dot(rims, rims)) / (lengths + 2.0**-200)
+    own = 1.0 - np.sqrt(dot(sums, sums)) / (areas + 2.0**-200) + open_
     bends, corners = np.zeros(len(places)), np.zeros(len(places))
-    for a, b, c in faces:
-        for v, others in ((a, (b, c)), (b, (c, a)), (c, (a, b))):
-            bends[v] += own[v] / 2 + own[others[0]] / 4 + own[others[1]] / 4
-            corners[v] += 1
+    for face in faces:
+        whole = own[face[0]] + own[face[1]] + own[face[2]]
+        for v in face:
+            bends[v] += own[v] + whole
+            corners[v] += 4.0
     bends = np.divide(bends, corners, out=np.ones(len(places)), where=corners > 0)
     return np.maximum(1, ratio * np.sqrt(np.sqrt(2.0**-12 / (2.0**-12 + bends))))
 
@@ -1134,9 +1244,10 @@ class Chain:
         springs, pulls = np.zeros(block.size), np.zeros((block.size, 3))
         if header["springs"]:
             springs, pulls = surroundings(self.mesh.graph, block, self.known)
-        subspace = self.subspace = self.dictionary(block, width, springs)
-        positions = extend(block.laplacian, springs, pulls, header["shift"])  # M 10.2
-        positions = positions + subspace[:, :width] @ (points * (header["step"] / 2))
+        solver = Solver(block.laplacian, springs, header["shift"])
+        subspace = self.subspace = self.dictionary(block, width, springs, solver)
+        positions = solver.extend(springs, pulls)  # M 10.2
+        positions = product(subspace, points * (header["step"] / 2)) + positions
         if not np.isfinite(positions).all():
             raise NumericError("positions are not finite")
         self.known.add(block, positions, np.maximum(block.degrees, 1.0))
@@ -1156,19 +1267,15 @@ class Chain:
         decoder.finish()
         return points
 
-    def dictionary(self, block, columns, springs):
+    def dictionary(self, block, columns, springs, solver):
         header = self.mesh.header
         follows = self.subspace is not None and len(self.subspace) == block.size  # M 8.3
         self.mesh.allowance.spend(header, block.size, columns, follows)
         if not follows:
             return key_dictionary(header, block.laplacian, columns, springs)
-        had, first = self.subspace.shape[1], min(columns, iterated(header, block.size))
-        start = np.concatenate([self.subspace, cosine_columns(block.size, had, max(had, first))], axis=1)[:, :first]
-        if not connected(block.laplacian):
-            start = start + 2.0**-8 * hash_columns(block.size, first)
-        diagonal = springs + header["shift"]
-        found = orthogonal_iterations(block.laplacian, start, diagonal, header["power"], header["iterations"])
-        return completed(found, columns)
+        first, noise = min(columns, iterated(header, block.size)), 0.0 if connected(block.laplacian) else 2.0**-8
+        start = start_columns(self.subspace, block.size, first, noise)
+        return completed(solver.iterate(start, header["power"] * header["iterations"]), columns)
 
 
 def decode_blocks(mesh, blended):
@@ -1383,13 +1490,16 @@ def cosines_over_time(frames):
 
 def temporal_basis(field, frames):
     """S 5: d T rows, r columns."""
-    single, d = cosines_over_time(frames), field.width
+    cosines, d = cosines_over_time(frames), field.width
     leads = [(c, d) for c in range(d)]
     matrices = LevelModel().decode(field.basis, [(frames, field.columns)] * d, [None] * d, leads)
-    steps = 2.0 ** (-np.array(field.exponents, float) / 4)
+    steps = np.array([QUARTERS[exponent % 4] * 2.0 ** -(exponent // 4) for exponent in field.exponents])
     free = np.array([points_of(matrix) * steps for matrix in matrices]).transpose(1, 0, 2)
     columns = right_angles(free.reshape(d * frames, field.columns)).reshape(free.shape)
-    return np.concatenate([single @ columns[:, c] for c in range(d)])
+    return np.concatenate([product(cosines, columns[:, c]) for c in range(d)])
+
+
+QUARTERS = 1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605
 
 
 def right_angles(free):
@@ -1397,11 +1507,12 @@ def right_angles(free):
     columns = free.copy()
     for k in reversed(range(free.shape[1])):
         vector = free[:, k].copy()
-        length = np.linalg.norm(vector)
-        if length > 0:
-            vector[k] += -length if vector[k] < 0 else length
+        square = ordered_sum(vector * vector)
+        if square > 0:
+            vector[k] += -math.sqrt(square) if vector[k] < 0 else math.sqrt(square)
             behind = columns[:, k + 1 :]
-            behind -= np.outer(vector, 2 * (vector @ behind) / (vector @ vector))
+            shares = product(vector[None], behind)[0] * (2.0 / ordered_sum(vector * vector))
+            behind -= vector[:, None] * shares
     return columns
 
 
@@ -1415,9 +1526,9 @@ class Loop:
         """S 6.6."""
         if len(known):
             z = np.concatenate([known, field], axis=1)
-            z = z - z.mean(axis=0)
-            weight = 30.0 / (30.0 * len(z) * step**2 + (z**2).sum())
-            self.moments = weight * (z[:, : len(self.moments)].T @ z)
+            z = z - ordered_sum(z) / len(z)
+            weight = 30.0 / (len(z) * 30.0 * step * step + ordered_sum((z * z).ravel()))
+            self.moments = product(z[:, : len(self.moments)].T, z) * weight
         return self
 
     def decode(self, known, levels, step):
@@ -1433,8 +1544,8 @@ class Loop:
                     p[b + 1 :] += factor[b, b + 1 :] * ((z[b] - p[b]) / factor[b, b])
             result[j] = z[k:]
             if j > 0:  # S 6.4
-                w = 1.0 / (30.0 * step**2 + (z**2).sum())
-                self.moments = 0.985 * self.moments + w * np.outer(z[: len(self.moments)], z)
+                w = 1.0 / ordered_sum(np.array([30.0 * step * step, *(z * z)]))
+                self.moments = 0.985 * self.moments + (w * z[: len(self.moments)])[:, None] * z
         if not np.isfinite(result).all():
             raise NumericError("coefficients are not finite")  # S 6.5
         return result
@@ -1446,7 +1557,8 @@ class Loop:
             g = self.moments[a].copy()
             g[:a] = 0.0
             g[a] += 0.004
-            g[a:] -= factor[:a, a] @ factor[:a, a:]
+            for e in range(a):
+                g[a:] -= factor[e, a] * factor[e, a:]
             factor[a] = g / math.sqrt(g[a])
         return factor
 
@@ -1471,6 +1583,7 @@ class Part:
         columns = min(mesh.header["coefficients"], self.block.size)
         mesh.allowance.spend(mesh.header, self.block.size, columns, False)
         self.basis = key_dictionary(mesh.header, self.laplacian, columns, self.springs)  # S 3.3
+        self.tether = Solver(self.laplacian, self.springs, 2.0**-16)
 
     def known(self, field, bent):
         """S 3.7, S 10.3: the known columns here, and those at the vertices around."""
@@ -1481,8 +1594,8 @@ class Part:
     def bends(self, positions):
         """S 3.7: where they are needed."""
         own = positions[self.block.vertices]
-        centre = own.mean(axis=0)
-        radius = math.sqrt(((own - centre) ** 2).sum() / len(own) + 2.0**-24)
+        centre = ordered_sum(own) / len(own)
+        radius = math.sqrt(ordered_sum(dot(own - centre, own - centre)) / len(own) + 2.0**-24)
         y = (positions[[*self.block.vertices, *self.around]] - centre) / radius
         columns = np.zeros((len(positions), 19))
         columns[:, :3] = positions
@@ -1497,14 +1610,14 @@ class Part:
         pulls = np.zeros((self.block.size, field.shape[1]))
         for r, w, stiffness in self.edges:
             pulls[r] += stiffness * field[w]
-        return extend(self.laplacian, self.springs, pulls, 2.0**-16)
+        return self.tether.extend(self.springs, pulls)
 
     def difference(self, field):
         """S 3.5."""
-        return self.basis.T @ (field[self.block.vertices] - self.extension(field))
+        return product(self.basis.T, field[self.block.vertices] - self.extension(field))
 
     def place(self, field, difference):
-        field[self.block.vertices] = self.extension(field) + self.basis @ difference
+        field[self.block.vertices] = product(self.basis, difference) + self.extension(field)
 
 
 def edge_weights(mesh, positions):
@@ -1516,14 +1629,15 @@ def edge_weights(mesh, positions):
         for k in range(3):
             a, b, c = face[k], face[(k + 1) % 3], face[(k + 2) % 3]
             u, v = positions[b] - positions[a], positions[c] - positions[a]
-            across, w = np.cross(u, v), v - u
-            m = u @ u + v @ v + w @ w
-            half = 0.5 * (u @ v) / math.sqrt(across @ across + 2.0**-12 * m**2 + 2.0**-48)
+            across, along = np.cross(u, v), dot(u, v)
+            u, v = u * u, v * v
+            m = 2.0 * (u[0] + u[1] + u[2] + v[0] + v[1] + v[2] - along)
+            half = 0.5 * (along / math.sqrt(dot(across, across) + 2.0**-12 * m * m + 2.0**-48))
             sums[b, c] += half
             sums[c, b] += half
     if not np.isfinite(list(sums.values())).all():
         raise NumericError("weights are not finite")
-    positive = {edge: (t + math.sqrt(t**2 + 2.0**-6)) / 2 for edge, t in sums.items()}
+    positive = {edge: (t + math.sqrt(t * t + 2.0**-6)) / 2 for edge, t in sums.items()}
     return {edge: 2.0**-5 + 8 * p / (8 + p) for edge, p in positive.items()}
 
 
@@ -1556,7 +1670,7 @@ class Track:
             difference = loop.decode(known, matrix, field.step)
             part.place(placed, difference)
             self.inherited.append((difference[:, :24], ends[:, :24]))
-        wide = (placed @ basis.T).reshape(len(placed), self.width, frames)
+        wide = product(placed, basis.T).reshape(len(placed), self.width, frames)
         return [wide[:, :, t] for t in gop.shown]
 
     def following(self, parts, field, gop):

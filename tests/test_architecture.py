@@ -15,7 +15,7 @@ FLOORS = {
         ("codec",),
         ("console", "lengths", "pictures"),
         ("files",),
-        ("comparison", "evaluation", "exits", "options", "steadiness"),
+        ("comparison", "evaluation", "exits", "options"),
         ("libraries",),
         ("jobs",),
         ("api",),

@@ -26,6 +26,7 @@ _BARE = re.compile(
     r"\**(?!bsmdec_)(?:LEVEL\()?\w+\)?\([^;{]*\) \{)",
     re.MULTILINE,
 )
+_DOUBLES = '#define VECTORS_OF_DOUBLES\n#include "codec/basis/vectors.h"\n'
 _TYPE = re.compile(r"^(?:typedef .*?|\} )(\w+);$", re.MULTILINE)
 _CONSTANTS = re.compile(r"enum \{(.*?)\}", re.DOTALL)
 _VARIABLES = re.compile(r"^static const [^=;({]*?(\w+)(?:\[[^=;]*)? = (.*?);$", re.MULTILINE | re.DOTALL)
@@ -46,7 +47,9 @@ def priors() -> str:
 
 
 def _read(path: str) -> str:
-    return (ROOT / path).read_text()
+    """A file, and with it the vectors of doubles that it works on: others have vectors of floats."""
+    vectors = (ROOT / "codec/basis/vectors.h").read_text()
+    return (ROOT / path).read_text().replace(_DOUBLES, f"#define VECTORS_OF_DOUBLES\n{vectors}")
 
 
 def _bare(text: str) -> str:

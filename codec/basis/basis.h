@@ -11,30 +11,37 @@ typedef struct {
 } Fronts;
 
 /* Whether there is room for a factor of these fronts of n rows. */
-INLINE bool fits_factor(const Fronts *fronts, int64_t n, Doubles values, Doubles inverse) {
+INLINE bool fits_factor(const Fronts *fronts, int64_t n, Singles values, ConstSingles inverse) {
     int64_t count = fronts->firsts.size - 1;
     return n > 0 && fronts->sums.size == 2 && fronts->rows.size == n && fronts->steps.size == n && fronts->owners.size == n && count > 0 &&
            fronts->starts.size == count + 1 && fronts->places.size == count + 1 &&
            fronts->borders.size >= fronts->starts.data[count] && inverse.size == n &&
-           values.size >= (int64_t)fronts->places.data[count] + 7;
+           values.size >= (int64_t)fronts->places.data[count] + 15;
 }
 
 int64_t find_fronts(ConstInts offsets, ConstInts neighbours, int64_t leaf, double most_work, Words scratch, Words rows,
                     Words steps, Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums);
-void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
-                      Words column, Doubles scratch, Doubles values, Doubles inverse);
-void LEVEL(solve_columns)(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 columns, int64_t power,
-                   Doubles scratch, Doubles2 solution);
+void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal,
+                             Fronts fronts, Words column, Singles scratch, Singles values, Singles inverse);
+void LEVEL(solve_columns)(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch,
+                          Doubles2 solution);
 int64_t LEVEL(iteration_space)(int64_t n, int64_t c);
-double LEVEL(iterate)(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles2 start, int64_t power, int64_t iterations,
-               double once, Doubles scratch, Doubles2 subspace);
-double LEVEL(cholesky_onorm)(ConstDoubles2 columns, double once, Doubles scratch, Doubles2 subspace);
+int64_t LEVEL(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions,
+                       int64_t care, Singles scratch, Singles2 subspace);
 int64_t LEVEL(completion_space)(int64_t h);
-int64_t LEVEL(complete_columns)(ConstDoubles2 first, double least_pivot, Doubles scratch, Doubles2 whole);
-void LEVEL(cosines)(int64_t first, Doubles table, Doubles2 columns);
-void LEVEL(resize_columns)(ConstDoubles2 previous, Doubles table, Doubles2 columns);
+int64_t LEVEL(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole);
+void LEVEL(cosines)(Doubles table, Doubles2 columns);
+void LEVEL(resize_columns)(ConstSingles2 previous, Doubles table, Singles2 columns);
 void hash_columns(Doubles2 columns);
-void householder(Doubles2 work, Doubles scratch, Doubles2 q);
+
+/* Entry of a hash column (specification, M 8.6): the splitmix64 of row * 2^32 + column, as a number in [-1, 1). */
+INLINE double hash_at(int64_t row, int64_t column) {
+    uint64_t z = (((uint64_t)row << 32) + (uint64_t)column + 1) * 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
+}
+
 void cotangents(ConstInts offsets, ConstInts neighbours, ConstInts2 faces, ConstDoubles2 positions, double flatness,
                 double smallness, Doubles weights);
 int64_t hold(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstInts rank, ConstInts vertices,

@@ -10,89 +10,90 @@
  * rows of U + E as are taken at a time. */
 typedef struct {
     int64_t size;
-    double *lower, *upper, *panel, *some;
+    float *lower, *upper, *panel, *some;
 } Completion;
 
-INLINE Completion completion_of(int64_t h, double *memory) {
+INLINE Completion completion_of(int64_t h, float *memory) {
     int64_t size = whole_vectors(h);
-    double *panel = memory + 2 * size * size;
+    float *panel = memory + 2 * size * size;
     return (Completion){size, memory, memory + size * size, panel, panel + size * LANES};
 }
 
-/* Doubles of scratch that completing h columns takes. */
+/* Numbers of scratch that completing h columns takes. */
 int64_t LEVEL(completion_space)(int64_t h) {
     int64_t size = whole_vectors(h);
     return 2 * size * size + size * LANES + ROWS * size + WIDTH - 1;
 }
 
 /* Take `share` times a row from another, in `count` columns of whole vectors. */
-SHARED void take_row(double *row, double share, const double *other, int64_t count) {
+SHARED void take_row(float *row, float share, const float *other, int64_t count) {
     for (int64_t b = 0; b < count; b += WIDTH) store(row + b, add_scaled(load(row + b), -share, load(other + b)));
 }
 
 /* Entry (i, k) of U + E. */
-INLINE double sum_at(ConstDoubles2 first, int64_t i, int64_t k) { return first.data[i * first.columns + k] + (i == k); }
+INLINE float sum_at(ConstSingles2 first, int64_t i, int64_t k) { return first.data[i * first.columns + k] + (i == k); }
 
 /* Fills `lower` and `upper`; returns the least pivot. */
-static double factorize_sum(ConstDoubles2 first, Completion own) {
+static float factorize_sum(ConstSingles2 first, Completion own) {
     int64_t h = first.columns, size = own.size;
-    double least_seen = 2.0;
+    float least_seen = 2.0f;
     for (int64_t i = 0; i < size; i++)
         for (int64_t k = 0; k < size; k++) own.upper[i * size + k] = i < h && k < h ? sum_at(first, k, i) : i == k;
     for (int64_t k = 0; k < size; k++) {
-        const double *above = own.upper + k * size;
+        const float *above = own.upper + k * size;
         if (!(above[k] >= least_seen)) least_seen = above[k];
-        double scale = 1.0 / above[k];
+        float scale = 1.0f / above[k];
         for (int64_t i = k + 1; i < size; i++) {
-            double *row = own.upper + i * size, share = row[k] * scale;
+            float *row = own.upper + i * size, share = row[k] * scale;
             int64_t from = k / WIDTH * WIDTH;
             take_row(row + from, share, above + from, size - from);
             own.lower[i * size + k] = share;
-            row[k] = 0.0;
+            row[k] = 0.0f;
         }
     }
     return least_seen;
 }
 
-INLINE void take_tile(const int vectors, int64_t column, const double *left, int64_t apart, const double *panel,
-                      int64_t count, double *rows) {
+INLINE void take_tile(const int vectors, int64_t column, const float *left, int64_t apart, const float *panel,
+                      int64_t first, int64_t last, float *rows) {
     Vector sums[ROWS][VECTORS];
     EACH(r, ROWS) EACH(v, vectors) sums[r][v] = load(rows + r * LANES + column + v * WIDTH);
-    for (int64_t k = 0; k < count; k++)
+    int64_t step = first < last ? 1 : -1;
+    for (int64_t k = first; k != last; k += step)
         EACH(r, ROWS) EACH(v, vectors)
             sums[r][v] = add_scaled(sums[r][v], -left[r * apart + k], load(panel + k * LANES + column + v * WIDTH));
     EACH(r, ROWS) EACH(v, vectors) store(rows + r * LANES + column + v * WIDTH, sums[r][v]);
 }
 
-/* Take from ROWS rows of a panel what as many rows at `left` make of `count` others. */
-SHARED void take_rows(const double *left, int64_t apart, const double *panel, int64_t count, double *rows) {
-    WITH_VECTORS(VECTORS, 0, take_tile, left, apart, panel, count, rows);
+/* Take from ROWS rows of a panel what as many rows at `left` make of others, from the first to before the last. */
+SHARED void take_rows(const float *left, int64_t apart, const float *panel, int64_t first, int64_t last, float *rows) {
+    WITH_VECTORS(VECTORS, 0, take_tile, left, apart, panel, first, last, rows);
 }
 
 /* Overwrite the panel by A^-T times it. */
 static void solve_panel(Completion own) {
     int64_t size = own.size;
     for (int64_t i = 0; i < size; i += ROWS) {
-        double *rows = own.panel + i * LANES;
-        take_rows(own.lower + i * size, size, own.panel, i, rows);
+        float *rows = own.panel + i * LANES;
+        take_rows(own.lower + i * size, size, own.panel, 0, i, rows);
         for (int64_t r = 1; r < ROWS; r++)
             for (int64_t k = 0; k < r; k++)
                 take_row(rows + r * LANES, own.lower[(i + r) * size + i + k], rows + k * LANES, LANES);
     }
     for (int64_t i = size - ROWS; i >= 0; i -= ROWS) {
-        double *rows = own.panel + i * LANES;
-        const double *left = own.upper + i * size + i;
-        take_rows(left + ROWS, size, rows + ROWS * LANES, size - ROWS - i, rows);
+        float *rows = own.panel + i * LANES;
+        const float *left = own.upper + i * size + i;
+        take_rows(left, size, rows, size - i - 1, ROWS - 1, rows);
         for (int64_t r = ROWS - 1; r >= 0; r--) {
-            for (int64_t k = r + 1; k < ROWS; k++) take_row(rows + r * LANES, left[r * size + k], rows + k * LANES, LANES);
-            double scale = 1.0 / left[r * size + r];
+            for (int64_t k = ROWS - 1; k > r; k--) take_row(rows + r * LANES, left[r * size + k], rows + k * LANES, LANES);
+            float scale = 1.0f / left[r * size + r];
             for (int64_t b = 0; b < LANES; b += WIDTH) store(rows + r * LANES + b, scaled(load(rows + r * LANES + b), scale));
         }
     }
 }
 
 /* Fill `whole`, first of all by the columns that are there, `first`. Returns whether A has no pivot below `least_pivot`. */
-int64_t LEVEL(complete_columns)(ConstDoubles2 first, double least_pivot, Doubles scratch, Doubles2 whole) {
+int64_t LEVEL(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole) {
     int64_t h = first.columns, n = first.rows, c = whole.columns;
     if (whole.rows != n || c < h || c > n || scratch.size < LEVEL(completion_space)(h)) return MISUSED;
     Completion own = completion_of(h, aligned(scratch.data));
@@ -103,16 +104,16 @@ int64_t LEVEL(complete_columns)(ConstDoubles2 first, double least_pivot, Doubles
         int64_t count = least(LANES, c - begin);
         for (int64_t k = 0; k < own.size; k++)
             for (int64_t b = 0; b < LANES; b++)
-                own.panel[k * LANES + b] = k < h && b < count ? first.data[(begin + b) * h + k] : 0.0;
+                own.panel[k * LANES + b] = k < h && b < count ? first.data[(begin + b) * h + k] : 0.0f;
         solve_panel(own);
         for (int64_t r = 0; r < n; r += ROWS) {
-            double rows[ROWS * LANES];
+            float rows[ROWS * LANES];
             int64_t taken = least(ROWS, n - r);
             for (int64_t i = 0; i < ROWS; i++) {
                 for (int64_t b = 0; b < LANES; b++) rows[i * LANES + b] = r + i == begin + b;
-                for (int64_t k = 0; k < h; k++) own.some[i * own.size + k] = i < taken ? sum_at(first, r + i, k) : 0.0;
+                for (int64_t k = 0; k < h; k++) own.some[i * own.size + k] = i < taken ? sum_at(first, r + i, k) : 0.0f;
             }
-            take_rows(own.some, own.size, own.panel, h, rows);
+            take_rows(own.some, own.size, own.panel, 0, h, rows);
             for (int64_t i = 0; i < taken; i++)
                 for (int64_t b = 0; b < count; b++) whole.data[(r + i) * c + begin + b] = rows[i * LANES + b];
         }

@@ -1,5 +1,6 @@
 /* Cosine columns, cos(pi j (2 r + 1) / (2 n)) (specification, M 8.2): the same to the last bit on every machine, which
  * libraries are not. */
+#define VECTORS_OF_DOUBLES
 #include "codec/basis/vectors.h"
 
 #define PI 3.141592653589793
@@ -28,37 +29,36 @@ INLINE void make_table(int64_t rows, double *table) {
     }
 }
 
-/* `count` columns from `first` on; their rows are `apart`. */
-INLINE void fill_columns(const double *table, int64_t rows, int64_t first, int64_t count, double *columns, int64_t apart) {
-    int64_t turn = 4 * rows, start = first % turn, more = 2 * first % turn;
-    for (int64_t r = 0; r < rows; r++) {
-        int64_t step = 2 * r + 1, angle = start;
-        double *row = columns + r * apart;
-        for (int64_t j = 0; j < count; j++) {
-            int64_t fold = least(angle, turn - angle);
-            double value = table[least(fold, 2 * rows - fold)];
-            row[j] = fold <= rows ? value : -value;
-            angle += step;
-            angle -= angle >= turn ? turn : 0;
-        }
-        start += more;
-        start -= start >= turn ? turn : 0;
-    }
+/* Where row r of a column has its angle: `angle` of the whole turn of 4 n, less than that. */
+INLINE double cosine_at(const double *table, int64_t n, int64_t angle) {
+    int64_t fold = least(angle, 4 * n - angle);
+    double value = table[least(fold, 2 * n - fold)];
+    return fold <= n ? value : -value;
 }
 
-/* Columns `first` and those after it; `table` is scratch of n + 1, and 7 more. */
-void LEVEL(cosines)(int64_t first, Doubles table, Doubles2 columns) {
-    make_table(columns.rows, table.data);
-    fill_columns(table.data, columns.rows, first, columns.columns, columns.data, columns.columns);
+/* All columns; `table` is scratch of n + 1, and 7 more. */
+void LEVEL(cosines)(Doubles table, Doubles2 columns) {
+    int64_t n = columns.rows;
+    make_table(n, table.data);
+    for (int64_t r = 0; r < n; r++)
+        for (int64_t j = 0, angle = 0; j < columns.columns; j++) {
+            columns.data[r * columns.columns + j] = cosine_at(table.data, n, angle);
+            angle += 2 * r + 1;
+            angle -= angle >= 4 * n ? 4 * n : 0;
+        }
 }
 
 /* The first columns of `previous`, and cosines where it has fewer than `columns`; `table` as above. */
-void LEVEL(resize_columns)(ConstDoubles2 previous, Doubles table, Doubles2 columns) {
-    int64_t rows = columns.rows, kept = least(previous.columns, columns.columns), more = columns.columns - kept;
-    if (more > 0) make_table(rows, table.data);
-    for (int64_t r = 0; r < rows; r++) {
-        double *row = columns.data + r * columns.columns;
+void LEVEL(resize_columns)(ConstSingles2 previous, Doubles table, Singles2 columns) {
+    int64_t n = columns.rows, kept = least(previous.columns, columns.columns);
+    if (kept < columns.columns) make_table(n, table.data);
+    for (int64_t r = 0; r < n; r++) {
+        float *row = columns.data + r * columns.columns;
         for (int64_t j = 0; j < kept; j++) row[j] = previous.data[r * previous.columns + j];
+        for (int64_t j = kept, angle = kept * (2 * r + 1) % (4 * n); j < columns.columns; j++) {
+            row[j] = (float)cosine_at(table.data, n, angle);
+            angle += 2 * r + 1;
+            angle -= angle >= 4 * n ? 4 * n : 0;
+        }
     }
-    fill_columns(table.data, rows, kept, more, columns.data + kept, columns.columns);
 }

@@ -12,13 +12,13 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from typing import TypeAlias
 
-from bsm.codec.arrays import Matrix
+from bsm.codec.arrays import Basis
 from bsm.codec.basis.laplacian import Fronts
 
 ONCE = 5.0
 """Of each number of a dictionary, however often it is iterated."""
-CARE = 1.1
-"""Orthonormalisations that one takes where columns are close to dependent."""
+CARE = 6.0
+"""Of each row and pair of columns of which one is made orthonormal by itself."""
 
 Spend: TypeAlias = Callable[[float], None]
 """Is told of work before it is done, and may refuse it by raising `LimitError`."""
@@ -26,22 +26,22 @@ Spend: TypeAlias = Callable[[float], None]
 
 Price: TypeAlias = Callable[[int], float]
 """Work of one step for so many columns, nanoseconds."""
-Steps: TypeAlias = Generator[Price, None, Matrix]
+Steps: TypeAlias = Generator[Price, None, Basis]
 """A computation that yields the price of each step before it takes it, and returns its columns."""
 
 
-def settle(steps: Steps, pay: Callable[[Price], None]) -> Matrix:
+def settle(steps: Steps, pay: Callable[[Price], None]) -> Basis:
     """The columns, shape (n, c), that `steps` lead to; each price is handed to `pay` before the step is taken."""
     while True:
         try:
             price = next(steps)
         except StopIteration as end:
-            columns: Matrix = end.value
+            columns: Basis = end.value
             return columns
         pay(price)
 
 
-def unpaid(steps: Steps) -> Matrix:
+def unpaid(steps: Steps) -> Basis:
     """The columns, shape (n, c), that `steps` lead to, whatever they cost."""
     return settle(steps, lambda price: None)
 
@@ -56,7 +56,7 @@ def up_to(most: int, steps: Steps) -> Steps:
         try:
             price = next(steps)
         except StopIteration as end:
-            columns: Matrix = end.value
+            columns: Basis = end.value
             return columns
         yield cut(price)
 
@@ -67,37 +67,30 @@ def free(work: float) -> None:
 
 def factor_cost(fronts: Fronts) -> float:
     """Work of one factorisation, nanoseconds."""
-    return float(fronts.sums[1]) / 14.0 + 40.0 * len(fronts.rows) + 4000.0
+    return float(fronts.sums[1]) / 6.0 + 50.0 * len(fronts.rows) + 4000.0
 
 
 def solve_cost(fronts: Fronts, columns: int) -> float:
-    """Work of one solution for so many columns, which are solved in panels of 32, a panel in vectors of eight."""
-    return 50.0 + float(fronts.sums[0]) * (0.6 * -(-columns // 32) + 0.035 * _whole(columns))
+    """Work of one solution for so many columns, which are solved in panels of 64, a panel in vectors of 16."""
+    return 50.0 + float(fronts.sums[0]) * (0.3 * -(-columns // 64) + 0.02 * _whole(columns))
 
 
 def onorm_cost(rows: int, columns: int) -> float:
     """Work of one orthonormalisation, nanoseconds."""
     whole = _whole(columns)
-    return rows * (3.0 + 0.5 * whole + whole * whole / 29.0) + 1500.0
+    return rows * (3.0 + 0.4 * whole + whole * whole / 80.0) + 3000.0
 
 
-def reflection_cost(rows: int, columns: int) -> float:
-    """Work of one orthonormalisation by reflections, nanoseconds."""
-    return 0.35 * rows * columns * columns + 4000.0
-
-
-def dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:
-    """Work of making a dictionary whose columns power and iterations do not lose."""
+def dictionary_cost(fronts: Fronts, columns: int, solutions: int) -> float:
+    """Work of making a dictionary of columns that need no care."""
     rows = len(fronts.rows)
-    return ONCE * rows * _whole(columns) + iterations * (
-        power * solve_cost(fronts, columns) + onorm_cost(rows, columns)
-    )
+    rounds = solutions * solve_cost(fronts, columns) + (solutions + 1) * onorm_cost(rows, columns)
+    return ONCE * rows * _whole(columns) + rounds
 
 
-def careful_dictionary_cost(fronts: Fronts, columns: int, power: int, iterations: int) -> float:
-    """Work of a dictionary whose columns are made orthonormal after every solution; no reflections."""
-    rounding = CARE * onorm_cost(len(fronts.rows), columns)
-    return iterations * power * (solve_cost(fronts, columns) + rounding)
+def careful_cost(fronts: Fronts, columns: int, solutions: int, care: int) -> float:
+    """Work of making it anew, with so many columns, at most, made orthonormal one by one."""
+    return dictionary_cost(fronts, columns, solutions) + CARE * len(fronts.rows) * columns * care
 
 
 def completion_cost(rows: int, first: int, columns: int) -> float:
@@ -113,4 +106,4 @@ def iteration_memory(fronts: Fronts, columns: int) -> int:
 
 
 def _whole(columns: int) -> int:
-    return -(-columns // 8) * 8
+    return -(-columns // 16) * 16

@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import LimitError
 from bsm.codec import _kernels
-from bsm.codec.arrays import Matrix
+from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.blocks.overlap import Block
 
 LEAF = 8
@@ -80,8 +80,8 @@ def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32
     return Fronts(rows, steps, owners, firsts, starts, borders[: starts[-1]].copy(), places, sums)
 
 
-PADDING = 7
-"""Doubles more than a kernel uses of an array that it begins where a cache line does."""
+PADDING = 15
+"""Floats more than a kernel uses of an array that it begins where a cache line does."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,15 +112,15 @@ class Factor:
     """L + delta I = P^T C D C^T P with C unit lower triangular."""
 
     fronts: Fronts
-    values: Matrix
-    inverse: Matrix
+    values: Basis
+    inverse: Basis
 
 
 def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
     """Factorise L + delta I; `shift` is delta > 0, or one for every row, shape (n,)."""
     block, fronts, n = laplacian.block, laplacian.fronts, laplacian.block.size
-    values, inverse = factor_room(fronts), np.empty(n)
-    column, scratch = np.empty(n + 1, np.uint32), np.empty(2 * (n + 16) + PADDING)
+    values, inverse = factor_room(fronts), np.empty(n, np.float32)
+    column, scratch = np.empty(n + 1, np.uint32), np.empty(2 * (n + 32) + PADDING, np.float32)
     diagonal = laplacian.diagonal + shift
     _kernels.factorize_fronts(
         block.offsets, block.neighbours, laplacian.weights, diagonal, fronts, column, scratch, values, inverse
@@ -128,24 +128,24 @@ def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
     return Factor(fronts, values, inverse)
 
 
-def factor_room(fronts: Fronts) -> Matrix:
+def factor_room(fronts: Fronts) -> Basis:
     """Room for the values of a factor, shape (fronts.places[-1] + PADDING,)."""
-    return np.empty(int(fronts.places[-1]) + PADDING)
+    return np.empty(int(fronts.places[-1]) + PADDING, np.float32)
 
 
-def solve(factor: Factor, columns: Matrix, power: int) -> Matrix:
-    """R^z X for X of shape (n, c), C-contiguous, with z = `power` >= 1."""
+def solve(factor: Factor, columns: Matrix) -> Matrix:
+    """R X for X of shape (n, c), rounded to single precision."""
     n, c = columns.shape
     check_rows(factor, n)
-    solution, scratch = np.empty((n, c)), np.empty(solving_space(n, c))
+    solution = np.empty((n, c))
     columns = np.ascontiguousarray(columns)
-    _kernels.solve_columns(factor.fronts, factor.values, factor.inverse, columns, power, scratch, solution)
+    _kernels.solve_columns(factor.fronts, factor.values, factor.inverse, columns, solving_room(n, c), solution)
     return solution
 
 
-def solving_space(rows: int, columns: int) -> int:
-    """Doubles of scratch that a solution takes."""
-    return (rows + 4) * (columns + 8) + PADDING
+def solving_room(rows: int, columns: int) -> Basis:
+    """Scratch that a solution takes."""
+    return np.empty((rows + 4) * (columns + 16) + PADDING, np.float32)
 
 
 def check_rows(factor: Factor, rows: int) -> None:

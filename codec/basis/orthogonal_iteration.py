@@ -1,8 +1,7 @@
 """Tracking the low-frequency subspace of each block by orthogonal iterations (paper, section 4, Algorithm 1).
 
-U is the dictionary of a block, n_d rows and c orthonormal columns; R = (L + delta I)^-1; Onorm is the Q of a QR
-factorisation with a positive diagonal, which makes Q unique and nested: its
-first c columns do not depend on later ones.
+U is the dictionary of a block, n_d rows and c orthonormal columns in single precision; R = (L + delta I)^-1.
+Onorm, the Q of a QR factorisation with a positive diagonal, follows every solution; no column depends on a later one.
 """
 
 from __future__ import annotations
@@ -13,22 +12,22 @@ import numpy as np
 
 from bsm.bitstream.errors import NumericError
 from bsm.codec import _kernels
-from bsm.codec.arrays import Matrix
+from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.basis.cost import (
     Steps,
-    careful_dictionary_cost,
+    careful_cost,
     completion_cost,
     dictionary_cost,
-    reflection_cost,
     unpaid,
     up_to,
 )
-from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize, solve
+from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize
 
-ONCE, TWICE = 1e-5, 1e-13
-"""Independence (`factorize_gram` of the kernel) of the columns of a panel from which Cholesky QR is
-orthogonal to 1e-11 after one pass; and of all columns, from which the whole is to 1e-9. Beyond that, Onorm after every
-solution."""
+_DONE, _NEEDS_CARE = 0, 1
+"""What the kernel answers where U is there, and where columns have to be made orthonormal one by one."""
+
+FIRST_CARE = 16
+"""Columns that may be made orthonormal one by one where some have to be; then four times as many, and so on."""
 
 LEAST_PIVOT = 2.0**-20
 """From which columns are completed with the accuracy that is asked for."""
@@ -42,61 +41,34 @@ FOLLOWING_NOISE = 2.0**-8
 components (M 8.3); half or twice of it changes bytes by nothing, and by 0.3 % at most on the mean."""
 
 
-def cosine_columns(rows: int, first: int, last: int) -> Matrix:
-    """Cosines along the rows, frequencies `first` to `last - 1`: the start that needs no predecessor."""
-    columns, table = np.empty((rows, last - first)), np.empty(rows + 8)
-    _kernels.cosines(first, table, columns)
-    return columns
+def cosine_columns(rows: int, columns: int) -> Matrix:
+    """The first columns of cosines along the rows."""
+    cosines, table = np.empty((rows, columns)), np.empty(rows + 8)
+    _kernels.cosines(table, cosines)
+    return cosines
 
 
-def onorm(columns: Matrix) -> Matrix:
-    """Q of the QR factorisation with positive diagonal of `columns`, shape (n, c), n >= c."""
-    return unpaid(onorm_steps(columns))
-
-
-def onorm_steps(columns: Matrix) -> Steps:
-    """`onorm` of `columns`, shape (n, c), with the price of reflections."""
-    q, scratch = np.empty(columns.shape), np.empty(_kernels.iteration_space(*columns.shape))
-    independence = _kernels.cholesky_onorm(np.ascontiguousarray(columns), ONCE, scratch, q)
-    if independence >= TWICE:
-        return q
-    yield partial(reflection_cost, len(columns))
-    return householder_orthonormalize(columns)
-
-
-def householder_orthonormalize(columns: Matrix) -> Matrix:
-    """`onorm` of `columns`, shape (n, c), by Householder reflections, for any condition number."""
-    if not np.isfinite(columns).all():
-        raise NumericError("the subspace iteration produced a value that is not finite")
-    q = np.empty(columns.shape)
-    _kernels.householder(np.array(columns, order="C"), np.empty(3 * columns.shape[1]), q)
-    return q
-
-
-def orthogonal_iteration(
-    factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None
-) -> Matrix:
+def orthogonal_iteration(factor: Factor, start: Basis, *, power: int, iterations: int) -> Basis:
     """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1)."""
-    return unpaid(iteration_steps(factor, start, power=power, iterations=iterations, width=width))
+    return unpaid(iteration_steps(factor, start, power=power, iterations=iterations))
 
 
-def iteration_steps(factor: Factor, start: Matrix, *, power: int, iterations: int, width: int | None = None) -> Steps:
+def iteration_steps(factor: Factor, start: Basis, *, power: int, iterations: int, width: int | None = None) -> Steps:
     """`orthogonal_iteration` from `start`, shape (n, c) or wider, with the price of each step."""
     rows, width = len(start), start.shape[1] if width is None else min(width, start.shape[1])
-    yield partial(dictionary_cost, factor.fronts, power=power, iterations=iterations)
+    solutions = power * iterations
+    yield partial(dictionary_cost, factor.fronts, solutions=solutions)
     start = np.ascontiguousarray(start)
     check_rows(factor, rows)
-    subspace, scratch = np.empty((rows, width)), np.empty(_kernels.iteration_space(rows, width))
-    independence = _kernels.iterate(
-        factor.fronts, factor.values, factor.inverse, start, power, iterations, ONCE, scratch, subspace
-    )
-    if independence < TWICE:
-        # R^z has all but lost the higher columns. Orthonormalised after every R they stay, and the subspaces of the
-        # first columns, which is all that Q depends on, are the same.
-        yield partial(careful_dictionary_cost, factor.fronts, power=power, iterations=iterations)
-        subspace = start[:, :width]
-        for _ in range(iterations * power):
-            subspace = yield from onorm_steps(solve(factor, subspace, 1))
+    subspace = np.empty((rows, width), np.float32)
+    scratch = np.empty(_kernels.iteration_space(rows, width), np.float32)
+    arrays = factor.fronts, factor.values, factor.inverse, start
+    care = 0
+    while (found := _kernels.iterate(*arrays, solutions, care, scratch, subspace)) == _NEEDS_CARE:
+        care = 4 * care or FIRST_CARE
+        yield partial(careful_cost, factor.fronts, solutions=solutions, care=care)
+    if found != _DONE:
+        raise NumericError("the columns of a dictionary cannot be made orthonormal")
     return subspace
 
 
@@ -109,44 +81,50 @@ def completed_steps(first: Steps, rows: int, most: int, width: int) -> Steps:
     return completed(columns, width)
 
 
-def completed(first: Matrix, width: int) -> Matrix:
+def completed(first: Basis, width: int) -> Basis:
     """Orthonormal columns, shape (n, width): those of `first`, shape (n, h), and any that are at right angles to them.
 
     R. Schreiber, B. Parlett, "Block reflectors: theory and computation", 1988; this is one that is not symmetric.
     """
-    whole, scratch = np.empty((len(first), width)), np.empty(_kernels.completion_space(first.shape[1]))
+    whole = np.empty((len(first), width), np.float32)
+    scratch = np.empty(_kernels.completion_space(first.shape[1]), np.float32)
     if not _kernels.complete_columns(np.ascontiguousarray(first), LEAST_PIVOT, scratch, whole):
         raise NumericError("the columns of a dictionary cannot be completed")
     return whole
 
 
-def follow_columns(previous: Matrix, width: int, noisy: bool) -> Matrix:
+def follow_columns(previous: Basis, width: int, noisy: bool) -> Basis:
     """The start of a block that follows: the predecessor's columns, shape (n, c), and noise where it is `noisy`."""
     if noisy:
-        return resized(previous, width) + FOLLOWING_NOISE * hash_columns(len(previous), width)
+        return with_noise(resized(previous, width), FOLLOWING_NOISE)
     return previous if previous.shape[1] >= width else resized(previous, width)
 
 
-def first_columns(rows: int, width: int, noisy: bool) -> Matrix:
+def first_columns(rows: int, width: int, noisy: bool) -> Basis:
     """The start of a block that follows none, shape (rows, width): cosines, and noise where they might lack some."""
-    start = cosine_columns(rows, 0, width)
-    return start + START_NOISE * hash_columns(rows, width) if noisy else start
+    start = resized(np.empty((rows, 0), np.float32), width)
+    return with_noise(start, START_NOISE) if noisy else start
 
 
-def resized(previous: Matrix, width: int) -> Matrix:
+def with_noise(start: Basis, share: float) -> Basis:
+    """A start, shape (n, c), and a share of the hash columns."""
+    return start + (share * hash_columns(*start.shape)).astype(np.float32)
+
+
+def resized(previous: Basis, width: int) -> Basis:
     """The predecessor's columns, shape (n, c), `width` of them, and cosines where it has fewer: shape (n, width)."""
     rows = len(previous)
-    columns, table = np.empty((rows, width)), np.empty(rows + 8)
+    columns, table = np.empty((rows, width), np.float32), np.empty(rows + 8)
     _kernels.resize_columns(np.ascontiguousarray(previous), table, columns)
     return columns
 
 
-def exact_basis(laplacian: Laplacian, start: Matrix, springs: float | Matrix = 0.0) -> Matrix:
+def exact_basis(laplacian: Laplacian, start: Basis, springs: float | Matrix = 0.0) -> Basis:
     """The lowest eigenvectors of L + diag(springs): many orthogonal iterations from `start`, see `first_columns`."""
     return unpaid(exact_steps(laplacian, start, springs))
 
 
-def exact_steps(laplacian: Laplacian, start: Matrix, springs: float | Matrix) -> Steps:
+def exact_steps(laplacian: Laplacian, start: Basis, springs: float | Matrix) -> Steps:
     """`exact_basis` from `start`, shape (n, c), with the price of each step."""
     factor = factorize(laplacian, springs + EXACT_SHIFT)
     return (yield from iteration_steps(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS))

@@ -1,71 +1,70 @@
-/* Vector registers: eight doubles, a cache line, as one value.
+/* Vector registers: a cache line of floats as one value, or of doubles where VECTORS_OF_DOUBLES is defined.
  *
- * Every lane is computed by itself and in the order that is written, so the result is the same to the last bit whatever
- * the processor's registers hold. Where the processor cannot fuse a product and a sum, the C library's fma does it;
- * WebAssembly has neither, and rounds twice: there the last bits differ, far within the tolerance of the specification.
+ * Every lane is computed by itself and in the order that is written, each operation rounded as IEEE 754 has it (compilers
+ * are told not to fuse products and sums), so the result is the same to the last bit whatever the processor's registers
+ * hold.
  */
 #ifndef BSM_VECTORS_H
 #define BSM_VECTORS_H
 
 #include "codec/basis/basis.h"
 
-#if defined(__wasm__)
-#define FUSED(a, b, c) ((a) * (b) + (c))
+#ifdef VECTORS_OF_DOUBLES
+typedef double Real;
+#define REAL_BYTES 8
 #else
-#define FUSED(a, b, c) __builtin_fma(a, b, c)
+typedef float Real;
+#define REAL_BYTES 4
 #endif
 
-#define WIDTH 8   /* doubles of a vector: a cache line */
-#define VECTORS 4 /* vectors of a panel */
+#define WIDTH (64 / REAL_BYTES) /* numbers of a vector: a cache line */
+#define VECTORS 4               /* vectors of a panel */
 #define LANES (WIDTH * VECTORS)
 
-/* Doubles that a register holds, and how many vectors side by side have room in registers for several rows of them. */
+/* Numbers that a register holds, how many vectors side by side have room in registers for several rows of them, and rows
+ * of one vector that are summed side by side: eight registers, so that as many are left for what is added. */
 #if defined(__AVX512F__)
-#define REGISTER 8
+#define REGISTER (64 / REAL_BYTES)
 #define SIDE VECTORS
+#define ROWS 4
 #elif defined(__AVX__)
-#define REGISTER 4
+#define REGISTER (32 / REAL_BYTES)
 #define SIDE 1
+#define ROWS 4
 #else
-#define REGISTER 2
+#define REGISTER (16 / REAL_BYTES)
 #define SIDE 1
+#define ROWS 2
 #endif
 #define PARTS (WIDTH / REGISTER)
-/* Rows of one vector that are summed side by side: eight registers, so that as many are left for what is added. */
-#define ROWS (REGISTER == 2 ? 2 : 4)
 
-typedef double Part __attribute__((vector_size(8 * REGISTER)));
-typedef double UnalignedPart __attribute__((vector_size(8 * REGISTER), aligned(8), may_alias));
+typedef __attribute__((vector_size(REAL_BYTES * REGISTER))) Real Part;
+typedef __attribute__((vector_size(REAL_BYTES * REGISTER), __aligned__(REAL_BYTES), may_alias)) Real UnalignedPart;
 typedef struct {
     Part part[PARTS];
 } Vector;
 
 /* A loop over the registers of a tile, written out by the compiler; without it they would be memory. */
-#define EACH(i, size) _Pragma("GCC unroll 8") for (int i = 0; i < (size); i++)
+#define EACH(i, size) _Pragma("GCC unroll 16") for (int i = 0; i < (size); i++)
 
 /* Parts are made as wholes, never lane by lane inside a structure, which would keep them in memory. */
-INLINE Part spread(double value) {
-    Part part = {0.0};
+INLINE Part spread(Real value) {
+    Part part = {0};
     EACH(i, REGISTER) part[i] = value;
     return part;
 }
 
-INLINE Part add_scaled_part(Part sum, double scalar, Part other) {
-    EACH(i, REGISTER) sum[i] = FUSED(scalar, other[i], sum[i]);
-    return sum;
-}
-
-INLINE Vector load(const double *from) {
+INLINE Vector load(const Real *from) {
     Vector vector;
     EACH(i, PARTS) vector.part[i] = *(const UnalignedPart *)(from + i * REGISTER);
     return vector;
 }
 
-INLINE void store(double *to, Vector vector) { EACH(i, PARTS) *(UnalignedPart *)(to + i * REGISTER) = vector.part[i]; }
+INLINE void store(Real *to, Vector vector) { EACH(i, PARTS) *(UnalignedPart *)(to + i * REGISTER) = vector.part[i]; }
 
 INLINE Vector zeros(void) {
     Vector vector;
-    EACH(i, PARTS) vector.part[i] = spread(0.0);
+    EACH(i, PARTS) vector.part[i] = spread(0);
     return vector;
 }
 
@@ -74,28 +73,21 @@ INLINE Vector sum_of(Vector a, Vector b) {
     return a;
 }
 
-INLINE Vector scaled(Vector vector, double scalar) {
+INLINE Vector scaled(Vector vector, Real scalar) {
     EACH(i, PARTS) vector.part[i] *= scalar;
     return vector;
 }
 
-/* sum + scalar * other, rounded once. */
-INLINE Vector add_scaled(Vector sum, double scalar, Vector other) {
-    EACH(i, PARTS) sum.part[i] = add_scaled_part(sum.part[i], scalar, other.part[i]);
+/* sum + scalar * other, both rounded. */
+INLINE Vector add_scaled(Vector sum, Real scalar, Vector other) {
+    EACH(i, PARTS) sum.part[i] += scalar * other.part[i];
     return sum;
 }
 
-INLINE Vector squared(Vector vector) {
-    EACH(i, PARTS) vector.part[i] *= vector.part[i];
-    return vector;
-}
+/* The first cache line that begins in an array: arrays come with room for WIDTH - 1 more numbers than are used. */
+INLINE Real *aligned(Real *array) { return (Real *)(((uintptr_t)array + 63) / 64 * 64); }
 
-/* The first cache line that begins in an array: arrays come with room for WIDTH - 1 more doubles than are used. */
-INLINE double *aligned(double *array) {
-    return (double *)(((uintptr_t)array + (8 * WIDTH - 1)) / (8 * WIDTH) * (8 * WIDTH));
-}
-
-INLINE int64_t whole_vectors(int64_t doubles) { return (doubles + WIDTH - 1) / WIDTH * WIDTH; }
+INLINE int64_t whole_vectors(int64_t numbers) { return (numbers + WIDTH - 1) / WIDTH * WIDTH; }
 
 /* Call `function(vectors, column, ...)` for vectors side by side from `column` on, as many at a time as registers hold,
  * compiled for each number of them. */
@@ -120,13 +112,13 @@ INLINE int64_t whole_vectors(int64_t doubles) { return (doubles + WIDTH - 1) / W
  * rows, one row after the other, so that work on a panel stays near the processor. The last panel is as wide as it must
  * be, in whole vectors. Columns beyond c, and rows from n to `rows`, are zero. */
 typedef struct {
-    double *data;
+    Real *data;
     int64_t rows, columns; /* columns of all panels, a multiple of WIDTH */
 } Panels;
 
 typedef struct {
-    double *data;
-    int64_t first, apart; /* first column, and doubles from one row to the next: its columns */
+    Real *data;
+    int64_t first, apart; /* first column, and numbers from one row to the next: its columns */
 } Panel;
 
 INLINE int64_t panel_count(const Panels *panels) { return (panels->columns + LANES - 1) / LANES; }
@@ -139,9 +131,6 @@ INLINE Panel panel_at(const Panels *panels, int64_t b) {
 INLINE int64_t padded_rows(int64_t n) { return (n / 4 + 1) * 4; }
 
 INLINE int64_t panels_size(const Panels *panels) { return panels->rows * panels->columns; }
-
-void LEVEL(pack)(ConstDoubles2 columns, int64_t count, const uint32_t *order, Panels panels);
-void LEVEL(unpack)(Panels panels, const uint32_t *order, Doubles2 columns);
 
 /* Front t: its own steps, its border, its matrix, and how far the rows of that are apart. */
 typedef struct {
@@ -159,11 +148,8 @@ INLINE Front front_at(const Fronts *fronts, int64_t t) {
     return front;
 }
 
-/* Doubles of scratch that it takes: two matrices of a panel's columns, and the length of every column. */
-INLINE int64_t qr_size(const Panels *panels) { return 2 * LANES * LANES + panels->columns; }
-
-double LEVEL(cholesky_qr)(Panels *panels, int64_t c, double once, double *scratch);
-
-void LEVEL(substitute)(Fronts fronts, const double *matrices, const double *inverse, Panels panels, int64_t power);
+#ifndef VECTORS_OF_DOUBLES
+void LEVEL(substitute)(Fronts fronts, const float *matrices, const float *inverse, Panels panels);
+#endif
 
 #endif

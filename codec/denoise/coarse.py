@@ -98,7 +98,7 @@ def _dictionaries(blocks: Blocks, width: int, rules: ChainRules) -> Iterator[tup
             block = blocks.block(index)
             dictionary = chain.dictionary(chain.around(block), width)
             chain.commit(block, dictionary, np.zeros((block.size, 3)))
-            found.append((block, dictionary))
+            found.append((block, dictionary.astype(np.float64)))
         return found
 
     for found in ordered_map(chain_from, rules.chain_starts(blocks.count), None):

@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Indices, Matrix, Positions
+from bsm.codec.arrays import Basis, Faces, Indices, Matrix, Positions
 from bsm.codec.basis.cost import Price, Steps, factor_cost, settle
 from bsm.codec.basis.laplacian import Factor, Fronts
 from bsm.codec.basis.weighted import Held, cotangent_weights, hold
@@ -80,7 +80,7 @@ class Part:
     """A part of the mesh and its dictionary."""
 
     site: Site
-    basis: Matrix
+    basis: Basis
 
     @property
     def vertices(self) -> Indices:

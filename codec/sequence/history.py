@@ -9,7 +9,7 @@ import numpy as np
 from bsm.bitstream.coefficients.matrices import make_level_bank
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.bitstream.errors import CorruptError
-from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.arrays import Levels, Matrix, sum_in_order
 from bsm.codec.sequence.row_prediction import Loop
 from bsm.codec.sequence.temporal import time_cosines
 from bsm.codec.sequence.tracks import INHERITED, Track, lags
@@ -74,14 +74,11 @@ class FrameHistory:
 
     def base(self, block: int) -> Matrix:
         """What frames start from, around a block and its coefficients, shape (k_i + c_i, dT)."""
-        frames = len(self._cosines)
-        if self._back:
-            kept = np.array([self._kept[self._back - 1 - frame][block] for frame in range(frames)])
-            return np.tensordot(kept, self._cosines, (0, 0)).swapaxes(1, 2).reshape(kept.shape[1], -1)
-        latest = self._kept[0][block]
-        base = np.zeros((len(latest), latest.shape[1] * frames))
-        base[:, : latest.shape[1]] = self._cosines[:, 0].sum() * latest
-        return base
+        base = np.zeros((len(self._kept[0][block]), len(self._cosines), self._track.width))
+        for frame, cosines in enumerate(self._cosines):
+            begun = self._kept[self._back - 1 - frame if self._back else 0][block]
+            base += begun[:, None] * cosines[:, None]
+        return base.reshape(len(base), -1)
 
     def copy(self) -> FrameHistory:
         """An independent copy of the present state."""
@@ -95,7 +92,7 @@ class FrameHistory:
         self.levels = levels
         spectra = [part.reshape(len(part), len(self._cosines), self._track.width) for part in coded]
         latest = self._cosines[::-1][: self._track.kept]
-        fresh = [[np.tensordot(part, cosines, (1, 0)) for part in spectra] for cosines in latest]
+        fresh = [[sum_in_order(part.swapaxes(0, 1) * cosines[:, None, None]) for part in spectra] for cosines in latest]
         self._kept = [*fresh, *self._kept][: self._track.kept]
 
 

@@ -1,5 +1,6 @@
-/* Frames of the components of a field (specification, S 7.1): each of its coordinates in as many frames as a vector has
- * numbers. */
+/* The temporal transform (specification, S 5, S 7): columns at right angles, and frames of the components of a field, each
+ * of its coordinates in as many frames as a vector has numbers. */
+#define VECTORS_OF_DOUBLES
 #include "codec/basis/vectors.h"
 #include "codec/sequence/kernels.h"
 
@@ -41,5 +42,48 @@ int64_t LEVEL(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 wei
         WITH_VECTORS(VECTORS, column, show_coordinates, field, first, weights, frames);
     if (column < columns)
         WITH_VECTORS((columns - column) / WIDTH, column, show_coordinates, field, first, weights, frames);
+    return 0;
+}
+
+/* Add a multiple of a row to another. */
+INLINE void add_row(double *to, double scalar, const double *from, int64_t count) {
+    int64_t i = 0;
+    for (; i + WIDTH <= count; i += WIDTH) store(to + i, add_scaled(load(to + i), scalar, load(from + i)));
+    for (; i < count; i++) to[i] += scalar * from[i];
+}
+
+/* The product of two matrices, sums in the order of the columns of the first. */
+int64_t LEVEL(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Doubles2 result) {
+    int64_t columns = right.columns;
+    if (left.columns != right.rows || result.rows != left.rows || result.columns != columns) return MISUSED;
+    for (int64_t r = 0; r < left.rows; r++) {
+        double *row = result.data + r * columns;
+        for (int64_t j = 0; j < columns; j++) row[j] = 0.0;
+        for (int64_t k = 0; k < left.columns; k++) add_row(row, left.data[r * left.columns + k], right.data + k * columns, columns);
+    }
+    return 0;
+}
+
+/* Columns at right angles, of what is free in them, which they overwrite (S 5.3). `vector` has room for a column, `shares`
+ * for a row. */
+int64_t LEVEL(turn_columns)(Doubles2 free, Doubles vector, Doubles shares) {
+    int64_t rows = free.rows, columns = free.columns;
+    if (columns > rows || vector.size < rows || shares.size < columns) return MISUSED;
+    double *v = vector.data;
+    for (int64_t k = columns - 1; k >= 0; k--) {
+        double square = 0.0, turned = 0.0;
+        for (int64_t r = k; r < rows; r++) {
+            v[r] = free.data[r * columns + k];
+            square += v[r] * v[r];
+        }
+        if (!(square > 0.0)) continue;
+        v[k] += v[k] < 0.0 ? -__builtin_sqrt(square) : __builtin_sqrt(square);
+        for (int64_t r = k; r < rows; r++) turned += v[r] * v[r];
+        int64_t count = columns - k - 1;
+        for (int64_t i = 0; i < count; i++) shares.data[i] = 0.0;
+        for (int64_t r = k; r < rows; r++) add_row(shares.data, v[r], free.data + r * columns + k + 1, count);
+        for (int64_t i = 0; i < count; i++) shares.data[i] *= 2.0 / turned;
+        for (int64_t r = k; r < rows; r++) add_row(free.data + r * columns + k + 1, -v[r], shares.data, count);
+    }
     return 0;
 }

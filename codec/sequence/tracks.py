@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from itertools import combinations_with_replacement
+from operator import mul
 
 import numpy as np
 
 from bsm.bitstream.container.gop import GopBody, GopMethod
-from bsm.codec.arrays import Faces, Levels, Matrix
+from bsm.codec.arrays import Faces, Levels, Matrix, sum_in_order
 from bsm.codec.basis.cost import solve_cost
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.temporal import BATCH
@@ -72,13 +74,14 @@ class Bending:
     @classmethod
     def of(cls, positions: Matrix) -> Bending:
         """How a part bends that has the positions, shape (n_i, 3), in its first frame, in BSM units."""
-        centre = positions.mean(axis=0)
-        return cls(centre, float(np.sqrt(np.square(positions - centre).sum() / len(positions) + SMALLEST)))
+        centre = sum_in_order(positions) / len(positions)
+        x, y, z = np.square(positions - centre).T
+        return cls(centre, float(np.sqrt(sum_in_order(x + y + z) / len(positions) + SMALLEST)))
 
     def columns(self, positions: Matrix) -> Matrix:
         """Positions, shape (m, 3), and behind them their squares and cubes about the part: shape (m, 19)."""
         own = (positions - self.centre) / self.radius
-        powers = [factor * self.radius * own[:, list(axes)].prod(axis=1) for factor, axes in PRODUCTS]
+        powers = [reduce(mul, own.T[list(axes)], factor * self.radius) for factor, axes in PRODUCTS]
         return np.column_stack([positions, *powers])
 
 

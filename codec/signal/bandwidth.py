@@ -6,7 +6,7 @@ import numpy as np
 
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal.transform import project
 
@@ -44,7 +44,7 @@ class MeasuredSpectrum:
         """The lowest `width` frequencies, not rising; the first columns of a dictionary do not depend on later ones."""
         energy, count = np.zeros(width), np.zeros(width)
         for block in self._samples:
-            start = cosine_columns(block.size, 0, min(width, block.size))
+            start = first_columns(block.size, min(width, block.size), False)
             factor = factorize(laplacian_of(block), self._shift)
             subspace = orthogonal_iteration(factor, start, power=1, iterations=1)
             coefficients = project(subspace, self._positions[block.vertices], subspace.shape[1])

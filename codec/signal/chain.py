@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from bsm.codec.arrays import Matrix
+from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.basis.cost import Steps, unpaid
 from bsm.codec.basis.laplacian import laplacian_of
 from bsm.codec.basis.orthogonal_iteration import (
@@ -26,22 +26,15 @@ from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import Graph, is_connected
 from bsm.codec.signal.predict import Known, Surroundings, Suspended, unheld
 
-Rounding: TypeAlias = Callable[[Matrix], Matrix]
-Columns: TypeAlias = Callable[[int], Matrix]
+Columns: TypeAlias = Callable[[int], Basis]
 Dictionary: TypeAlias = Callable[[Surroundings, int, Columns], Matrix]
 Predictor: TypeAlias = Callable[[Surroundings], Matrix]
-
-
-def unchanged(values: Matrix) -> Matrix:
-    """The values themselves, of any shape."""
-    return values
 
 
 @dataclass(frozen=True)
 class Trial:
     """What is tried in place of what the specification says; nothing, unless somebody asks for it."""
 
-    rounding: Rounding = unchanged
     dictionary: Dictionary | None = None
     predictor: Predictor | None = None
 
@@ -95,7 +88,7 @@ def key_steps(rules: ChainRules, around: Suspended, width: int) -> Steps:
     """U of a block that follows no other, with `width` columns, and the price of each step."""
     block = around.laplacian.block
     most = rules.iterated(block.size)
-    start = rules.trial.rounding(first_columns(block.size, min(width, most), rules.exact or in_pieces(block)))
+    start = first_columns(block.size, min(width, most), rules.exact or in_pieces(block))
     if rules.exact:
         steps = exact_steps(around.laplacian, start, around.springs)
     else:
@@ -114,7 +107,7 @@ class Chain:
     def __init__(self, rules: ChainRules, graph: Graph) -> None:
         self._rules = rules
         self._known = None if rules.stiffness == 0.0 or rules.alone else Known(graph, rules.stiffness)
-        self._subspace: Matrix | None = None
+        self._subspace: Basis | None = None
 
     def around(self, block: Block) -> Surroundings:
         """What the chain knows around a block."""
@@ -122,7 +115,7 @@ class Chain:
         shift = self._rules.shift
         return unheld(laplacian, shift) if self._known is None else self._known.around(laplacian, shift)
 
-    def dictionary(self, around: Surroundings, width: int) -> Matrix:
+    def dictionary(self, around: Surroundings, width: int) -> Basis:
         """U of a block of n_i rows, shape (n_i, width), a function of connectivity and earlier widths only."""
         return unpaid(self.steps(around, width))
 
@@ -142,7 +135,7 @@ class Chain:
             return key_steps(rules, around, width)
         most = rules.iterated(block.size)
         first = min(width, most)
-        start = rules.trial.rounding(follow_columns(previous, first, in_pieces(block)))
+        start = follow_columns(previous, first, in_pieces(block))
         steps = iteration_steps(around.factor, start, power=rules.power, iterations=rules.iterations, width=first)
         return completed_steps(steps, block.size, most, width)
 
@@ -150,11 +143,11 @@ class Chain:
         """A dictionary of somebody's own, whose price nobody knows."""
         yield from ()
         return np.ascontiguousarray(
-            own(around, width, lambda width: unpaid(self._specified(around, width))), np.float64
+            own(around, width, lambda width: unpaid(self._specified(around, width))), np.float32
         )
 
-    def commit(self, block: Block, subspace: Matrix, positions: Matrix) -> None:
+    def commit(self, block: Block, subspace: Basis, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""
         self._subspace = subspace
         if self._known is not None:
-            self._known.add(block, self._rules.trial.rounding(positions))
+            self._known.add(block, positions)

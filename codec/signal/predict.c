@@ -27,54 +27,58 @@ void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, By
     for (int64_t r = 0; r < vertices.size; r++) inside.data[vertices.data[r]] = 0;
 }
 
+INLINE double mean_of(ConstDoubles2 pulls, int64_t d, double total) {
+    double sum = 0.0;
+    for (int64_t r = 0; r < pulls.rows; r++) sum += pulls.data[r * pulls.columns + d];
+    return sum / total;
+}
+
 /* What continues the known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean), with a factor of
- * `factorize_fronts`; zero without springs, whose sum is `total`. `scratch` holds a row more than `solve_columns` asks for. */
-void continue_known(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles springs, double total,
-                    ConstDoubles2 pulls, Doubles scratch, Doubles2 continued) {
+ * `factorize_fronts`; zero without springs. `scratch` is what `solve_columns` asks for. */
+int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
+                       Singles scratch, Doubles2 continued) {
     int64_t n = pulls.rows, m = pulls.columns;
-    double *mean = scratch.data;
+    if (springs.size != n || continued.rows != n || continued.columns != m || !fits_factor(&fronts, n, values, inverse) ||
+        scratch.size < (n + 4) * (m + 16) + 15)
+        return MISUSED;
+    double total = 0.0;
+    for (int64_t r = 0; r < n; r++) total += springs.data[r];
     if (!(total > 0.0)) {
         for (int64_t i = 0; i < n * m; i++) continued.data[i] = 0.0;
-        return;
+        return 0;
     }
-    for (int64_t d = 0; d < m; d++) mean[d] = 0.0;
-    for (int64_t r = 0; r < n; r++)
-        for (int64_t d = 0; d < m; d++) mean[d] += pulls.data[r * m + d];
-    for (int64_t d = 0; d < m; d++) mean[d] /= total;
-    for (int64_t r = 0; r < n; r++)
-        for (int64_t d = 0; d < m; d++) continued.data[r * m + d] = pulls.data[r * m + d] - springs.data[r] * mean[d];
-    Doubles rest = {scratch.data + m, scratch.size - m};
-    solve_columns(fronts, values, inverse, (ConstDoubles2){continued.data, n, m}, 1, rest, continued);
-    for (int64_t r = 0; r < n; r++)
-        for (int64_t d = 0; d < m; d++) continued.data[r * m + d] += mean[d];
+    for (int64_t d = 0; d < m; d++) {
+        double mean = mean_of(pulls, d, total);
+        for (int64_t r = 0; r < n; r++) continued.data[r * m + d] = pulls.data[r * m + d] - springs.data[r] * mean;
+    }
+    solve_columns(fronts, values, inverse, (ConstDoubles2){continued.data, n, m}, scratch, continued);
+    for (int64_t d = 0; d < m; d++) {
+        double mean = mean_of(pulls, d, total);
+        for (int64_t r = 0; r < n; r++) continued.data[r * m + d] += mean;
+    }
+    return 0;
 }
 
 /* A block on springs (M 7.3): the factor of L + S + delta I as `factorize_fronts` leaves it, and what continues the known.
- * `scratch` has room for two numbers a row, and one, more than `continue_known` asks for. */
+ * `sums` has room for a number a row, `column` for one more, and `scratch` is what `continue_known` asks for. */
 int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
-                ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles scratch, Doubles values, Doubles inverse,
-                Doubles2 continued) {
-    int64_t n = springs.size, m = pulls.columns;
+                ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
+                Singles values, Singles inverse, Doubles2 continued) {
+    int64_t n = springs.size;
+    ConstSingles pivots = {inverse.data, inverse.size};
     if (!fits_graph(offsets, neighbours) || offsets.size != n + 1 || diagonal.size != n || pulls.rows != n ||
-        continued.rows != n || continued.columns != m || !fits_factor(&fronts, n, values, inverse) ||
-        (weights.size > 0 && weights.size < offsets.data[n]) || scratch.size < 2 * n + 1 + m + (n + 4) * (m + 8) + 7)
+        !fits_factor(&fronts, n, values, pivots) || (weights.size > 0 && weights.size < offsets.data[n]) || sums.size != n ||
+        column.size != n + 1 || scratch.size < 2 * (n + 32) + 15)
         return MISUSED;
-    double *sums = scratch.data, total = 0.0;
-    for (int64_t r = 0; r < n; r++) {
-        sums[r] = diagonal.data[r] + (springs.data[r] + shift);
-        total += springs.data[r];
-    }
-    Words column = {(uint32_t *)(scratch.data + n), n + 1};
-    Doubles rest = {scratch.data + 2 * n + 1, scratch.size - 2 * n - 1};
-    factorize_fronts(offsets, neighbours, weights, (ConstDoubles){sums, n}, fronts, column, rest, values, inverse);
-    continue_known(fronts, values, (ConstDoubles){inverse.data, n}, springs, total, pulls, rest, continued);
-    return 0;
+    for (int64_t r = 0; r < n; r++) sums.data[r] = diagonal.data[r] + (springs.data[r] + shift);
+    factorize_fronts(offsets, neighbours, weights, (ConstDoubles){sums.data, n}, fronts, column, scratch, values, inverse);
+    return continue_known(fronts, values, pivots, springs, pulls, scratch, continued);
 }
 
 /* Positions of a block from its levels (specification, M 10.2): what is expected, and U times the coefficients. */
 
 /* `levels` are those of M 9.11, a row for each of the first columns of U; `scratch` has room for a number for each. */
-int64_t place_block(ConstDoubles2 prediction, ConstDoubles2 subspace, ConstInts2 levels, double half_step, Doubles scratch,
+int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step, Doubles scratch,
                     Doubles2 positions) {
     int64_t n = subspace.rows, count = 3 * levels.rows;
     if (prediction.rows != n || positions.rows != n || prediction.columns != 3 || positions.columns != 3 ||

@@ -17,7 +17,7 @@ import numpy as np
 from bsm.bitstream.once import cached_property
 from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factor_room, factorize, solving_space
+from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factor_room, factorize, solving_room
 from bsm.codec.blocks.overlap import Blend, Block, degree_weights
 from bsm.codec.geometry.graph import Graph
 
@@ -54,7 +54,7 @@ class Surroundings(Suspended):
     @cached_property
     def _ground(self) -> tuple[Factor, Matrix]:
         block, fronts, rows = self.laplacian.block, self.laplacian.fronts, len(self.springs)
-        values, inverse, continued = factor_room(fronts), np.empty(rows), np.empty((rows, 3))
+        values, inverse, continued = factor_room(fronts), np.empty(rows, np.float32), np.empty((rows, 3))
         _kernels.suspend(
             block.offsets,
             block.neighbours,
@@ -64,7 +64,9 @@ class Surroundings(Suspended):
             self.springs,
             self.pulls,
             self.shift,
-            np.empty(2 * rows + 4 + solving_space(rows, 3)),
+            np.empty(rows),
+            np.empty(rows + 1, np.uint32),
+            solving_room(rows, 3),
             values,
             inverse,
             continued,
@@ -113,15 +115,14 @@ def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
     """Values that continue what is known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean)."""
     rows, columns = pulls.shape
     check_rows(factor, rows)
-    values, scratch = np.empty((rows, columns)), np.empty(columns + solving_space(rows, columns))
+    values = np.empty((rows, columns))
     _kernels.continue_known(
         factor.fronts,
         factor.values,
         factor.inverse,
         springs,
-        float(springs.sum()),
         np.ascontiguousarray(pulls),
-        scratch,
+        solving_room(rows, columns),
         values,
     )
     return values

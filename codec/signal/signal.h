@@ -4,16 +4,16 @@
 
 #include "codec/basis/basis.h"
 
-void LEVEL(project)(ConstDoubles2 subspace, ConstDoubles2 values, Doubles2 coefficients);
-void LEVEL(reconstruct)(ConstDoubles2 subspace, ConstDoubles2 coefficients, Doubles2 values);
+void LEVEL(project)(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients);
+void LEVEL(reconstruct)(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values);
 void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
                  ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls);
-void continue_known(Fronts fronts, Doubles values, ConstDoubles inverse, ConstDoubles springs, double total,
-                    ConstDoubles2 pulls, Doubles scratch, Doubles2 continued);
+int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
+                       Singles scratch, Doubles2 continued);
 int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
-                ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles scratch, Doubles values, Doubles inverse,
-                Doubles2 continued);
-int64_t place_block(ConstDoubles2 prediction, ConstDoubles2 subspace, ConstInts2 levels, double half_step, Doubles scratch,
+                ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch, Singles values,
+                Singles inverse, Doubles2 continued);
+int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step, Doubles scratch,
                     Doubles2 positions);
 void apply_powers(ConstInts offsets, ConstInts neighbours, Doubles terms, int64_t degree);
 void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDoubles weights, Doubles2 smoothed);

@@ -13,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Integers, Levels, Matrix
+from bsm.codec.arrays import Basis, Integers, Levels, Matrix
 
 
-def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:
+def project(subspace: Basis, values: Matrix, count: int) -> Matrix:
     """E = U^T V, shape (count, d) or (count,), for the first `count` columns U of `subspace`, shape (n, c)."""
     if len(values) != len(subspace) or count > subspace.shape[1]:
         raise ValueError(f"{count} of {subspace.shape} coefficients of {len(values)} values")
@@ -26,14 +26,14 @@ def project(subspace: Matrix, values: Matrix, count: int) -> Matrix:
     return coefficients.reshape(count, *values.shape[1:])
 
 
-def placed(prediction: Matrix, subspace: Matrix, levels: Levels, step: float) -> Matrix:
+def placed(prediction: Matrix, subspace: Basis, levels: Levels, step: float) -> Matrix:
     """Prediction, shape (n, 3), plus U times the coefficients of levels, shape (c, 3), on the trellis's two grids."""
     positions = np.empty(prediction.shape)
     _kernels.place_block(prediction, subspace, levels, step / 2, np.empty(levels.size), positions)
     return positions
 
 
-def reconstruct(subspace: Matrix, coefficients: Matrix) -> Matrix:
+def reconstruct(subspace: Basis, coefficients: Matrix) -> Matrix:
     """V = U E, shape (n, d) or (n,), for E of shape (c, d) or (c,); U is the first c columns of `subspace`."""
     if len(coefficients) > subspace.shape[1]:
         raise ValueError(f"{len(coefficients)} coefficients for {subspace.shape[1]} columns")

@@ -5,17 +5,22 @@
  */
 #include "codec/signal/signal.h"
 
+#define VECTORS_OF_DOUBLES
 #include "codec/basis/vectors.h"
 
-/* A vector from the end of an array, the lanes behind which are zero. */
-INLINE Vector load_last(const double *from, int64_t left) {
+/* A vector of floats, of which the first `left` count; the lanes behind are zero. */
+INLINE Vector load_floats(const float *from, int64_t left) {
+    typedef float Floats __attribute__((vector_size(4 * REGISTER), __aligned__(4), may_alias));
     Vector vector = zeros();
-    EACH(i, PARTS) EACH(j, REGISTER) if (i * REGISTER + j < left) vector.part[i][j] = from[i * REGISTER + j];
+    if (left >= WIDTH)
+        EACH(i, PARTS) vector.part[i] = __builtin_convertvector(*(const Floats *)(from + i * REGISTER), Part);
+    else
+        EACH(i, PARTS) EACH(j, REGISTER) if (i * REGISTER + j < left) vector.part[i][j] = from[i * REGISTER + j];
     return vector;
 }
 
 /* Coefficients of columns j to j + `vectors` WIDTH and of `axes` axes from d on, of which the first `columns` count. */
-INLINE void project_tile(const int vectors, const int axes, ConstDoubles2 subspace, ConstDoubles2 values, int64_t j,
+INLINE void project_tile(const int vectors, const int axes, ConstSingles2 subspace, ConstDoubles2 values, int64_t j,
                          int64_t columns, int64_t d, Doubles2 coefficients) {
     Vector sums[3][VECTORS];
     EACH(a, axes) EACH(v, vectors) sums[a][v] = zeros();
@@ -24,10 +29,7 @@ INLINE void project_tile(const int vectors, const int axes, ConstDoubles2 subspa
     for (int64_t r = 0; r < subspace.rows; r++) {
         int64_t first = r * subspace.columns + j;
         Vector row[VECTORS];
-        if (first + vectors * WIDTH <= size)
-            EACH(v, vectors) row[v] = load(subspace.data + first + v * WIDTH);
-        else
-            EACH(v, vectors) row[v] = load_last(subspace.data + first + v * WIDTH, size - first - v * WIDTH);
+        EACH(v, vectors) row[v] = load_floats(subspace.data + first + v * WIDTH, size - first - v * WIDTH);
         EACH(a, axes) {
             double value = values.data[r * values.columns + d + a];
             EACH(v, vectors) sums[a][v] = sum_of(sums[a][v], scaled(row[v], value));
@@ -40,7 +42,7 @@ INLINE void project_tile(const int vectors, const int axes, ConstDoubles2 subspa
 }
 
 /* E = U^T V, for as many columns U of `subspace` as there are rows of `coefficients`. */
-void LEVEL(project)(ConstDoubles2 subspace, ConstDoubles2 values, Doubles2 coefficients) {
+void LEVEL(project)(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients) {
     int64_t count = coefficients.rows;
     for (int64_t j = 0; j < count; j += 2 * WIDTH) {
         int64_t columns = least(count - j, 2 * WIDTH), d = 0;
@@ -50,9 +52,9 @@ void LEVEL(project)(ConstDoubles2 subspace, ConstDoubles2 values, Doubles2 coeff
 }
 
 /* Rows r to r + WIDTH, the last one again and again beyond the end, of `axes` axes from d on. */
-INLINE void reconstruct_tile(const int axes, ConstDoubles2 subspace, ConstDoubles2 coefficients, int64_t r, int64_t d,
+INLINE void reconstruct_tile(const int axes, ConstSingles2 subspace, ConstDoubles2 coefficients, int64_t r, int64_t d,
                              Doubles2 values) {
-    const double *rows[WIDTH];
+    const float *rows[WIDTH];
     EACH(i, WIDTH) rows[i] = subspace.data + least(r + i, subspace.rows - 1) * subspace.columns;
     Vector sums[3];
     EACH(a, axes) sums[a] = zeros();
@@ -71,9 +73,10 @@ INLINE void reconstruct_tile(const int axes, ConstDoubles2 subspace, ConstDouble
 }
 
 /* Some rows from r on, and some vectors side by side from column d on. */
-INLINE void reconstruct_rows(const int rows, const int vectors, ConstDoubles2 subspace, ConstDoubles2 coefficients,
+INLINE void reconstruct_rows(const int rows, const int vectors, ConstSingles2 subspace, ConstDoubles2 coefficients,
                              int64_t r, int64_t d, Doubles2 values) {
-    const double *left = subspace.data + r * subspace.columns, *right = coefficients.data + d;
+    const float *left = subspace.data + r * subspace.columns;
+    const double *right = coefficients.data + d;
     Vector sums[ROWS][VECTORS];
     EACH(i, rows) EACH(v, vectors) sums[i][v] = zeros();
     for (int64_t q = 0; q < coefficients.rows; q++, right += coefficients.columns)
@@ -83,7 +86,7 @@ INLINE void reconstruct_rows(const int rows, const int vectors, ConstDoubles2 su
 }
 
 /* All rows of some vectors side by side. */
-INLINE void reconstruct_strip(const int vectors, int64_t d, ConstDoubles2 subspace, ConstDoubles2 coefficients,
+INLINE void reconstruct_strip(const int vectors, int64_t d, ConstSingles2 subspace, ConstDoubles2 coefficients,
                               Doubles2 values) {
     int64_t r = 0;
     for (; r + ROWS <= subspace.rows; r += ROWS) reconstruct_rows(ROWS, vectors, subspace, coefficients, r, d, values);
@@ -91,7 +94,7 @@ INLINE void reconstruct_strip(const int vectors, int64_t d, ConstDoubles2 subspa
 }
 
 /* A vector's columns or more; the last vector may lie over the one before. */
-static void reconstruct_wide(ConstDoubles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
+static void reconstruct_wide(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
     int64_t d = 0, columns = values.columns;
     for (; d + LANES <= columns; d += LANES)
         WITH_VECTORS(VECTORS, d, reconstruct_strip, subspace, coefficients, values);
@@ -101,7 +104,7 @@ static void reconstruct_wide(ConstDoubles2 subspace, ConstDoubles2 coefficients,
 }
 
 /* V = U E, for as many columns U of `subspace` as there are rows of `coefficients`. */
-void LEVEL(reconstruct)(ConstDoubles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
+void LEVEL(reconstruct)(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
     if (values.columns >= WIDTH) {
         reconstruct_wide(subspace, coefficients, values);
         return;

@@ -17,7 +17,7 @@ from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coeffici
 from bsm.bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Integers, Matrix
+from bsm.codec.arrays import Basis, Integers, Matrix
 from bsm.codec.basis.dynamic_size import DynamicSize
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.signal.transform import (
@@ -39,7 +39,7 @@ class Ground:
 
     block: Block
     prediction: Matrix
-    dictionary: Matrix
+    dictionary: Basis
 
     def coefficients(self, values: Matrix, width: int) -> Matrix:
         """U^T of `values`, shape (n, ...), for at most `width` columns."""

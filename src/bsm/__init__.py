@@ -55,7 +55,6 @@ if TYPE_CHECKING:
     )
     from bsm.comparison import MeshComparison as MeshComparison
     from bsm.files.mesh import read_mesh as read_mesh
-    from bsm.steadiness import check_steadiness as check_steadiness, unsteadiness as unsteadiness
     from bsm.viewer.notebook import show as show
     from bsm.files.formats.polygons import MeshFile as MeshFile
     from bsm.codec.denoise import DenoiseOptions as DenoiseOptions
@@ -106,7 +105,6 @@ _ROOMS = {
     ),
     "bsm.comparison": "MeshComparison",
     "bsm.files.mesh": "read_mesh",
-    "bsm.steadiness": "check_steadiness unsteadiness",
     "bsm.viewer.notebook": "show",
     "bsm.files.formats.polygons": "MeshFile",
     "bsm.codec.denoise": "DenoiseOptions",

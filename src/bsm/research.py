@@ -84,7 +84,7 @@ class Site:
         """The codec's own U, float64, shape (n, width), low frequencies first; not for a predictor."""
         if self._columns is None:
             raise OptionError("the dictionary is not known where positions are predicted")
-        return self._columns(width)
+        return self._columns(width).astype(np.float64)
 
 
 @dataclass(frozen=True)

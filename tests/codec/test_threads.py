@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.basis.laplacian import factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
@@ -98,7 +98,7 @@ def test_dictionaries_are_computed_without_the_interpreter_lock():
     mesh = patch(45, 45)
     graph = graph_of_faces(mesh.faces, 2025)
     factor = factorize(laplacian_of(grow_blocks(graph, derive_partition(graph, 1), 2025).block(0)), 0.1)
-    start = cosine_columns(2025, 0, 200)
+    start = first_columns(2025, 200, noisy=False)
     orthogonal_iteration(factor, start[:, :2].copy(), power=1, iterations=1)
     running = threading.Thread(
         target=orthogonal_iteration,

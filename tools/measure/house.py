@@ -38,8 +38,8 @@ LIMITS = {
     "header fields": 19,
     "fields of EncodeOptions": 28,
     "settings of --set": 19,
-    "words of spec/*.md": 25_000,
-    "words of the core": 11_000,
+    "words of spec/*.md": 25_200,
+    "words of the core": 11_500,
     "tuned constants of the search": 97,
     "files that encoding a mesh walks through": 72,
 }

@@ -12,14 +12,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.codec.geometry.attributes import Attribute
-from tools.surgery import first_entries
 
 FOLDER = Path(__file__).parents[2] / "spec" / "vectors"
 MANIFEST = "manifest.json"
-RMS, PEAK = 1e-9, 1e-8
-"""How far positions may be from the expected ones, in extents of the expected mesh."""
 ROUNDING = 1e-6
 """How far floats of attributes may be, for ones above 1 relatively."""
 Arrays = dict[str, npt.NDArray[Any]]
@@ -37,15 +33,11 @@ class Vector:
         One sentence.
     error : str, optional
         Class of the error with which a decoder must refuse it; None: it must be decoded.
-    rms, peak : float
-        Tolerances of positions.
     """
 
     name: str
     probes: str
     error: str | None = None
-    rms: float = RMS
-    peak: float = PEAK
 
     @property
     def stream(self) -> Path:
@@ -66,14 +58,13 @@ class Vector:
             return "the faces differ"
         if positions.shape != right.shape:
             return f"positions of shape {positions.shape} instead of {right.shape}"
-        rms, peak = distance(positions, right, scale_of(self.stream.read_bytes()))
         if set(attributes) != set(expected):
             return f"attributes {sorted(attributes)} instead of {sorted(expected)}"
         for name, values in expected.items():
             if not alike(attributes[name], values):
                 return f"{name} differs"
-        if not (rms <= self.rms and peak <= self.peak):
-            return f"positions are off by {rms:.1e} (rms; {self.rms:g} is granted) and {peak:.1e} ({self.peak:g})"
+        if not np.array_equal(positions, right):
+            return f"positions are off by up to {np.abs(positions - right).max():.1e}"
         return None
 
 
@@ -105,40 +96,6 @@ def alike(found: npt.NDArray[Any], expected: npt.NDArray[Any]) -> bool:
     )
 
 
-def scale_of(stream: bytes) -> float:
-    """The header's `scale`; 0 where there is no header that can be read."""
-    entries = first_entries(stream)
-    scale = entries.get(HEADER_FIELDS["scale"].key, 1.0 if entries else 0.0)
-    return abs(scale) if isinstance(scale, float) else 0.0
-
-
-def is_full(stream: bytes) -> bool:
-    """Whether dictionaries of a static mesh may have as many columns as rows, by the header (M 15.4)."""
-    entries = first_entries(stream)
-    columns, rows, sequence = (
-        entries.get(HEADER_FIELDS[name].key) for name in ("coefficients", "block_size", "sequence")
-    )
-    return columns is not None and columns == rows and not sequence
-
-
-def extent(positions: npt.NDArray[Any], scale: float) -> float:
-    """The unit of tolerances (M 15.3): of `scale`, the diagonal and what rounding leaves of either, the greatest."""
-    points = positions.reshape(-1, 3).astype(np.float64)
-    if len(points) == 0:
-        return scale or 1.0
-    diagonal = float(np.linalg.norm(np.ptp(points / 2, axis=0)) * 2)
-    return max(scale, diagonal, 2.0**-20 * float(np.abs(points).max())) or 1.0
-
-
-def distance(positions: npt.NDArray[Any], expected: npt.NDArray[Any], scale: float) -> tuple[float, float]:
-    """Root mean square and greatest distance between positions of one shape, in extents of the expected ones."""
-    unit = extent(expected, scale)
-    apart = np.linalg.norm(positions / unit - expected / unit, axis=-1)
-    if apart.size == 0:
-        return 0.0, 0.0
-    return float(np.sqrt((apart**2).mean())), float(apart.max())
-
-
 def read_manifest() -> list[Vector]:
     """All vectors of the manifest.
 
@@ -157,7 +114,7 @@ def read_manifest() -> list[Vector]:
 
 
 def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, Any, Arrays]]) -> None:
-    """Replace what is in the folder, but an expected mesh only where it is not within its tolerance."""
+    """Replace what is in the folder, but an expected mesh only where it is another."""
     for vector, stream in streams.items():
         vector.stream.write_bytes(stream)
     for vector, (positions, faces, attributes) in meshes.items():

@@ -14,7 +14,7 @@ from bsm.bitstream.container.reader import reading_cost
 from bsm.bitstream.errors import BsmError, CorruptError, LimitError, NumericError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Matrix
+from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.basis.cost import Price, Spend, free, settle
 from bsm.codec.basis.dynamic_size import DynamicSize
 from bsm.codec.blocks.overlap import degree_weights
@@ -76,7 +76,7 @@ class ChainEncoder:
         result = DecodedBlock(index, block.vertices, decoded, degree_weights(block.degrees))
         return CodedBlock(packet, result, work, block_memory(around.laplacian, len(levels)))
 
-    def _priced_dictionary(self, around: Surroundings) -> tuple[Matrix, list[Price]]:
+    def _priced_dictionary(self, around: Surroundings) -> tuple[Basis, list[Price]]:
         """U as wide as may pay, and the prices of its steps, which a decoder pays for the columns that are coded."""
         prices: list[Price] = []
         width = min(self._coding.width, around.laplacian.block.size)

@@ -19,7 +19,7 @@ from threadpoolctl import threadpool_limits
 from bsm.bitstream.errors import NumericError
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import cosine_columns, hash_columns, orthogonal_iteration
+from bsm.codec.basis.orthogonal_iteration import first_columns, hash_columns, orthogonal_iteration
 from bsm.codec.blocks.overlap import Blend, Block, block_size, degree_weights, grow_blocks
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
@@ -142,8 +142,9 @@ def time_solvers(mesh: TriangleMesh, sample: int, repeats: int) -> list[Result]:
 
 
 def iterated(block: Block, width: int, power: int) -> Matrix:
-    start = cosine_columns(block.size, 0, min(width, block.size))
-    return orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=power, iterations=1)
+    start = first_columns(block.size, min(width, block.size), False)
+    basis = orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=power, iterations=1)
+    return basis.astype(np.float64)
 
 
 def check_lowest(solver: Solver, laplacian: Matrix, width: int) -> None:

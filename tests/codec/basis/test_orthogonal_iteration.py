@@ -12,9 +12,7 @@ from bsm.codec.basis.orthogonal_iteration import (
     exact_basis,
     first_columns,
     hash_columns,
-    householder_orthonormalize,
     iteration_steps,
-    onorm,
     orthogonal_iteration,
     resized,
 )
@@ -40,20 +38,9 @@ def span_distance(a, b):
 
 
 def test_cosines_are_eigenvectors_of_a_path():
-    columns = cosine_columns(30, 0, 12)
+    columns = cosine_columns(30, 12)
     eigenvalues = 2 - 2 * np.cos(np.pi * np.arange(12) / 30)
     assert np.allclose(dense_laplacian(path(30)) @ columns, columns * eigenvalues, atol=1e-12)
-
-
-@pytest.mark.parametrize("decades", [0, 3, 5, 9, 13])
-def test_onorm_is_the_q_of_a_qr_factorisation_with_positive_diagonal(decades):
-    columns = hash_columns(80, 20) * np.logspace(0, -decades, 20)
-    columns[:, 1:] += columns[:, :1]
-    q = onorm(columns)
-    assert np.allclose(q.T @ q, np.eye(20), atol=1e-11)
-    r = q.T @ columns
-    assert np.all(np.diag(r) > 0)
-    assert np.allclose(np.tril(r, -1), 0, atol=1e-10)
 
 
 def test_iterations_converge_to_the_lowest_eigenvectors():
@@ -62,9 +49,9 @@ def test_iterations_converge_to_the_lowest_eigenvectors():
     values, vectors = scipy.linalg.eigh(dense_laplacian(block))
     width = 10 + int(np.argmax(np.diff(values)[9:30]))
     subspace = orthogonal_iteration(
-        factorize(laplacian_of(block), 0.01), cosine_columns(block.size, 0, width), power=4, iterations=60
+        factorize(laplacian_of(block), 0.01), first_columns(block.size, width, noisy=False), power=4, iterations=60
     )
-    assert span_distance(subspace, vectors[:, :width]) < 1e-8
+    assert span_distance(subspace, vectors[:, :width]) < 1e-4
 
 
 @pytest.mark.parametrize("mesh", [patch(17, 23), torus(20, 20)])
@@ -73,41 +60,27 @@ def test_the_exact_basis_is_exact_to_the_tolerance_that_it_states(mesh):
     block = whole(mesh.faces, len(mesh.positions))
     matrix = dense_laplacian(block)
     basis = exact_basis(laplacian_of(block), first_columns(block.size, 57, noisy=True), 0.01)
-    assert np.allclose(basis.T @ basis, np.eye(57), atol=1e-12)
+    assert np.allclose(basis.T @ basis, np.eye(57), atol=1e-5)
     quotients = np.cumsum(np.einsum("ij,ij->j", basis, matrix @ basis) + 0.01)
     least = np.cumsum(np.linalg.eigvalsh(matrix)[:57] + 0.01)
-    assert np.all(quotients >= least * (1 - 1e-12))
+    assert np.all(quotients >= least * (1 - 1e-4))
     assert np.all(quotients <= 1.001 * least)
 
 
-@pytest.mark.parametrize("decades", [0, 9, 15])
-def test_householder_reflections_agree_with_lapack(decades):
-    columns = hash_columns(80, 20) * np.logspace(0, -decades, 20)
-    columns[:, 1:] += columns[:, :1]
-    q, r = np.linalg.qr(columns)
-    found = householder_orthonormalize(columns)
-    assert np.allclose(found.T @ found, np.eye(20), atol=1e-14)
-    assert np.allclose(found, q * np.sign(np.diag(r)), atol=1e-14 * 10**decades if decades < 15 else 1.0)
-    assert np.all(np.diag(found.T @ columns) > 0)
-    columns[:, 1] = 0.0
-    found = householder_orthonormalize(columns)
-    assert np.allclose(found.T @ found, np.eye(20), atol=1e-14)
-
-
 def test_a_subspace_grows_by_cosines_and_shrinks_by_its_last_columns():
-    start = onorm(hash_columns(50, 8))
+    start = hash_columns(50, 8).astype(np.float32)
     assert np.array_equal(resized(start, 5), start[:, :5])
     grown = resized(start, 11)
     assert np.array_equal(grown[:, :8], start)
-    assert np.array_equal(grown[:, 8:], cosine_columns(50, 8, 11))
+    assert np.array_equal(grown[:, 8:], cosine_columns(50, 11)[:, 8:].astype(np.float32))
 
 
 def test_a_truncated_start_gives_the_truncated_subspace():
     block = whole(patch(15, 15).faces, 225)
     factor = factorize(laplacian_of(block), 0.125)
-    wide = orthogonal_iteration(factor, cosine_columns(225, 0, 30), power=2, iterations=1)
-    narrow = orthogonal_iteration(factor, cosine_columns(225, 0, 12), power=2, iterations=1)
-    assert np.allclose(wide[:, :12], narrow, atol=1e-12)
+    wide = orthogonal_iteration(factor, first_columns(225, 30, noisy=False), power=2, iterations=1)
+    narrow = orthogonal_iteration(factor, first_columns(225, 12, noisy=False), power=2, iterations=1)
+    assert np.array_equal(wide[:, :12], narrow)
 
 
 @pytest.mark.parametrize(("shift", "power", "width"), [(0.01, 3, 40), (1e-4, 4, 30), (1e-6, 16, 12), (1e-3, 9, 60)])
@@ -115,33 +88,35 @@ def test_high_powers_lose_no_column(shift, power, width):
     """However ill conditioned R^z is; the reference orthonormalises after every dense solve."""
     mesh = patch(17, 23)
     block = whole(mesh.faces, len(mesh.positions))
-    start = cosine_columns(block.size, 0, width)
+    start = first_columns(block.size, width, noisy=False)
     found = orthogonal_iteration(factorize(laplacian_of(block), shift), start, power=power, iterations=1)
     expected = start
     for _ in range(power):
         expected = np.linalg.solve(dense_laplacian(block) + shift * np.eye(block.size), expected)
-        expected = householder_orthonormalize(expected)
-    assert np.allclose(found.T @ found, np.eye(width), atol=1e-10)
-    assert np.allclose(found, expected, atol=1e-7)
+        q, r = np.linalg.qr(expected)
+        expected = q * np.sign(np.diag(r))
+    assert np.allclose(found.T @ found, np.eye(width), atol=1e-5)
+    assert np.linalg.svd(found.T @ expected)[1].min() > 0.9
 
 
 @pytest.mark.parametrize(
     ("rows", "first", "width"), [(2, 1, 2), (5, 2, 5), (33, 11, 30), (321, 107, 321), (322, 108, 200)]
 )
 def test_columns_are_completed_by_what_is_at_right_angles_to_them(rows, first, width):
-    columns = onorm(cosine_columns(rows, 0, first) + 0.3 * hash_columns(rows, first))
+    columns = np.linalg.qr(cosine_columns(rows, first) + 0.3 * hash_columns(rows, first))[0].astype(np.float32)
+    columns *= np.sign(columns[:1])
     found = completed(columns, width)
     assert np.array_equal(found[:, :first], columns)
-    assert np.allclose(found.T @ found, np.eye(width), rtol=0, atol=1e-13)
+    assert np.allclose(found.T @ found, np.eye(width), rtol=0, atol=1e-5)
     both = columns + np.eye(rows, first)
     reflected = np.eye(rows) - both @ np.linalg.solve(both[:first].T, both.T)
-    assert np.allclose(found[:, first:], reflected[:, first:width], rtol=0, atol=1e-13)
+    assert np.allclose(found[:, first:], reflected[:, first:width], rtol=0, atol=1e-5)
     assert np.allclose(completed(columns, first + 1), found[:, : first + 1], rtol=0, atol=0)
 
 
 def test_what_cannot_be_completed_is_an_error():
     with pytest.raises(NumericError, match="completed"):
-        completed(-np.eye(6, 2), 5)
+        completed(-np.eye(6, 2, dtype=np.float32), 5)
 
 
 def test_iterations_are_paid_for_the_columns_that_they_make_and_others_by_themselves():
@@ -149,7 +124,7 @@ def test_iterations_are_paid_for_the_columns_that_they_make_and_others_by_themse
     factor = factorize(laplacian_of(block), 0.125)
 
     def steps():
-        return iteration_steps(factor, cosine_columns(225, 0, 75), power=2, iterations=1)
+        return iteration_steps(factor, first_columns(225, 75, noisy=False), power=2, iterations=1)
 
     own, told = [], []
     first = settle(steps(), lambda price: own.append(price(75)))

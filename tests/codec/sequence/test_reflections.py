@@ -39,7 +39,7 @@ def test_columns_that_are_not_at_right_angles_span_the_same():
     np.testing.assert_allclose(span @ (span.T @ basis), basis, atol=1e-13)
 
 
-def test_many_reflections_at_once_are_those_of_one_after_the_other():
+def test_columns_are_what_reflections_make_of_them():
     free = np.tril(np.random.default_rng(1).normal(size=(120, 70)))
     free[:, 3] = 0.0
     free[40:, 40], free[40, 40] = 0.0, -2.0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.basis.laplacian import factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import cosine_columns, orthogonal_iteration
+from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
 from bsm.codec.blocks.overlap import Blocks, grow_blocks
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
@@ -25,7 +25,7 @@ def blocks_of(side: int, parts: int) -> Blocks:
 def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
     """Positions of a single block whose first `count` coefficients in x, y and z are all `amplitude`, and no others."""
     block = blocks.block(0)
-    start = cosine_columns(block.size, 0, count)
+    start = first_columns(block.size, count, noisy=False)
     subspace = orthogonal_iteration(factorize(laplacian_of(block), SHIFT), start, power=1, iterations=1)
     positions = np.zeros((block.size, 3))
     positions[block.vertices] = amplitude * subspace.sum(axis=1)[:, None]

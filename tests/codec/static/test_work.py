@@ -7,9 +7,9 @@ import pytest
 
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.basis.cost import careful_dictionary_cost, dictionary_cost, reflection_cost, settle, solve_cost
+from bsm.codec.basis.cost import careful_cost, dictionary_cost, settle, solve_cost
 from bsm.codec.basis.laplacian import factorize, laplacian_of
-from bsm.codec.basis.orthogonal_iteration import cosine_columns, iteration_steps
+from bsm.codec.basis.orthogonal_iteration import first_columns, iteration_steps
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
@@ -65,30 +65,32 @@ def test_where_everything_is_beside_everything_a_block_costs_more(spent):
         decode(stream, Limits(work=0.99 * tangled, **NOTHING_ELSE))
     assert len(decode(stream, Limits(work=1.01 * tangled, **NOTHING_ELSE)).positions) == size
     fronts, plain = (laplacian_of(block_of(each)).fronts for each in (mesh, torus(10, 25)))
-    assert dictionary_cost(fronts, 4, 3, 4) > 2 * dictionary_cost(plain, 4, 3, 4)
+    assert dictionary_cost(fronts, 4, 12) > 2 * dictionary_cost(plain, 4, 12)
 
 
 def test_one_column_costs_as_much_as_the_panel_that_it_is_solved_in():
     fronts = laplacian_of(block_of(torus(20, 20))).fronts
-    assert solve_cost(fronts, 1) == solve_cost(fronts, 8) < solve_cost(fronts, 9) < solve_cost(fronts, 33)
+    assert solve_cost(fronts, 1) == solve_cost(fronts, 16) < solve_cost(fronts, 17) < solve_cost(fronts, 65)
 
 
 def test_every_solution_counts():
     fronts = laplacian_of(block_of(torus(20, 20))).fronts
-    once, often = dictionary_cost(fronts, 1, 1, 1), dictionary_cost(fronts, 1, 64, 1024)
+    once, often = dictionary_cost(fronts, 1, 1), dictionary_cost(fronts, 1, 64 * 1024)
     assert often > 60_000 * solve_cost(fronts, 1) > 5_000 * once
 
 
-def test_columns_that_are_lost_are_paid_for_before_they_are_saved():
+def test_columns_that_need_care_are_paid_for_before_they_are_made():
     laplacian, told = laplacian_of(block_of(torus(20, 20))), []
-    start = cosine_columns(400, 0, 200)
+    start = first_columns(400, 200, noisy=False)
     settle(
-        iteration_steps(factorize(laplacian, 2.0**-30), start, power=16, iterations=1),
+        iteration_steps(factorize(laplacian, 2.0**-30), start, power=4, iterations=1),
         lambda price: told.append(price(200)),
     )
-    schedule = laplacian.fronts, 200, 16, 1
-    assert told[:2] == [dictionary_cost(*schedule), careful_dictionary_cost(*schedule)]
-    assert set(told[2:]) <= {reflection_cost(400, 200)}
+    fronts = laplacian.fronts
+    assert told == [dictionary_cost(fronts, 200, 4)] + [
+        careful_cost(fronts, 200, 4, 16 * 4**k) for k in range(len(told) - 1)
+    ]
+    assert len(told) > 1
 
 
 def test_an_allowance_is_spent_by_and_by():
@@ -181,7 +183,7 @@ def test_an_encoder_makes_nothing_that_decoders_refuse():
     wide = {"coefficients": 900, "block_size": 4000, "bits": 12, "power": 1, "key_iterations": 1}
     with pytest.raises(OptionError, match="memory"):
         encode(torus(64, 64), EncodeOptions(**wide, key_seed="cosines"))
-    exact = {"coefficients": 200, "block_size": 800, "bits": 12, "key_interval": 1}
+    exact = {"coefficients": 400, "block_size": 800, "bits": 12, "key_interval": 1}
     with pytest.raises(OptionError, match="work"):
         encode(torus(64, 64), EncodeOptions(**exact, limits="service"))
     with pytest.raises(OptionError, match="refuse"):

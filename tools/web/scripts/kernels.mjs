@@ -26,8 +26,8 @@ const KERNELS = [
     "code_one_unsigned", "match_halfedges", "conquer", "code_fans", "code_degenerate", "code_steps", "code_turns",
     "code_labels", "points_of_levels", "code_block", "bisect", "refine_partition",
     "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges",
-    "find_fronts", "suspend", "factorize_fronts", "solve_columns", "resize_columns", "iteration_space", "iterate", "completion_space", "complete_columns",
-    "cholesky_onorm", "householder", "reconstruct", "look_around", "smooth_all",
+    "find_fronts", "suspend", "factorize_fronts", "continue_known", "resize_columns", "cosines", "iteration_space", "iterate", "completion_space", "complete_columns",
+    "multiply_matrices", "turn_columns", "reconstruct", "look_around", "smooth_all",
     "find_rings", "filter_rows", "link_corners", "order_vertices", "code_grid", "code_floats", "code_light", "place_values", "code_levels",
     "local_frames", "add_heights", "add_slides", "tangent_steps", "code_matrix", "project", "code_edges", "join_corners",
     "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces", "cotangents", "hold", "pull", "learn_around", "follow_rows",
@@ -47,7 +47,7 @@ const LINK = [
 const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry/;
 
 /** Kernels of sequences, and of split vertices. */
-const FRAMES = ["completion_space", "complete_columns", "code_matrix", "project", "cotangents", "hold", "pull", "learn_around", "follow_rows"];
+const FRAMES = ["continue_known", "cosines", "multiply_matrices", "turn_columns", "completion_space", "complete_columns", "code_matrix", "project", "cotangents", "hold", "pull", "learn_around", "follow_rows"];
 /** Kernels of attributes. */
 const ATTRIBUTES = ["code_edges", "join_corners", "expect_normals", "code_scalars", "code_texcoords", "code_normals", "code_faces"];
 /** Kernels of light grids. */
@@ -61,7 +61,7 @@ const FIELDS = [
 const BLOCKS = [
     "learn_beforehand", "add_noise", "points_of_levels", "code_block", "code_labels", "bisect", "refine_partition",
     "group_by_label", "chain_blocks", "order_scratch", "order_block", "add_copies", "collect_edges", "find_fronts", "suspend", "factorize_fronts",
-    "solve_columns", "resize_columns", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around",
+    "continue_known", "resize_columns", "cosines", "iteration_space", "iterate", "cholesky_onorm", "householder", "reconstruct", "look_around",
     "smooth_all", "find_rings", "filter_rows",
 ];
 

@@ -1,6 +1,6 @@
 /** One chain of blocks: what its blocks know of those before them (specification, M 7 to M 10). */
 import {
-    completed, completionCost, degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, orthogonalIteration, reconstruct, roundingCost, solutionCost, suspend, whole,
+    completed, completionCost, degreesOf, EXACT, exactBasis, factorize, firstColumns, followColumns, iterationCost, orthogonalIteration, reconstruct, suspend, whole,
     type Factor, type Schedule,
 } from "./basis";
 import { edgesOf, makeBlock, membersOf, type Block, type Blocks } from "./blocks";
@@ -8,7 +8,7 @@ import { CoefficientModel, unpackLevels } from "./coefficients";
 import { Coder } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
-import type { Bytes, Doubles, Memory } from "./kernels";
+import type { Bytes, Doubles, Memory, Singles } from "./kernels";
 import { checkLimit, checkMemory, type Limits } from "./limits";
 import { blockCost, FRAME } from "./work";
 import { areFinite } from "./numbers";
@@ -42,8 +42,7 @@ export function spendOn(allowance: Allowance, header: Header, block: Block, colu
     const rows = block.size;
     allowance.hold(8 * (6 * rows * whole(columns) + 2 * whole(columns) ** 2));
     const first = Math.min(columns, iterated(header, rows));
-    const iterating = iterations * (power * solutionCost(block, first) + roundingCost(rows, first));
-    allowance.spend(block.fronts.work / 7 + 5 * rows * whole(first) + iterating + completionCost(rows, first, columns));
+    allowance.spend(block.fronts.work / 3 + iterationCost(block, first, power * iterations) + completionCost(rows, first, columns));
 }
 
 /** U of a block that follows none (M 8.3 to M 8.5); `held` is the factor of L + springs + delta, where there is one. */
@@ -55,7 +54,7 @@ export function keyDictionary(
     width: number,
     allowance: Allowance,
     held?: Factor,
-): Doubles {
+): Singles {
     const first = Math.min(width, iterated(header, block.size));
     if (isExact(header, false)) return completed(memory, exactBasis(memory, block, springs, first, allowance), width);
     const factor = held ?? factorize(memory, block, springs.map((spring) => spring + header.paper.shift));
@@ -168,7 +167,7 @@ export class ChainDecoder {
     private readonly inside?: Bytes;
     private readonly behind: number;
     /** The dictionary of the block before, behind what the chain has learnt. */
-    private subspace?: Doubles;
+    private subspace?: Singles;
 
     constructor(
         private readonly memory: Memory,
@@ -242,12 +241,12 @@ export class ChainDecoder {
     }
 
     /** The dictionary that a block starts from, if it follows another. */
-    private predecessor(block: Block): Doubles | undefined {
+    private predecessor(block: Block): Singles | undefined {
         return this.subspace?.rows === block.size ? this.subspace : undefined;
     }
 
     /** U of a block (M 8.3 to M 8.5). */
-    private dictionary(block: Block, springs: Doubles, factor: Factor, width: number): Doubles {
+    private dictionary(block: Block, springs: Doubles, factor: Factor, width: number): Singles {
         const { header, memory, allowance } = this;
         const previous = this.predecessor(block);
         if (!previous) return keyDictionary(memory, header, block, springs.view.slice(), width, allowance, factor);

@@ -7,7 +7,7 @@
  */
 import { LimitError } from "./errors";
 
-type Numbers = Uint8Array | Int32Array | Uint32Array | BigInt64Array | Float64Array;
+type Numbers = Uint8Array | Int32Array | Uint32Array | BigInt64Array | Float32Array | Float64Array;
 
 interface Kind<View extends Numbers> {
     readonly BYTES_PER_ELEMENT: number;
@@ -59,6 +59,7 @@ export type Bytes = Place<Uint8Array>;
 export type Ints = Place<Int32Array>;
 export type Words = Place<Uint32Array>;
 export type Longs = Place<BigInt64Array>;
+export type Singles = Place<Float32Array>;
 export type Doubles = Place<Float64Array>;
 
 const PAGE = 65536;
@@ -193,6 +194,10 @@ export class Memory {
 
     longs(length: number, columns?: number): Longs {
         return this.place(BigInt64Array, length, columns);
+    }
+
+    singles(length: number, columns?: number): Singles {
+        return this.place(Float32Array, length, columns);
     }
 
     doubles(length: number, columns?: number): Doubles {

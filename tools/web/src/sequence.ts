@@ -1,11 +1,11 @@
 /** Frames of a sequence, which follow the blocks of its first frame (specification, S). */
-import { factorize, reconstruct, solutionCost, solve, cosineColumns, type Factor } from "./basis";
+import { continued, factorize, reconstruct, solutionCost, type Factor } from "./basis";
 import { edgesOf, makeBlock, type Block, type Blocks } from "./blocks";
 import { keyDictionary, spendOn, TETHER, type Allowance } from "./chain";
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
 import { CorruptError, NumericError } from "./errors";
 import type { Header } from "./header";
-import type { Doubles, Ints, Memory } from "./kernels";
+import type { Doubles, Ints, Memory, Singles } from "./kernels";
 import { checkLimit, type Limits } from "./limits";
 import { areFinite } from "./numbers";
 import { Cursor } from "./packets";
@@ -104,14 +104,13 @@ interface Levels {
 interface Part {
     block: Block;
     springs: Float64Array;
-    total: number;
     starts: Ints;
     /** Vertices that it hangs on, ascending, and which of them each spring goes to. */
     around: Int32Array;
     outer: Ints;
     stiffness: Doubles;
     factor: Factor;
-    basis: Doubles;
+    basis: Singles;
 }
 
 /** What is known of a part (S 3.7, S 7.1, S 10.3): differences, and values around it, of so many columns. */
@@ -298,9 +297,8 @@ export class Sequence {
         allowance.spend(blockCost(size, room, 0) - UNCODED);
         spendOn(allowance, header, block, columns, false);
         const factor = factorize(memory, block, springs.map((spring) => spring + TETHER));
-        const total = springs.reduce((sum, spring) => sum + spring, 0);
         const basis = memory.keep(() => keyDictionary(memory, header, block, springs, columns, allowance));
-        return { block, springs, total, starts, around, outer, stiffness, factor, basis };
+        return { block, springs, starts, around, outer, stiffness, factor, basis };
     }
 
     /** What bends a part (S 3.7). */
@@ -333,21 +331,11 @@ export class Sequence {
     /** P: rows that continue a field of `width` columns, of which `ends` is what it is around (S 3.4). */
     private extend(part: Part, ends: Float64Array, width: number): Float64Array {
         const { memory } = this;
-        const { block, springs, total } = part;
-        if (total === 0) return new Float64Array(block.size * width);
+        const { block, springs, factor } = part;
         return memory.scratch(() => {
             const pulls = memory.doubles(block.size * width, width);
             memory.run("pull", part.starts, part.outer, part.stiffness, memory.copy(ends, width), pulls);
-            const { view } = pulls;
-            const mean = new Float64Array(width);
-            const eachEntry = (work: (i: number, row: number, column: number) => void): void => {
-                for (let row = 0, i = 0; row < block.size; row++) for (let column = 0; column < width; column++) work(i++, row, column);
-            };
-            eachEntry((i, _, column) => (mean[column] += view[i] / total));
-            eachEntry((i, row, column) => (view[i] -= springs[row] * mean[column]));
-            const rows = solve(memory, block, part.factor, pulls).view.slice();
-            eachEntry((i, _, column) => (rows[i] += mean[column]));
-            return rows;
+            return continued(memory, block, factor, memory.copy(springs), pulls).view.slice();
         });
     }
 
@@ -513,7 +501,7 @@ export class Sequence {
             rows.forEach((row, i) => {
                 for (let k = 0; k < components; k++) view[rows.length * k + i] = basis[components * row + k];
             });
-            memory.run("reconstruct", field, weights, shown);
+            memory.call("multiply_matrices", field, weights, shown);
         });
     }
 
@@ -529,7 +517,7 @@ export class Sequence {
         const cosines = temporalCosines(this.memory, frames);
         points.forEach((own, d) => {
             const spectrum = Float64Array.from(own, (_, i) => turned[place(d, i)]);
-            columns.set(reconstruct(this.memory, cosines, spectrum, components), d * frames * components);
+            columns.set(multiplied(this.memory, cosines, spectrum, components), d * frames * components);
         });
         return columns;
     }
@@ -697,10 +685,20 @@ function risingAxes(degree: number): number[][] {
 
 /** The orthonormal cosines over time, a row for each frame (S 5.1). */
 function temporalCosines(memory: Memory, frames: number): Doubles {
-    const cosines = cosineColumns(memory, frames, frames);
+    const cosines = memory.doubles(frames * frames, frames);
+    memory.scratch(() => memory.run("cosines", memory.doubles(frames + 8), cosines));
     const { view } = cosines;
     for (let i = 0; i < view.length; i++) view[i] *= Math.sqrt((i % frames ? 2 : 1) / frames);
     return cosines;
+}
+
+/** A matrix times another of so many columns. */
+function multiplied(memory: Memory, left: Doubles, right: Float64Array, width: number): Float64Array {
+    return memory.scratch(() => {
+        const result = memory.doubles(left.rows * width, width);
+        memory.call("multiply_matrices", left, memory.copy(right, width), result);
+        return result.view.slice();
+    });
 }
 
 /** The data of a GOP of a run (S 2, S 9.2, S 10.2). */
