@@ -11,9 +11,7 @@ extern "C" {
 #include "codec/look/shade.h"
 #include "codec/sequence/kernels.h"
 #include "codec/signal/signal.h"
-#include "codec/static/choice/creases.h"
-#include "codec/static/choice/settling.h"
-#include "codec/static/choice/shaping.h"
+#include "codec/static/choice/choice.h"
 #include "codec/static/units.h"
 }
 
@@ -149,7 +147,6 @@ NB_MODULE(_kernels, m) {
     m.def("collect_flaps", checked<&collect_flaps>, "faces"_a, "starts"_a, "members"_a, "pending"_a, "flaps"_a,
           Unlocked());
     m.def("group_flaps", checked<&group_flaps>, "flaps"_a, "starts"_a, "members"_a, Unlocked());
-    m.def("count_bends", checked<&count_bends>, "bends"_a, "stride"_a, "counts"_a, Unlocked());
     m.def("count_bends_on", checked<&count_bends_on>, "corners"_a, "step"_a, "counts"_a, Unlocked());
     m.def("shape_levels", checked<&shape_levels>, "wanted"_a, "aim"_a, "moved"_a, "levels"_a, "directions"_a,
           "scales"_a, "pull"_a, "open"_a, Unlocked());
@@ -160,5 +157,5 @@ NB_MODULE(_kernels, m) {
           "reach"_a, "starts"_a, "members"_a, "rates"_a, "pull"_a, "fixed"_a, "creases"_a, "places"_a, "frames"_a,
           "moved"_a, "levels"_a, "counts"_a, Unlocked());
     m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,
-          "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "open"_a, Unlocked());
+          "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "creases"_a, "open"_a, Unlocked());
 }

@@ -147,19 +147,19 @@ class LookMetric:
         shaded = self._seen(self._own[0], placed, shape.faces, smooth if others is None else others)
         return max(seen, shaded, key=lambda look: look.distance)
 
-    def blame(self, positions: Positions) -> tuple[Matrix, Look]:
+    def blame(self, positions: Positions) -> Matrix:
         """Where a version looks different: how unlike the pixels are that show each of its faces, added."""
         placed, faces = self._placed(positions), self._shape.faces
         normals = self._shape.normals(placed)
 
-        def blamed(side: int) -> tuple[int, Matrix, Matrix]:
+        def blamed(side: int) -> tuple[int, Matrix]:
             version, owner = draw_owned(placed, faces, normals, self._cameras[side], self.pixels)
-            sums, unlike = difference_map(self._pictures[side], version)
+            unlike = difference_map(self._pictures[side], version)
             shown = owner >= 0
-            return int(shown.sum()), np.bincount(owner[shown], unlike[shown], len(faces)).astype(np.float64), sums
+            return int(shown.sum()), np.bincount(owner[shown], unlike[shown], len(faces)).astype(np.float64)
 
-        counts, added, sums = zip(*ordered_map(blamed, range(len(self._cameras)), self._threads), strict=True)
-        return np.sum(added, axis=0) / max(sum(counts), 1), summed(np.array(sums))
+        counts, added = zip(*ordered_map(blamed, range(len(self._cameras)), self._threads), strict=True)
+        return np.asarray(np.sum(added, axis=0) / max(sum(counts), 1))
 
     def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
         """Both meshes from the side where they differ most, each of shape (pixels, pixels)."""

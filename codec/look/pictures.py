@@ -92,10 +92,11 @@ def difference(first: Picture, second: Picture) -> Matrix:
     return _compared(first, second, _NOWHERE)
 
 
-def difference_map(first: Picture, second: Picture) -> tuple[Matrix, Picture]:
-    """Sums as of `difference`, shape (4,), and how unlike each pixel is, shape (h, w)."""
+def difference_map(first: Picture, second: Picture) -> Picture:
+    """How unlike each pixel is, shape (h, w)."""
     found = np.zeros(first.shape, np.float32)
-    return _compared(first, second, found), found
+    _compared(first, second, found)
+    return found
 
 
 def _compared(first: Picture, second: Picture, found: Picture) -> Matrix:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -19,6 +20,7 @@ from bsm.codec.geometry.metrics import Comparison, Reference
 from bsm.codec.look.measure import own_normals
 from bsm.codec.look.pictures import Normals
 from bsm.codec.signal.transform import smallest_step
+from bsm.codec.static.admission import as_of_decoders
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import Quality, qualities
 from bsm.codec.static.choice.blocks import Spectral
@@ -32,10 +34,7 @@ from bsm.codec.static.joining import JoinedMesh, join
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import Target, search_step
-from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
-
-LEAST_VISUAL = 1e-300
-"""NMSVE that is asked for where decibels are beyond numbers."""
+from bsm.codec.static.ways.block_coder import Progress
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,7 +209,7 @@ class Encoder:
         if target.kind == "theta_deg":
             contract = replace(promise, angle=target.value, alike=True)
         else:
-            contract = replace(promise, visual=max(10.0 ** (target.value / 10.0), LEAST_VISUAL))
+            contract = replace(promise, visual=max(10.0 ** (target.value / 10.0), sys.float_info.min))
         return self._judged(self._dressed(self._search(contract, progress).smallest(contract)))
 
     def _sized(self, target: Target, progress: Progress | None) -> Attempt:
@@ -295,7 +294,7 @@ class Encoder:
     @cached_property
     def _prepared(self) -> Prepared:
         options = self.options
-        parts = Parts(options.block_size, options.overlap, options.partition == "metis")
+        parts = Parts(options.block_size, options.overlap, options.paper.partition == "metis")
         return prepare(
             self._joined.mesh,
             parts,

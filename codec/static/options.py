@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
@@ -46,6 +47,69 @@ BALANCED = Contract(0.01, look=1.0, by_part=0.01)
 
 @public
 @dataclass(frozen=True, kw_only=True)
+class Paper:
+    """How blocks are coded, for those who study the paper; the defaults are the product.
+
+    Parameters
+    ----------
+    bits : int, optional
+        q_c: store every coefficient in so many bits, as in the paper, without prediction and smoothing. None: adaptive.
+    partition : str
+        "derived": both sides compute it; "metis": the paper's, its labels are sent.
+    key_seed : str, optional
+        Where a block that follows none begins: "cosines", or "svd", the exact lowest subspace, as the paper seeds its
+        first block. None: "svd" with `bits`, and cosines otherwise.
+    power, iterations, key_iterations : int
+        z, t_max and t_max of a key block.
+    shift : float, optional
+        delta of Algorithm 1; smaller ones converge faster, larger ones keep R^z better conditioned.
+    predict : bool
+        Predict coefficients from overlapping vertices that are known already.
+    doi : (float, float), optional
+        eps_l and eps_h of dynamic orthogonal iterations, in units of the bounding box's diagonal: c_i follows the
+        error of each block.
+
+    Raises
+    ------
+    OptionError
+        If a value is outside its legal range.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> options = bsm.EncodeOptions(paper=bsm.Paper(bits=12, partition="metis"), key_interval=1)
+    >>> bsm.encode("bunny.ply", options) == bsm.encode("bunny.ply", bits=12, partition="metis", key_interval=1)
+    True
+    """
+
+    bits: int | None = None
+    partition: str = "derived"
+    key_seed: str | None = None
+    power: int = 3
+    iterations: int = 1
+    key_iterations: int = 2
+    shift: float = 2.0**-7
+    predict: bool = True
+    doi: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        check_options(self, CHOICES, RANGES)
+        doi: object = self.doi
+        if doi is not None and not (
+            isinstance(doi, tuple) and len(doi) == 2 and all(isinstance(one, (int, float)) for one in doi)
+        ):
+            raise ArgumentError(f"doi must be two thresholds, not {doi!r}")
+        if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
+            raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
+
+    @property
+    def exact_keys(self) -> bool:
+        """Whether chains begin with the exact basis."""
+        return (self.key_seed or ("cosines" if self.bits is None else "svd")) == "svd"
+
+
+@public
+@dataclass(frozen=True, kw_only=True)
 class EncodeOptions:
     """How to encode a static mesh.
 
@@ -53,39 +117,25 @@ class EncodeOptions:
     ----------
     keep : float, optional
         Largest size of the subspace, c, as a fraction of the block size n_d; None: as many
-        as are worth coding at the step, measured on a few blocks (a tenth with `bits`, as in the paper).
+        as are worth coding at the step, measured on a few blocks (a tenth with `paper.bits`, as in the paper).
     coefficients : int, optional
         c itself; overrides `keep`.
     block_size : int
         Vertices of a part before overlap, about.
     overlap : float
         n_d as a multiple of the largest part.
-    partition : str
-        "derived": both sides compute it; "metis": the paper's, its labels are sent.
-    key_seed : str, optional
-        Where a block that follows none begins: "cosines", or "svd", the exact lowest subspace, as the paper seeds its
-        first block. None: "svd" with `bits`, the paper's mode, and cosines otherwise.
     key_interval : int
         Every so many blocks, at most, one depends on nothing before it; 0: only the first; 1: every block is on its
-        own, with exact bases throughout if `key_seed` is "svd".
-    power, iterations, key_iterations : int
-        z, t_max and t_max of a key block.
-    shift : float, optional
-        delta of Algorithm 1; smaller ones converge faster, larger ones keep R^z better conditioned.
-    bits : int, optional
-        q_c: store every coefficient in so many bits, as in the paper, without prediction and smoothing. None: adaptive.
+        own, with exact bases throughout if `paper.key_seed` is "svd".
     step : float, optional
         Finest quantization step of the adaptive coder, relative to the bounding box's diagonal; None: what the contract
         or the target begins with.
-    predict : bool
-        Predict coefficients from overlapping vertices that are known already.
     smoothing : float, optional
         Amount alpha of smoothing in the decoder; None: chosen by trying.
     keep_order : bool
         Store the order of vertices and faces, and the first corner of each face.
-    doi : (float, float), optional
-        eps_l and eps_h of dynamic orthogonal iterations, in units of the bounding box's diagonal: c_i follows the
-        error of each block.
+    paper : Paper, optional
+        How blocks are coded beyond that; as keywords its fields stand beside the others: ``bsm.encode(mesh, bits=12)``.
     target : Target, optional
         Quality or size to reach.
     contract : Contract, optional
@@ -132,19 +182,11 @@ class EncodeOptions:
     coefficients: int | None = None
     block_size: int = 550
     overlap: float = 1.05
-    partition: str = "derived"
-    key_seed: str | None = None
     key_interval: int = 32
-    power: int = 3
-    iterations: int = 1
-    key_iterations: int = 2
-    shift: float = 2.0**-7
-    bits: int | None = None
     step: float | None = None
-    predict: bool = True
     smoothing: float | None = None
     keep_order: bool = False
-    doi: tuple[float, float] | None = None
+    paper: Paper = Paper()
     target: Target | None = None
     contract: Contract | None = BALANCED
     quick: bool = False
@@ -162,14 +204,9 @@ class EncodeOptions:
             raise ArgumentError(f"target must be a Target, not {self.target!r}")
         check_options(self, CHOICES, RANGES)
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
-        doi: object = self.doi
-        if doi is not None and not (
-            isinstance(doi, tuple) and len(doi) == 2 and all(isinstance(one, (int, float)) for one in doi)
-        ):
-            raise ArgumentError(f"doi must be two thresholds, not {doi!r}")
-        if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
-            raise OptionError(f"doi = {self.doi} must be two thresholds, 0 < eps_l < eps_h")
-        if self.bits is not None and self.target is not None:
+        if not isinstance(self.paper, Paper):
+            raise ArgumentError(f"paper must be a Paper, not {self.paper!r}")
+        if self.paper.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
         if self.exact and (self.grid is not None or self.grid_cell is not None or self.quick):
             raise OptionError("positions are exact, or on a grid, or quick to decode; not two of these")
@@ -222,17 +259,20 @@ class EncodeOptions:
     @property
     def says_how(self) -> bool:
         """Whether any option of `CODING` is given."""
-        return any(getattr(self, name) is not None for name in CODING)
-
-    @property
-    def exact_keys(self) -> bool:
-        """Whether chains begin with the exact basis."""
-        return (self.key_seed or ("cosines" if self.bits is None else "svd")) == "svd"
+        return any(getattr(self, name, getattr(self.paper, name, None)) is not None for name in CODING)
 
     @property
     def fixed_smoothing(self) -> float | None:
         """The amount of smoothing, if it is not to be chosen by trying."""
-        return 0.0 if self.bits is not None and self.smoothing is None else self.smoothing
+        return 0.0 if self.paper.bits is not None and self.smoothing is None else self.smoothing
+
+
+def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
+    """The options with fields changed, those of `Paper` among them."""
+    of_paper = {one.name: changes.pop(one.name) for one in fields(Paper) if one.name in changes}
+    if of_paper:
+        changes["paper"] = replace(changes.get("paper", options.paper), **of_paper)
+    return replace(options, **changes)
 
 
 CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
@@ -248,7 +288,7 @@ PRESETS: dict[str, EncodeOptions] = {
     ),
     "balanced": EncodeOptions(contract=BALANCED),
     "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=0.005)),
-    "near-lossless": EncodeOptions(contract=Contract(0.0005, look=0.5, by_part=0.005)),
+    "near-lossless": EncodeOptions(contract=Contract(0.0005, look=0.25, by_part=0.005)),
     "grid14": EncodeOptions(grid=14),
     "lossless": EncodeOptions(exact=True, attributes={"*": "exact"}),
     "none": EncodeOptions(contract=None),

@@ -1,4 +1,8 @@
-"""What comes before positions, decoded in three stages: header, faces, then labels, order and declarations."""
+"""What a decoder gets before positions, from what `codec.static.preamble_encoding` prepares.
+
+They pass three stages (`codec.static.stages`): `HeaderStage` takes the header, `ConnectivityStage` the faces, and
+`PreambleStage` labels, order and declarations, until something else comes.
+"""
 
 from __future__ import annotations
 
@@ -77,7 +81,8 @@ class Structure:
 
 @dataclass(frozen=True)
 class DecoderSetup:
-    """Which headers a decoder takes, what it may spend, which stage comes behind, and what is tried."""
+    """How a decoder reads the preamble: which headers it takes, what it may spend, which stage comes behind, and what
+    is tried."""
 
     allowance: Allowance
     check: Callable[[Header], None]

@@ -1,4 +1,7 @@
-"""What comes before positions: the faces and everything that follows from them; for meshes and for sequences."""
+"""What comes before positions: the faces and everything that follows from them; for meshes and for sequences.
+
+`prepare` makes it from a mesh; the decoder's half is `codec.static.preamble_decoding`.
+"""
 
 from __future__ import annotations
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any, ClassVar, Protocol, TypeVar
 
 from bsm.bitstream.errors import OptionError, TargetError
@@ -20,10 +22,14 @@ UNITS = {
     "bpvf": "{:.6g} bits per vertex and frame",
 }
 """What is said of a value, of a mesh's targets and of a sequence's."""
-TOLERANCE = 0.02
-TOLERANCE_DB = 0.1
 COARSEST_STEP = 0.1
-_TRIES = 24
+SLACK, TRIES = 0.03, 7
+"""How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
+STEEPEST = 2.0
+"""Errors grow with this power of the step at most, and with its inverse at least."""
+STRIDE, NEAREST = 2.0, 0.1
+"""Between two tries, in the logarithm; and where both sides of a bound are known, the part of what is between them that
+a try stays away from both."""
 
 
 class Outcome(Protocol):
@@ -75,11 +81,11 @@ class Target:
         return float(getattr(outcome if self.kind in SIZES else outcome.comparison, self.kind))
 
     def excess(self, outcome: Outcome) -> float:
-        """How far over the target an outcome is, in units of the tolerance; in -1 .. 0 it is met."""
+        """How far over the target an outcome is, in logarithms; up to 0 it is met."""
         value = self.reached(outcome)
         if self.kind == "nmsve_db":
-            return (value - self.value) / TOLERANCE_DB
-        return math.log(max(value, 1e-300) / self.value) / TOLERANCE
+            return (value - self.value) * math.log(10.0) / 10.0
+        return math.log(max(value, sys.float_info.min) / self.value)
 
     def bytes_of(self, vertices: int) -> float:
         """The size that is asked for, of a mesh of so many vertices."""
@@ -95,53 +101,60 @@ class Target:
         return self.kind in SIZES
 
 
+def secant(
+    excess: Callable[[float], float | None], first: float, least: float, most: float, tries: int = TRIES
+) -> None:
+    """Try numbers, to come to about the largest one whose excess is at most 0; None says that no other is wanted."""
+    low, high = math.log(least), math.log(most)
+    at, slope, before = min(max(math.log(first), low), high), 1.0, (math.nan, math.nan)
+    tried: list[tuple[float, float]] = []
+    for _ in range(tries):
+        value = excess(math.exp(at))
+        if value is None:
+            return
+        if before[0] != at:
+            found = (value - before[1]) / (at - before[0])
+            slope = min(max(found, 1.0 / STEEPEST), STEEPEST) if math.isfinite(found) else slope
+        before = at, value
+        tried.append(before)
+        good = max((one for one in tried if one[1] <= 0.0), default=None)
+        bad = min((one for one in tried if one[1] > 0.0 and (good is None or one[0] > good[0])), default=None)
+        if good is None and len(tried) > 2 and value > tried[0][1] - abs(at - tried[0][0]) / STEEPEST**2:
+            return  # what breaks a bound is not the step
+        if (-SLACK < value <= 0.0) or (bad is None and at >= high) or (good is None and at <= low):
+            return
+        if good is None or bad is None:
+            at += min(max((-SLACK / 2.0 - value) / slope, -STRIDE), STRIDE)
+        elif bad[0] - good[0] < SLACK / STEEPEST:
+            return
+        else:
+            share = (-SLACK / 2.0 - good[1]) / (bad[1] - good[1])
+            at = good[0] + min(max(share, NEAREST), 1.0 - NEAREST) * (bad[0] - good[0])
+        at = min(max(at, low), high)
+
+
 Found = TypeVar("Found", bound=Outcome)
 
 
 def search_step(attempt: Callable[[float], Found], target: Target, first: float, finest: float) -> Found:
     """Find a step whose outcome meets the target."""
-    low, high = math.log(finest), math.log(COARSEST_STEP)
-    sign = -1.0 if target.shrinks_with_step else 1.0
-    under: tuple[float, float] | None = None  # step and signed excess on the fine side
-    over: tuple[float, float] | None = None
-    right: tuple[float, Found] | None = None
-    best: float | None = None
-    at = min(max(math.log(first), low), high)
-    for _ in range(_TRIES):
-        outcome = attempt(max(math.exp(at), finest))
-        excess = target.excess(outcome)
-        value = target.reached(outcome)
-        best = value if best is None else min(best, value)
-        if excess <= 0 and (right is None or excess > right[0]):
-            right = excess, outcome
-        if -1.0 <= excess <= 0.0:
-            break
-        # On the fine side of the answer the signed excess is negative.
-        if sign * excess < 0:
-            under = at, sign * excess
-        else:
-            over = at, sign * excess
-        following = _next_try(under, over, low, high)
-        if abs(following - at) < 1e-4:
-            break
-        at = following
-    if right is None:
-        assert best is not None
-        error = TargetError(
-            f"{target.worded(target.value)} at most cannot be reached; the best that can be had is "
-            f"{target.worded(best)}"
-        )
-        error.best = best
-        raise error
-    return right[1]
+    seen: list[tuple[float, Found]] = []
 
+    def tried(step: float) -> float:
+        outcome = attempt(max(step, finest))
+        seen.append((target.excess(outcome), outcome))
+        return seen[-1][0]
 
-def _next_try(under: tuple[float, float] | None, over: tuple[float, float] | None, low: float, high: float) -> float:
-    """A step (its logarithm) between the two sides, or beyond the only one."""
-    if under is None or over is None:
-        if over is not None:
-            return max(low, over[0] - max(0.3, min(1.5, 0.02 * over[1])))
-        assert under is not None
-        return min(high, under[0] + max(0.3, min(1.5, -0.02 * under[1])))
-    share = -under[1] / (over[1] - under[1])
-    return under[0] + min(max(share, 0.08), 0.92) * (over[0] - under[0])
+    if target.shrinks_with_step:
+        secant(lambda fineness: tried(1.0 / fineness), 1.0 / first, 1.0 / COARSEST_STEP, 1.0 / finest, 2 * TRIES)
+    else:
+        secant(tried, first, finest, COARSEST_STEP, 2 * TRIES)
+    met = [one for one in seen if one[0] <= 0.0]
+    if met:
+        return max(met, key=itemgetter(0))[1]
+    best = min(target.reached(outcome) for _, outcome in seen)
+    error = TargetError(
+        f"{target.worded(target.value)} at most cannot be reached; the best that can be had is {target.worded(best)}"
+    )
+    error.best = best
+    raise error

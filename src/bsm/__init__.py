@@ -74,7 +74,7 @@ if TYPE_CHECKING:
         AttributeEvent as AttributeEvent, BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent,
         EndEvent as EndEvent, HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
     )
-    from bsm.codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions
+    from bsm.codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions, Paper as Paper
     from bsm.codec.static.targets import Target as Target
 # isort: on
 # fmt: on
@@ -123,7 +123,7 @@ _ROOMS = {
     "bsm.codec.static.events": (
         "AttributeEvent BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent RefinementEvent"
     ),
-    "bsm.codec.static.options": "PRESETS EncodeOptions",
+    "bsm.codec.static.options": "PRESETS EncodeOptions Paper",
     "bsm.codec.static.targets": "Target",
 }
 _HOMES = {name: room for room, names in _ROOMS.items() for name in names.split()}

@@ -32,7 +32,7 @@ SEQUENCE_STEPS = {"small": 0.006, "balanced": 0.002, "fine": 0.0007, "near-lossl
 
 
 def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptions:
-    from bsm.codec.static.options import CODING, PRESETS, EncodeOptions
+    from bsm.codec.static.options import CODING, PRESETS, EncodeOptions, changed
     from bsm.codec.static.targets import Target
 
     base: EncodeOptions = EncodeOptions() if preset is None else _named("preset", PRESETS, preset)
@@ -40,7 +40,7 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     others = ("target", "contract", "grid_cell", *CODING)
     if base.is_grid and any(given.get(name) is not None for name in others):
         base = EncodeOptions()  # a preset that is a grid has nothing that could be changed
-    return replace(base, **given)
+    return changed(base, **given)
 
 
 def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) -> dict[str, Any]:
@@ -102,6 +102,8 @@ def _fields(
     """The fields of `options` that keywords give, the target among them."""
     # Of the constructor, which knows the names of its own module; the class goes by that of `bsm`.
     hints = get_type_hints(options.__init__)
+    if "paper" in hints:
+        hints |= get_type_hints(hints["paper"].__init__)
     hints.pop("return", None)
     given: dict[str, Any] = {}
     wanted = []
@@ -157,9 +159,9 @@ def _named(what: str, choices: Mapping[str, Any], name: str) -> Any:
 
 def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
     from bsm.codec.sequence.options import SequenceOptions
-    from bsm.codec.static.options import EncodeOptions
+    from bsm.codec.static.options import EncodeOptions, Paper
 
-    of_meshes = {*(one.name for one in fields(EncodeOptions)), *TARGETS, *BOUNDS}
+    of_meshes = {*(one.name for one in (*fields(EncodeOptions), *fields(Paper))), *TARGETS, *BOUNDS}
     of_sequences = {*(one.name for one in fields(SequenceOptions)), *SEQUENCE_TARGETS}
     for others, names in (("single meshes", of_meshes), ("sequences", of_sequences)):
         if name in names and what in ("a mesh", "a sequence"):

@@ -41,9 +41,9 @@ def same(a, b):
 
 def test_options_are_those_of_the_command_line(mesh, tmp_path):
     bsm.save(mesh, tmp_path / "a.ply")
-    given = ["--theta", "4", "--preset", "small", "--set", "block-size=150", "--set", "predict=no"]
+    given = ["--theta", "4", "--preset", "small", "--set", "block-size=150", "--set", "power=2"]
     assert main(["encode", str(tmp_path / "a.ply"), "-q", *given]) == 0
-    keywords = {"theta": 4, "preset": "small", "block_size": 150, "predict": False}
+    keywords = {"theta": 4, "preset": "small", "block_size": 150, "power": 2}
     assert bsm.encode(tmp_path / "a.ply", **keywords) == (tmp_path / "a.bsm").read_bytes()
     assert bsm.compare(tmp_path / "a.ply", tmp_path / "a.bsm").theta_deg <= 4.1
 

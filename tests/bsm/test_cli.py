@@ -313,11 +313,12 @@ def test_every_command_has_help(capsys):
 
 def test_the_flags_are_fields_and_show_their_defaults():
     from bsm.codec.sequence.options import SequenceOptions
-    from bsm.codec.static.options import EncodeOptions
+    from bsm.codec.static.options import EncodeOptions, Paper
 
     # A field of both has the static default: it is the one that is shown.
-    defaults = {field.name: field.default for owner in (SequenceOptions, EncodeOptions) for field in fields(owner)}
-    assert MISSING not in defaults.values()
+    owners = (SequenceOptions, EncodeOptions, Paper)
+    defaults = {field.name: field.default for owner in owners for field in fields(owner)}
+    assert all(defaults[flag.field] is not MISSING for flag in (*ENCODE_FLAGS, *SETTINGS))
     for flag in (*ENCODE_FLAGS, *SETTINGS):
         default = defaults[flag.field]
         shown = flag.help.partition("(default")[2]

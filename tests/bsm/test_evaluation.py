@@ -10,7 +10,7 @@ from bsm.bitstream.errors import CorruptError, MeshError
 from bsm.cli import main
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, changed
 from bsm.evaluation.curve import (
     Curve,
     Draco,
@@ -121,8 +121,12 @@ class TestCodecs:
 
     def test_settings_tell_what_differs_from_the_defaults(self):
         step = EncodeOptions().first_step
-        assert Spectral(EncodeOptions(power=4, threads=1)).settings == {"step": step, "power": 4, "threads": 1}
-        assert Spectral(EncodeOptions(bits=9)).settings == {"bits": 9}
+        assert Spectral(changed(EncodeOptions(), power=4, threads=1)).settings == {
+            "step": step,
+            "power": 4,
+            "threads": 1,
+        }
+        assert Spectral(changed(EncodeOptions(), bits=9)).settings == {"bits": 9}
 
 
 class TestResults:

@@ -48,8 +48,8 @@ def test_bounds_of_sequences():
 def test_keywords_are_put_on_top_of_a_preset():
     options = encode_options(preset="fine", step=np.float32(0.5), block_size=np.int64(300), keep_order=True)
     assert (options.step, options.block_size, options.keep_order) == (0.5, 300, True)
-    assert options.power == PRESETS["fine"].power
-    assert encode_options(doi=[1, 2]).doi == (1.0, 2.0)
+    assert options.paper == PRESETS["fine"].paper
+    assert encode_options(doi=[1, 2]).paper.doi == (1.0, 2.0)
     assert denoise_options(fine="bilateral-normal", iterations=3) == DenoiseOptions(
         fine="bilateral-normal", iterations=3
     )

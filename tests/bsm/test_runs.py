@@ -12,7 +12,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.files.mesh import read_mesh, write_mesh
 from tools.vectors.meshes import torus
 
-RUNS = ("--set", "runs=yes", "--set", "step=0.002")
+RUNS = ("--runs", "--set", "step=0.002")
 PIECES = ((10, 4), (7, 3), (10, 2))
 
 
@@ -47,12 +47,12 @@ def test_frames_of_other_faces_are_an_error_that_says_how_to_permit_them(tmp_pat
     assert run("encode", *paths, "-o", tmp_path / "a.bsm") != 0
     said = capsys.readouterr().err
     assert "f004.ply (frame 4) has other faces than" in said and "42 vertices where there were 60" in said
-    assert "--set runs=yes" in said and not (tmp_path / "a.bsm").exists()
+    assert "--runs" in said and not (tmp_path / "a.bsm").exists()
 
 
 def test_a_setting_of_sequences_is_none_of_meshes(tmp_path, capsys):
     (path,) = written(tmp_path / "one", capture()[:1])
-    assert run("encode", path, "-o", tmp_path / "a.bsm", "--set", "runs=yes") != 0
+    assert run("encode", path, "-o", tmp_path / "a.bsm", "--runs") != 0
     assert "runs is for sequences" in capsys.readouterr().err
 
 
@@ -87,8 +87,8 @@ def test_usd_has_time_samples_of_faces(stream, tmp_path, capsys):
     assert run("compare", stream, tmp_path / "a.usdc") != 0
     assert "change" in capsys.readouterr().err
     assert run("encode", tmp_path / "a.usdc", "-o", tmp_path / "b.bsm") != 0
-    assert "--set runs=yes" in capsys.readouterr().err
-    assert run("encode", tmp_path / "a.usdc", "-o", tmp_path / "b.bsm", "--set", "runs=yes", "--max-error", "1e-3") == 0
+    assert "--runs" in capsys.readouterr().err
+    assert run("encode", tmp_path / "a.usdc", "-o", tmp_path / "b.bsm", "--runs", "--max-error", "1e-3") == 0
     assert "connectivity changes at frames 4, 7" in capsys.readouterr().err
     assert run("compare", stream, tmp_path / "b.bsm", "--json") == 0
     assert json.loads(capsys.readouterr().out)["max_error_relative"] < 2e-3
@@ -132,7 +132,7 @@ def test_verify_and_part_of_a_sequence(stream, tmp_path):
 
 def test_permutations_are_of_one_mesh(stream, tmp_path, capsys):
     order = tmp_path / "order.npy"
-    words = ("encode", tmp_path / "capture", "-o", tmp_path / "b.bsm", "--set", "runs=yes", "--permutation", order)
+    words = ("encode", tmp_path / "capture", "-o", tmp_path / "b.bsm", "--runs", "--permutation", order)
     assert run(*words) != 0
     assert "order of one mesh" in capsys.readouterr().err
 

@@ -142,7 +142,7 @@ def test_colours_that_change_are_not_dropped_in_silence(tmp_path, capsys):
     stream = tmp_path / "x.bsm"
     assert bsm("encode", tmp_path / "once", "-o", stream, "--set", "step=0.01") != 0
     assert "color is another at" in capsys.readouterr().err and not stream.exists()
-    assert bsm("encode", tmp_path / "once", "-o", stream, "--set", "step=0.01", "--set", "runs=yes") == 0
+    assert bsm("encode", tmp_path / "once", "-o", stream, "--set", "step=0.01", "--runs") == 0
     assert "color changes at frame 1, but stays as before" in capsys.readouterr().err
     assert bsm("encode", tmp_path / "on", "-o", stream, "--set", "step=0.01", "--force") == 0
     assert "left out, for they move or change: color" in capsys.readouterr().err
@@ -232,7 +232,7 @@ def test_targets(npz, tmp_path, capsys, flag, name, value):
     assert result(capsys, "compare", npz, tmp_path / "a.bsm")[name] <= value * 1.001
 
 
-@pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--set", "smoothing=1"], ["--bpv", 2], ["--gop", 0]])
+@pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--set", "doi=1,2"], ["--bpv", 2], ["--gop", 0]])
 def test_options_that_do_not_go_with_a_sequence(npz, tmp_path, words):
     assert bsm("encode", npz, "-o", tmp_path / "a.bsm", *words) != 0
     assert not (tmp_path / "a.bsm").exists()

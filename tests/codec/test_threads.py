@@ -12,7 +12,7 @@ from bsm.codec.blocks.partition import derive_partition
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.threads import Lanes, ordered_map, side_by_side
 from tests.shapes import patch
 
@@ -84,7 +84,7 @@ def test_a_lane_keeps_its_order_and_lanes_run_side_by_side():
 @pytest.mark.parametrize("start", ["cosines", "svd"])
 def test_threads_change_neither_bytes_nor_positions(start):
     mesh = patch(60, 60)
-    options = EncodeOptions(block_size=200, key_interval=4, key_seed=start)
+    options = changed(EncodeOptions(), block_size=200, key_interval=4, key_seed=start)
     streams = {encode(mesh, replace(options, threads=threads)) for threads in (1, 2, 7)}
     assert len(streams) == 1
     (data,) = streams

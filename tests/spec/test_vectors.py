@@ -15,7 +15,7 @@ from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.events import AttributeEvent
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, changed
 from bsm.files.mesh import read_mesh
 from tools.vectors.__main__ import try_command, try_product
 from tools.vectors.bad import BAD
@@ -71,7 +71,7 @@ def test_reference_decoder(vector, reference):
 @pytest.mark.parametrize("options", [{}, {"keep_order": True, "partition": "metis", "doi": (5e-4, 2e-3)}])
 def test_both_decoders_agree_on_a_real_mesh(options, meshes, reference):
     mesh = read_mesh(meshes / "static" / "fandisk_6475.ply").mesh
-    stream = encode(mesh, EncodeOptions(**options))
+    stream = encode(mesh, changed(EncodeOptions(), **options))
     decoded = decode(stream)
     positions, faces = reference.decode(stream)
     assert np.array_equal(faces, decoded.faces)

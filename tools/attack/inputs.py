@@ -15,7 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import Target
 from tools.attack.mutate import mutate_stream
 from tools.attack.sweep import mutate
@@ -167,7 +167,7 @@ def _static_options(random: Random) -> EncodeOptions:
         given["doi"] = (5e-4, 2e-3)
     else:
         given["step"] = 2.0 ** -random.randrange(3, 16)
-    return EncodeOptions(**{**_some(random, _static_choices(random), 0.15), **given})
+    return changed(EncodeOptions(), **{**_some(random, _static_choices(random), 0.15), **given})
 
 
 def _static_choices(random: Random) -> dict[str, Callable[[], Any]]:

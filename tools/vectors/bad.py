@@ -17,7 +17,7 @@ from bsm.bitstream.container.header import HEADER_FIELDS, LAW
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import changed
 from tools.attack.streams import one_block
 from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.good import BASE
@@ -47,20 +47,20 @@ class Bad:
 @cache
 def _base(**options: Any) -> bytes:
     """A sound stream; smaller ones fail in fewer ways."""
-    return encode(patch(8, 7), EncodeOptions(**{**vars(BASE), "coefficients": 6, **options}))
+    return encode(patch(8, 7), changed(BASE, **{"coefficients": 6, **options}))
 
 
 @cache
 def _ordered() -> bytes:
     mesh = shuffled(patch(5, 5))
-    return encode(mesh, EncodeOptions(**{**vars(BASE), "keep_order": True, "partition": "metis", "block_size": 13}))
+    return encode(mesh, changed(BASE, keep_order=True, partition="metis", block_size=13))
 
 
 @cache
 def _small_component() -> bytes:
     mesh = together(torus(12, 7), torus(7, 6))
     options = {"block_size": 42, "overlap": 1.5, "coefficients": 60, "step": 1e-6}
-    return encode(mesh, EncodeOptions(**{**vars(BASE), **options}))
+    return encode(mesh, changed(BASE, **options))
 
 
 def _lopsided() -> bytes:

@@ -15,7 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import changed
 from tools.surgery import frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.bad import Bad
 from tools.vectors.good import BASE, Good
@@ -26,11 +26,11 @@ HEADER, METADATA, CONNECTIVITY, BLOCK = FrameType.HEADER, FrameType.METADATA, Fr
 
 
 def _stream(**options: Any) -> bytes:
-    return encode(patch(8, 7), EncodeOptions(**{**vars(BASE), "coefficients": 6, **options}))
+    return encode(patch(8, 7), changed(BASE, **{"coefficients": 6, **options}))
 
 
 def _static(probes: str, mesh: Callable[[], TriangleMesh], **options: object) -> Good:
-    return Good(probes, lambda: encode(mesh(), EncodeOptions(**{**vars(BASE), **options})))
+    return Good(probes, lambda: encode(mesh(), changed(BASE, **options)))
 
 
 def _sequence(probes: str, frames: int, **options: object) -> Good:

@@ -11,7 +11,7 @@ from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.container.wire import FrameType
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, changed
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tetrahedron, together, torus, triangle
 
@@ -27,7 +27,7 @@ class Good:
 
 
 def _static(probes: str, mesh: Callable[[], TriangleMesh], **options: object) -> Good:
-    return Good(probes, lambda: encode(mesh(), EncodeOptions(**{**vars(BASE), **options})))
+    return Good(probes, lambda: encode(mesh(), changed(BASE, **options)))
 
 
 def _small() -> TriangleMesh:
@@ -47,13 +47,13 @@ def _uneven() -> TriangleMesh:
 
 
 def _coarser() -> bytes:
-    stream = encode(_small(), EncodeOptions(**{**vars(BASE), "bits": 12}))
+    stream = encode(_small(), changed(BASE, bits=12))
     return with_header(stream, coarser=2)
 
 
 def _compressed() -> bytes:
     """A stream with the same few levels in every block."""
-    stream = encode(_small(), EncodeOptions(**{**vars(BASE), "bits": 16, "coefficients": 21}))
+    stream = encode(_small(), changed(BASE, bits=16, coefficients=21))
     frames = frames_of(stream)
     values = np.full(63, 1 << 15)
     values[3:9] += 8000

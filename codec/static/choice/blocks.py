@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache, partial
+from functools import partial
 
 import numpy as np
 
@@ -16,10 +16,10 @@ from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.signal.frames import in_frames, local_frames, raised, slide, tangent_steps
 from bsm.codec.signal.smooth import smooth
 from bsm.codec.signal.transform import smallest_step
+from bsm.codec.static.admission import admit, patience
 from bsm.codec.static.assembly import blended
-from bsm.codec.static.choice.bounds import Bounds
+from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
 from bsm.codec.static.choice.plan import Planner
-from bsm.codec.static.choice.secant import Candidate
 from bsm.codec.static.choice.settling import RATIO, Sensitivity
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.contract import ANY_ANGLE
@@ -27,30 +27,26 @@ from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import Progress, admit, encode_blocks, patience
+from bsm.codec.static.ways.block_coder import Progress, encode_blocks
 from bsm.codec.static.ways.refinement import encode_layer
 from bsm.codec.static.work import Allowance
 
 WIDEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
 are worth."""
-BASE, ROUGH_BASE, COARSEST_BASE = 26.0, 0.0006, 0.016
-"""The step of blocks below a layer, in steps of that; at least so much for each degree between faces beside each other,
-for what is rough is not in low frequencies; and at most."""
-COARSEST_LAYER, FINEST_LAYER = 0.05, 1e-6
-"""Steps of a layer, in BSM units."""
-SHAPED_RATIO, UNSEEN_RATIO = 15.0, 2.0
-"""How much coarser levels in the plane are than those along the normal, where it is flat: for angles, and for distances
-alone."""
-PULLED, NEAR_SEEN, NEAR = 0.11, 16.0, 8.0
-"""Where a look is asked for: what a bit is worth, over the mean cost of an error of one step along the normal; and how
-far a vertex may be brought from its place where nobody sees it, and elsewhere, in steps of the layer."""
-NOISE = 0.028
+BASE = 0.36
+"""The step of blocks below a layer, over the square root of that of the layer."""
+FINEST_LAYER = 1e-6
+"""Step of a layer, in BSM units."""
+UNSEEN_RATIO = 2.0
+"""How much coarser levels in the plane are than those along the normal, where it is flat: for distances alone."""
+PULLED, NEAR = 0.11, 16.0
+"""Where a look is asked for, what a bit is worth, over the mean cost of an error of one step along the normal; and how
+far a vertex may be brought from its place, in steps of the layer."""
+NOISE = 0.008
 """Errors that are looked at to learn where they are seen, over the look that is asked for and the mean edge."""
 WITHIN_REACH = 0.8
 """How far levels are chosen off a place, of how far they may be: what moves others moves steps, too."""
-FIRST_PLAIN = 2.0
-"""First step of blocks alone, over that of a grid."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +114,7 @@ class Spectral:
             scheme,
             prepared.positions,
             threads=options.threads,
-            doi=options.doi,
+            doi=options.paper.doi,
             progress=progress,
             spend=patience(options.limits, prepared.graph.size),
         )
@@ -143,14 +139,12 @@ class Spectral:
 class Plain:
     """Blocks alone; vertices that are out of reach are brought back by a layer of levels for these."""
 
-    erratic = False
-
     def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, progress: Progress | None) -> None:
         self._bounds = bounds
         self._spectral = Spectral(prepared, options, WIDEST)
         self._progress = progress
-        self.least, self.most = 1.01 * smallest_step(prepared.size), COARSEST_LAYER
-        self.first = FIRST_PLAIN * bounds.first_step
+        self.least, self.most = 1.01 * smallest_step(prepared.size), COARSEST
+        self.first = bounds.first_step
 
     def at(self, step: float) -> Candidate:
         """What a step of coefficients comes to."""
@@ -167,37 +161,42 @@ class Plain:
 class Refined:
     """Blocks and a layer of refinement, by the step of that."""
 
-    erratic = False
-
     def __init__(
         self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, progress: Progress | None, look: float
     ) -> None:
         self._prepared, self._bounds, self._look = prepared, bounds, look
         self._spectral = Spectral(prepared, options, WIDEST)
-        self._rough = ROUGH_BASE * bounds.measures.shaper.character.roughness
-        self._base = lru_cache(2)(partial(self._spectral.base, progress=progress))
-        self.least, self.most = FINEST_LAYER, COARSEST_LAYER
-        self.first = bounds.first_step if self._sensitivity is None else self._sensitivity.first_step(self._look)
+        self._progress = progress
+        self.least, self.most = FINEST_LAYER, COARSEST
+
+    @cached_property
+    def first(self) -> float:
+        """The step that is about right."""
+        return self._bounds.first_step if self._sensitivity is None else self._sensitivity.first_step(self._look)
 
     def at(self, step: float) -> Candidate:
         """What a step of the layer comes to."""
-        about = step if self._sensitivity is None else self.first
-        coarse = min(max(BASE * about, self._rough), COARSEST_BASE)
-        coarse = max(2.0 ** (round(2.0 * math.log2(coarse)) / 2.0), smallest_step(self._prepared.size))
-        base = self._base(coarse)
+        base = self._base
         if self._sensitivity is not None:
             layer = Layer(single(step), RATIO)
             steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
-            reach = np.minimum(WITHIN_REACH * self._bounds.reaches, NEAR_SEEN * layer.step)
+            reach = np.minimum(WITHIN_REACH * self._bounds.reaches, NEAR * layer.step)
             levels = self._sensitivity.levels(base.offsets, base.frames, steps, known, PULLED, reach)
         elif self._bounds.contract.angle < ANY_ANGLE:
-            layer = Layer(single(step), SHAPED_RATIO)
+            layer = Layer(single(step), RATIO)
             levels = self._shaped(base, layer)
         else:
             layer = Layer(single(step), UNSEEN_RATIO)
             heights = base.wanted(base.expected_steps(layer))[0]
             levels = base.wanted(base.known_steps(layer, heights))[0]
         return _candidate(step, base, layer, levels)
+
+    @cached_property
+    def _base(self) -> Base:
+        """The blocks of all steps: those of about the right one."""
+        return self._spectral.base(
+            max(BASE * math.sqrt(self.first), smallest_step(self._prepared.size)), self._progress
+        )
 
     def _shaped(self, base: Base, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""

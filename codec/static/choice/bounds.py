@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from hashlib import sha256
 
 import numpy as np
@@ -20,6 +21,7 @@ from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.contract import ANY_ANGLE, Contract
+from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble_encoding import Prepared
 
 COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
@@ -34,8 +36,6 @@ MARGIN = 1e-9
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
 pixel in a picture of 512."""
-SHARE_OF_GAP = 0.45
-"""How far both of two surfaces may come to each other, over what is between them."""
 LEAST_GAP, MOST_PARTS = 2e-4, 64
 """Parts nearer to each other than this, in BSM units, touch, so that none is before the other; and of more parts than
 these, none is asked how near it is to others."""
@@ -67,6 +67,20 @@ class Measures:
             return LookMetric(mesh, threads=self._threads)
         except MeshError:
             return None
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """What a step comes to: positions as decoded, in BSM units, shape (n, 3), and the stream."""
+
+    step: float
+    positions: Matrix
+    make: Callable[[], Draft]
+
+    @cached_property
+    def draft(self) -> Draft:
+        """The stream, written when it is asked for."""
+        return self.make()
 
 
 class Bounds:
@@ -116,10 +130,14 @@ class Bounds:
     @cached_property
     def first_step(self) -> float:
         """A step at which what comes of rounding is about as bad as it may be, in BSM units."""
-        step = self.measures.shaper.character.step_of(self.about_angle, COARSEST)
+        step, positions = COARSEST, self.measures.prepared.positions
         if self.contract.look == math.inf:
-            return step
-        few, _ = self._glance(np.rint(self.measures.prepared.positions / step) * step, math.inf, math.inf)
+            for _ in range(3):
+                # Of errors, or of their squares.
+                step /= math.sqrt(max(*self._shares(np.rint(positions / step) * step), LEAST))
+            return min(step, COARSEST)
+        step = self.measures.shaper.character.step_of(self.about_angle, COARSEST)
+        few, _ = self._glance(np.rint(positions / step) * step, math.inf, math.inf)
         return step * min(max(self.contract.look / max(few, LEAST), 0.1), 10.0)
 
     @property
@@ -198,7 +216,7 @@ def _keep_apart(prepared: Prepared, part: Indices, low: Matrix, high: Matrix, fo
         )
         if gap >= LEAST_GAP:
             for some in (mine, theirs):
-                found[some] = np.minimum(found[some], SHARE_OF_GAP * gap)
+                found[some] = np.minimum(found[some], gap / 2.0)
 
 
 def _parts(prepared: Prepared) -> tuple[int, Indices]:

@@ -2,7 +2,7 @@
  *
  * Viewers shade faces that are bent by less than some angle as one smooth surface, and others each by itself. Where the
  * bend is near that angle, an error that nobody would see turns one into the other, which is plain to see. */
-#include "codec/static/choice/creases.h"
+#include "codec/static/choice/choice.h"
 
 enum { SIDES = 3 };
 

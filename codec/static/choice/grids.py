@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from itertools import product
 
@@ -10,25 +11,18 @@ import numpy as np
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
-from bsm.codec.static.choice.bounds import Bounds
+from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
 from bsm.codec.static.choice.lattices import grid_draft
-from bsm.codec.static.choice.secant import Candidate
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid
 
-COARSEST = 0.05
-"""Largest step, in BSM units."""
-LEAST_CELL = 2.0**-40
-"""Of a mesh that is a point, in BSM units."""
 NEAR_PLACE = 3.0
 """How far shaping may bring a vertex from its place, in cells, where bounds are wide."""
-FINEST_BITS, PARTS_OF_OCTAVE, MOST_TRIED = 16, 6, 8
-"""Bits along the longest side of the finest grid on which a mesh may have been made; how many steps are
-compared between one and twice it; and how many grids are tried."""
-MOST_EXTENTS = 256.0
-"""How many times its diagonal a model may be from the origin, for its places to be counted from there."""
+FINEST_BITS, PARTS_OF_OCTAVE, WIDER, MOST_TRIED = 16, 128, 1.4, 8
+"""Bits along the longest side of the finest grid on which a mesh may have been made; how many steps are compared
+between one and twice it; how much coarser ones may be than one that is about right; and how many are tried."""
 MOST_PARTS = 256
 """Of models of few vertices: cells along the longest side."""
 
@@ -47,10 +41,9 @@ class Gridded:
         below = np.where(narrow > low, np.nextafter(narrow, np.float32(-np.inf)), narrow).astype(np.float64)
         self._origin = below if fine else low
         self._low = prepared.units.into(self._origin)
-        self.least = max(float((prepared.positions - self._low).max()) / (MOST_LARGEST - 4), LEAST_CELL)
+        self.least = float((prepared.positions - self._low).max()) / (MOST_LARGEST - 4)
         self.most = COARSEST
         self.first = min(bounds.first_step, COARSEST)
-        self.erratic = bounds.measures.shaper.character.is_sharp
 
     def at(self, step: float) -> Candidate:
         """What a step comes to."""
@@ -74,29 +67,33 @@ class Gridded:
         grid = Grid((0.0, 0.0, 0.0), held, tuple(map(int, np.ptp(places, axis=0))), corner=corner)
         return self._candidate(grid, places - least)
 
-    def made_on(self, right: float) -> Iterator[Candidate]:
-        """Grids on which the mesh may have been made: finer ones than one that is about right, with less entropy."""
-        character, extent = self._shaper.character, float(extent_of(self._prepared.positions).max())
-        steps = [extent / ((1 << bits) - 1) for bits in range(4, FINEST_BITS)]
-        steps += [extent * 2.0 ** (-k / PARTS_OF_OCTAVE) for k in range(1, FINEST_BITS * PARTS_OF_OCTAVE)]
-        entropies = sorted(
-            (character.entropy(step), step) for step in steps if extent * 2.0**-FINEST_BITS < step < right
-        )
-        least = character.entropy(right)
-        yield from (self.at(step) for entropy, step in entropies[:MOST_TRIED] if entropy < least)
+    def smooth(self, right: float) -> Iterator[Candidate]:
+        """Grids on which the mesh takes less than on those beside them, as where it was made on one: the least first.
 
-    def fitting(self, reach: float) -> Iterator[Candidate]:
-        """The coarsest grids that a model of few vertices fits, from its corner and from where its unit begins."""
-        extent = float(extent_of(self._prepared.positions).max())
-        far = float(np.abs(self._prepared.mesh.positions).max()) >= MOST_EXTENTS * self._prepared.mesh.diagonal
-        fits = 0
+        Finer ones than one that is about right, and hardly coarser.
+        """
+        character, extent = self._shaper.character, float(extent_of(self._prepared.positions).max())
+        steps = {extent / ((1 << bits) - 1) for bits in range(1, FINEST_BITS)}
+        steps |= {extent * 2.0 ** (-k / PARTS_OF_OCTAVE) for k in range(FINEST_BITS * PARTS_OF_OCTAVE)}
+        tried = sorted(step for step in steps if step <= WIDER * right)
+        entropies = np.array([character.entropy(step) for step in tried])
+        low = (entropies[1:-1] <= np.minimum(entropies[:-2], entropies[2:])) & (
+            entropies[1:-1] < character.entropy(right)
+        )
+        found = np.flatnonzero(low) + 1
+        yield from (self.at(tried[i]) for i in found[np.argsort(entropies[found])][:MOST_TRIED])
+
+    def fitting(self) -> Iterator[Candidate]:
+        """Grids that a model of few vertices fits better than all coarser ones, from its corner or from its zero."""
+        extent, closest = float(extent_of(self._prepared.positions).max()), math.inf
+        farthest = float(np.abs(self._prepared.mesh.positions).max()) / self._prepared.units.scale
+        far = farthest > MOST_LARGEST * extent / MOST_PARTS
         for parts, make in product(range(1, MOST_PARTS), (self.at, self.counted)[: 1 if far else 2]):
             candidate = make(extent / parts)
-            if np.square(candidate.positions - self._prepared.positions).sum(axis=1).max() <= reach**2:
+            off = float(np.square(candidate.positions - self._prepared.positions).sum(axis=1).max())
+            if off <= closest:
+                closest = off
                 yield candidate
-                fits += 1
-            if fits == MOST_TRIED:
-                return
 
     def _candidate(self, grid: Grid, places: Levels) -> Candidate:
         positions = np.ascontiguousarray(self._prepared.units.into(grid.positions(places)))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -16,14 +18,9 @@ from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.ways.grid import Grid, encode_exact, encode_grid
 
-MOST_SINGLE = 1e38
 EXACT_CELLS = 65535
 """Along the longest side, where floats are exact; from 2^15 to 2^20 bytes are the same within 0.1 %."""
-FIRST_DIGIT, LAST_DIGIT = -3, 12
-"""Decimal places that coordinates may have, where floats are exact."""
 PART_OF_CELL = 1.0 / 64.0
-MOST_WHOLE = 2.0**52
-"""Below it, floating point numbers know halves."""
 
 
 def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
@@ -39,7 +36,8 @@ def rounded(prepared: Prepared, bits: int) -> Draft:
     positions = prepared.mesh.positions
     cells = (1 << bits) - 1
     largest, extent = np.abs(positions).max(), np.ptp(positions, axis=0).max()
-    narrow = largest < MOST_SINGLE and np.spacing(np.float32(largest)) * cells < PART_OF_CELL * extent
+    with np.errstate(over="ignore", invalid="ignore"):
+        narrow = np.spacing(np.float32(largest)) * cells < PART_OF_CELL * extent
     kind = np.float32 if narrow else np.float64
     values = positions.astype(kind)
     low = values.min(axis=0)
@@ -77,8 +75,8 @@ def exact(prepared: Prepared) -> Draft:
 def _decimal(narrow: npt.NDArray[np.float32], least: float) -> float | None:
     """A power of ten, at least so much, of which all coordinates, shape (n, 3), are multiples, but for rounding."""
     held = narrow.astype(np.float64)
-    for digits in range(FIRST_DIGIT, LAST_DIGIT):
-        step = float(f"1e{-digits}")
+    for power in range(math.floor(math.log10(max(np.ptp(held, axis=0).max(), least))), -sys.float_info.max_10_exp, -1):
+        step = float(f"1e{power}")
         places = np.rint(held / step)
         if step < least or np.ptp(places, axis=0).max() >= MOST_LARGEST - 1:
             return None
@@ -92,7 +90,7 @@ def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float
     corner = np.array(origin)
     with np.errstate(over="ignore", invalid="ignore"):
         places = np.floor((prepared.mesh.positions - corner) / cell + 0.5)
-    if not (np.abs(places) < MOST_WHOLE).all():
+    if not (np.spacing(np.abs(places)) < 1.0).all():
         raise TargetError(f"cells of {cell:g} are too small to count from {origin} to this mesh")
     everywhere = np.full(3, -float(MOST_LARGEST // 2 + 1))
     wanted = (places - everywhere) * cell + (everywhere * cell + corner)

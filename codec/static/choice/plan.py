@@ -13,12 +13,12 @@ from bsm.codec.signal.bandwidth import MeasuredSpectrum
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Trial, even_interval
 from bsm.codec.signal.smooth import smoothing_spectrum
 from bsm.codec.signal.transform import packed_range, project, smallest_step
+from bsm.codec.static.admission import patience
 from bsm.codec.static.coding import Adaptive, Packed
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.rules import STIFFNESS, Scheme
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import patience
 from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10
@@ -42,7 +42,7 @@ class Planner:
 
     def scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step."""
-        rules, bits, size = self._rules(), self._options.bits, self._prepared.size
+        rules, bits, size = self._rules(), self._options.paper.bits, self._prepared.size
         if bits is not None:
             return Scheme(self._prepared.blocks, rules, self._packed(bits, rules))
         if step < smallest_step(size):
@@ -67,15 +67,15 @@ class Planner:
         return best
 
     def _rules(self) -> ChainRules:
-        options = self._options
+        paper = self._options.paper
         return ChainRules(
-            exact=options.exact_keys,
-            key_interval=even_interval(options.key_interval, self._prepared.blocks.count),
-            power=options.power,
-            iterations=options.iterations,
-            key_iterations=options.key_iterations,
-            shift=single(options.shift),
-            stiffness=STIFFNESS if options.predict and options.bits is None else 0.0,
+            exact=paper.exact_keys,
+            key_interval=even_interval(self._options.key_interval, self._prepared.blocks.count),
+            power=paper.power,
+            iterations=paper.iterations,
+            key_iterations=paper.key_iterations,
+            shift=single(paper.shift),
+            stiffness=STIFFNESS if paper.predict and paper.bits is None else 0.0,
             trial=self._trial,
         )
 
@@ -112,7 +112,7 @@ class Planner:
 
     @property
     def _spectrum(self) -> MeasuredSpectrum:
-        return self._prepared.spectrum(self._options.shift)
+        return self._prepared.spectrum(self._options.paper.shift)
 
     @cached_property
     def _sample(self) -> tuple[Indices, Reference]:

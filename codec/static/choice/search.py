@@ -6,26 +6,36 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from operator import attrgetter
+from typing import Protocol
 
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.static.choice.blocks import Plain, Refined
-from bsm.codec.static.choice.bounds import Bounds, Measures
+from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.choice.lattices import rounded
-from bsm.codec.static.choice.secant import Candidate, Way, secant, widest
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.draft import Draft
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES
+from bsm.codec.static.targets import STEEPEST, secant
 from bsm.codec.static.ways.block_coder import Progress
 
-WORTH, WORTH_OF_MODELS = 0.8, 1.6
-"""What a nat is worth, in angles that a step bends a mean face by; and of models, whose bits are not where their area
-is."""
-FITS = 0.002
-"""How far off vertices of a model may be on a grid that it is made on, in BSM units, over the look."""
-LAST_RESORTS, FINEST_BITS = 4, 20
-"""Grids that are tried, each four times as fine as the last, and bits of another, where nothing else will do."""
+DEARER = 1.08
+"""A way is left alone whose first step takes so many times the bytes of what was found."""
+
+
+class Way(Protocol):
+    """A way to code a mesh, at one step after another: a pure function of the step."""
+
+    least: float
+    most: float
+
+    @property
+    def first(self) -> float:
+        """A step that is about right."""
+
+    def at(self, step: float) -> Candidate:
+        """What a step comes to."""
 
 
 class Search:
@@ -73,12 +83,13 @@ class Search:
     def _last_resort(self, bounds: Bounds) -> list[Candidate]:
         """What grids do that are finer than where a search began, where it came to nothing."""
         way = Gridded(self._prepared, bounds, 0.0)
-        for _ in range(LAST_RESORTS):
+        finest_bits = int(RANGES["grid"][1])
+        while way.first > 2.0**-finest_bits:
             way.first /= 4.0
             if bounds.keeps(way.at(way.first).positions):
                 found = widest(way, bounds)
                 return [way.at(way.first) if found is None else found]
-        finest = rounded(self._prepared, FINEST_BITS)
+        finest = rounded(self._prepared, finest_bits)
         positions = self._prepared.units.into(finest.decoded)
         if bounds.keeps(positions):
             return [Candidate(0.0, positions, lambda: finest)]
@@ -116,18 +127,44 @@ class Search:
         """Ways that may be smallest; blocks never are where a surface is flat but for sharp edges."""
         prepared, options = self._prepared, self._options
         character, seen = self._measures.shaper.character, bounds.contract.look < math.inf
+        grids = [Gridded(prepared, bounds, worth) for worth in (1.0, 0.0)]
+        blocks: list[Way] = []
         if prepared.has_low_frequencies and not options.quick and not (character.is_model and seen):
-            yield Refined(prepared, options, bounds, self._progress, look)
+            blocks += [Refined(prepared, options, bounds, self._progress, look)]
             if not seen:
-                yield Plain(prepared, options, bounds, self._progress)
-        yield from (
-            Gridded(prepared, bounds, worth) for worth in (WORTH_OF_MODELS if character.is_model else WORTH, 0.0)
-        )
+                blocks += [Plain(prepared, options, bounds, self._progress)]
+        # The smaller ones first: the others are left alone sooner.
+        yield from (*grids, *blocks) if character.is_sharp else (*blocks, *grids)
 
     def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""
         prepared, steps = self._prepared, [one.step for one in found if one.draft.places is not None]
         if prepared.graph.size < FEW_VERTICES:
-            yield from Gridded(prepared, bounds, 0.0).fitting(FITS * min(bounds.contract.look, 1.0))
+            yield from Gridded(prepared, bounds, 0.0).fitting()
         elif steps and self._measures.shaper.character.is_sharp:
-            yield from Gridded(prepared, bounds, WORTH_OF_MODELS).made_on(max(steps))
+            yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
+
+
+def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf) -> Candidate | None:
+    """The smallest candidate that is found to keep bounds, unless it would not be smaller than so many bytes."""
+    kept, excess = list[Candidate](), bounds.excess()
+    begin = min(max(way.first, way.least), way.most)
+    first = way.at(begin) if most_bytes < math.inf else None
+    if first is not None and first.draft.size > DEARER * most_bytes:
+        return None
+
+    def at(step: float) -> float | None:
+        candidate = first if first is not None and math.isclose(step, begin) else way.at(step)
+        over = excess(candidate.positions)
+        if over <= 0.0:
+            kept.append(candidate)
+        # A step twice as wide saves three bits of a vertex at most; one half as wide costs about one at least.
+        bits = -over / math.log(2.0) * (3.0 * STEEPEST if over < 0.0 else 1.0 / STEEPEST)
+        if most_bytes < math.inf and candidate.draft.size - bits * len(candidate.positions) / 8.0 >= most_bytes:
+            return None
+        return over
+
+    with suppress(LimitError):  # blocks that decoders would refuse
+        secant(at, way.first, way.least, way.most)
+    kept.sort(key=lambda candidate: candidate.draft.size)
+    return next((one for one in kept if bounds.keeps(one.positions)), None)

@@ -2,7 +2,7 @@
  *
  * Coordinate descent, vertex after vertex and axis after axis, over the levels that may be best: the nearest one, that of
  * the neighbours, none, and those beside the one at hand. */
-#include "codec/static/choice/settling.h"
+#include "codec/static/choice/choice.h"
 
 enum { TRIED = 5, AROUND = 10, SIZES = 16 }; /* levels that are compared; classes of surroundings; sizes of what is coded */
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph, vertex_faces
-from bsm.codec.look.measure import DISSIMILAR, POWER, VISIBLE_SHARE, LookMetric
+from bsm.codec.look.measure import DISSIMILAR, POWER, LookMetric
 from bsm.codec.look.pictures import CREASE, MOST_AROUND
 from bsm.codec.signal.frames import in_frames, local_frames, tangent_steps
 
@@ -28,17 +28,10 @@ AROUND, SIZES = 10, 16
 """Classes of the neighbours' mean size, and sizes of what is left of a level, that bits are estimated for."""
 BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5
 """What they are before any is counted."""
-TRUST = 1.0
-"""Levels that each size is counted with from the start."""
-NOISE = 1.0 / math.sqrt(12.0)
-"""Errors of this size, over the step, have the variance of rounding."""
 SPREADS = 2
 """Costs are as those of neighbours, so often over: what a vertex was blamed for is part chance."""
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
-PLAIN, FINER, LEAST_PLAIN = 2.6, 0.76, 1.5
-"""Share of what is visible over dissimilarity, both over what is at distance 1, of noise where `first_step` is right;
-how steps get finer with it, in their logarithms; and the share below which they do not get coarser."""
 ASIDE, RATIO = 0.35, 10.0
 """What rounding along a tangent costs over what it costs along the normal, where steps are as of a layer of this
 ratio."""
@@ -48,11 +41,10 @@ SHADED = 0.5
 """How unlike pixels count that a crease shades otherwise which is there in only one of two pictures."""
 WITHIN = 8.0
 """Degrees, on both sides of the angle that makes a crease, in which bends are watched."""
-_MOST = 1 << 30
 
 
 class Creases(NamedTuple):
-    """Bends near the angle from which on faces are shaded each by itself; the struct of that name in `settling.h`."""
+    """Bends near the angle from which on faces are shaded each by itself; the struct of that name in `choice.h`."""
 
     faces: Faces
     pairs: Indices
@@ -73,25 +65,22 @@ class Sensitivity:
     def __init__(self, positions: Positions, faces: Levels, graph: Graph, metric: LookMetric, step: float) -> None:
         self._positions, self._faces, self._graph = positions, faces, graph
         self._metric, self._step = metric, step
-        self._finer = 1.0
 
     @cached_property
     def costs(self) -> tuple[Matrix, Matrix]:
         """What pictures differ by per square of an error, along the normal and along a tangent, shapes (n,)."""
         aside = tangent_steps(self._positions, self._faces, 1.0, RATIO)
         # All errors of a direction alike, so that no vertex costs more than another by chance.
-        noise = np.where(np.random.default_rng(0).random(self._positions.shape) < 0.5, -NOISE, NOISE)
+        noise = np.where(np.random.default_rng(0).random(self._positions.shape) < 0.5, -1.0, 1.0)
         noise[:, 1:] *= aside[:, None]
-        blame, look = self._metric.blame(self._positions + self._step * np.einsum("na,nad->nd", noise, self._frames))
-        plain = (look.visible / VISIBLE_SHARE) / max(look.dissimilarity / DISSIMILAR, 1e-300)
-        self._finer = (min(max(plain, LEAST_PLAIN), 8.0) / PLAIN) ** -FINER
-        normal = self._spread(blame / (NOISE * self._step) ** 2 / (1.0 + 2.0 * ASIDE))
+        blame = self._metric.blame(self._positions + self._step * np.einsum("na,nad->nd", noise, self._frames))
+        normal = self._spread(blame / self._step**2 / (1.0 + 2.0 * ASIDE))
         return normal, ASIDE * normal / np.square(aside)
 
     def first_step(self, distance: float) -> float:
-        """The step that is about right, in BSM units; finer where errors are plain to see rather than many."""
+        """The step that is about right, in BSM units."""
         unlike = DISSIMILAR * distance ** (1.0 / POWER)
-        return self._finer * math.sqrt(12.0 * unlike / (float(self.costs[0].sum()) * (1.0 + 2.0 * ASIDE)))
+        return math.sqrt(12.0 * unlike / (float(self.costs[0].sum()) * (1.0 + 2.0 * ASIDE)))
 
     def levels(
         self,
@@ -108,7 +97,7 @@ class Sensitivity:
         unit = worth * float(normal.mean()) * float(steps[0, 0]) ** 2
         losses = np.column_stack([np.maximum(normal - tangent, 0.0), tangent]) / max(unit, 1e-300)
         normals = in_frames(self._frames[:, 0], frames)
-        levels = np.rint(offsets[:, :axes] / steps).clip(-_MOST, _MOST).astype(np.int32)
+        levels = np.rint(offsets[:, :axes] / steps).astype(np.int32)
         creases = self._creases.priced(SHADED / max(unit, 1e-300))
         given, moved = np.ascontiguousarray(frames), np.empty((count, 3))
         rates, counts = np.tile(BITS, (AROUND * axes, 1)), np.empty((AROUND * axes, SIZES))
@@ -152,7 +141,7 @@ class Sensitivity:
 
 def _bits(counts: Matrix) -> Matrix:
     """Bits of sizes that come so often, in each class; one of any sign has a bit more than none."""
-    trusted = counts + TRUST * np.exp2(-BITS)
+    trusted = counts + np.exp2(-BITS)
     bits = np.log2(trusted.sum(axis=1, keepdims=True) / trusted)
     bits[:, 1:] += 1.0
     return np.ascontiguousarray(bits)

@@ -3,7 +3,7 @@
  * Coordinate descent, vertex after vertex: of the levels nearby, the one at which the faces around are bent least, by
  * area-weighted angle (as the chord, 2 sin(angle / 2)), and cheap to code. A vertex is looked at again when it or a
  * neighbour has moved. */
-#include "codec/static/choice/shaping.h"
+#include "codec/static/choice/choice.h"
 
 enum { FAN = 32, MOVES = 32, LANES = 8 }; /* faces of one vertex that are looked at; moves; how many of them at once */
 
@@ -206,9 +206,10 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
  * What a bend costs: `rates`. A vertex moves along at most `axes` axes at once. Returns how often one moved. */
 KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps,
                           ConstInts starts, ConstInts members, Ints2 bends, ConstDoubles rates, int64_t axes,
-                          Bytes open) {
+                          Creases creases, Bytes open) {
     if (!fits(&wanted, moved, places, open) || places.columns != 3 || flaps.columns != 4 || bends.columns != 3 ||
-        bends.rows != flaps.rows || starts.size != places.rows + 1 || rates.size < 1)
+        bends.rows != flaps.rows || starts.size != places.rows + 1 || rates.size < 1 ||
+        !fits_creases(&creases, places.rows))
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
     double reach = aim.reach * aim.reach;
@@ -236,6 +237,8 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
             const double *place = wanted.positions.data + 3 * (int64_t)v;
             double far = square(place, at);
             double best = bent(&fan) + aim.worth * (rate[0][1] + rate[1][1] + rate[2][1]);
+            bool hangs = creases.starts.data[v + 1] > creases.starts.data[v];
+            if (hangs) best += wrong_creases(&creases, moved.data, v);
             int pick = 13;
             tried.count = 0;
             for (int c = 0; c < 27; c++) {
@@ -253,8 +256,15 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
             if (tried.count == 0) continue;
             for (int a = 0; a < 3; a++) find_turn(&fan, a, direction[a]);
             bend(&fan, &tried);
-            for (int i = 0; i < tried.count; i++)
-                if (tried.cost[i] + tried.bent[i] < best) best = tried.cost[i] + tried.bent[i], pick = tried.code[i];
+            for (int i = 0; i < tried.count; i++) {
+                double cost = tried.cost[i] + tried.bent[i];
+                if (hangs && cost < best) {
+                    for (int a = 0; a < 3; a++) at[a] += step * (double)tried.by[a][i];
+                    cost += wrong_creases(&creases, moved.data, v);
+                    for (int a = 0; a < 3; a++) at[a] -= step * (double)tried.by[a][i];
+                }
+                if (cost < best) best = cost, pick = tried.code[i];
+            }
             if (pick == 13) continue;
             int by[3] = {pick % 3 - 1, pick / 3 % 3 - 1, pick / 9 - 1};
             for (int a = 0; a < 3; a++) at[a] += step * by[a], places.data[3 * (int64_t)v + a] += by[a];
@@ -343,17 +353,5 @@ KERNEL int64_t count_bends_on(ConstDoubles2 corners, double step, Ints2 counts) 
             counts.data[a * counts.columns + bucket(bend < 0 ? -bend : bend, counts.columns)]++;
         }
     }
-    return 0;
-}
-
-/* The same of every `stride`th row of given bends. */
-KERNEL int64_t count_bends(ConstInts2 bends, int64_t stride, Ints2 counts) {
-    if (bends.columns != 3 || counts.rows != 3 || counts.columns < 1 || stride < 1) return MISUSED;
-    for (int64_t i = 0; i < 3 * counts.columns; i++) counts.data[i] = 0;
-    for (int64_t i = 0; i < bends.rows; i += stride)
-        for (int a = 0; a < 3; a++) {
-            int64_t bend = bends.data[3 * i + a];
-            counts.data[a * counts.columns + bucket(bend < 0 ? -bend : bend, counts.columns)]++;
-        }
     return 0;
 }

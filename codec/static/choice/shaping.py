@@ -17,20 +17,17 @@ from bsm.codec.arrays import Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph, vertex_faces
 from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.metrics import LOST, Original
+from bsm.codec.static.choice.settling import PULL, Creases, creases_of
 
-MOST_FLAPS = 1 << 11
-"""Second differences that entropy is measured on."""
+SAMPLE = 1 << 11
+"""Flaps, faces and edges that the character of a surface is measured on."""
 EXTRA = np.concatenate([np.zeros(16), 2.0 + np.arange(64) // 4])
 """Bits that tell second differences apart which are counted together (see `bucket` in shaping.c)."""
-MOST_FACES, MOST_EDGES = 1 << 10, 1 << 13
-"""What angles and lengths are measured on."""
 SHARP = 0.4
 """Of the mean angle between faces beside each other: with a median below it, a surface has sharp edges."""
-FLAT, UNEVEN = 0.3, 0.35
+UNEVEN = 0.33
 """Of that mean, a third quartile below which nearly all of it is flat; of the mean area of a face, a median below which
 a few faces are most of the surface."""
-PULL = 0.8
-"""A level is expected at so much of the mean of its neighbours'."""
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""
 
@@ -40,14 +37,14 @@ class Character:
 
     def __init__(self, original: Original, flaps: Indices) -> None:
         self._original = original
-        self._flaps = flaps[:: max(1, len(flaps) // MOST_FLAPS)]
+        self._flaps = flaps[:: max(1, len(flaps) // SAMPLE)]
         self._low: Matrix = box_around(original.positions)[0]
 
     @cached_property
     def mean_edge(self) -> float:
         """Mean length of an edge, as faces count it: of the first edge of some."""
         faces, positions = self._original.faces, self._original.positions
-        some = faces[:: max(1, len(faces) // MOST_EDGES), :2]
+        some = faces[:: max(1, len(faces) // SAMPLE), :2]
         a, b = positions[some[:, 0]], positions[some[:, 1]]
         return float(np.sqrt(np.square(a - b).sum(axis=1)).mean())
 
@@ -76,11 +73,6 @@ class Character:
             step = min(step * min(max(ratio, 1.0 / 16.0), 16.0), most)
         return step
 
-    @property
-    def roughness(self) -> float:
-        """Mean angle between faces beside each other, degrees."""
-        return float(np.degrees(self._dihedrals.mean())) if len(self._dihedrals) else 0.0
-
     @cached_property
     def is_sharp(self) -> bool:
         """Whether the surface is flat nearly everywhere, and bent at few edges: as models are, and scans are not."""
@@ -92,7 +84,7 @@ class Character:
         if not self.is_sharp or len(self._dihedrals) == 0:
             return False
         weights = self._original.weights
-        flat = np.quantile(self._dihedrals, 0.75) < FLAT * self._dihedrals.mean()
+        flat = np.quantile(self._dihedrals, 0.75) < UNEVEN * self._dihedrals.mean()
         return bool(flat or np.median(weights) < UNEVEN * weights.mean())
 
     def _bytes(self, counts: Indices) -> float:
@@ -112,7 +104,7 @@ class Character:
     def _faces(self) -> tuple[Matrix, Indices, Matrix, Matrix]:
         """Faces, drawn by their weight: corners from the lower corner of the mesh on, and what goes with these."""
         original = self._original
-        count = min(MOST_FACES, len(original.faces))
+        count = min(SAMPLE, len(original.faces))
         at = np.cumsum(original.weights)
         chosen = np.minimum(np.searchsorted(at, (np.arange(count) + 0.5) / count), len(at) - 1)
         corners = original.positions[original.faces[chosen]].reshape(-1, 3) - self._low
@@ -172,12 +164,17 @@ class Shaper:
         bends = chosen[flaps[:, 0]] + chosen[flaps[:, 1]] - chosen[flaps[:, 2]] - chosen[flaps[:, 3]]
         moved = np.ascontiguousarray(chosen * step + origin)
         _kernels.shape_grid(
-            self._wanted, self._aim(aim, 3), moved, chosen, step, flaps, starts, members, bends, RATES, 2, self._open
-        )
+            self._wanted, self._aim(aim, 3), moved, chosen, step, flaps, starts, members, bends, RATES, 2,
+            self._creases, self._open,
+        )  # fmt: skip
         return chosen
 
     def _aim(self, aim: Aim, share: int) -> tuple[float, float, int]:
         return aim.worth / (share * len(self._open)), float(aim.reach), aim.sweeps
+
+    @cached_property
+    def _creases(self) -> Creases:
+        return creases_of(self._original.positions, self._original.faces)
 
     @cached_property
     def _flaps(self) -> tuple[Indices, Indices, Indices]:

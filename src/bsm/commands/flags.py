@@ -31,11 +31,6 @@ class Setting:
             f"--{self.field.replace('_', '-')}", dest=self.field, default=argparse.SUPPRESS, help=self.help, **how
         )
 
-    def read(self, text: str) -> Any:
-        if self.type is bool and text not in ("yes", "no"):
-            raise ValueError(text)
-        return text == "yes" if self.type is bool else self.type(text)
-
 
 class HelpAll(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
@@ -62,10 +57,10 @@ def named_setting(text: str) -> tuple[str, Any]:
             f"there is no setting {name!r}{suggestion(name, known)}; --help-all lists them"
         )
     try:
-        return name, known[name].read(value.strip())
+        return name, known[name].type(value.strip())
     except ValueError:
         one = known[name]
-        raise argparse.ArgumentTypeError(f"{name}={one.metavar or 'yes|no'} is expected, not {text!r}") from None
+        raise argparse.ArgumentTypeError(f"{name}={one.metavar} is expected, not {text!r}") from None
 
 
 def point(text: str) -> tuple[float, ...]:
@@ -78,30 +73,24 @@ def point(text: str) -> tuple[float, ...]:
 ENCODE_FLAGS = (
     Setting("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
     Setting("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
+    Setting("grid_origin", point, "X,Y,Z", "a place of that grid (default 0,0,0)"),
     Setting("quick", bool, "", "only what is quick to decode: grids, by a small model, no blocks"),
     Setting("keep_order", bool, "", "store the order of vertices and faces"),
     Setting("threads", int, "N", "threads to use (default: one per core)"),
 )
 
 SETTINGS = (
-    Setting("grid_origin", point, "X,Y,Z", "a place of the grid of --grid-cell (default 0,0,0)"),
-    Setting("runs", bool, "yes|no", "let the faces of a sequence change from frame to frame (default: no)"),
     Setting("limits", str, "default|service|wide", "what decoders may refuse is an error (default: default)"),
     Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
     Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
     Setting("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
     Setting("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
-    Setting("smoothing", float, "A", "smoothing in the decoder (default: chosen by trying)"),
     Setting("block_size", int, "N", "vertices of a block before overlap, about (default 550)"),
-    Setting("overlap", float, "F", "size of the blocks with overlap, as a multiple of the largest (default 1.05)"),
     Setting("partition", str, "derived|metis", "who cuts the mesh into blocks (default derived: both sides)"),
     Setting("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with --bits svd)"),
     Setting("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 32)"),
     Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
-    Setting("key_iterations", int, "T", "orthogonal iterations of a block that depends on none (default 2)"),
-    Setting("shift", float, "D", "what is added to the Laplacian's diagonal (default 0.0078125)"),
-    Setting("predict", bool, "yes|no", "predict coefficients from blocks already coded (default: yes)"),
     Setting(
         "doi", thresholds, "EPS_L,EPS_H", "as many coefficients per block as keep its residual between two thresholds"
     ),
@@ -112,9 +101,9 @@ SETTINGS = (
 PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none")
 PROMISES = (
     "how far from the original a mesh may look (see --look), and a vertex be off, of the diagonal of its part: small 3 "
-    "(a preview) and 2 %%; balanced, the default, 1 (looks the same) and 1 %%; fine 0.5 and 0.5 %%; near-lossless 0.5 "
-    "and 0.05 %%; grid14: exactly as on a grid of 14 bits; lossless: single precision, to the bit; none: nothing but "
-    "what is asked for beside it"
+    "(a preview) and 2 %%; balanced, the default, 1 (looks the same) and 1 %%; fine 0.5 and 0.5 %%; near-lossless "
+    "0.25 and 0.05 %%; grid14: exactly as on a grid of 14 bits; lossless: single precision, to the bit; none: nothing "
+    "but what is asked for beside it"
 )
 """Of the presets; written out, since importing what they are takes time."""
 
@@ -156,6 +145,7 @@ TARGETS = (
 OF_SEQUENCES = (
     Setting("kg", float, "PERCENT", "Karni and Gotsman's error at most PERCENT"),
     Setting("bpvf", float, "X", "at most X bits per vertex and frame, the whole file"),
+    Setting("runs", bool, "", "let the faces change from frame to frame"),
     Setting("gop", int, "N", "frames that are coded together, at most (default 256 to 512)"),
     Setting(
         "low_delay",

@@ -25,7 +25,7 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import compare_sequences
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.targets import Target
 from bsm.console import finite
 from bsm.evaluation.plots import MEASURES, draw_rates, points_of
@@ -136,11 +136,16 @@ class Spectral:
     @property
     def settings(self) -> dict[str, Any]:
         """The options that are not the defaults, and the step where it counts; not what decoders grant."""
-        defaults, names = EncodeOptions(), [one.name for one in fields(EncodeOptions) if one.name != "limits"]
-        changed = {name: now for name in names if (now := getattr(self.options, name)) != getattr(defaults, name)}
-        if self.options.target is not None:
-            return {**changed, "target": asdict(self.options.target)}
-        return changed if self.options.bits else {"step": self.options.first_step, **changed}
+        options, defaults = self.options, EncodeOptions()
+        given = {
+            item.name: getattr(mine, item.name)
+            for mine, usual in ((options, defaults), (options.paper, defaults.paper))
+            for item in fields(mine)
+            if item.name not in ("limits", "paper") and getattr(mine, item.name) != getattr(usual, item.name)
+        }
+        if options.target is not None:
+            return {**given, "target": asdict(options.target)}
+        return given if options.paper.bits else {"step": options.first_step, **given}
 
     def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
         """See `Codec`; the encoder itself knows the order of the vertices."""
@@ -216,7 +221,7 @@ OUR_TARGETS = {
 def paper_options(**changes: Any) -> EncodeOptions:
     """The paper's mode: METIS, 12 bits for every coefficient, one chain."""
     settings: dict[str, Any] = {"partition": "metis", "bits": 12, "key_interval": 0, "power": 1}
-    return EncodeOptions(**{**settings, "threads": 1, "limits": "wide", **changes})
+    return changed(EncodeOptions(), **{**settings, "threads": 1, "limits": "wide", **changes})
 
 
 def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) -> tuple[Curve, ...]:

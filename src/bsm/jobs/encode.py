@@ -123,7 +123,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     begin = time.perf_counter()
     chosen = sequence_options(**job.options, threads=job.threads)
     if job.permutation and chosen.runs:
-        raise OptionError("--permutation is the order of one mesh, and runs=yes lets the faces change")
+        raise OptionError("--permutation is the order of one mesh, and --runs lets the faces change")
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
     metadata = {**source.metadata, **rate, **job.metadata}
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)

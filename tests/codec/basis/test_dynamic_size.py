@@ -5,7 +5,7 @@ from bsm.codec.basis.dynamic_size import dynamic_size, residual_norms
 from bsm.codec.basis.orthogonal_iteration import hash_columns
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, changed
 from bsm.files.stream import inspect_stream
 from tests.shapes import torus
 
@@ -33,7 +33,7 @@ def test_the_size_grows_over_the_upper_and_shrinks_under_the_lower_threshold():
 def test_sizes_follow_the_error_and_the_decoder_follows_the_sizes():
     mesh = torus(60, 40, bumps=0.15)
     options = {"block_size": 150, "keep": 0.5, "step": 5e-4, "smoothing": 0.0}
-    dynamic = Encoder(mesh, EncodeOptions(**options, doi=(0.02, 0.03)))
+    dynamic = Encoder(mesh, changed(EncodeOptions(), **options, doi=(0.02, 0.03)))
     attempt = dynamic.attempt(5e-4)
     assert len(set(attempt.coefficients)) > 2
     decoded = decode(b"".join(attempt.frames))
@@ -42,7 +42,7 @@ def test_sizes_follow_the_error_and_the_decoder_follows_the_sizes():
 
 
 def test_sizes_follow_the_error_in_the_papers_mode_too():
-    options = EncodeOptions(block_size=150, keep=0.5, bits=12, doi=(0.02, 0.03))
+    options = changed(EncodeOptions(), block_size=150, keep=0.5, bits=12, doi=(0.02, 0.03))
     encoder = Encoder(torus(60, 40, bumps=0.15), options)
     sizes = inspect_stream(iter([encoder.encode()])).coefficients
     assert len(set(sizes)) > 2

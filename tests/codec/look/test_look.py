@@ -296,14 +296,11 @@ def test_blame_lies_where_the_difference_is():
     top = dented[:, 2] > 0.8 * dented[:, 2].max()
     dented[top, 2] *= 0.9
     looker = LookMetric(MESH, threads=2)
-    (none, same), (blame, other) = looker.blame(MESH.positions), looker.blame(dented)
+    none, blame = looker.blame(MESH.positions), looker.blame(dented)
     assert none.max() < 1e-6
-    assert same.visible == 0
-    assert other.visible > 0
     near = top[MESH.faces].any(axis=1)
     assert blame[near].sum() > 2 * blame[~near].sum()
-    assert other == looker.look(dented)
-    assert blame.sum() > other.dissimilarity
+    assert blame.sum() > looker.look(dented).dissimilarity
 
 
 def test_a_glance_is_enough_where_it_tells_enough():

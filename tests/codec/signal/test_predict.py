@@ -9,7 +9,7 @@ from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.predict import Known, Surroundings, unheld
 from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, changed
 from tests.shapes import patch, torus
 
 
@@ -109,7 +109,7 @@ def test_held_rows_move_little_in_the_first_columns():
 def test_prediction_saves_bits_and_error():
     mesh = torus(90, 60)
     options = {"block_size": 250, "overlap": 1.0, "keep": 0.12, "key_interval": 0, "threads": 1}
-    held = Encoder(mesh, EncodeOptions(**options)).attempt(0.004)
-    loose = Encoder(mesh, EncodeOptions(**options, predict=False)).attempt(0.004)
+    held = Encoder(mesh, changed(EncodeOptions(), **options)).attempt(0.004)
+    loose = Encoder(mesh, changed(EncodeOptions(), **options, predict=False)).attempt(0.004)
     assert held.size < 0.9 * loose.size
     assert held.comparison.nmsve < loose.comparison.nmsve

@@ -22,7 +22,7 @@ from bsm.codec.static.choice.search import Search
 from bsm.codec.static.contract import Contract
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import Target
 from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder
@@ -123,7 +123,9 @@ def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: TriangleMesh, pr
 
 @pytest.mark.parametrize("option", [{"grid": 9}, {"grid_cell": 0.01}])
 def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -> None:
-    plain, light = (Encoder(torus(80, 40), EncodeOptions(quick=quick, **option)).draft() for quick in (False, True))
+    plain, light = (
+        Encoder(torus(80, 40), changed(EncodeOptions(), quick=quick, **option)).draft() for quick in (False, True)
+    )
     assert light.header == replace(plain.header, light=1) and not plain.header.light
     one, other = (decode(b"".join(draft.frames)) for draft in (plain, light))
     np.testing.assert_array_equal(one.positions, other.positions)
@@ -137,7 +139,7 @@ def test_the_smallest_is_in_blocks_where_nothing_is_said() -> None:
 @pytest.mark.parametrize("option", [{"step": 0.01}, {"bits": 12}, {"keep": 0.1}])
 def test_quick_decoding_excludes_options_of_blocks(option: dict[str, float]) -> None:
     with pytest.raises(OptionError, match="quick"):
-        EncodeOptions(quick=True, **option)
+        changed(EncodeOptions(), quick=True, **option)
 
 
 def test_a_bound_in_the_unit_of_the_mesh() -> None:

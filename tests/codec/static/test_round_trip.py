@@ -13,14 +13,14 @@ from bsm.codec.geometry.metrics import compare
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, changed
 from tests.shapes import patch, tetrahedron, together, torus
 
 SMALL = {"block_size": 120, "keep": 0.3, "step": 0.002}
 
 
 def round_trip(mesh, **options):
-    encoder = Encoder(mesh, EncodeOptions(**options))
+    encoder = Encoder(mesh, changed(EncodeOptions(), **options))
     decoded = decode(encoder.encode())
     return encoder, decoded, compare(mesh.positions[encoder.vertex_order], decoded.positions, decoded.faces)
 
@@ -164,7 +164,7 @@ def test_threads_change_neither_bytes_nor_positions():
 
 def test_positions_agree_between_blas_kernels_and_thread_counts(tmp_path):
     stream = tmp_path / "torus.bsm"
-    stream.write_bytes(encode(torus(80, 60), EncodeOptions(block_size=400, key_interval=0, power=2)))
+    stream.write_bytes(encode(torus(80, 60), changed(EncodeOptions(), block_size=400, key_interval=0, power=2)))
     script = (
         "import sys, numpy; from bsm.codec.static.decoder import decode; "
         "numpy.save(sys.argv[2], decode(open(sys.argv[1], 'rb').read()).positions)"
@@ -217,7 +217,7 @@ def test_a_stream_over_the_limits_is_refused():
 def test_illegal_options_are_refused():
     for wrong in ({"keep": 0.0}, {"bits": 1}, {"bits": 17}, {"overlap": 0.9}, {"key_seed": "random"}, {"step": -1.0}):
         with pytest.raises(OptionError):
-            EncodeOptions(**wrong)
+            changed(EncodeOptions(), **wrong)
 
 
 def test_the_order_can_be_kept():
@@ -248,7 +248,7 @@ def test_many_bits_hold_a_first_row_that_is_large_beside_nothing():
     mesh = patch(40, 40)
     errors = []
     for bits in (8, 12, 13, 16):
-        encoder = Encoder(mesh, EncodeOptions(bits=bits, coefficients=1, block_size=100))
+        encoder = Encoder(mesh, changed(EncodeOptions(), bits=bits, coefficients=1, block_size=100))
         decoded = decode(encoder.encode()).positions
         errors.append(np.abs(decoded - mesh.positions[encoder.vertex_order]).max())
     assert max(errors) < 1.01 * min(errors)

@@ -16,7 +16,7 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.work import Allowance
 from tools.vectors.meshes import torus
 
@@ -170,7 +170,7 @@ def test_every_preset_is_within_the_limits_of_a_service(preset, spent):
     ],
 )
 def test_an_encoder_does_the_sums_of_the_decoder(options, spent):
-    encoder = Encoder(torus(60, 50), EncodeOptions(**{"block_size": 300, "key_interval": 3, **options}))
+    encoder = Encoder(torus(60, 50), changed(EncodeOptions(), **{"block_size": 300, "key_interval": 3, **options}))
     stream = encoder.encode()
     before = sum(spent)
     spent.clear()
@@ -182,10 +182,10 @@ def test_an_encoder_does_the_sums_of_the_decoder(options, spent):
 def test_an_encoder_makes_nothing_that_decoders_refuse():
     wide = {"coefficients": 900, "block_size": 4000, "bits": 12, "power": 1, "key_iterations": 1}
     with pytest.raises(OptionError, match="memory"):
-        encode(torus(64, 64), EncodeOptions(**wide, key_seed="cosines"))
+        encode(torus(64, 64), changed(EncodeOptions(), **wide, key_seed="cosines"))
     exact = {"coefficients": 400, "block_size": 800, "bits": 12, "key_interval": 1}
     with pytest.raises(OptionError, match="work"):
-        encode(torus(64, 64), EncodeOptions(**exact, limits="service"))
+        encode(torus(64, 64), changed(EncodeOptions(), **exact, limits="service"))
     with pytest.raises(OptionError, match="refuse"):
         encode(soup(1500, 6000), EncodeOptions(block_size=1500, coefficients=4))
 
@@ -197,14 +197,15 @@ def test_a_promise_is_kept_by_a_grid_where_blocks_would_be_refused():
 
 
 def test_the_default_allows_wide_dictionaries():
-    stream = encode(torus(60, 50), EncodeOptions(bits=12, keep=0.4, block_size=500, key_interval=0))
+    stream = encode(torus(60, 50), changed(EncodeOptions(), bits=12, keep=0.4, block_size=500, key_interval=0))
     assert len(decode(stream, DEFAULT_LIMITS).positions) == 3000
 
 
 @pytest.mark.parametrize("threads", [1, 3])
 def test_what_is_decoded_waits_in_no_great_number(threads):
     stream = encode(
-        torus(100, 60), EncodeOptions(bits=12, block_size=60, overlap=8.0, key_interval=1, key_seed="cosines", keep=0.1)
+        torus(100, 60),
+        changed(EncodeOptions(), bits=12, block_size=60, overlap=8.0, key_interval=1, key_seed="cosines", keep=0.1),
     )
     with Decoder(threads=threads) as decoder:
         decoder.receive_data(stream)

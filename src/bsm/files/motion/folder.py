@@ -125,7 +125,7 @@ def read_files(
             if difference := other_faces(first, mesh):
                 raise MeshError(
                     f"these are different meshes, not the frames of one animation: {name} (frame {number}) has other "
-                    f"faces than {names[0]}: {difference}; if their faces change, --set runs=yes; to work on each by "
+                    f"faces than {names[0]}: {difference}; if their faces change, --runs; to work on each by "
                     "itself, name the files, or the folder with -r, and write to a folder, -o FOLDER/"
                 )
             own = []
@@ -134,7 +134,7 @@ def read_files(
                 if now is None:
                     raise MeshError(
                         f"{one.name} is another at {name} (frame {number}), and what it was again in the last frame; "
-                        "only colours and numbers of vertices may change: --set runs=yes keeps others as the first "
+                        "only colours and numbers of vertices may change: --runs keeps others as the first "
                         "frame has them"
                     )
                 own.append(now)

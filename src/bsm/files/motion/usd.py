@@ -324,7 +324,7 @@ class _Part:
             if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(code), np.int64), known):
                 raise MeshError(
                     f"{self.prim.GetPath()} has other faces at time {time:g} than before (their {name}); if they may "
-                    "change, --set runs=yes"
+                    "change, --runs"
                 )
         if len(points) != self.vertices:
             raise MeshError(

@@ -1,0 +1,59 @@
+/* What chooses levels and places: shaping.c, settling.c, creases.c. Encoder only. */
+#ifndef BSM_CHOICE_H
+#define BSM_CHOICE_H
+
+#include "bitstream/kernel.h"
+
+/* Pairs of faces that share a vertex and are bent by about as much as makes a crease. */
+typedef struct {
+    ConstInts2 faces;   /* m x 3 */
+    ConstInts2 pairs;   /* k x 2, of faces */
+    ConstBytes sharp;   /* k: whether there should be a crease between them */
+    ConstDoubles costs; /* k: of being wrong about that */
+    ConstInts starts;   /* n + 1, of the pairs whose bend hangs on a vertex */
+    ConstInts members;
+    double cosine;      /* of the bend from which on there is one */
+} Creases;
+
+int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, int64_t most,
+                        double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp,
+                        Doubles costs);
+int64_t hang_creases(ConstInts2 faces, ConstInts2 pairs, Ints starts, Ints members);
+
+bool fits_creases(const Creases *creases, int64_t vertices);
+double wrong_creases(const Creases *creases, const double *positions, int64_t vertex);
+
+int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, ConstDoubles2 losses, ConstDoubles2 steps,
+                      ConstDoubles reach, ConstInts starts, ConstInts members, ConstDoubles2 rates, double pull, int64_t fixed,
+                      Creases creases, ConstDoubles2 places, ConstDoubles2 frames, Doubles2 moved, Ints2 levels,
+                      Doubles2 counts);
+
+/* A mesh as it should be, and who is beside whom. */
+typedef struct {
+    ConstDoubles2 positions; /* n x 3 */
+    ConstInts2 faces;        /* m x 3 */
+    ConstLongs around_starts;
+    ConstInts around; /* faces at each vertex */
+    ConstInts beside_starts;
+    ConstInts beside; /* neighbours of each vertex */
+    ConstDoubles2 normals; /* m x 3 */
+    ConstDoubles weights;  /* m */
+} Wanted;
+
+/* How levels are chosen. */
+typedef struct {
+    double worth;  /* what a nat costs, in units of weight times angle */
+    double reach;  /* how far a vertex may come to lie from its place; where it is farther it may come nearer */
+    int64_t sweeps;
+} Aim;
+
+int64_t collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Ints pending, Ints2 flaps);
+int64_t group_flaps(ConstInts2 flaps, Ints starts, Ints members);
+int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, ConstDoubles2 directions, ConstDoubles scales,
+                     double pull, Bytes open);
+int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps, ConstInts starts,
+                   ConstInts members, Ints2 bends, ConstDoubles rates, int64_t axes, Creases creases, Bytes open);
+int64_t count_bends_on(ConstDoubles2 corners, double step, Ints2 counts);
+int64_t count_bends(ConstInts2 bends, int64_t stride, Ints2 counts);
+
+#endif
