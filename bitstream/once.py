@@ -1,9 +1,4 @@
-"""What an object works out once: `functools.cached_property` without the lock that Python 3.11's shares.
-
-There, one lock of a class is held while any of its objects works: threads that factorise different matrices wait for
-each other, and a child that is forked meanwhile waits for ever. Here two threads that ask one object at the same time
-may both work, and get equal answers.
-"""
+"""`functools.cached_property` without the lock that a class shares in Python 3.11, which threads and forks wait for."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ def pythons() -> dict[tuple[int, int], Path]:
 
 
 def _version(python: Path) -> tuple[int, int] | None:
-    """Of a Python that runs."""
+    """Major and minor version of a Python, if it runs."""
     code = "import sys; print(*sys.version_info[:2])"
     done = subprocess.run([python, "-c", code], capture_output=True, text=True, check=False)
     if done.returncode:

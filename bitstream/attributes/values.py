@@ -32,10 +32,7 @@ LARGEST_SIZE = (1 << 19) - 1
 
 
 def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
-    """Directions as pairs of integers: points on an octahedron, its lower half folded outwards.
-
-    Q. Meyer et al., "On floating-point normal vectors", EGSR 2010.
-    """
+    """Directions as points on an octahedron, its lower half folded outwards (Meyer et al., EGSR 2010)."""
     if not 1 <= size <= LARGEST_SIZE:
         raise OptionError(f"the size of an octahedron must be from 1 to {LARGEST_SIZE}, not {size}")
     given = np.asarray(normals, np.float64)

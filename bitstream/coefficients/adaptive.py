@@ -1,12 +1,4 @@
-"""Adaptive coding of quantized coefficients, method 1: what the neighbours let expect, and what was learnt before.
-
-A level is the size of its magnitude in bits (in unary), up to two bits below the leading one, the rest of the bits
-and the sign, these last two as they are. Every other decision is predicted from three expectations of the magnitude
-(see `bitstream.coefficients.adaptive`), each with adaptive probabilities of its own, mixed as
-`bitstream.entropy.range_coder` does. Levels stand for points on two grids, by the rule of
-`bitstream.coefficients.adaptive`, and zeros and ones are told apart by grid, too. A chain starts from the
-probabilities and weights of `bitstream.coefficients.adaptive`. All arithmetic is on integers.
-"""
+"""Adaptive coding of quantized coefficients (M 9): by what their neighbours let expect, and what was learnt before."""
 
 from __future__ import annotations
 

@@ -1,10 +1,4 @@
-"""Entropy coding of a sequence's levels: matrices whose rows are frequencies and whose columns are components.
-
-A row is one spatial frequency of a block, or one temporal frequency of a basis; a column is one component of the
-temporal transform, or one coordinate. Each level is coded with the magnitudes of its neighbours in both directions
-and of the same place in a reference matrix (the block before, or the same block one frame before) as contexts, which
-the mixer of `bitstream.entropy.range_coder` weighs. All arithmetic is on integers.
-"""
+"""Levels of sequences: rows are frequencies, columns components, contexts are neighbours and a reference (S 4)."""
 
 from __future__ import annotations
 
@@ -35,9 +29,7 @@ from bsm.bitstream.errors import TruncatedError
 Levels = npt.NDArray[np.int32]
 Prices = npt.NDArray[np.int16]
 Lead: TypeAlias = tuple[int, int]
-"""How many columns are coded of the first row of a matrix, and how many more of each next one; the others are 0. Of a
-matrix without a lead all are coded, but behind its first third, whose rows are low frequencies, only the first ones, up
-to the last that has anything."""
+"""Columns coded of the first row, and more of each next one; without a lead all, behind a third those with any."""
 
 _Extent: TypeAlias = tuple[int, int, int, int]
 """A lead, the row from which on few columns are coded, and how many."""

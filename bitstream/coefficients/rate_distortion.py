@@ -1,9 +1,4 @@
-"""Choosing levels by what they cost: the encoder's side of the adaptive coder, no part of the format.
-
-The trellis leaves many ways to quantize a block. The one with the least sum of squared error and a weight times the
-bits is found by dynamic programming (Viterbi): for each state of the trellis the best way there survives. Bits are
-those that the model in its present state would spend; each survivor has its own neighbours as contexts.
-"""
+"""Choosing levels by Viterbi: squared error and a weight times the adaptive coder's bits; no part of the format."""
 
 from __future__ import annotations
 

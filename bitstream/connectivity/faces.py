@@ -1,10 +1,4 @@
-"""Faces to bytes and back: any list of triangles, exactly, up to the numbering that the decoder chooses.
-
-A payload is one entropy-coded stream: four counts, then the conquest of the surface (cut where it is not an oriented
-manifold), then which of the cut surface's fans are the same vertex, then the faces that repeat a corner.
-
-The decoder's numbering is a fixed point: encoding decoded faces gives the same payload, and identity orders.
-"""
+"""Faces to bytes and back, exactly up to numbering: counts, the conquest of a cut surface, fans, degenerate faces."""
 
 from __future__ import annotations
 

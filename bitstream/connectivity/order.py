@@ -1,8 +1,4 @@
-"""The order that a mesh had before its connectivity was coded: vertices, faces, and each face's first corner.
-
-A separate payload, because it often costs more than the connectivity itself. Faces are coded as a permutation of the
-order that their sorted corners suggest, largest vertex first, which is how most programs write them.
-"""
+"""The order of vertices, faces and first corners before connectivity was coded, as permutations."""
 
 from __future__ import annotations
 

@@ -1,8 +1,4 @@
-"""Partition, method 0: the part of each vertex, coded from the parts of the neighbours that are known already.
-
-Vertices are visited in their order. Most of them lie where their known neighbours do; the label of the neighbour last
-coded, then other labels around, are asked for one by one, then the next label that was never used, then any.
-"""
+"""The part of each vertex, asked for among those of its neighbours, then one that is new, then any (C 10)."""
 
 from __future__ import annotations
 

@@ -36,10 +36,7 @@ FOLLOWERS: dict[FrameType | None, frozenset[FrameType]] = {
     FrameType.VALUES: _TAIL | {FrameType.GOP},
     FrameType.END: frozenset(),
 }
-"""What may follow a frame of each type (None: the preamble), METADATA and skippable frames left aside.
-
-A HEADER behind a GOP begins the next run of a sequence; if it has the mesh of an earlier one `again`, GOPs follow it.
-"""
+"""What may follow a frame of each type (None: the preamble), METADATA and skippable frames left aside."""
 
 
 RESUMING = _BODY | {FrameType.HEADER}

@@ -1,7 +1,4 @@
-"""The payload of every packet: twins of writing and parsing side by side, and the tables that find them.
-
-Every parser takes the payload and the caller's limits, and raises `CorruptError`, `UnsupportedError` or `LimitError`.
-"""
+"""The payload of every packet: twins of writing and parsing side by side, and the tables that find them."""
 
 from __future__ import annotations
 

@@ -1,8 +1,4 @@
-"""The data of ORDER: the order that a mesh had, and which given vertices are one vertex of what was coded.
-
-`bitstream.connectivity.order` gives the faces as they were, of vertices made one, numbered as the first of each
-was met. What is said here makes them the given vertices again, those that are in no face included.
-"""
+"""ORDER: the order that a mesh had, and which given vertices, loose ones included, are one of what was coded."""
 
 from __future__ import annotations
 

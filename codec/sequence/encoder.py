@@ -30,7 +30,6 @@ from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.run_encoding import EncodedGops, RunEncoder, finest_step
 from bsm.codec.sequence.runs import Cutter, Frame, JoinedRun, Run, Shelf, joined_runs
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
-from bsm.codec.static.admission import as_of_decoders
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.draft import Draft
@@ -38,7 +37,7 @@ from bsm.codec.static.encoder import PROMISED_SIZES
 from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
-from bsm.codec.static.ways.block_coder import CodedBlock, Progress
+from bsm.codec.static.ways.block_coder import CodedBlock, Progress, as_of_decoders
 from bsm.codec.static.work import Allowance, run_cost
 
 

@@ -13,7 +13,7 @@ from bsm.codec.basis.cost import Spend, free
 from bsm.codec.blocks.overlap import Blend, Blocks
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.smooth import DEGREE, LocalFilter, Rings, smooth
-from bsm.codec.static.attributes.solid import Solid
+from bsm.codec.static.attributes.surface import Solid
 from bsm.codec.static.events import Changes, Losses
 from bsm.codec.static.numbering import Numbering
 from bsm.codec.static.units import Units
@@ -119,8 +119,7 @@ class Assembly:
         return Solid(smooth(self._graph, self._blend.all_positions(), self._smoothing))
 
     def base(self) -> tuple[Matrix, Mask]:
-        """What refinement adds to: all positions in BSM units, shape (n, 3), and which of them, and of the vertices
-        beside them, are as the encoder had them. Unknown ones are 0."""
+        """What refinement adds to, shape (n, 3), 0 where unknown, and which, with those beside, are as they were."""
         everything = np.arange(self._graph.size, dtype=np.int32)
         if self.whole:
             whole = np.ones(len(everything), np.bool_)

@@ -1,12 +1,4 @@
-"""Ways of coding what the prediction of a block leaves, one socket for all of them.
-
-A way knows the steps and widths of a stream. `Coding.begin` gives it the state that a chain starts from; after that
-the encoder calls `choose`, `write` and `positions` for one block after the other, the decoder `read` and `positions`.
-`coding_of` says which way a header asks for.
-
-What has no dictionary and no blocks, or comes behind them all, is no way of coding a block: it is a stage of its own
-(`codec.static.stages`), which follows the preamble or the blocks.
-"""
+"""Ways of coding what the prediction of a block leaves: `choose`, `write`, `positions`, or `read`, block by block."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from bsm.bitstream.public import public
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.static.assembly import Assembly, DecodedBlock
-from bsm.codec.static.attributes.decoding import PendingValues, ValuesStage, completed
+from bsm.codec.static.attributes.decoding import Complete, PendingValues, ValuesStage, completed
 from bsm.codec.static.events import (
     AttributeEvent,
     BlockEvent,
@@ -33,7 +33,6 @@ from bsm.codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
 from bsm.codec.static.ways.block_coder import ChainDecoder
 from bsm.codec.static.ways.grid import GridStage
 from bsm.codec.static.ways.refinement import PendingLevels, RefinementStage
-from bsm.codec.static.whole import Complete
 from bsm.codec.static.work import Allowance
 from bsm.codec.threads import Lanes, Pending
 

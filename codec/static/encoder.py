@@ -20,7 +20,6 @@ from bsm.codec.geometry.metrics import Comparison, Reference
 from bsm.codec.look.measure import own_normals
 from bsm.codec.look.pictures import Normals
 from bsm.codec.signal.transform import smallest_step
-from bsm.codec.static.admission import as_of_decoders
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import Quality, qualities
 from bsm.codec.static.choice.blocks import Spectral
@@ -34,7 +33,7 @@ from bsm.codec.static.joining import JoinedMesh, join
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import Target, search_step
-from bsm.codec.static.ways.block_coder import Progress
+from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
 
 
 @dataclass(frozen=True, eq=False)

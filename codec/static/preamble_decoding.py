@@ -1,8 +1,4 @@
-"""What a decoder gets before positions, from what `codec.static.preamble_encoding` prepares.
-
-They pass three stages (`codec.static.stages`): `HeaderStage` takes the header, `ConnectivityStage` the faces, and
-`PreambleStage` labels, order and declarations, until something else comes.
-"""
+"""What comes before positions, decoded in three stages: header, faces, then labels, order and declarations."""
 
 from __future__ import annotations
 
@@ -81,8 +77,7 @@ class Structure:
 
 @dataclass(frozen=True)
 class DecoderSetup:
-    """How a decoder reads the preamble: which headers it takes, what it may spend, which stage comes behind, and what
-    is tried."""
+    """Which headers a decoder takes, what it may spend, which stage comes behind, and what is tried."""
 
     allowance: Allowance
     check: Callable[[Header], None]

@@ -1,7 +1,4 @@
-"""What comes before positions: the faces and everything that follows from them; for meshes and for sequences.
-
-`prepare` makes it from a mesh; the decoder's half is `codec.static.preamble_decoding`.
-"""
+"""What comes before positions: the faces and everything that follows from them; for meshes and for sequences."""
 
 from __future__ import annotations
 

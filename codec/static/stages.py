@@ -1,8 +1,4 @@
-"""The frame of both decoders: bytes come, a stage takes the packets in, events go.
-
-Where a decoder stands is the type of its stage: the preamble's (`codec.static.preamble_decoding`), then those of blocks
-or of frames, and `Ended` or `Failed`. Whatever a stream may consist of behind its faces is one more of them.
-"""
+"""The frame of both decoders: bytes come, the stage where a decoder stands takes the packets in, events go."""
 
 from __future__ import annotations
 

@@ -1,8 +1,4 @@
-"""How much work and memory a stream asks for, and how much it may.
-
-Work is in nanoseconds of a processor core, memory in bytes, both estimated before they are spent; `codec.basis.cost`
-says what of.
-"""
+"""Nanoseconds of a processor core and bytes of memory that a stream asks for, estimated before they are spent."""
 
 from __future__ import annotations
 

@@ -10,19 +10,6 @@ from tests.tools.running import tool
 from tools.measure.figures import BLOCKS
 
 
-def test_boundary(tmp_path):
-    write_mesh(tmp_path / "torus.npz", torus())
-    done = tool("boundary", tmp_path / "torus.npz", "--set", "block-size=150", "--json", "-o", tmp_path / "box")
-    rows = json.loads(done.stdout)["rows"]
-    assert [(row["case"], row["where"]) for row in rows] == [
-        (case, where)
-        for case in ("no overlap", "simple average", "weighted average")
-        for where in ("inside", "boundary")
-    ]
-    assert all(0 < row["lower"] <= row["median"] <= row["upper"] for row in rows)
-    assert (tmp_path / "box.png").read_bytes().startswith(b"\x89PNG")
-
-
 def test_figures_knows_its_names(tmp_path):
     done = tool("figures", tmp_path, "--only", "nothing")
     assert done.returncode == 2 and "no figure is called nothing" in done.stderr

@@ -44,7 +44,7 @@ from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import derive_partition, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.gop import level_references
-from bsm.codec.static.attributes.pieces import PieceEncoder
+from bsm.codec.static.attributes.levels import PieceEncoder
 from bsm.codec.static.attributes.surface import surface_of
 from tools.gridded import gridded
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of

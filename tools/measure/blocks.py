@@ -1,11 +1,7 @@
-"""Errors block by block, inside blocks and at their boundaries; and what the order of a block's rows is worth.
-
-python -m tools.measure boundary MESH
-"""
+"""Errors inside blocks, at their boundaries and along their chain: for the report on the paper, and for figures."""
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -28,13 +24,9 @@ from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Parts, prepare
 from bsm.codec.static.ways.block_coder import encode_blocks
-from bsm.commands.flags import add_coding_flags, settings_of
-from bsm.console import Console, print_json
-from bsm.evaluation.curve import number, paper_options, table
+from bsm.evaluation.curve import paper_options
 from bsm.evaluation.plots import draw_axes, new_figure, save_figure
-from bsm.files.mesh import read_mesh
 from bsm.files.stream import StreamInfo, inspect_stream
-from tools.command import run_command
 
 Floats = npt.NDArray[np.float64]
 
@@ -128,16 +120,6 @@ def quartiles(deviations: Floats) -> dict[str, float | None]:
     if len(deviations) == 0:
         return {"lower": None, "median": None, "upper": None}
     return dict(zip(("lower", "median", "upper"), map(float, np.percentile(deviations, [25, 50, 75]))))
-
-
-def boundary_rows(rows: Sequence[Mapping[str, Any]]) -> str:
-    """The quartiles of `boundary_table`, one row per ``case`` and ``where``, as a table in thousandths."""
-    names = ("lower", "median", "upper")
-    cells = [
-        (row["case"], row["where"], *(number(None if row[n] is None else 1e3 * row[n], 3) for n in names))
-        for row in rows
-    ]
-    return table(("", "where", "lower quartile", "median", "upper quartile"), cells)
 
 
 def errors_along_chain(view: BlockView) -> list[dict[str, float]]:
@@ -248,32 +230,3 @@ def draw_boxes(groups: Mapping[str, Mapping[str, npt.NDArray[np.float64]]], stem
         axes.set_ylabel("standard deviation of the error, thousandths of the diagonal")
 
     return draw_axes(draw, stem)
-
-
-def work(args: argparse.Namespace, console: Console) -> None:
-    """Print the quartiles over the blocks, as the paper's box plot shows them."""
-    mesh = read_mesh(args.input).mesh
-    deviations_of = boundary_table(mesh, paper_options(**{"power": 2, **settings_of(args)}))
-    rows = [
-        {"case": case, "where": where, **quartiles(deviations)}
-        for case, groups in deviations_of.items()
-        for where, deviations in groups.items()
-    ]
-    if args.json:
-        print_json({"mesh": Path(args.input).stem, "rows": rows})
-    else:
-        print("Standard deviation of the error over the blocks, in thousandths of the diagonal:\n")
-        print(boundary_rows(rows))
-    if args.output:
-        for path in draw_boxes(deviations_of, Path(args.output)):
-            console.note(str(path))
-
-
-def main() -> None:
-    """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("input", metavar="MESH", help="mesh file")
-    parser.add_argument("-o", "--output", metavar="STEM", help="draw the box plot as STEM.png and STEM.svg")
-    parser.add_argument("--json", action="store_true", help="print it as JSON")
-    add_coding_flags(parser)
-    run_command(parser, work)

@@ -19,11 +19,10 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Levels, Order
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.attributes.levels import KINDS, Values, restored
-from bsm.codec.static.attributes.pieces import PieceDecoder, from_pieces
-from bsm.codec.static.attributes.solid import Solid
+from bsm.codec.static.attributes.levels import KINDS, PieceDecoder, Values, from_pieces, restored
 from bsm.codec.static.attributes.surface import (
     Arrangement,
+    Solid,
     Surface,
     arrangement_of,
     loose_of,
@@ -32,8 +31,7 @@ from bsm.codec.static.attributes.surface import (
 )
 from bsm.codec.static.events import AttributeEvent, Losses, LossEvent, unreadable
 from bsm.codec.static.numbering import Numbering
-from bsm.codec.static.stages import Arrival, Stage, misplaced
-from bsm.codec.static.whole import Complete
+from bsm.codec.static.stages import Arrival, Ended, Stage, misplaced
 from bsm.codec.static.work import (
     DECLARED,
     Allowance,
@@ -47,6 +45,24 @@ from bsm.codec.static.work import (
     values_cost,
     values_memory,
 )
+
+
+class Outcome(Protocol):
+    """What a decoder has put together."""
+
+    def mesh(self) -> TriangleMesh:
+        """The mesh in its own unit."""
+
+    def losses(self) -> Losses:
+        """What of it is missing or less good."""
+
+
+@dataclass(frozen=True, eq=False)
+class Complete(Ended):
+    """All that is wanted is there, or known to be lost."""
+
+    whole: Outcome
+
 
 SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
@@ -121,11 +137,9 @@ def numbers_of(declaration: Declaration, faces: int) -> int:
     return rows * max(declaration.words, declaration.components)
 
 
-class Whole(Protocol):
-    """What a decoder has put together, before attributes."""
+class Whole(Outcome, Protocol):
+    """What a decoder has put together before attributes."""
 
-    def mesh(self) -> TriangleMesh: ...
-    def losses(self) -> Losses: ...
     def solid(self) -> Solid | None:
         """Decoded positions, in the order of coding; None where some are missing or not as the encoder had them."""
 

@@ -27,8 +27,7 @@ from bsm.codec.arrays import Indices, Levels, Order
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
-from bsm.codec.static.attributes.levels import KINDS, Words, quantized
-from bsm.codec.static.attributes.pieces import PieceEncoder, leans, to_pieces
+from bsm.codec.static.attributes.levels import KINDS, PieceEncoder, Words, leans, quantized, to_pieces
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.attributes.surface import Surface, surface_of
 from bsm.codec.static.draft import Draft

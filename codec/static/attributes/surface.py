@@ -87,3 +87,11 @@ def recomputed(surface: Surface, positions: Matrix) -> Matrix:
             normals[:, axis] += np.bincount(surface.faces[:, corner], weights=across[:, axis], minlength=len(normals))
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """Decoded positions."""
+
+    positions: Matrix
+    places: Levels | None = None

@@ -16,7 +16,6 @@ from bsm.codec.signal.chain import AS_SPECIFIED, Trial
 from bsm.codec.signal.frames import in_frames, local_frames, raised, slide, tangent_steps
 from bsm.codec.signal.smooth import smooth
 from bsm.codec.signal.transform import smallest_step
-from bsm.codec.static.admission import admit, patience
 from bsm.codec.static.assembly import blended
 from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
 from bsm.codec.static.choice.plan import Planner
@@ -27,7 +26,7 @@ from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import Progress, encode_blocks
+from bsm.codec.static.ways.block_coder import Progress, admit, encode_blocks, patience
 from bsm.codec.static.ways.refinement import encode_layer
 from bsm.codec.static.work import Allowance
 

@@ -13,12 +13,12 @@ from bsm.codec.signal.bandwidth import MeasuredSpectrum
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Trial, even_interval
 from bsm.codec.signal.smooth import smoothing_spectrum
 from bsm.codec.signal.transform import packed_range, project, smallest_step
-from bsm.codec.static.admission import patience
 from bsm.codec.static.coding import Adaptive, Packed
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.rules import STIFFNESS, Scheme
 from bsm.codec.static.units import single
+from bsm.codec.static.ways.block_coder import patience
 from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10

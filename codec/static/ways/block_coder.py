@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.errors import BsmError, CorruptError, NumericError
+from bsm.bitstream.container.reader import reading_cost
+from bsm.bitstream.errors import BsmError, CorruptError, LimitError, NumericError, OptionError
+from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.basis.cost import Price, Spend, free, settle
@@ -18,8 +22,18 @@ from bsm.codec.signal.chain import Chain
 from bsm.codec.signal.predict import Surroundings
 from bsm.codec.static.assembly import DecodedBlock
 from bsm.codec.static.coding import Coding, Ground
+from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.rules import Scheme
-from bsm.codec.static.work import Allowance, block_cost, block_memory, chain_cost, ground_cost
+from bsm.codec.static.work import (
+    Allowance,
+    block_cost,
+    block_memory,
+    chain_cost,
+    ground_cost,
+    mesh_cost,
+    mesh_memory,
+    partition_cost,
+)
 from bsm.codec.threads import ordered_map
 
 FRAME = 5
@@ -48,8 +62,7 @@ class ChainEncoder:
         self._coding = scheme.coding.begin()
 
     def encode(self, index: int, positions: Matrix) -> CodedBlock:
-        """Encode the chain's next block, by its index in the scheme; `positions`, shape (n, 3), are those of all
-        vertices, in BSM units."""
+        """Encode the block of an index; `positions`, shape (n, 3), are those of all vertices, in BSM units."""
         scheme, chain, coding = self._scheme, self._chain, self._coding
         block = scheme.blocks.block(index)
         around = chain.around(block)
@@ -160,3 +173,47 @@ def encode_blocks(
         if progress:
             progress(len(coded), scheme.blocks.count)
     return coded
+
+
+PATIENCE = 8.0
+"""How many times longer an encoder may take over dictionaries, of wider tries, than decoders over the whole stream."""
+
+
+AROUND, AROUND_BYTES = 4, 256
+"""Frames around connectivity and blocks (header, labels, order, END), and about their bytes."""
+
+
+def patience(limits: str, vertices: int) -> Spend:
+    """Is told of the work of an encoder, and raises `LimitError` where it would come to nothing that is decoded."""
+    granted = NAMED_LIMITS[limits]()
+    work, per_vertex = PATIENCE * granted.work, PATIENCE * granted.work_per_vertex
+    allowance = Allowance(replace(granted, work=work, work_per_vertex=per_vertex, most_work=math.inf))
+    allowance.grant(vertices)
+    return allowance.spend
+
+
+def admit(allowance: Allowance, prepared: Prepared, blocks: Sequence[CodedBlock]) -> None:
+    """Spend what a decoder of these blocks will, but for what their bytes grant."""
+    vertices, faces, received = prepared.graph.size, len(prepared.mesh.faces), len(prepared.connectivity.data)
+    count = prepared.blocks.count
+    allowance.spend(AROUND * reading_cost(AROUND_BYTES))
+    allowance.grant(vertices)
+    allowance.keep(mesh_memory(vertices, faces), received)
+    allowance.spend(reading_cost(received + FRAME))
+    allowance.spend(mesh_cost(vertices, faces, received))
+    allowance.spend(partition_cost(prepared.graph, count, count * min(prepared.size, vertices)))
+    allowance.afford(max(block.memory for block in blocks))
+    allowance.spend(sum(block.work + reading_cost(len(block.packet.data) + FRAME) for block in blocks))
+
+
+@contextmanager
+def as_of_decoders(limits: str) -> Iterator[None]:
+    """Say of a limit that it is the decoder's, and what to do about it."""
+    try:
+        yield
+    except LimitError as error:
+        raise OptionError(
+            f"decoders with {limits} limits would refuse this stream: {error.message.partition(';')[0]}; take smaller "
+            "blocks, fewer coefficients, iterations or attributes, or a grid, or limits = "
+            '"wide" if all who decode take these, too'
+        ) from error

@@ -27,12 +27,11 @@ from bsm.bitstream.fields.grid import (
 )
 from bsm.codec.arrays import Indices, Levels, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.attributes.decoding import ValuesStage, completed
-from bsm.codec.static.attributes.solid import Solid
+from bsm.codec.static.attributes.decoding import Complete, ValuesStage, completed
+from bsm.codec.static.attributes.surface import Solid
 from bsm.codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
 from bsm.codec.static.preamble_decoding import Structure
 from bsm.codec.static.stages import Arrival, Stage, misplaced
-from bsm.codec.static.whole import Complete
 from bsm.codec.static.work import floats_cost, grid_chunk_cost, grid_cost, grid_memory, light_chunk_cost, light_cost
 
 FIRST, CHUNK = 1 << 12, 1 << 13

@@ -1,8 +1,4 @@
-"""The layer of refinement over decoded blocks: the encoder's packets, and the stage of the decoder that takes them.
-
-Vertices are raised along normals as levels come; they move along the surface when all of them have, for their steps
-follow from how bent the raised surface is.
-"""
+"""The layer of refinement: vertices are raised along normals as levels come, and moved aside when all have."""
 
 from __future__ import annotations
 
@@ -25,12 +21,11 @@ from bsm.codec.arrays import Indices, Levels, Mask, Matrix
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.frames import lift, local_frames, raised, slide, tangent_steps
 from bsm.codec.static.assembly import Assembly
-from bsm.codec.static.attributes.decoding import ValuesStage, completed
-from bsm.codec.static.attributes.solid import Solid
+from bsm.codec.static.attributes.decoding import Complete, ValuesStage, completed
+from bsm.codec.static.attributes.surface import Solid
 from bsm.codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
 from bsm.codec.static.preamble_decoding import Structure
 from bsm.codec.static.stages import Arrival, Stage, misplaced
-from bsm.codec.static.whole import Complete
 from bsm.codec.static.work import chunk_cost, layer_cost, layer_memory
 from bsm.codec.threads import Lanes, Pending
 
