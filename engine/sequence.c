@@ -167,7 +167,6 @@ static bool lose_run(bsmdec *decoder) {
     locate(&decoder->context.error, decoder->reader.offset, decoder->reader.frames, -1);
     decoder->sequence.why = take_error(&decoder->context);
     lose(&decoder->sequence, decoder->sequence.why);
-    leave_run(decoder);
     return decoder->sequence.lost = true;
 }
 

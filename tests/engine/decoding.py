@@ -101,7 +101,7 @@ class Decoded:
     losses: int = 0
     moving: set[str] = field(default_factory=set)
     lost: list[tuple[int, int]] = field(default_factory=list)
-    frames: list[tuple[int, npt.NDArray[Any]]] = field(default_factory=list)
+    frames: list[tuple[int, npt.NDArray[Any] | None]] = field(default_factory=list)
     shown: list[dict[str, npt.NDArray[Any]]] = field(default_factory=list)
     runs: list[tuple[int, int, npt.NDArray[Any]]] = field(default_factory=list)
 
@@ -172,31 +172,33 @@ def _take(library: ctypes.CDLL, decoder: Any, event: Event, found: Decoded) -> N
     if event.type == CONNECTIVITY:
         found.runs.append((len(found.frames), event.vertices, _faces(library, decoder, event)))
         found.shown.clear()
-    if event.type in (FRAME, END) and not (event.type == END and found.frames):
-        positions = np.zeros((event.vertices, 3))
-        if event.type == END and library.bsmdec_positions(decoder, positions.ctypes.data, positions.size) != 0:
-            return  # a sequence without frames
-        assert library.bsmdec_positions(decoder, positions.ctypes.data, positions.size) == 0
-        arrays = _attributes(library, decoder, found)
-        if event.type == FRAME:
-            found.frames.append((event.index, positions))
-            found.shown.append(arrays)
-        found.arrays = {"positions": positions, "faces": _faces(library, decoder, event), **arrays}
+    if event.type == FRAME:
+        found.frames.append((event.index, _positions(library, decoder, event)))
+        found.shown.append(_attributes(library, decoder, found))
+    if event.type == END:
+        found.arrays = _attributes(library, decoder, found)
+        if not found.frames and (positions := _positions(library, decoder, event)) is not None:
+            found.arrays |= {"positions": positions, "faces": _faces(library, decoder, event)}
 
 
 def of_sequence(found: Decoded) -> dict[str, npt.NDArray[Any]]:
     """The arrays of all frames of a sequence, as the vectors have them."""
-    arrays = {key: values for key, values in found.arrays.items() if key not in ("positions", "faces")}
+    arrays = dict(found.arrays)
     for key in arrays:
         each = [shown[key] for shown in found.shown]
-        if key in found.moving:
+        if each and key in found.moving:
             arrays[key] = np.array(each)
-    frames = [positions for _, positions in found.frames]
+    frames = [positions for _, positions in found.frames if positions is not None]
     if len(found.runs) == 1:
         return arrays | {"positions": np.array(frames).reshape(-1, found.runs[0][1], 3), "faces": found.runs[0][2]}
     runs = np.array([(first, vertices, len(faces)) for first, vertices, faces in found.runs], np.int32)
     faces = np.concatenate([faces for *_, faces in found.runs])
-    return arrays | {"positions": np.concatenate(frames), "faces": faces, "runs": runs}
+    return arrays | {"positions": np.concatenate([np.zeros((0, 3)), *frames]), "faces": faces, "runs": runs}
+
+
+def _positions(library: ctypes.CDLL, decoder: Any, event: Event) -> npt.NDArray[np.float64] | None:
+    positions = np.zeros((event.vertices, 3))
+    return None if library.bsmdec_positions(decoder, positions.ctypes.data, positions.size) else positions
 
 
 def _faces(library: ctypes.CDLL, decoder: Any, event: Event) -> npt.NDArray[np.int32]:
