@@ -1,0 +1,83 @@
+"""Sequences in C: frames from a start on, what pieces and losses change, and the example in C++."""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bsm
+from tests.engine.decoding import build, decode
+from tools.surgery import frames_of, stream_of
+
+ROOT = Path(__file__).parents[2]
+VECTORS = ROOT / "spec/vectors"
+GOP = 7
+SEQUENCES = (
+    "good-sequence-long",
+    "good-sequence-low-delay-long",
+    "good-sequence-runs",
+    "good-sequence-moving-low-delay",
+)
+
+
+@pytest.mark.parametrize("name", SEQUENCES)
+@pytest.mark.parametrize("start", [1, 5])
+def test_frames_from_a_start_on_are_those_of_the_whole(library: ctypes.CDLL, name: str, start: int) -> None:
+    stream = (VECTORS / f"{name}.bsm").read_bytes()
+    whole = decode(library, stream)
+    expected, shown = whole.frames[start:], whole.shown
+    found = decode(library, stream, start=start, pieces=101)
+    assert [index for index, _ in found.frames] == [index for index, _ in expected]
+    for (_, one), (_, other) in zip(found.frames, expected, strict=True):
+        assert np.array_equal(one, other)
+    for one, other in zip(found.shown[::-1], shown[::-1], strict=False):
+        assert all(np.array_equal(one[key], other[key]) for key in other)
+
+
+@pytest.mark.parametrize("name", ["good-sequence-long", "good-sequence-low-delay-long", "good-sequence-runs-many"])
+def test_a_lost_gop_costs_what_it_costs_in_python(library: ctypes.CDLL, name: str) -> None:
+    parts = frames_of((VECTORS / f"{name}.bsm").read_bytes())
+    gops = [place for place, (kind, _) in enumerate(parts) if kind == GOP]
+    broken = [(kind, data[: len(data) // 2]) if place == gops[1] else (kind, data) for place, (kind, data) in enumerate(parts)]
+    found = decode(library, stream_of(broken), tolerant=True)
+    with bsm.SequenceDecoder(tolerant=True) as decoder:
+        decoder.receive_data(stream_of(broken))
+        decoder.receive_eof()
+        lost, kept = [], []
+        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
+            if isinstance(event, bsm.LossEvent):
+                lost.append((event.frames.start, len(event.frames)))
+            if isinstance(event, bsm.FrameEvent):
+                kept.append(event.index)
+    assert found.status == 0
+    assert found.lost == lost
+    assert [index for index, _ in found.frames] == kept
+    assert kept
+    assert lost
+
+
+def test_the_example_goes_through_all_frames(tmp_path: Path) -> None:
+    build(tmp_path, "-w")
+    subprocess.run(["cc", "-std=gnu11", "-O1", "-w", "-c", "bsmdec.c"], check=True, cwd=tmp_path)
+    example = ROOT / "engine/examples/frames.cpp"
+    flags = ["-std=c++17", "-Wall", "-Wextra", "-Werror", f"-I{tmp_path}"]
+    subprocess.run(["c++", *flags, example, "bsmdec.o", "-o", "frames", "-lm"], check=True, cwd=tmp_path)
+    vector = VECTORS / "good-sequence-long.bsm"
+    lines = subprocess.run(
+        [tmp_path / "frames", vector, "2"], check=True, capture_output=True, text=True
+    ).stdout.splitlines()
+    positions, faces = bsm.decode_sequence(vector.read_bytes())
+    expected = [
+        f"frame {index}: {len(faces)} faces, x from {frame[:, 0].min():.6g} to {frame[:, 0].max():.6g}"
+        for index, frame in enumerate(positions)
+    ]
+    assert lines == expected[2:]
+    refused = subprocess.run(
+        [tmp_path / "frames", VECTORS / "bad-sequence-beyond.bsm"], capture_output=True, text=True, check=False
+    )
+    assert refused.returncode == 1
+    assert "frame" in refused.stderr
