@@ -62,7 +62,7 @@ def test_every_stage_defends_itself(calls):
     assert graph.is_connected(whole)
     around = predict.Known(whole, 8.0).around(laplacian_of(block), 0.125)
     levels = np.ones((4, 3), np.int32)
-    transform.placed(around.continuation, hash_columns(120, 9), levels, 0.25)
+    transform.placed(around.continuation, hash_columns(120, 9).astype(np.float32), levels, 0.25)
     smooth.smooth(whole, mesh.positions, 4.0)
     assert set(calls) == set(STAGES)
     for name, arguments in calls.items():
