@@ -35,7 +35,7 @@ from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import join
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.files.pipes import Source, read_chunks
 from bsm.libraries import as_mesh
@@ -152,7 +152,7 @@ def decode(stream: Source, idea: Idea | None = None, /, *, limits: Limits = DEFA
 def blocks(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any) -> list[BlockArrays]:
     """The arrays of all blocks, in the order of coding, as `encode` with the same arguments meets them."""
     idea = idea or Idea()
-    options = EncodeOptions(**{"step": step, **keywords, "threads": 1})
+    options = changed(EncodeOptions(), **{"step": step, **keywords, "threads": 1})
     prepared = _prepared(as_mesh(mesh).bare, idea, options)
     found: list[BlockArrays] = []
 
@@ -178,7 +178,7 @@ def curves(
         raise OptionError('"ours" is what the codec does; call the idea something else')
     given, found = join(as_mesh(mesh).bare, keep=False).mesh, {}
     for name, idea in {"ours": Idea(), **ideas}.items():
-        codecs = [_tried(idea, EncodeOptions(**{"threads": 1, **keywords, "step": step})) for step in steps]
+        codecs = [_tried(idea, changed(EncodeOptions(), **{"threads": 1, **keywords, "step": step})) for step in steps]
         found[name] = run_curve(Curve(name, name, tuple(codecs)), given, "mesh")
         rate = compare_curves(found["ours"], found[name])["bd_rate_percent"]["theta_deg"]
         found[name]["bytes_of_ours"] = None if rate is None else 1.0 + rate / 100.0

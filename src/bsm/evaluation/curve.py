@@ -241,7 +241,7 @@ def our_curve(*, fine: bool = False, **changes: Any) -> Curve:
     if fine:
         targets = [Target(kind, value) for kind, values in OUR_TARGETS.items() for value in values]
         settings = [{"contract": None, "target": target} for target in targets]
-    return Curve("ours", "ours", tuple(Spectral(EncodeOptions(**{"threads": 1, **one})) for one in settings))
+    return Curve("ours", "ours", tuple(Spectral(changed(EncodeOptions(), **{"threads": 1, **one})) for one in settings))
 
 
 def draco_curve() -> Curve:
