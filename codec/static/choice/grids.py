@@ -89,6 +89,8 @@ class Gridded:
         farthest = float(np.abs(self._prepared.mesh.positions).max()) / self._prepared.units.scale
         far = farthest > MOST_LARGEST * extent / MOST_PARTS
         for parts, make in product(range(1, MOST_PARTS), (self.at, self.counted)[: 1 if far else 2]):
+            if not single(extent / parts * self._prepared.units.scale) > 0.0:
+                return  # beyond the range of numbers
             candidate = make(extent / parts)
             off = float(np.square(candidate.positions - self._prepared.positions).sum(axis=1).max())
             if off <= closest:
