@@ -18,7 +18,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.events import Course, DecoderRequest, Event, FrameEvent, Item
 from bsm.codec.sequence.run_decoding import FirstFrameStage, GopStage
 from bsm.codec.sequence.runs import Shelf
-from bsm.codec.signal.chain import AS_SPECIFIED, Trial
+from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
 from bsm.codec.static.events import ConnectivityEvent
 from bsm.codec.static.preamble_decoding import DecoderSetup, HeaderStage
 from bsm.codec.static.rules import chain_rules
@@ -45,7 +45,7 @@ class SequenceDecoder(StreamDecoder[Item]):
         its GOPs is not whole; the stream may begin with any run.
     start : int
         Give no frame before this one; GOPs that it does not need are not decoded.
-    trial : Trial, optional
+    overrides : Overrides, optional
         What is tried in place of what the specification says; see `codec.signal.chain`.
 
     Examples
@@ -68,7 +68,7 @@ class SequenceDecoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         start: int = 0,
-        trial: Trial = AS_SPECIFIED,
+        overrides: Overrides = AS_SPECIFIED,
     ) -> None:
         threads = threads_of(threads)
         self._attributes: list[Attribute] = []
@@ -78,7 +78,7 @@ class SequenceDecoder(StreamDecoder[Item]):
             allowance,
             check=lambda header: check_header(header, limits),
             begin=lambda structure: FirstFrameStage(structure, request, course),
-            trial=trial,
+            overrides=overrides,
             threads=threads,
         )
         super().__init__(Runs(setup, request, course), allowance, tolerant=tolerant)

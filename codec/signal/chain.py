@@ -32,14 +32,14 @@ Predictor: TypeAlias = Callable[[Surroundings], Matrix]
 
 
 @dataclass(frozen=True)
-class Trial:
+class Overrides:
     """What is tried in place of what the specification says; nothing, unless somebody asks for it."""
 
     dictionary: Dictionary | None = None
     predictor: Predictor | None = None
 
 
-AS_SPECIFIED = Trial()
+AS_SPECIFIED = Overrides()
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class ChainRules:
     shift: float
     stiffness: float
     whole: int = 0
-    trial: Trial = AS_SPECIFIED
+    overrides: Overrides = AS_SPECIFIED
 
     @property
     def alone(self) -> bool:
@@ -121,12 +121,12 @@ class Chain:
 
     def steps(self, around: Surroundings, width: int) -> Steps:
         """`dictionary`, with the price of each step."""
-        width, own = min(width, around.laplacian.block.size), self._rules.trial.dictionary
+        width, own = min(width, around.laplacian.block.size), self._rules.overrides.dictionary
         return self._specified(around, width) if own is None else self._tried(own, around, width)
 
     def continuation(self, around: Surroundings) -> Matrix:
         """What a block is predicted to be, shape (n_i, 3)."""
-        own = self._rules.trial.predictor
+        own = self._rules.overrides.predictor
         return around.continuation if own is None else np.ascontiguousarray(own(around), np.float64)
 
     def _specified(self, around: Surroundings, width: int) -> Steps:

@@ -14,7 +14,7 @@ from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionEr
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.bitstream.public import public
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.chain import AS_SPECIFIED, Trial
+from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
 from bsm.codec.static.assembly import Assembly, DecodedBlock
 from bsm.codec.static.attributes.decoding import Complete, PendingValues, ValuesStage, completed
 from bsm.codec.static.events import (
@@ -157,7 +157,7 @@ class Decoder(StreamDecoder[Item]):
     layers : int, optional
         How many to decode: 1 is the base alone, 2 or None the layer of refinement, too. What comes behind them is not
         waited for.
-    trial : Trial, optional
+    overrides : Overrides, optional
         What is tried in place of what the specification says; see `codec.signal.chain`.
 
     Examples
@@ -180,7 +180,7 @@ class Decoder(StreamDecoder[Item]):
         *,
         tolerant: bool = False,
         layers: int | None = None,
-        trial: Trial = AS_SPECIFIED,
+        overrides: Overrides = AS_SPECIFIED,
     ) -> None:
         if layers is not None and (isinstance(layers, bool) or not isinstance(layers, Integral)):
             raise ArgumentError(f"layers must be a whole number or None, not {layers!r}")
@@ -202,7 +202,7 @@ class Decoder(StreamDecoder[Item]):
             check=lambda header: check_header(header, limits),
             begin=begin,
             tolerant=tolerant,
-            trial=trial,
+            overrides=overrides,
             threads=threads,
         )
         super().__init__(HeaderStage(setup), allowance, tolerant=tolerant)

@@ -21,7 +21,7 @@ from bsm.codec.arrays import Faces
 from bsm.codec.blocks.overlap import grow_blocks
 from bsm.codec.blocks.partition import Partition, derive_partition, partition_of_labels
 from bsm.codec.geometry.graph import Graph, graph_of_faces
-from bsm.codec.signal.chain import AS_SPECIFIED, Trial
+from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
 from bsm.codec.static.attributes.decoding import Declarations
 from bsm.codec.static.events import HeaderEvent, LossEvent, unreadable
 from bsm.codec.static.numbering import Numbering
@@ -72,7 +72,7 @@ class Structure:
         largest = int(np.diff(partition.bounds).max())
         if largest > header.block_size:
             raise CorruptError(f"a part of {largest} vertices in blocks of {header.block_size}")
-        return scheme_of(header, grow_blocks(self.graph, partition, header.block_size), setup.trial)
+        return scheme_of(header, grow_blocks(self.graph, partition, header.block_size), setup.overrides)
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class DecoderSetup:
     check: Callable[[Header], None]
     begin: Callable[[Structure], Stage[Any]]
     tolerant: bool = False
-    trial: Trial = AS_SPECIFIED
+    overrides: Overrides = AS_SPECIFIED
     threads: int | None = 1
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, Paper
 from bsm.codec.blocks.overlap import Blocks
-from bsm.codec.signal.chain import AS_SPECIFIED, ChainRules, Trial
+from bsm.codec.signal.chain import AS_SPECIFIED, ChainRules, Overrides
 from bsm.codec.static.coding import Coding, coding_of
 
 KEY_SEEDS = ("cosines", "svd")
@@ -55,9 +55,9 @@ class Scheme:
         }
 
 
-def scheme_of(header: Header, blocks: Blocks, trial: Trial = AS_SPECIFIED) -> Scheme:
+def scheme_of(header: Header, blocks: Blocks, overrides: Overrides = AS_SPECIFIED) -> Scheme:
     """What the header says."""
-    return Scheme(blocks, replace(chain_rules(header), trial=trial), coding_of(header))
+    return Scheme(blocks, replace(chain_rules(header), overrides=overrides), coding_of(header))
 
 
 def chain_rules(header: Header) -> ChainRules:

@@ -29,7 +29,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.blocks.partition import Partition, partition_of_labels
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.chain import Columns, Trial
+from bsm.codec.signal.chain import Columns, Overrides
 from bsm.codec.signal.predict import Surroundings
 from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.decoder import Decoder
@@ -199,7 +199,7 @@ def _tried(idea: Idea, options: EncodeOptions) -> Any:
 
 
 def _draft(prepared: Prepared, idea: Idea, options: EncodeOptions) -> Draft:
-    return Spectral(prepared, options, trial=_trial(idea)).base(options.first_step).draft
+    return Spectral(prepared, options, overrides=_overrides(idea)).base(options.first_step).draft
 
 
 def _prepared(mesh: TriangleMesh, idea: Idea, options: EncodeOptions) -> Prepared:
@@ -211,12 +211,12 @@ def _prepared(mesh: TriangleMesh, idea: Idea, options: EncodeOptions) -> Prepare
 
 
 def _decoded(stream: bytes, idea: Idea, limits: Limits, threads: int | None = None) -> TriangleMesh:
-    with Decoder(limits, threads, trial=_trial(idea)) as decoder:
+    with Decoder(limits, threads, overrides=_overrides(idea)) as decoder:
         decoder.receive_data(stream)
         return decoder.finish()
 
 
-def _trial(idea: Idea) -> Trial:
+def _overrides(idea: Idea) -> Overrides:
     """An idea as the codec takes it; what its functions give is looked at before it is used."""
 
     def site_of(around: Surroundings, columns: Columns | None = None) -> Site:
@@ -232,7 +232,9 @@ def _trial(idea: Idea) -> Trial:
         site = site_of(around)
         return _checked("predictor", idea.predictor(site) if idea.predictor else site.prediction, (site.size, 3))
 
-    return Trial(dictionary=dictionary if idea.dictionary else None, predictor=predictor if idea.predictor else None)
+    return Overrides(
+        dictionary=dictionary if idea.dictionary else None, predictor=predictor if idea.predictor else None
+    )
 
 
 def _checked(what: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> Floats:

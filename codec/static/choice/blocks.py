@@ -12,7 +12,7 @@ from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
-from bsm.codec.signal.chain import AS_SPECIFIED, Trial
+from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
 from bsm.codec.signal.frames import in_frames, local_frames, raised, slide, tangent_steps
 from bsm.codec.signal.smooth import smooth
 from bsm.codec.signal.transform import smallest_step
@@ -99,11 +99,11 @@ class Spectral:
     """Codes a mesh in blocks."""
 
     def __init__(
-        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, trial: Trial = AS_SPECIFIED
+        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, overrides: Overrides = AS_SPECIFIED
     ) -> None:
         self._prepared = prepared
         self._options = options
-        self._planner = Planner(prepared, options, widest, trial)
+        self._planner = Planner(prepared, options, widest, overrides)
 
     def base(self, step: float, progress: Progress | None = None) -> Base:
         """The blocks at a step."""

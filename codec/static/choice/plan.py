@@ -10,7 +10,7 @@ from bsm.codec.arrays import Faces, Indices, Matrix
 from bsm.codec.basis.cost import settle
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.signal.bandwidth import MeasuredSpectrum
-from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Trial, even_interval
+from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import smoothing_spectrum
 from bsm.codec.signal.transform import packed_range, project, smallest_step
 from bsm.codec.static.coding import Adaptive, Packed
@@ -33,12 +33,12 @@ class Planner:
     """Makes the plan for one step after another; what is measured on the mesh alone is measured once."""
 
     def __init__(
-        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, trial: Trial = AS_SPECIFIED
+        self, prepared: Prepared, options: EncodeOptions, widest: float = 1.0, overrides: Overrides = AS_SPECIFIED
     ) -> None:
         self._prepared = prepared
         self._options = options
         self._widest = max(1, int(widest * prepared.size))
-        self._trial = trial
+        self._overrides = overrides
 
     def scheme(self, step: float) -> Scheme:
         """How blocks are coded at a step."""
@@ -76,7 +76,7 @@ class Planner:
             key_iterations=paper.key_iterations,
             shift=single(paper.shift),
             stiffness=STIFFNESS if paper.predict and paper.bits is None else 0.0,
-            trial=self._trial,
+            overrides=self._overrides,
         )
 
     def _width(self, step: float) -> int:
