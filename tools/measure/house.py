@@ -30,10 +30,10 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_650,
-    "all Python, lines": 77_000,
-    "product modules": 216,
-    "product C files and headers": 74,
+    "product Python, lines": 34_500,
+    "all Python, lines": 76_900,
+    "product modules": 214,
+    "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "header fields": 19,
     "fields of EncodeOptions": 20,
