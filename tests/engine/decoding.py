@@ -106,12 +106,12 @@ class Decoded:
     runs: list[tuple[int, int, npt.NDArray[Any]]] = field(default_factory=list)
 
 
-def build(folder: Path, *flags: str) -> ctypes.CDLL:
+def build(folder: Path, *flags: str, compiler: str = "cc") -> ctypes.CDLL:
     """The library, compiled from one file."""
     (folder / "bsmdec.c").write_text(amalgamated())
     (folder / "bsmdec.h").write_text(interface())
     target = folder / "bsmdec.so"
-    subprocess.run(["cc", *FLAGS, *flags, str(folder / "bsmdec.c"), "-o", str(target), "-lm"], check=True)
+    subprocess.run([compiler, *FLAGS, *flags, str(folder / "bsmdec.c"), "-o", str(target), "-lm"], check=True)
     library = ctypes.CDLL(str(target))
     library.bsmdec_open.restype = c_void_p
     library.bsmdec_last_error.restype = POINTER(Failure)

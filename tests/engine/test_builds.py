@@ -1,0 +1,27 @@
+"""The same positions to the last bit, whatever compiler made the decoder, and for whatever processor."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tests.engine.decoding import build, decode, of_sequence
+from tools.vectors.store import read_manifest
+
+AVX2, AVX512 = ("avx2", "fma"), ("avx512f", "avx512vl", "avx512dq", "avx512bw", "fma")
+BUILDS = [("gcc", ()), ("gcc", AVX2), ("gcc", AVX512), ("clang", ()), ("clang", AVX2), ("clang", AVX512)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("compiler", "wanted"), BUILDS)
+def test_every_build_gives_the_same_bits(compiler: str, wanted: tuple[str, ...], tmp_path: Path) -> None:
+    cpu = Path("/proc/cpuinfo")
+    if shutil.which(compiler) is None or not (cpu.exists() and set(wanted) <= set(cpu.read_text().split())):
+        pytest.skip(f"no {compiler} here, or a processor without {' '.join(wanted)}")
+    library = build(tmp_path, "-O1", *(f"-m{one}" for one in wanted), "-w", compiler=compiler)
+    for vector in read_manifest():
+        if vector.error is not None:
+            continue
+        found = decode(library, vector.stream.read_bytes())
+        arrays = of_sequence(found) if "-sequence" in vector.name else dict(found.arrays)
+        assert vector.complaint(arrays.pop("positions"), arrays.pop("faces"), arrays) is None, vector.name
