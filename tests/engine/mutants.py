@@ -20,6 +20,7 @@ from tests.engine.decoding import Decoded, build, decode, of_sequence
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.inputs import mutant, vector_seeds
 from tools.attack.tally import Outcome
+from tools.vectors.store import Arrays
 
 STATUS = {
     "FormatError": 3,
@@ -44,9 +45,8 @@ def unlike(found: Decoded, outcome: Outcome, *, in_sequence: bool, exact: bool) 
     if found.status:
         return f"{found.status} {found.message!r}, expected a mesh"
     positions, faces, attributes = outcome
-    arrays, have = {"positions": positions, "faces": faces, **attributes}, found.arrays
-    if in_sequence:
-        have = of_sequence(found)
+    arrays: Arrays = {"positions": positions, "faces": faces, **attributes}
+    have = of_sequence(found) if in_sequence else found.arrays
     if set(arrays) != set(have):
         return f"{sorted(have)}, expected {sorted(arrays)}"
     for name, expected_values in arrays.items():

@@ -14,21 +14,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
-from bsm.bitstream.container.splits import decode_order, encode_order
 from bsm.bitstream.entropy.range_coder import (
-    code_signed,
     code_uniform,
     code_unsigned,
     finish_writing,
     make_bank,
-    signed_span,
     start_writing,
+    unsigned_span,
 )
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS
-from bsm.codec.geometry.graph import Graph, graph_of_faces
-from spec import reference_connectivity as reference
+from bsm.codec.geometry.graph import graph_of_faces
+from spec import reference_integers as reference
 from tests.bitstream.connectivity.test_faces import SOUPS, compact, read_ply
 from tests.shapes import Faces, grid_faces
 
@@ -54,44 +51,13 @@ def check_faces(payload: bytes, vertices: int, faces: int) -> Any:
     return expected
 
 
-def check_order(payload: bytes, faces: Faces, vertices: int) -> Any:
-    """As `check_faces`, for an order payload."""
-
-    def decode() -> Any:
-        decoded, _ = decode_order(bytes(2) + payload, faces, vertices, DEFAULT_LIMITS)
-        return decoded.vertex_order.tolist(), decoded.faces.tolist()
-
-    expected = outcome(decode)
-    assert outcome(lambda: reference.decode_arrangement(payload, faces.tolist(), vertices)) == expected
-    return expected
-
-
-def check_labels(payload: bytes, graph: Graph, neighbours: list[list[int]], parts: int) -> Any:
-    """As `check_faces`, for a partition payload."""
-    expected = outcome(lambda: decode_labels(payload, graph.offsets, graph.neighbours, parts))
-    assert outcome(lambda: reference.decode_labels(payload, neighbours, parts)) == expected
-    return expected
-
-
-def check_mesh(faces: Faces, vertices: int, labels: list[int]) -> None:
-    """Encode faces, their order and a partition; both decoders give them back."""
+def check_mesh(faces: Faces, vertices: int) -> None:
+    """Encode faces; both decoders give them, and have the same neighbours."""
     encoded = encode_connectivity(faces, vertices)
     assert check_faces(encoded.payload, vertices, len(faces)) == encoded.faces.tolist()
-    order = check_order(encode_order(faces, encoded)[2:], encoded.faces, vertices)
-    assert order == (encoded.vertex_order.tolist(), np.asarray(faces).tolist())
-
-    numbered, parts = by_appearance([labels[v % len(labels)] for v in range(vertices)])
     graph = graph_of_faces(encoded.faces, vertices)
     neighbours = reference.neighbours_of(encoded.faces.tolist(), vertices)
     assert neighbours == [list(row) for row in np.split(graph.neighbours, graph.offsets[1:-1])]
-    payload = encode_labels(graph.offsets, graph.neighbours, np.array(numbered, np.int32), parts)
-    assert check_labels(payload, graph, neighbours, parts) == numbered
-
-
-def by_appearance(labels: list[int]) -> tuple[list[int], int]:
-    """Labels numbered by their first appearance, and how many there are."""
-    numbers: dict[int, int] = {}
-    return [numbers.setdefault(label, len(numbers)) for label in labels], len(numbers)
 
 
 def holey(rows: int, columns: int, close: tuple[bool, bool], seed: int, flips: int) -> tuple[Faces, int]:
@@ -115,19 +81,18 @@ HOLEY = st.builds(
     st.integers(0, 2**32 - 1),
     st.integers(0, 9),
 )
-LABELS = st.lists(st.integers(0, 9), min_size=1, max_size=90)
 
 
 @quick
-@given(SOUPS.map(lambda soup: compact(np.array(soup))), LABELS)
-def test_any_triangles(mesh: tuple[Faces, int], labels: list[int]) -> None:
-    check_mesh(*mesh, labels)
+@given(SOUPS.map(lambda soup: compact(np.array(soup))))
+def test_any_triangles(mesh: tuple[Faces, int]) -> None:
+    check_mesh(*mesh)
 
 
 @quick
-@given(HOLEY, LABELS)
-def test_grids_and_tori_with_holes_flips_and_repeats(mesh: tuple[Faces, int], labels: list[int]) -> None:
-    check_mesh(*mesh, labels)
+@given(HOLEY)
+def test_grids_and_tori_with_holes_flips_and_repeats(mesh: tuple[Faces, int]) -> None:
+    check_mesh(*mesh)
 
 
 @pytest.mark.parametrize(
@@ -144,7 +109,7 @@ def test_grids_and_tori_with_holes_flips_and_repeats(mesh: tuple[Faces, int], la
     ids=["triangles", "wheel", "book", "degenerate", "kissing", "tori", "torus"],
 )
 def test_special_meshes(faces: Any) -> None:
-    check_mesh(np.array(faces, np.int32), int(np.max(faces)) + 1, [0, 1, 1, 1, 2, 0, 0, 0])
+    check_mesh(np.array(faces, np.int32), int(np.max(faces)) + 1)
 
 
 def damaged(payload: bytes, data: st.DataObject) -> bytes:
@@ -171,25 +136,12 @@ def test_damaged_connectivity(mesh: tuple[Faces, int], data: st.DataObject) -> N
     check_faces(damaged(payload, data), vertices, len(faces) + data.draw(st.sampled_from([0, 0, 0, 1])))
 
 
-@settings(max_examples=40)
-@given(HOLEY, LABELS, st.data())
-def test_damaged_order_and_labels(mesh: tuple[Faces, int], labels: list[int], data: st.DataObject) -> None:
-    faces, vertices = mesh
-    encoded = encode_connectivity(faces, vertices)
-    check_order(damaged(encode_order(faces, encoded)[2:], data), encoded.faces, vertices)
-    numbered, parts = by_appearance([labels[v % len(labels)] for v in range(vertices)])
-    graph = graph_of_faces(encoded.faces, vertices)
-    payload = encode_labels(graph.offsets, graph.neighbours, np.array(numbered, np.int32), parts)
-    neighbours = reference.neighbours_of(encoded.faces.tolist(), vertices)
-    check_labels(damaged(payload, data), graph, neighbours, parts)
-
-
 @pytest.mark.slow
 @pytest.mark.real
 @pytest.mark.parametrize("name", ["twelve_dodecahedron", "c3d_spot"])
 def test_real_meshes(meshes: Path, name: str) -> None:
     faces, vertices = read_ply(meshes / "static" / f"{name}.ply")
-    check_mesh(faces, vertices, [k // 40 for k in range(vertices)])
+    check_mesh(faces, vertices)
 
 
 def test_the_limit_is_the_same() -> None:
@@ -206,23 +158,18 @@ def test_the_tables_are_those_of_the_document() -> None:
 
 
 @quick
-@given(st.lists(st.tuples(st.integers(1, 1 << 32), st.integers(0, (1 << 24) - 1), st.booleans()), max_size=20))
-def test_integers_of_any_size(items: list[tuple[int, int, bool]]) -> None:
+@given(st.lists(st.tuples(st.integers(1, 1 << 32), st.integers(0, (1 << 24) - 1)), max_size=20))
+def test_integers_of_any_size(items: list[tuple[int, int]]) -> None:
     """Also those that no small mesh needs."""
-    coder, bank, contexts = (
-        start_writing(10000),
-        make_bank(2 * signed_span(3), signed_span(3), 1),
-        np.zeros(1, np.int64),
-    )
-    for count, value, negative in items:
+    coder, contexts = start_writing(10000), np.zeros(1, np.int64)
+    bank = make_bank(2 * unsigned_span(3), unsigned_span(3), 1)
+    for count, value in items:
         code_uniform(coder, value % count, count)
         code_unsigned(coder, bank, contexts, 0, 3, value)
-        code_signed(coder, bank, contexts, 0, 3, -value if negative else value)
     decoder, model = reference.RangeDecoder(finish_writing(coder)), reference.Model(inputs=1)
-    for count, value, negative in items:
+    for count, value in items:
         assert decoder.uniform(count) == value % count
         assert reference.read_unsigned(decoder, model, (0,), 3, 0) == value
-        assert reference.read_signed(decoder, model, (0,), 3) == (-value if negative else value)
     decoder.finish()
 
 
@@ -242,18 +189,6 @@ EXAMPLES = lines(DOCUMENT[DOCUMENT.index("## C 11. ") :])
 def test_the_tetrahedron_of_the_document() -> None:
     faces = numbers(EXAMPLES[1])
     assert check_faces(bytes.fromhex(EXAMPLES[0]), 4, 4) == faces
-    order = (SPEC / "extension-order.md").read_text()
-    section = order[order.index("The tetrahedron of C 11") :]
-    vertices, arranged = map(numbers, lines(section))
-    assert check_order(bytes.fromhex(section.split("`")[1]), np.array(faces), 4) == (vertices[0], arranged)
-    paper = (SPEC / "extension-paper.md").read_text()
-    found = re.search(
-        r"\(`(\w\w)`, with `blocks` 2, gives the tetrahedron of C 11 the labels ([\d ]+)", " ".join(paper.split())
-    )
-    assert found
-    graph = graph_of_faces(np.array(faces, np.int32), 4)
-    labels = check_labels(bytes.fromhex(found[1]), graph, reference.neighbours_of(faces, 4), 2)
-    assert labels == numbers(found[2])[0]
 
 
 def test_the_decisions_of_the_tetrahedron(monkeypatch: pytest.MonkeyPatch) -> None:

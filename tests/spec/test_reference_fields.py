@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.fields.corners import MOST_LARGEST, FieldDecoder
-from bsm.bitstream.fields.grid import grid_field, light_field, spread
+from bsm.bitstream.fields.grid import grid_field, spread
 from bsm.bitstream.fields.levels import MOST_LEVEL, levels_field
 from tests.bitstream.fields.fields import KINDS, SOUPS, Chunks, encode, values
 from tools import field_tables
@@ -33,7 +33,7 @@ SEEDS = st.integers(0, 2**32 - 1)
 @pytest.fixture(scope="module")
 def reference():
     sys.path.insert(0, str(SPEC))
-    yield importlib.import_module("reference_fields")
+    yield importlib.import_module("reference_integers")
     sys.path.remove(str(SPEC))
 
 
@@ -95,19 +95,6 @@ def test_grids(reference, mesh, largest, kind, seed, chunk, data):
 
 
 @quick
-@given(SOUPS, st.tuples(*[st.sampled_from([0, 1, 100, MOST_LARGEST])] * 3), KINDS, SEEDS, CHUNKS, st.data())
-def test_light_grids(reference, mesh, largest, kind, seed, chunk, data):
-    faces, vertices = mesh
-    if not vertices:
-        return
-    field = light_field(faces, vertices, largest)
-    chunks = encode(field, values(vertices, (0, 0, 0), largest, kind, seed), chunk)
-    for payloads in (chunks, damaged(chunks, data)):
-        expected = outcome(product(FieldDecoder(field)), payloads)
-        assert outcome(plain(reference.LightReader(faces.tolist(), vertices, list(largest))), payloads) == expected
-
-
-@quick
 @given(SOUPS, st.sampled_from([1, 9, MOST_LEVEL]), KINDS, SEEDS, CHUNKS, st.data())
 def test_levels(reference, mesh, most, kind, seed, chunk, data):
     faces, vertices = mesh
@@ -131,10 +118,6 @@ def test_real_meshes(reference, meshes: Path, name: str, bits: int):
     chunks = encode(field, grid, 700)[:2]
     expected = outcome(product(FieldDecoder(field)), chunks)
     assert outcome(plain(reference.GridReader(faces.tolist(), len(grid), largest)), chunks) == expected
-    field = light_field(faces, len(grid), largest)
-    light = encode(field, grid, 700)
-    expected = outcome(product(FieldDecoder(field)), light)
-    assert outcome(plain(reference.LightReader(faces.tolist(), len(grid), largest)), light) == expected
     levels = (grid - rounded(positions * np.float32(0.999), bits)) % 5 - 2
     chunks = encode(levels_field(faces, len(grid)), levels, 700)[:2]
     expected = outcome(product(FieldDecoder(levels_field(faces, len(grid)))), chunks)

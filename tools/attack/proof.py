@@ -6,7 +6,7 @@
 
 | suite | what it does |
 |---|---|
-| vectors | every vector by this project's decoder and the reference decoder, on threads, in pieces, tolerantly |
+| vectors | every vector by the decoders in Python and in C, on threads, in pieces, tolerantly |
 | mutants | streams of all kinds with something changed behind right checksums: strict, in pieces, tolerant |
 | browser | mutants by the browser's decoder, in Node |
 | differential | mutants and random streams by both decoders |

@@ -7,30 +7,30 @@ with `--careful` each input is written to the folder of findings before it is tr
 from __future__ import annotations
 
 import argparse
+import ctypes
 import hashlib
-import importlib
 import json
 import subprocess
 import sys
 import time
 import traceback
-import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import numpy as np
 
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError
+from tests.engine.decoding import build, decode, of_sequence
+from tests.engine.mutants import STATUS
 from tools.attack import readers as of_files
 from tools.attack.bombs import walk_problems
-from tools.attack.decoding import piecewise, whole
+from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.encodes import random_streams, stored
 from tools.attack.inputs import mutant, random_stream, unencoded_stream, vector_seeds
 from tools.attack.places import Place, environments, processors
@@ -41,13 +41,11 @@ from tools.vectors.__main__ import try_product
 from tools.vectors.store import read_manifest
 from tools.web_constants import limits_there
 
-SPEC, WEB = (Path(__file__).parents[2] / place for place in ("spec", "tools/web"))
+WEB = Path(__file__).parents[2] / "tools" / "web"
 SECONDS = 3.0
 """Of processor time that one input may take under `LIMITS`."""
 FRESH = 3
 """Streams of new options that each shard mutates beside the vectors."""
-PATIENT = replace(LIMITS, work=3e7, vertices=1 << 10, faces=1 << 11, blocks=1 << 7)
-"""What the reference decoder, which is slow, can do in seconds."""
 
 
 SHORT_CASE, LONG_CASE = 20_000, 1 << 20
@@ -117,7 +115,7 @@ def vectors(shard: Shard, number: int, size: int) -> None:
             outcome = whole(stream)
         shard.tally.saw(outcome)
         shard.found(stream, try_product(vector))
-        shard.found(stream, shard.tally.hold(stream, reference(stream), outcome))
+        shard.found(stream, shard.tally.hold(stream, in_c(stream), outcome))
         agree(shard, stream, outcome)
 
 
@@ -152,7 +150,7 @@ def browser(shard: Shard, number: int, size: int) -> None:
 
 
 def differential(shard: Shard, number: int, size: int) -> None:
-    """Mutants and random streams by this project's decoder and the reference decoder."""
+    """Mutants and random streams by Python's decoder and the one in C."""
     seeds = shard.seeds()
     for k in range(size):
         if k % 10 == 0:
@@ -162,12 +160,12 @@ def differential(shard: Shard, number: int, size: int) -> None:
         else:
             stream = mutant(shard.random, seeds)
         with shard.watching(stream):
-            ours = whole(stream, PATIENT)
+            ours = whole(stream, LIMITS)
         if isinstance(ours, LimitError):
             shard.tally.skipped += 1
             continue
         shard.tally.saw(ours)
-        shard.found(stream, shard.tally.hold(stream, ours, reference(stream)))
+        shard.found(stream, shard.tally.hold(stream, ours, in_c(stream)))
 
 
 def encodes(shard: Shard, number: int, size: int) -> None:
@@ -198,7 +196,7 @@ def _elsewhere(shard: Shard, size: int, places: tuple[Place, ...]) -> None:
                 if other != stream:
                     # An encoder may choose otherwise there; what it writes must mean the same everywhere.
                     shard.tally.otherwise += 1
-                    found = shard.tally.hold(other, whole(other), reference(other))
+                    found = shard.tally.hold(other, whole(other), in_c(other))
                     shard.found(other, found and f"encoded by {place.name}: {found}")
 
 
@@ -254,21 +252,20 @@ def not_finite(outcome: Outcome, tolerant: bool) -> str | None:
 
 
 @cache
-def _reference() -> Any:
-    sys.path.insert(0, str(SPEC))
-    return importlib.import_module("reference_decoder")
+def _library() -> ctypes.CDLL:
+    with TemporaryDirectory(prefix="bsmdec-") as folder:
+        return build(Path(folder), "-w")
 
 
-def reference(stream: bytes) -> Outcome:
-    """By the reference decoder, its errors translated."""
-    module = _reference()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # it computes on with what is not finite, and looks afterwards
-        try:
-            return module.decode_all(stream)  # type: ignore[no-any-return]
-        except tuple(module.EXIT_CODES) as error:
-            kind: type[BsmError] = getattr(errors, type(error).__name__)
-            return kind(str(error))
+def in_c(stream: bytes) -> Outcome:
+    """By bsmdec, its errors translated."""
+    found = decode(_library(), stream)
+    if found.status:
+        names = {status: name for name, status in STATUS.items()}
+        kind: type[BsmError] = getattr(errors, names[found.status])
+        return kind(found.message)
+    arrays = of_sequence(found) if is_sequence(stream) else dict(found.arrays)
+    return arrays.pop("positions"), arrays.pop("faces"), arrays
 
 
 def walk(shard: Shard, number: int, size: int) -> None:
