@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 34_500,
-    "all Python, lines": 76_900,
+    "all Python, lines": 74_050,
     "product modules": 214,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
