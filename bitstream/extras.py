@@ -1,7 +1,5 @@
 """What to type for a library that is missing."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

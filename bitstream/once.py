@@ -1,7 +1,5 @@
 """`functools.cached_property` without the lock that a class shares in Python 3.11, which threads and forks wait for."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Generic, TypeVar, overload
 

@@ -1,7 +1,5 @@
 """How the types that `import bsm` hands out are called, wherever they live."""
 
-from __future__ import annotations
-
 from typing import TypeVar
 
 Kind = TypeVar("Kind", bound=type)

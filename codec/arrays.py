@@ -1,28 +1,17 @@
 """The kinds of arrays that the mathematics is about, by name; what shape they have is said where they are used."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 
-Matrix = npt.NDArray[np.float64]
-"""Real numbers, of any shape."""
-Basis = npt.NDArray[np.float32]
-"""Columns of a dictionary, and what its solver works on: single precision, shape (n, c)."""
-Positions = npt.NDArray[np.float64]
-"""Coordinates of vertices, shape (n, 3), or of frames, shape (T, n, 3)."""
-Faces = npt.NDArray[np.int32]
-"""Vertices of triangles, shape (m, 3)."""
-Indices = npt.NDArray[np.int32]
-"""Numbers of vertices, rows, parts, or faces."""
-Order = npt.NDArray[np.int64]
-"""The same in the width that numpy's own index arrays have."""
-Levels = npt.NDArray[np.int32]
-"""Quantized coefficients, in steps."""
-Integers = npt.NDArray[np.signedinteger]
-"""Whole numbers of any width."""
-Mask = npt.NDArray[np.bool_]
-"""What holds for which vertex."""
+Matrix = npt.NDArray[np.float64]  # real numbers, of any shape
+Basis = npt.NDArray[np.float32]  # columns of a dictionary, and what its solver works on: single precision, shape (n, c)
+Positions = npt.NDArray[np.float64]  # coordinates of vertices, shape (n, 3), or of frames, shape (T, n, 3)
+Faces = npt.NDArray[np.int32]  # vertices of triangles, shape (m, 3)
+Indices = npt.NDArray[np.int32]  # numbers of vertices, rows, parts, or faces
+Order = npt.NDArray[np.int64]  # the same in the width that numpy's own index arrays have
+Levels = npt.NDArray[np.int32]  # quantized coefficients, in steps
+Integers = npt.NDArray[np.signedinteger]  # whole numbers of any width
+Mask = npt.NDArray[np.bool_]  # what holds for which vertex
 
 
 def sum_in_order(rows: Matrix) -> Matrix:

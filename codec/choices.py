@@ -1,7 +1,5 @@
 """Choices that go by a name, and options with a range."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, TypeVar

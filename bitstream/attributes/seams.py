@@ -1,7 +1,5 @@
 """Seams: edges across which an attribute of corners changes; the corners of a vertex between them share a value."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

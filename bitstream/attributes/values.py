@@ -1,7 +1,5 @@
 """Values of attributes on vertices to bytes and back, given the mesh: integers; exact."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from typing import Literal, NamedTuple, get_args
@@ -27,8 +25,7 @@ from bsm.bitstream.fields.corners import (
 
 Ints = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]
-LARGEST_SIZE = (1 << 19) - 1
-"""Levels are as large as those of other values may be, at most."""
+LARGEST_SIZE = (1 << 19) - 1  # levels are as large as those of other values may be, at most
 
 
 def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:

@@ -25,16 +25,11 @@ from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.bitstream.once import cached_property
 
 Magnitudes = npt.NDArray[np.int32]
-NEIGHBOURS = 20
-"""Inputs of an expectation."""
-SITUATIONS = 6
-"""Each has its own weights: first block of a chain or a later one, times coordinate."""
-UNIT = 16
-"""An input of a level of 1; expectations are in 1 / UNIT, too."""
-WEIGHT_BITS = 10
-"""A weight of 1.0 is 1 << WEIGHT_BITS."""
-BINS = 48
-"""Three to the octave."""
+NEIGHBOURS = 20  # inputs of an expectation
+SITUATIONS = 6  # each has its own weights: first block of a chain or a later one, times coordinate
+UNIT = 16  # an input of a level of 1; expectations are in 1 / UNIT, too
+WEIGHT_BITS = 10  # a weight of 1.0 is 1 << WEIGHT_BITS
+BINS = 48  # three to the octave
 _ABOVE = 8  # rows of zeros in front of the first frequency, as far as any neighbour reaches
 _BEYOND = 3  # and behind the last
 
@@ -71,8 +66,7 @@ def expectation_bin(weights: Magnitudes, inputs: Magnitudes) -> int:
 
 
 Levels = npt.NDArray[np.int32]
-STATES = 8
-"""A state is the numbers of the last three grids, the latest in the lowest bit (`trellis.h`)."""
+STATES = 8  # a state is the numbers of the last three grids, the latest in the lowest bit (`trellis.h`)
 
 
 def points_of_levels(levels: Levels) -> Levels:
@@ -82,12 +76,9 @@ def points_of_levels(levels: Levels) -> Levels:
     return points
 
 
-EXPECTATIONS = 3
-"""From everything, from the same block alone, from earlier blocks alone; each is a context of its own."""
-NODES = 38
-"""Binary decisions that have a probability of their own, see `bitstream.coefficients.adaptive`."""
-SELECTORS = 2
-"""Sets of mixing weights for each node: first block of a chain, later blocks."""
+EXPECTATIONS = 3  # from everything, from the same block alone, from earlier blocks alone; each is a context of its own
+NODES = 38  # binary decisions that have a probability of their own, see `bitstream.coefficients.adaptive`
+SELECTORS = 2  # sets of mixing weights for each node: first block of a chain, later blocks
 _SHAPES = {
     "expectations": (EXPECTATIONS, SITUATIONS, NEIGHBOURS),
     "mixing": (SELECTORS * NODES, EXPECTATIONS),
@@ -137,8 +128,7 @@ def shipped_experience() -> Experience:
     return Experience.from_bytes(priors())
 
 
-MAX_LEVEL = (1 << 23) - 1
-"""Largest magnitude of a quantized coefficient."""
+MAX_LEVEL = (1 << 23) - 1  # largest magnitude of a quantized coefficient
 _BYTES_PER_LEVEL = 64  # 24 decisions of at most two bytes each, and bits as they are
 
 

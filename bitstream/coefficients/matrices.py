@@ -1,7 +1,5 @@
 """Levels of sequences: rows are frequencies, columns components, contexts are neighbours and a reference (S 4)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TypeAlias
 
@@ -31,8 +29,7 @@ Prices = npt.NDArray[np.int16]
 Lead: TypeAlias = tuple[int, int]
 """Columns coded of the first row, and more of each next one; without a lead all, behind a third those with any."""
 
-_Extent: TypeAlias = tuple[int, int, int, int]
-"""A lead, the row from which on few columns are coded, and how many."""
+_Extent: TypeAlias = tuple[int, int, int, int]  # a lead, the row from which on few columns are coded, and how many
 
 _INPUTS = 6
 _UNARY = 14
@@ -42,8 +39,7 @@ _ROWS = 40
 _SLOTS = ((_INPUTS - 1) * _CLASSES * _CLASSES + _CLASSES * _ROWS) * _SPAN
 _SELECTORS = 3 * _SPAN
 _NEVER = np.iinfo(np.int16).max
-PRICED = 6
-"""Magnitudes, from 0 on, that `price_levels` tells the prices of."""
+PRICED = 6  # magnitudes, from 0 on, that `price_levels` tells the prices of
 
 
 def make_level_bank() -> Bank:

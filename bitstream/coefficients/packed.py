@@ -1,7 +1,5 @@
 """Coefficients, method 0: every value in the same number of bits, then zstd."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Choosing levels by Viterbi: squared error and a weight times the adaptive coder's bits; no part of the format."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +10,7 @@ from bsm.bitstream.coefficients.adaptive import MAX_LEVEL, STATES, CoefficientMo
 from bsm.bitstream.entropy.range_coder import ONE
 from bsm.bitstream.errors import OptionError
 
-TARGET_UNIT = 256
-"""Targets are in 1 / TARGET_UNIT of a quantization step."""
+TARGET_UNIT = 256  # targets are in 1 / TARGET_UNIT of a quantization step
 
 _BIT = 256
 _SHIFT = 4

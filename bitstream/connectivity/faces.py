@@ -1,7 +1,5 @@
 """Faces to bytes and back, exactly up to numbering: counts, the conquest of a cut surface, fans, degenerate faces."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -96,8 +94,7 @@ _EVENT_SIZE = 4096
 _RARE_UNARY = 2
 _RARE_SPAN = unsigned_span(_RARE_UNARY)
 _RARE_KINDS = 6
-RARE_HEADER = 5 * _RARE_SPAN
-"""First node of the model of the counts at the start of the payload."""
+RARE_HEADER = 5 * _RARE_SPAN  # first node of the model of the counts at the start of the payload
 
 
 class Models(NamedTuple):
@@ -124,11 +121,9 @@ def code_rare(coder: Coder, models: Models, kind: int, value: int) -> int:
     return code_unsigned(coder, models.rare, np.zeros(1, np.int64), 0, _RARE_UNARY, value, kind)
 
 
-DONE, NONSENSE, NO_ROOM = range(3)
-"""How a call of `conquer` ends; without room, make some and call again."""
+DONE, NONSENSE, NO_ROOM = range(3)  # how a call of `conquer` ends; without room, make some and call again
 _DUMMIES, _TURNS, _STEPS, _TALLIES = 3, 4, 5, 8
-TURN_BYTES = 1024
-"""More than one triangle can take."""
+TURN_BYTES = 1024  # more than one triangle can take
 
 
 class Guide(NamedTuple):

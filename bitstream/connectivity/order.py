@@ -1,7 +1,5 @@
 """The order of vertices, faces and first corners before connectivity was coded, as permutations."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The part of each vertex, asked for among those of its neighbours, then one that is new, then any (C 10)."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

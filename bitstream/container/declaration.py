@@ -1,25 +1,20 @@
 """What an ATTRIBUTE frame declares: how one attribute of a mesh is coded."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 from bsm.bitstream.container.header import integer, integers, method, normalise_fields, reals, text
 from bsm.bitstream.errors import OptionError
 
-VERTEX, CORNER, FACE = range(3)
-"""What has a value in the stream."""
+VERTEX, CORNER, FACE = range(3)  # what has a value in the stream
 AS_CODED, OTHERWISE = range(2)
 """Whether it is given back so; or coded by vertices and given by corners, or the other way round."""
-LEVELS, OCTAHEDRAL, BITS, RECOMPUTED = range(4)
-"""Codings; see A 5."""
+LEVELS, OCTAHEDRAL, BITS, RECOMPUTED = range(4)  # codings; see A 5
 GENERIC, COLOR, NORMAL, TEXCOORD = range(4)
 
 MOST_NAME = 255
 MOST_COMPONENTS = 4
-MOST_WORDS = 2 * MOST_COMPONENTS
-"""Numbers in a coded value: two for each component where they are doubles to the bit."""
+MOST_WORDS = 2 * MOST_COMPONENTS  # numbers in a coded value: two for each component where they are doubles to the bit
 MOST_LEVEL = 2**32 - 1
 _OCTAHEDRAL = range(2, 2**16, 2)
 _INTEGERS = {0: (0, 2**8 - 1), 1: (-(2**7), 2**7 - 1), 2: (0, 2**16 - 1), 3: (-(2**15), 2**15 - 1)} | {
@@ -35,27 +30,20 @@ class Declaration:
     """An attribute, but for its values; one with illegal or contradictory fields cannot be made."""
 
     name: str = text(1, 1, MOST_NAME)
-    domain: int = method(2, known=3)
-    """What has a value in the stream: VERTEX, CORNER or FACE."""
-    origin: int = method(3, known=2)
-    """Given by AS_CODED, or OTHERWISE: VERTEX by corners, CORNER by vertices."""
-    semantic: int = method(4, known=4)
-    """GENERIC, COLOR, NORMAL or TEXCOORD."""
-    kind: int = method(5, known=8, default=FLOAT32)
-    """uint8, int8, uint16, int16, uint32, int32, float32 or float64."""
+    domain: int = method(2, known=3)  # what has a value in the stream: VERTEX, CORNER or FACE
+    origin: int = method(3, known=2)  # given by AS_CODED, or OTHERWISE: VERTEX by corners, CORNER by vertices
+    semantic: int = method(4, known=4)  # GENERIC, COLOR, NORMAL or TEXCOORD
+    kind: int = method(5, known=8, default=FLOAT32)  # uint8, int8, uint16, int16, uint32, int32, float32 or float64
     components: int = integer(6, 1, MOST_COMPONENTS, default=1)
-    coding: int = method(7, known=4)
-    """LEVELS, OCTAHEDRAL, BITS or RECOMPUTED."""
-    rows: int = integer(8, 0, 2**31 - 1, default=0)
-    """How many values are coded."""
+    coding: int = method(7, known=4)  # LEVELS, OCTAHEDRAL, BITS or RECOMPUTED
+    rows: int = integer(8, 0, 2**31 - 1, default=0)  # how many values are coded
     largest: tuple[int, ...] = integers(9, 0, MOST_LEVEL, (0, MOST_WORDS), default=())
     """Largest level of each coded number."""
     offset: tuple[float, ...] = reals(10, -1e300, 1e300, (0, MOST_WORDS), default=())
     """What level 0 stands for, of each coded number; empty: 0."""
     step: tuple[float, ...] = reals(11, 1e-300, 1e300, (0, MOST_COMPONENTS), default=())
     """One level, of all components or of each; empty: 1."""
-    leans: int = method(12, known=2)
-    """1: the values are predicted from positions on a grid."""
+    leans: int = method(12, known=2)  # 1: the values are predicted from positions on a grid
     moves: int = method(13, known=2)
     """1: the values are those of the first frame of a sequence, and each GOP tells how they change."""
     seams_of: int = integer(15, 0, 2**16 - 1, default=0)

@@ -1,7 +1,5 @@
 """The data of a GOP, between the frame that carries it and the entropy coder."""
 
-from __future__ import annotations
-
 import math
 import struct
 from collections.abc import Mapping, Sequence
@@ -15,8 +13,7 @@ import numpy.typing as npt
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import CorruptError, OptionError
 
-WAYS = (1, 0, -1)
-"""From frame to frame of a stretch: as they were sent, standing still, backwards."""
+WAYS = (1, 0, -1)  # from frame to frame of a stretch: as they were sent, standing still, backwards
 
 
 def write_stretches(shown: npt.NDArray[np.int64] | None) -> bytes:
@@ -59,23 +56,17 @@ def parse_stretches(cursor: Cursor, frames: int) -> npt.NDArray[np.int64] | None
 
 
 MAX_EXPONENT = 400
-METHODS, RUNS = 8, 32
-"""The first byte is the method, and so many times the number of the run, counted modulo `RUNS`."""
-WITH_ATTRIBUTES = 4
-"""Added to the method where there are attributes."""
+METHODS, RUNS = 8, 32  # the first byte is the method, and so many times the number of the run, counted modulo `RUNS`
+WITH_ATTRIBUTES = 4  # added to the method where there are attributes
 
 
 class GopMethod(IntEnum):
     """How the frames of a GOP were predicted."""
 
-    LEARNT = 0
-    """Temporal basis learnt from the frames, and sent."""
-    KEY_FRAME = 1
-    """Cosines over time, predicted from the sequence's first frame."""
-    NEXT_FRAME = 2
-    """Cosines over time, predicted from frames before as well."""
-    LEARNT_NEXT = 3
-    """As `LEARNT`, predicted from the components of the GOP before as well."""
+    LEARNT = 0  # temporal basis learnt from the frames, and sent
+    KEY_FRAME = 1  # cosines over time, predicted from the sequence's first frame
+    NEXT_FRAME = 2  # cosines over time, predicted from frames before as well
+    LEARNT_NEXT = 3  # as `LEARNT`, predicted from the components of the GOP before as well
 
     @property
     def has_basis(self) -> bool:

@@ -1,7 +1,5 @@
 """Which packet may follow which, and what a packet must have to agree with the header; one table for both sides."""
 
-from __future__ import annotations
-
 from bsm.bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
 from bsm.bitstream.container.layout import FRAME_TYPES
 from bsm.bitstream.container.packets import (

@@ -101,22 +101,16 @@ class Layer:
 class Paper:
     """How blocks are coded as in the paper; the defaults are the law's constants for static meshes."""
 
-    bits: int = integer(0, 0, 32, default=0)
-    """Of a packed coefficient, q_c; 0: coefficients are adaptive."""
+    bits: int = integer(0, 0, 32, default=0)  # of a packed coefficient, q_c; 0: coefficients are adaptive
     coarser: int = integer(1, 0, 30, default=0)
     """Packed coefficients of the lowest frequency are in units of 2^coarser steps."""
     exact: int = integer(2, 0, 1, default=0)
     """1: a key block begins with the exact eigenbasis, and not with `key_iterations` from cosines."""
-    power: int = integer(3, 1, 64, default=3)
-    """The exponent z of one orthogonal iteration."""
-    iterations: int = integer(4, 1, 1024, default=1)
-    """Orthogonal iterations per block, t."""
-    key_iterations: int = integer(5, 1, 1024, default=2)
-    """Orthogonal iterations of a key block."""
-    shift: float = real(6, 2.0**-30, 2.0**30, default=2.0**-7)
-    """What is added to the Laplacian's diagonal, delta."""
-    springs: int = integer(7, 0, 1, default=1)
-    """1: a block hangs on springs, the prediction between blocks."""
+    power: int = integer(3, 1, 64, default=3)  # the exponent z of one orthogonal iteration
+    iterations: int = integer(4, 1, 1024, default=1)  # orthogonal iterations per block, t
+    key_iterations: int = integer(5, 1, 1024, default=2)  # orthogonal iterations of a key block
+    shift: float = real(6, 2.0**-30, 2.0**30, default=2.0**-7)  # what is added to the Laplacian's diagonal, delta
+    springs: int = integer(7, 0, 1, default=1)  # 1: a block hangs on springs, the prediction between blocks
 
     def __post_init__(self) -> None:
         normalise_fields(self, "paper")
@@ -142,26 +136,20 @@ class Header:
 
     vertices: int = integer(1, 1, COUNT)
     faces: int = integer(2, 1, COUNT)
-    blocks: int = integer(3, 0, COUNT, default=0)
-    """0: positions on a grid, there are no blocks."""
-    block_size: int = integer(4, 0, COUNT, default=0)
-    """Vertices of the largest block, n_d."""
-    coefficients: int = integer(5, 0, COUNT, default=0)
-    """Columns of the largest dictionary: the largest c_i."""
+    blocks: int = integer(3, 0, COUNT, default=0)  # 0: positions on a grid, there are no blocks
+    block_size: int = integer(4, 0, COUNT, default=0)  # vertices of the largest block, n_d
+    coefficients: int = integer(5, 0, COUNT, default=0)  # columns of the largest dictionary: the largest c_i
     key_interval: int = integer(6, 0, COUNT, default=0)
     """Every so many blocks one does not depend on others; 0: only the first."""
-    step: float = real(7, 2.0**-40, 2.0**20, default=2.0**-8)
-    """Quantisation step of a coefficient, in BSM units."""
+    step: float = real(7, 2.0**-40, 2.0**20, default=2.0**-8)  # quantisation step of a coefficient, in BSM units
     center: tuple[float, ...] = reals(8, -1e300, 1e300, (3, 3), default=(0.0, 0.0, 0.0))
     """The origin of BSM units, in the mesh's unit."""
     scale: float = real(9, 1e-300, 1e300, default=1.0)
     """One BSM unit in the mesh's unit: the diagonal of the bounding box."""
-    smoothing: float = real(10, 0.0, 1e6, default=0.0)
-    """Amount of smoothing after reconstruction, alpha."""
+    smoothing: float = real(10, 0.0, 1e6, default=0.0)  # amount of smoothing after reconstruction, alpha
     refinement: tuple[float, ...] = reals(11, 0.0, 64.0, (0, 2), default=())
     """Step and ratio of the layer of refinement; empty: there is none; see `layer`."""
-    attributes: int = integer(12, 0, MOST_ATTRIBUTES, default=0)
-    """How many attributes the mesh has."""
+    attributes: int = integer(12, 0, MOST_ATTRIBUTES, default=0)  # how many attributes the mesh has
     grid: tuple[int, ...] = integers(13, 0, MOST_GRID, (0, 3), default=())
     """Largest coded value of each axis of a grid; empty: there is none."""
     lattice: tuple[int, ...] = integers(14, 1, 2**31 - 1, (0, 2), default=())
@@ -174,8 +162,7 @@ class Header:
     """Frames (0: not known when the stream began) and those of the longest GOP; empty: a static mesh."""
     run: tuple[int, ...] = integers(18, 0, COUNT, (0, 2), default=())
     """Number of the run of a sequence that begins here, and the run whose mesh it has, if it brings none of its own."""
-    paper: tuple[float, ...] = reals(19, 0.0, 2.0**30, (0, 8), default=())
-    """See `Paper`; empty: what the law says."""
+    paper: tuple[float, ...] = reals(19, 0.0, 2.0**30, (0, 8), default=())  # see `Paper`; empty: what the law says
 
     def __post_init__(self) -> None:
         normalise_fields(self, "header")
@@ -262,8 +249,7 @@ def contradiction(header: Header) -> str | None:
     return next((problem for problem, broken in (_common_rules(header) | own).items() if broken), None)
 
 
-EXACT = 2
-"""`light`: floats in the cells of a grid follow its values."""
+EXACT = 2  # `light`: floats in the cells of a grid follow its values
 
 
 def _common_rules(header: Header) -> dict[str, bool]:

@@ -1,7 +1,5 @@
 """The payload of every packet: twins of writing and parsing side by side, and the tables that find them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import fields
@@ -29,8 +27,7 @@ from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.bitstream.limits import Limits
 
 MOST_HEADER = 1 << 16
-MOST_DECLARATION = 1 << 16
-"""Bytes of their maps."""
+MOST_DECLARATION = 1 << 16  # bytes of their maps
 LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes")
 
 

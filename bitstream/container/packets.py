@@ -1,7 +1,5 @@
 """What a stream consists of, once it is no longer bytes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias

@@ -1,7 +1,5 @@
 """Bytes to packets, without input or output of its own: the caller brings the bytes as they come."""
 
-from __future__ import annotations
-
 import zlib
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -52,8 +50,7 @@ class Signal(Enum):
 
 FRAME_COST, BYTE_COST = 8e3, 8.0
 """Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes."""
-METADATA_COST, ENTRY_COST = 2e4, 8e3
-"""The same for metadata besides, and for each of their entries."""
+METADATA_COST, ENTRY_COST = 2e4, 8e3  # the same for metadata besides, and for each of their entries
 
 
 def reading_cost(size: int) -> float:
@@ -223,11 +220,9 @@ def _drain(reader: Reader) -> Iterator[Packet | Damaged]:
 
 SCAN_BYTES = 1 << 20
 SCAN_FACTOR = 64
-STRIDE = 4096
-"""Places that are looked at before they are paid for again."""
+STRIDE = 4096  # places that are looked at before they are paid for again
 PLACE_COST = 4e3
-MAP_COST = 6e5
-"""Nanoseconds of looking for a frame at one place, and of looking into one whose checksum is right."""
+MAP_COST = 6e5  # nanoseconds of looking for a frame at one place, and of looking into one whose checksum is right
 
 
 @dataclass

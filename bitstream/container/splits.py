@@ -1,7 +1,5 @@
 """ORDER: the order that a mesh had, and which given vertices, loose ones included, are one of what was coded."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,10 +15,8 @@ from bsm.bitstream.limits import Limits
 
 Ints = npt.NDArray[np.int32]
 
-FIRST, COPY, LOOSE = 0, 1, 2
-"""A given vertex is the first at its place, at the place of one before it, or in no face."""
-MOST_GIVEN = 1 << 24
-"""Given vertices, so that every number of one can be coded."""
+FIRST, COPY, LOOSE = 0, 1, 2  # a given vertex is the first at its place, at the place of one before it, or in no face
+MOST_GIVEN = 1 << 24  # given vertices, so that every number of one can be coded
 
 
 @dataclass(frozen=True, eq=False)

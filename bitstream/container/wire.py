@@ -1,7 +1,5 @@
 """The smallest pieces of the format: varints, checksums, tags and frames, as twins of writing and parsing."""
 
-from __future__ import annotations
-
 import binascii
 import math
 import struct
@@ -22,8 +20,7 @@ VERSION = 0
 MAX_VARINT_BYTES = 5
 MAX_VARINT = (1 << 7 * MAX_VARINT_BYTES) - 1
 SKIPPABLE_TYPES = range(8, 12)
-SHORT = 128
-"""A payload of fewer bytes has a short checksum."""
+SHORT = 128  # a payload of fewer bytes has a short checksum
 
 
 class FrameType(IntEnum):

@@ -1,7 +1,5 @@
 """Packets to bytes."""
 
-from __future__ import annotations
-
 import zlib
 
 from bsm.bitstream.container.grammar import Grammar

@@ -1,7 +1,5 @@
 """An adaptive binary arithmetic coder with logistic mixing of several context models, in integers only."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -10,18 +8,15 @@ import numpy.typing as npt
 from bsm.bitstream import _kernels
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 
-ONE = 1 << 16
-"""Probabilities that are coded are integers in 1 .. ONE - 1."""
+ONE = 1 << 16  # probabilities that are coded are integers in 1 .. ONE - 1
 
-MOST_INPUTS = 16
-"""Contexts that can be mixed in a decision."""
+MOST_INPUTS = 16  # contexts that can be mixed in a decision
 
 _LOW, _RANGE, _POSITION, _READING, _FULL = range(5)
 _MAX_COUNT = 1023
 _MAX_RATE = 1024
 _SUFFIX_NODES = 24
-_AHEAD = 4
-"""Bytes that a reader holds besides those that a writer is done with."""
+_AHEAD = 4  # bytes that a reader holds besides those that a writer is done with
 
 
 class Coder(NamedTuple):

@@ -1,7 +1,5 @@
 """Integers on vertices or faces: what both sides know of a mesh before them, and the one pair that codes all kinds."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -25,8 +23,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 Ints = npt.NDArray[np.int32]
 MOST_FACES = (1 << 30) // 3
 BYTES_PER_VERTEX = 24
-BYTES_PER_FACE = 48
-"""Of memory, scratch included, for corners and order."""
+BYTES_PER_FACE = 48  # of memory, scratch included, for corners and order
 
 
 class Corners(NamedTuple):
@@ -69,8 +66,7 @@ def traverse(corners: Corners) -> Ints:
 
 Kernel = Callable[[Coder, int, int], int]
 """Codes rows from a number in their order on, so many, as far as it can; returns how many."""
-MOST_LARGEST = (1 << 20) - 1
-"""Values from 0 on are at most this."""
+MOST_LARGEST = (1 << 20) - 1  # values from 0 on are at most this
 _ROOM = 1024
 
 
@@ -90,8 +86,7 @@ class Field:
     high: Ints
     charge: int
     start: Callable[[], State]
-    canonical: Callable[[Ints], Ints] | None = None
-    """What a decoder makes of values, where several mean the same."""
+    canonical: Callable[[Ints], Ints] | None = None  # what a decoder makes of values, where several mean the same
 
 
 class _FieldCoder:

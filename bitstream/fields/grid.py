@@ -1,7 +1,5 @@
 """Positions on a grid to bytes and back, given the faces; exact."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Levels that refine a mesh to bytes and back, given the faces; exact."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -21,15 +19,13 @@ from bsm.bitstream.fields.corners import (
 
 Ints = npt.NDArray[np.int32]
 
-AXES = 3
-"""Of a level: along the normal, and along two tangents."""
+AXES = 3  # of a level: along the normal, and along two tangents
 MOST_LEVEL = 1 << 20
 
 _INPUTS, _CONTEXT_SIZE, _NODES, _SORTS = 5, 512, 32, 2
 _SLOTS = _SORTS * _INPUTS * _CONTEXT_SIZE * _NODES
 _RATE = 16
-MODEL_BYTES = 4 * _SLOTS
-"""About what a model takes."""
+MODEL_BYTES = 4 * _SLOTS  # about what a model takes
 
 
 class _Levels(NamedTuple):

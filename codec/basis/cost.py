@@ -7,25 +7,20 @@ are of another. What they are for is to refuse what would take much longer than 
 close enough; what counts is that nothing is left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator
 from typing import TypeAlias
 
 from bsm.codec.arrays import Basis
 from bsm.codec.basis.laplacian import Fronts
 
-ONCE = 5.0
-"""Of each number of a dictionary, however often it is iterated."""
-CARE = 6.0
-"""Of each row and pair of columns of which one is made orthonormal by itself."""
+ONCE = 5.0  # of each number of a dictionary, however often it is iterated
+CARE = 6.0  # of each row and pair of columns of which one is made orthonormal by itself
 
 Spend: TypeAlias = Callable[[float], None]
 """Is told of work before it is done, and may refuse it by raising `LimitError`."""
 
 
-Price: TypeAlias = Callable[[int], float]
-"""Work of one step for so many columns, nanoseconds."""
+Price: TypeAlias = Callable[[int], float]  # work of one step for so many columns, nanoseconds
 Steps: TypeAlias = Generator[Price, None, Basis]
 """A computation that yields the price of each step before it takes it, and returns its columns."""
 

@@ -6,8 +6,6 @@ QR factorisation is nested, so one iteration at the largest size holds the subsp
 residual for all of them is one cumulative sum: the search costs no further iteration.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from bsm.codec.arrays import Matrix

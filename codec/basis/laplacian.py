@@ -10,8 +10,6 @@ matrix, one row for each of its own steps, own steps first and then the border; 
 instructions (C. Ashcraft, R. Grimes, "The influence of relaxed supernode partitions on the multifrontal method", 1989).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -23,8 +21,7 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.blocks.overlap import Block
 
-LEAF = 8
-"""Halves of at most so many rows are not cut further."""
+LEAF = 8  # halves of at most so many rows are not cut further
 
 WORK = 1 << 16
 """Operations of a factorisation, per row, that are too many; surfaces in blocks of 8,000 take an eighth of them."""
@@ -80,8 +77,7 @@ def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32
     return Fronts(rows, steps, owners, firsts, starts, borders[: starts[-1]].copy(), places, sums)
 
 
-PADDING = 15
-"""Floats more than a kernel uses of an array that it begins where a cache line does."""
+PADDING = 15  # floats more than a kernel uses of an array that it begins where a cache line does
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,8 +4,6 @@ U is the dictionary of a block, n_d rows and c orthonormal columns in single pre
 Onorm, the Q of a QR factorisation with a positive diagonal, follows every solution; no column depends on a later one.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np
@@ -29,8 +27,7 @@ _DONE, _NEEDS_CARE = 0, 1
 FIRST_CARE = 16
 """Columns that may be made orthonormal one by one where some have to be; then four times as many, and so on."""
 
-LEAST_PIVOT = 2.0**-20
-"""From which columns are completed with the accuracy that is asked for."""
+LEAST_PIVOT = 2.0**-20  # from which columns are completed with the accuracy that is asked for
 
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
 """What makes a basis exact: the sum of the Rayleigh quotients of any first columns is then within a thousandth of that

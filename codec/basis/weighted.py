@@ -11,8 +11,6 @@ References
 U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates", 1993, section 4.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,14 +22,10 @@ from bsm.codec.basis.laplacian import Laplacian, weighted_laplacian
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import Graph
 
-FLATNESS = 2.0**-12
-"""Share of the squared sum of squared sides that is added to a triangle's squared doubled area."""
-SMALLNESS = 2.0**-48
-"""What else is added to it: the square of the area that counts as none, in BSM units."""
-SMALLEST_WEIGHT, LARGEST_WEIGHT = 2.0**-5, 8.0
-"""Soft bounds of a weight: it is above the first, and below their sum."""
-BEND = 2.0**-6
-"""How softly negative sums of cotangents become zero."""
+FLATNESS = 2.0**-12  # share of the squared sum of squared sides that is added to a triangle's squared doubled area
+SMALLNESS = 2.0**-48  # what else is added to it: the square of the area that counts as none, in BSM units
+SMALLEST_WEIGHT, LARGEST_WEIGHT = 2.0**-5, 8.0  # soft bounds of a weight: it is above the first, and below their sum
+BEND = 2.0**-6  # how softly negative sums of cotangents become zero
 
 
 def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matrix:

@@ -5,8 +5,6 @@ are visited along a chain in which each lies beside its predecessor where the me
 block are brought into the order of a full bisection, so that row r means about the same place in every block.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

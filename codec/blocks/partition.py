@@ -8,8 +8,6 @@ order in which row r means about the same place in every block, which is what ma
 start for the next.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,8 +19,7 @@ from bsm.codec.arrays import Indices
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.threads import available_threads, side_by_side
 
-WORTH_A_THREAD = 8192
-"""Vertices of a graph from which on a second thread gains more than it costs."""
+WORTH_A_THREAD = 8192  # vertices of a graph from which on a second thread gains more than it costs
 
 
 def bisect(graph: Graph, parts: int, threads: int | None = 1) -> tuple[Indices, Indices]:
@@ -44,8 +41,7 @@ def bisect(graph: Graph, parts: int, threads: int | None = 1) -> tuple[Indices, 
     return order, bounds
 
 
-REFINEMENT_PASSES = 2
-"""How often the derived partition goes over its boundaries; part of the format."""
+REFINEMENT_PASSES = 2  # how often the derived partition goes over its boundaries; part of the format
 
 
 @dataclass(frozen=True, eq=False)

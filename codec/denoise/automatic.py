@@ -61,19 +61,15 @@ CANDIDATES = (
     *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.45, 0.6)),
 )
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
-HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])
-"""Those that compete for the second guess."""
+HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])  # those that compete for the second guess
 LEARNT_MORE = 0.025
 """Movement over noise with the learnt normals, above that without them, from which on they are left out."""
-SLIDING = 0.6
-"""Noise across the normals, over noise along them, from which on vertices slide along the surface."""
+SLIDING = 0.6  # noise across the normals, over noise along them, from which on vertices slide along the surface
 DROWNED = 0.42
 """Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
 alone is up to an eighth better, for normals and vertices."""
-LARGE, MOST_LARGE_MEMBERS = 100_000, 2
-"""From so many vertices on a blend has fewer members, for the sake of time."""
-WORTH = 0.9
-"""The rehearsal has to promise an error below this multiple of what doing nothing leaves."""
+LARGE, MOST_LARGE_MEMBERS = 100_000, 2  # from so many vertices on a blend has fewer members, for the sake of time
+WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 HARMFUL = 0.95
 """Where the error that is expected of the result exceeds this multiple of what it changes, nothing is handed out:
 normals turned by less than they are said to be off are no nearer to the clean ones. Noise reads 0.15 to 0.7, the clean

@@ -4,8 +4,6 @@
 block as weight.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -22,8 +20,7 @@ from bsm.codec.threads import ordered_map
 Floats = npt.NDArray[np.float64]
 Weights = Callable[[Indices], Floats]
 
-BLOCK_SIZE = 500
-"""About the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle."""
+BLOCK_SIZE = 500  # about the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle
 OVERLAP = 1.15
 KEEP = 0.10
 RULES = ChainRules(

@@ -1,7 +1,5 @@
 """The whole of denoising, of a mesh or a sequence (section 7.3 of the paper): choice and dictionaries once."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import islice
@@ -29,15 +27,11 @@ from bsm.codec.threads import ordered_map
 Frames = npt.NDArray[np.float64]
 Pair = tuple[Positions, Positions]
 
-GROUP = 8
-"""Frames that pass the coarse step together: enough for a matrix product, few enough for any memory."""
-WINDOW = 64
-"""Frames that the temporal filter sees at once, if they fit."""
+GROUP = 8  # frames that pass the coarse step together: enough for a matrix product, few enough for any memory
+WINDOW = 64  # frames that the temporal filter sees at once, if they fit
 WINDOW_BYTES = 2**28
-OVERLAP = 8
-"""Frames over which one window fades into the next."""
-UNSTEADY = 0.03
-"""Noise that changes from frame to frame, in mean edges along the normals, from which on it is removed."""
+OVERLAP = 8  # frames over which one window fades into the next
+UNSTEADY = 0.03  # noise that changes from frame to frame, in mean edges along the normals, from which on it is removed
 CHANGING = "noise that changes with the frames"
 
 

@@ -1,8 +1,6 @@
 """Filters of face normals, which the vertices then follow: guided by patches (Zhang, Deng, Zhang, Bouaziz, Liu 2015),
 the fine step of the paper; bilateral (Zheng, Fu, Au, Tai 2011, their local scheme); and relatives."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from itertools import islice
 

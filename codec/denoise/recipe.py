@@ -1,7 +1,5 @@
 """Recipes, which can be run on any mesh: what the coarse mesh hands over, then iterations of a filter of normals."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import islice
@@ -22,8 +20,7 @@ from bsm.codec.geometry.metrics import mean_edge_length
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 LOCAL = "local"
-SIGMA_R = 0.3
-"""Width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle."""
+SIGMA_R = 0.3  # width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle
 
 HandOver = Callable[[Positions, Positions, Topology], Positions]
 """From noisy and coarse positions, both (n, 3), to those from which the fine step starts (a new array)."""

@@ -8,8 +8,6 @@ White noise is drawn anew. Any other is taken as it was found, on the other side
 has noise as correlated, as one-sided in direction and as uneven as the mesh has.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import islice
@@ -24,20 +22,16 @@ from bsm.codec.denoise.recipe import Patient, Recipe, Step, blend
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.codec.threads import ordered_map
 
-MOST_ITERATIONS = 100
-"""No recipe has wanted as many; it keeps the work bounded."""
-PATIENCE = 3
-"""Iterations behind the best one that are looked at."""
-MOST_MEMBERS = 4
-"""Of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer."""
+MOST_ITERATIONS = 100  # no recipe has wanted as many; it keeps the work bounded
+PATIENCE = 3  # iterations behind the best one that are looked at
+MOST_MEMBERS = 4  # of a blend; two leave 2.2 % more of the angle, eight 0.7 % less and take longer
 GAIN = 1.01
 """Members join while the error stays below this multiple: what the guess lacks, several recipes miss less often."""
 LEARNT_SHARES = (0.0, 0.2, 0.4)
 """Of the learnt normals in the mean with those of the recipes; more of them costs up to two thirds on dodecahedra where
 it gains a fifteenth on a scan, and alone they are worse on half of the meshes tried."""
 SEED = 1
-MIRRORED = ("impulses",)
-"""Kinds of which too little is known to draw such noise anew: it is taken as it was found."""
+MIRRORED = ("impulses",)  # kinds of which too little is known to draw such noise anew: it is taken as it was found
 
 Goal = Callable[[Reference, Positions], float]
 Progress = Callable[[str], None]

@@ -4,8 +4,6 @@ What was taken away has to be noise. So it is compared, window by window, with t
 of the input show there: where more has gone than was noise, shape has gone with it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,20 +13,16 @@ from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.surface import Mask
 
-MOST = 1.25
-"""Movement along the normals over noise, from which on more has gone than noise."""
+MOST = 1.25  # movement along the normals over noise, from which on more has gone than noise
 MOST_CORRELATED = 3.0
 """Correlated noise is stronger than its finest frequencies, in a ratio that is the same everywhere: at most this."""
-FAINT = 0.02
-"""Movements below, in mean edges, harm nobody."""
+FAINT = 0.02  # movements below, in mean edges, harm nobody
 DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
 """Levels of noise, in mean edges, below which it may be as faint as detail, and above which it drowns all detail."""
 NOISE_ALONE, DETAIL_SLOPE, DETAIL_MOST = 0.92, 5.0, 0.4
 """Movement over noise where there is no detail; what is left undone for each unit more; and at most."""
-REACHED = 0.5
-"""Share of the level of the noise from which on a window counts for the whole."""
-FAILED_SHARE = 0.3
-"""A result that fails in more of the mesh fails as a whole."""
+REACHED = 0.5  # share of the level of the noise from which on a window counts for the whole
+FAILED_SHARE = 0.3  # a result that fails in more of the mesh fails as a whole
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,5 @@
 """Who is near whom on a surface, the geometry of its faces, and vertices that follow given normals."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

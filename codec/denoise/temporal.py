@@ -1,7 +1,5 @@
 """Noise that changes from frame to frame taken out of a sequence, before any frame is looked at by itself."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

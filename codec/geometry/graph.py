@@ -4,8 +4,6 @@ Everything that encoder and decoder derive from connectivity starts here. Rows a
 sorted, so that every rule built on "the first neighbour" is the same on both sides.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

@@ -16,8 +16,7 @@ from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 
-Metadata = Mapping[str, str | int | float | bytes]
-"""Whatever an author wants to say of a mesh."""
+Metadata = Mapping[str, str | int | float | bytes]  # whatever an author wants to say of a mesh
 
 
 @public

@@ -4,8 +4,6 @@ All lengths called *relative* are in units of the original's bounding-box diagon
 vertices coincide) the scale is 1.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -59,8 +57,7 @@ class Comparison:
     max_error_relative: float
 
 
-_LOST = math.pi / 2
-"""Angle of a face that lost its area: half of the most."""
+_LOST = math.pi / 2  # angle of a face that lost its area: half of the most
 
 
 class Reference:
@@ -204,8 +201,7 @@ def _mean_difference(original: Floats, decoded: Floats) -> float:
     return float(lengths[counted].mean()) if counted.any() else 0.0
 
 
-LOST = math.pi
-"""Angle of a face without area; no rounding of its vertices can give it a normal that is farther off."""
+LOST = math.pi  # angle of a face without area; no rounding of its vertices can give it a normal that is farther off
 
 
 @dataclass(frozen=True)

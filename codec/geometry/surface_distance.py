@@ -4,8 +4,6 @@ Samples are the vertices and points spread evenly over the area, so the result i
 true distance with their number; the distance of each sample is exact, found in a tree of bounding boxes.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

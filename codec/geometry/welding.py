@@ -1,7 +1,5 @@
 """Vertices at one position made one, and vertices whose corners differ made several, as most files have them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

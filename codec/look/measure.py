@@ -1,7 +1,5 @@
 """How much alike two meshes look: a distance, 1 where nobody can tell them apart on a screen (`spec/look.md`)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,16 +25,11 @@ from bsm.codec.look.pictures import (
 from bsm.codec.look.sides import FEW, cameras, pixels_for
 from bsm.codec.threads import ordered_map
 
-DISSIMILAR = 0.03
-"""1 - SSIM at distance 1."""
-VISIBLE_SHARE = 0.005
-"""Share of covered pixels that differ visibly, at distance 1."""
-MOVING = 0.05
-"""1 - SSIM of a frame of a moving picture at distance 1; no pixel of it counts by itself."""
-POWER = 0.8
-"""Of the larger of both over its bound: so that a distance is about linear in the step of a quantizer."""
-GONE, GONE_POWER = 0.5, 2.0
-"""The same of `Look.gone`: what is gone altogether is at distance 4, however small it is."""
+DISSIMILAR = 0.03  # 1 - SSIM at distance 1
+VISIBLE_SHARE = 0.005  # share of covered pixels that differ visibly, at distance 1
+MOVING = 0.05  # 1 - SSIM of a frame of a moving picture at distance 1; no pixel of it counts by itself
+POWER = 0.8  # of the larger of both over its bound: so that a distance is about linear in the step of a quantizer
+GONE, GONE_POWER = 0.5, 2.0  # the same of `Look.gone`: what is gone altogether is at distance 4, however small it is
 _LARGEST = 1e150
 
 

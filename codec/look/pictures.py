@@ -13,22 +13,15 @@ from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.welding import weld
 
-Picture = npt.NDArray[np.float32]
-"""Shades, 0 (black) to 1 (white, the background); first row on top."""
-Normals = npt.NDArray[np.float32]
-"""Of the corners of faces, shape (m, 9)."""
+Picture = npt.NDArray[np.float32]  # shades, 0 (black) to 1 (white, the background); first row on top
+Normals = npt.NDArray[np.float32]  # of the corners of faces, shape (m, 9)
 
-CREASE = math.cos(math.radians(40.0))
-"""Cosine of the angle between faces from which on shading is not smooth."""
+CREASE = math.cos(math.radians(40.0))  # cosine of the angle between faces from which on shading is not smooth
 _HALF_CREASE = math.cos(math.radians(19.9))
-MOST_AROUND = 128
-"""Faces around a vertex, above which its corners are shaded as their faces are."""
-VISIBLE = 12.0 / 255.0
-"""Difference of shades, after the narrow blur, that is seen."""
-PLAIN = 48.0 / 255.0
-"""Difference that is plain; where it fills a square, a part is gone."""
-SQUARE = 64.0
-"""Pixels of such a square."""
+MOST_AROUND = 128  # faces around a vertex, above which its corners are shaded as their faces are
+VISIBLE = 12.0 / 255.0  # difference of shades, after the narrow blur, that is seen
+PLAIN = 48.0 / 255.0  # difference that is plain; where it fills a square, a part is gone
+SQUARE = 64.0  # pixels of such a square
 BACKGROUND = 1.0
 _GRID = 2.0**24
 _SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}

@@ -1,7 +1,5 @@
 """The sides that a mesh is looked at from, and the frames that it fills there."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -15,15 +13,11 @@ TOWARDS = (
     *((x, y, z) for x, y in ((101, 101), (-101, 101), (-101, -101), (101, -101)) for z in (100, -100)),
 )
 """Where the camera is, from the middle of the mesh: around it, above and below, and at the corners of a cube."""
-FEW = (0, 3, 6, 9, 12)
-"""Those from which a mesh looks about as it does from all."""
-LIGHT = (0.35, 0.5, 0.79)
-"""Where the light is: right, up, towards the camera."""
-AIR = 1.03
-"""The side of the picture over the longer side of what it shows."""
+FEW = (0, 3, 6, 9, 12)  # those from which a mesh looks about as it does from all
+LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
+AIR = 1.03  # the side of the picture over the longer side of what it shows
 LEAST_PIXELS, MOST_PIXELS = 512, 2048
-EDGE_PIXELS = 2.0
-"""What a mean edge has, where `MOST_PIXELS` allow it."""
+EDGE_PIXELS = 2.0  # what a mean edge has, where `MOST_PIXELS` allow it
 
 
 def axes(towards: tuple[int, int, int]) -> Matrix:

@@ -20,20 +20,14 @@ from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.attributes.levels import Values, restored
 from bsm.codec.static.attributes.quality import Quality
 
-TRIES, ENOUGH = 16, 3
-"""Attempts at a step for a GOP: at most, and once the bound is kept."""
-SPARE = 0.8
-"""Share of a bound that an attempt may leave unused without another one."""
+TRIES, ENOUGH = 16, 3  # attempts at a step for a GOP: at most, and once the bound is kept
+SPARE = 0.8  # share of a bound that an attempt may leave unused without another one
 AIM, RANGE = 0.93, (0.3, 3.0)
 """Share of the bound that another attempt aims at, and how far its step goes from the one before at once."""
-FIRST_STEP, FIRST_STEP_RMS = 0.7, 2.0
-"""That of the first attempt, in bounds of every value and on average."""
-OUTLIER = 10.0
-"""How many times as far as all are on average a single value may be off."""
-MARGIN = 1e-6
-"""By which integers keep away from halves, which processors may round either way."""
-FIRST_FRAME = 0.5
-"""Bound of the first frame, as a part of that of the others."""
+FIRST_STEP, FIRST_STEP_RMS = 0.7, 2.0  # that of the first attempt, in bounds of every value and on average
+OUTLIER = 10.0  # how many times as far as all are on average a single value may be off
+MARGIN = 1e-6  # by which integers keep away from halves, which processors may round either way
+FIRST_FRAME = 0.5  # bound of the first frame, as a part of that of the others
 LARGEST = 1e100
 
 

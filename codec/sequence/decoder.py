@@ -1,7 +1,5 @@
 """A stream to the frames of a sequence, while it arrives."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The dictionaries of a sequence, and the way between vertices and coefficients."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -21,14 +19,11 @@ from bsm.codec.signal.transform import project, reconstruct
 from bsm.codec.static.work import Allowance, block_cost, block_memory
 from bsm.codec.threads import ordered_map
 
-TETHER = 2.0**-16
-"""Stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches."""
+TETHER = 2.0**-16  # stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches
 SITE_MEMORY, ROW_MEMORY = 6000.0, 352.0
 """Bytes of what is known of a part besides its factor, whatever its size and for each row."""
-UNCODED = 4e4
-"""Nanoseconds by which a part is cheaper than a block that is decoded, before it has its dictionary."""
-SPARE = 4.0 * 2**20
-"""Bytes that no dictionary is kept in, though they are granted."""
+UNCODED = 4e4  # nanoseconds by which a part is cheaper than a block that is decoded, before it has its dictionary
+SPARE = 4.0 * 2**20  # bytes that no dictionary is kept in, though they are granted
 
 Result = TypeVar("Result")
 

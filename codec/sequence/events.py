@@ -1,7 +1,5 @@
 """What the decoder of sequences reports."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -63,8 +61,7 @@ class DecoderRequest:
     threads: int | None
     tolerant: bool
     start: int
-    attributes: list[Attribute]
-    """Those that have come, for the user."""
+    attributes: list[Attribute]  # those that have come, for the user
 
 
 class Course:

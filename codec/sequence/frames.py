@@ -1,7 +1,5 @@
 """The frames of a GOP, and which of them come again: what loops, stands still or turns back is coded once."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
@@ -16,8 +14,7 @@ from bsm.codec.static.preamble_encoding import Prepared
 
 SAME = 1 / 64, 1 / 4
 """How far a frame that comes again may be off, in steps: the root mean square of coordinates, and each of them."""
-LOOKED_AT = 32
-"""Coordinates that most frames differ in."""
+LOOKED_AT = 32  # coordinates that most frames differ in
 
 
 @dataclass(frozen=True, eq=False)

@@ -38,8 +38,7 @@ if TYPE_CHECKING:
 Fields: TypeAlias = tuple[Matrix, ...]
 """Positions, shape (n, 3), and of each attribute that moves what it differs from the first frame by, shape (n, d)."""
 
-OVERHEAD = 14
-"""Bytes of a GOP besides its levels, about."""
+OVERHEAD = 14  # bytes of a GOP besides its levels, about
 LIKE = 0.5
 """Where frames that were kept are nearer than this, in squares and times what the latest one is, those to come start
 from them."""

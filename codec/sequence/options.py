@@ -1,7 +1,5 @@
 """What a user may choose when encoding a sequence."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

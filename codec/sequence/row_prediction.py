@@ -11,17 +11,13 @@ from bsm.bitstream.errors import NumericError, OptionError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
 
-LEADING = 24
-"""Columns of a row that help to predict the columns behind them."""
-FORGETTING = 0.985
-"""How much the past counts, per row, in the weights of the prediction."""
-RIDGE = 0.004
-"""Regularisation of the weights."""
+LEADING = 24  # columns of a row that help to predict the columns behind them
+FORGETTING = 0.985  # how much the past counts, per row, in the weights of the prediction
+RIDGE = 0.004  # regularisation of the weights
 NOISE = 30.0
 """Energy in squared steps that is added to that of a row before the row is weighed by the inverse of it;
 half costs 0.3 %, twice saves 0.1 %."""
-AROUND = 30.0
-"""As many rows the vertices around a block count for, together, before its first row."""
+AROUND = 30.0  # as many rows the vertices around a block count for, together, before its first row
 DENSE_ROWS = 16
 """First rows of a block, each with weights of its own; behind them the weights are renewed every `RENEWAL` rows."""
 RENEWAL = 8
@@ -29,8 +25,7 @@ RULES = (FORGETTING, RIDGE, NOISE, AROUND, DENSE_ROWS, RENEWAL)
 LARGEST_LEVEL = (1 << 23) - 1
 
 
-WEIGHT = 0.1
-"""Squared steps that a bit is worth: 0.06 and 0.15 cost 1 % at the same error, coarse steps and fine ones."""
+WEIGHT = 0.1  # squared steps that a bit is worth: 0.06 and 0.15 cost 1 % at the same error, coarse steps and fine ones
 ROUNDS = 3
 """How often levels are chosen before those that stay: prices depend on the neighbours, which depend on prices."""
 

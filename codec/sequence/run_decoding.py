@@ -1,7 +1,5 @@
 """A run: its first frame, and its GOPs as they come; the twin of `codec.sequence.run_encoding`."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Iterator
 from typing import TypeVar

@@ -19,8 +19,7 @@ from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.joining import JoinedMesh, joined
 from bsm.codec.static.work import Allowance
 
-KEPT_MESHES = 8
-"""Of the meshes so far, those that runs have had last; a run can have one of them again."""
+KEPT_MESHES = 8  # of the meshes so far, those that runs have had last; a run can have one of them again
 
 Mesh = TypeVar("Mesh")
 Frame: TypeAlias = npt.ArrayLike | TriangleMesh

@@ -18,28 +18,22 @@ from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.row_prediction import ROUNDS
 from bsm.codec.static.targets import COARSEST_STEP
 
-KNOTS = 10
-"""Frames, evenly over a GOP, that pictures are drawn of at every attempt."""
-MORE = 6
-"""If all is well there, so many of those that may be the worst are drawn as well."""
+KNOTS = 10  # frames, evenly over a GOP, that pictures are drawn of at every attempt
+MORE = 6  # if all is well there, so many of those that may be the worst are drawn as well
 DEVIATIONS = 5.0
 """An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
-KEPT = 1 << 26
-"""Bytes of pictures of originals that are kept from attempt to attempt."""
+KEPT = 1 << 26  # bytes of pictures of originals that are kept from attempt to attempt
 SLACK, SLACK_OF_ONE = 0.04, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
-ROUGH = 1
-"""Rounds over levels in a first attempt, which only tells what weights frames need: a third of the time."""
+ROUGH = 1  # rounds over levels in a first attempt, which only tells what weights frames need: a third of the time
 SLOPE, SLOPES = 0.7, (0.4, 2.5)
 """What is seen grows with about this power of the step; and the range of what two attempts may say about it."""
 EVENING, SMOOTHNESS = 0.8, 2.0
 """Frames are weighed by this power of what would make all look alike, smoothly over so many frames: weights that
 change quickly are dear in the temporal basis."""
-WIDEST = 1.0
-"""Logarithm of the largest weight, and of one over the smallest."""
+WIDEST = 1.0  # logarithm of the largest weight, and of one over the smallest
 TRIES = 20
-_PIXEL = 4 * 14
-"""Bytes of a `LookMetric` for each pixel of its pictures' side, squared."""
+_PIXEL = 4 * 14  # bytes of a `LookMetric` for each pixel of its pictures' side, squared
 
 
 class Candidate(Protocol):

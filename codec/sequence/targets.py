@@ -1,7 +1,5 @@
 """What a sequence is to reach: the targets of static meshes, over all of its frames."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -7,8 +7,6 @@ References
 A. S. Householder, "Unitary triangularization of a nonsymmetric matrix", 1958.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -21,22 +19,17 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.basis.orthogonal_iteration import cosine_columns
 
-OCTAVE = 4
-"""Exponents of the steps of a basis are in units of 1 / OCTAVE octaves."""
-QUARTERS = (1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605)
-"""2^(-q / OCTAVE)."""
+OCTAVE = 4  # exponents of the steps of a basis are in units of 1 / OCTAVE octaves
+QUARTERS = (1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605)  # 2^(-q / OCTAVE)
 WORTH = 0.4
 """A component is kept if its energy is above WORTH * dT * step^2: below, it costs more than it brings. 0.35 and 0.5
 cost 0.3 % more, 0.8 costs 1 %."""
 PRECISION = 1.0
 """Error of a column of the basis, times the root of the energy that it multiplies, in steps. A bit of the basis and one
 of the components are worth the same from 1 to 1.4; the finer, the less the error changes from frame to frame."""
-LEAST = 1e-9
-"""Of a column's length on the diagonal, at least: below 0 it would be another reflection."""
-BATCH = 8
-"""Frames that are reconstructed at a time, as many as a vector of the kernel has numbers."""
-FINEST_EXPONENT = OCTAVE * 23 - 1
-"""With a finer step the levels of a column of length one could not be coded."""
+LEAST = 1e-9  # of a column's length on the diagonal, at least: below 0 it would be another reflection
+BATCH = 8  # frames that are reconstructed at a time, as many as a vector of the kernel has numbers
+FINEST_EXPONENT = OCTAVE * 23 - 1  # with a finer step the levels of a column of length one could not be coded
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,22 +24,15 @@ LAGS = (1, 2, 3, 5, 8, 13, 21, 34)
 """How far before the latest frame those lie that help to predict the next ones, of those that are kept."""
 INHERITED = 24
 """Components of a GOP that those of the next one are predicted from: what moved comes again, mixed in another way."""
-TRACK_MEMORY = 40.0
-"""Bytes of a number of a vertex in the first frame of an attribute that moves."""
+TRACK_MEMORY = 40.0  # bytes of a number of a vertex in the first frame of an attribute that moves
 
 
-FRAME, SHOWN = 2.5e4, 11.0 / 3.0
-"""Of a field of a frame, and of a number of a vertex in it."""
-GOP, FIELD = 3.5e5, 1e5
-"""Of a GOP, whatever its size, and of another field that it tells of."""
-PART, ANOTHER = 1.3e5, 4.5e4
-"""Of a part in a GOP, whatever its size, and of another field there."""
-LOOP, AROUND = 66.0, 10.0
-"""Of a column in a row of a closed loop, and of a vertex around that it begins with."""
-INHERITED_LOOP, INHERITED_AROUND = 90.0, 10.0
-"""What these cost more where components of the GOP before are known."""
-REFERRED = 1.1
-"""Of two columns that are known of low-delay frames, in a row, and of a vertex around."""
+FRAME, SHOWN = 2.5e4, 11.0 / 3.0  # of a field of a frame, and of a number of a vertex in it
+GOP, FIELD = 3.5e5, 1e5  # of a GOP, whatever its size, and of another field that it tells of
+PART, ANOTHER = 1.3e5, 4.5e4  # of a part in a GOP, whatever its size, and of another field there
+LOOP, AROUND = 66.0, 10.0  # of a column in a row of a closed loop, and of a vertex around that it begins with
+INHERITED_LOOP, INHERITED_AROUND = 90.0, 10.0  # what these cost more where components of the GOP before are known
+REFERRED = 1.1  # of two columns that are known of low-delay frames, in a row, and of a vertex around
 
 
 def frames_kept(vertices: int) -> int:
@@ -52,10 +45,8 @@ def lags(kept: int) -> tuple[int, ...]:
     return tuple(lag for lag in LAGS if lag < kept)
 
 
-SQUARES, CUBES = 0.5, 0.3
-"""How much powers count beside positions; half and twice cost 0.2 to 0.5 %."""
-SMALLEST = 2.0**-24
-"""Added to the squared radius of a part, in BSM units."""
+SQUARES, CUBES = 0.5, 0.3  # how much powers count beside positions; half and twice cost 0.2 to 0.5 %
+SMALLEST = 2.0**-24  # added to the squared radius of a part, in BSM units
 PRODUCTS = tuple(
     (factor, axes)
     for degree, factor in ((2, SQUARES), (3, CUBES))

@@ -1,7 +1,5 @@
 """How the energy of a mesh falls with frequency, measured on a few blocks: it tells how many coefficients pay."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from bsm.codec.arrays import Matrix
@@ -10,12 +8,9 @@ from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_itera
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal.transform import project
 
-SAMPLES = 2
-"""Blocks that are measured; one, or four, come to 1 % more bytes, which is chance."""
-WORTHWHILE = 0.75
-"""Root mean square in steps from which on a coefficient pays; half of it costs 3 %, twice 8 %."""
-FIRST_LOOK = 160
-"""Frequencies that are measured before anybody asks for more: this is about time alone."""
+SAMPLES = 2  # blocks that are measured; one, or four, come to 1 % more bytes, which is chance
+WORTHWHILE = 0.75  # root mean square in steps from which on a coefficient pays; half of it costs 3 %, twice 8 %
+FIRST_LOOK = 160  # frequencies that are measured before anybody asks for more: this is about time alone
 
 
 class MeasuredSpectrum:

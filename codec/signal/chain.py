@@ -4,8 +4,6 @@ Encoder and decoder step through the same chain with the same calls: `around`, `
 chains know nothing of each other, which bounds what a lost block costs and lets chains run in parallel.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias

@@ -4,8 +4,6 @@ Frames are smooth functions of the positions, and so they are of the surface: wh
 can be predicted from one to the other, and rounding of positions only rounds frames.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from bsm.codec import _kernels

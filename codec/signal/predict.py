@@ -8,8 +8,6 @@ elsewhere, and so are the lowest eigenvectors of L + S: they, not those of L, ar
 Algorithm 1 serves for both, so that one factorisation does.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -75,8 +75,7 @@ def smoothing_spectrum(graph: Graph, positions: Matrix) -> Spectrum:
     return Spectrum(np.ascontiguousarray(positions), powers[2 * positions.size : -1].reshape(DEGREE - 1, -1, 3))
 
 
-LOOK, CALL = 18.0, 2e4
-"""Nanoseconds for looking at an edge while rings are found, and for finding them at all."""
+LOOK, CALL = 18.0, 2e4  # nanoseconds for looking at an edge while rings are found, and for finding them at all
 
 
 @dataclass(frozen=True, eq=False)

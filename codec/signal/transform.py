@@ -5,8 +5,6 @@ whatever the width of the matrix whose first columns they take. Levels are whole
 coefficient.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Putting decoded blocks together: which vertices have moved, which are final, which are missing."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -18,8 +16,7 @@ from bsm.codec.static.events import Changes, Losses
 from bsm.codec.static.numbering import Numbering
 from bsm.codec.static.units import Units
 
-COPY = 90.0
-"""Nanoseconds for saying where a vertex is."""
+COPY = 90.0  # nanoseconds for saying where a vertex is
 
 
 @dataclass(frozen=True, eq=False)

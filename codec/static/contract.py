@@ -1,7 +1,5 @@
 """What an encoder promises of a decoded mesh, whatever the mesh."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -10,8 +8,7 @@ from bsm.bitstream.public import public
 from bsm.codec.geometry.metrics import decibel
 
 ANY_ANGLE = 180.0
-WIDEST = 0.1
-"""Of the diagonal: who asks for a wider bound took one unit for another."""
+WIDEST = 0.1  # of the diagonal: who asks for a wider bound took one unit for another
 
 
 def _refuse_wide(what: str, share: float) -> None:

@@ -1,7 +1,5 @@
 """A stream to a mesh, block by block, while it arrives."""
 
-from __future__ import annotations
-
 from collections import deque
 from dataclasses import dataclass, replace
 from numbers import Integral

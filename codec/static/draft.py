@@ -1,7 +1,5 @@
 """A mesh, coded: what the stream will hold, and what its decoder will make of it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A mesh to a stream: join, prepare, and draft what the options ask for."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

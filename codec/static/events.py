@@ -1,7 +1,5 @@
 """What the decoders of meshes and of sequences report."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """A mesh as its geometry is: one vertex at each position, none that no face uses; and the way back, which is exact."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

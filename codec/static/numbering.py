@@ -1,7 +1,5 @@
 """How the user of a mesh numbers what was coded."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a user may choose when encoding; the defaults are the product."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
@@ -41,8 +39,7 @@ RANGES: dict[str, tuple[float, float]] = {
 }
 
 
-BALANCED = Contract(0.01, look=1.0, by_part=0.01)
-"""What is promised unless something else is asked for."""
+BALANCED = Contract(0.01, look=1.0, by_part=0.01)  # what is promised unless something else is asked for
 
 
 @public
@@ -277,10 +274,8 @@ def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
 
 CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
-FINE, SMALL = 0.001, 0.02
-"""Promises of positions, from which on attributes are kept better, or less well."""
-STEP = 0.004
-"""Of blocks alone."""
+FINE, SMALL = 0.001, 0.02  # promises of positions, from which on attributes are kept better, or less well
+STEP = 0.004  # of blocks alone
 
 PRESETS: dict[str, EncodeOptions] = {
     "small": EncodeOptions(

@@ -21,10 +21,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.bandwidth import MeasuredSpectrum
 from bsm.codec.static.units import Units, units_of
 
-FEW_VERTICES = 300
-"""Meshes of fewer have no low frequencies worth speaking of."""
-SMALL_COMPONENT = 150
-"""Vertices; a component of fewer has none either."""
+FEW_VERTICES = 300  # meshes of fewer have no low frequencies worth speaking of
+SMALL_COMPONENT = 150  # vertices; a component of fewer has none either
 
 
 @dataclass(frozen=True, eq=False)

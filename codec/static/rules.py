@@ -1,7 +1,5 @@
 """What a header says about blocks, as the mathematics takes it, and back."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,11 +8,9 @@ from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal.chain import AS_SPECIFIED, ChainRules, Overrides
 from bsm.codec.static.coding import Coding, coding_of
 
-KEY_SEEDS = ("cosines", "svd")
-"""Where a block without predecessor begins."""
+KEY_SEEDS = ("cosines", "svd")  # where a block without predecessor begins
 
-STIFFNESS = 8.0
-"""Of the springs on which a block hangs, a constant of the law; half of it costs 1.0 %, twice 1.6 %."""
+STIFFNESS = 8.0  # of the springs on which a block hangs, a constant of the law; half of it costs 1.0 %, twice 1.6 %
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,8 +16,7 @@ from bsm.codec.static.work import Allowance
 
 Item = TypeVar("Item")
 Self = TypeVar("Self", bound="StreamDecoder[Any]")
-Arrival: TypeAlias = Packet | Damaged | Signal
-"""What a stage takes in; of the signals only `END_OF_STREAM`, once."""
+Arrival: TypeAlias = Packet | Damaged | Signal  # what a stage takes in; of the signals only `END_OF_STREAM`, once
 
 
 class Stage(Protocol[Item]):

@@ -1,7 +1,5 @@
 """Reaching a quality or a size: a search over the quantization step, on what the decoder will see."""
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable
@@ -25,8 +23,7 @@ UNITS = {
 COARSEST_STEP = 0.1
 SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
-STEEPEST = 2.0
-"""Errors grow with this power of the step at most, and with its inverse at least."""
+STEEPEST = 2.0  # errors grow with this power of the step at most, and with its inverse at least
 STRIDE, NEAREST = 2.0, 0.1
 """Between two tries, in the logarithm; and where both sides of a bound are known, the part of what is between them that
 a try stays away from both."""

@@ -1,7 +1,5 @@
 """BSM units, in which every mesh is about one long, and the way back to the unit of the mesh."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

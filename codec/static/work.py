@@ -14,20 +14,13 @@ from bsm.codec.basis.cost import factor_cost, iteration_memory, solve_cost
 from bsm.codec.basis.laplacian import Laplacian
 from bsm.codec.geometry.graph import Graph
 
-BLOCK = 1.45e5
-"""Of a block, whatever its size."""
-ROW, LOOK, LEVEL = 600.0, 25.0, 90.0
-"""Of a row of a block, of an edge that one has in the mesh, and of a coded level."""
-COPY_MEMORY = 4
-"""Bytes for each row of all blocks."""
-ATTRIBUTE = 4e5
-"""Of an attribute, however few values it has."""
-RUN, MESH = 5e5, 2e6
-"""Of a run of a sequence, and of one that brings a mesh, however small."""
-DECLARED = 6e5
-"""Of a map, which has few entries."""
-CODED = 800.0
-"""Of a byte of coded values."""
+BLOCK = 1.45e5  # of a block, whatever its size
+ROW, LOOK, LEVEL = 600.0, 25.0, 90.0  # of a row of a block, of an edge that one has in the mesh, and of a coded level
+COPY_MEMORY = 4  # bytes for each row of all blocks
+ATTRIBUTE = 4e5  # of an attribute, however few values it has
+RUN, MESH = 5e5, 2e6  # of a run of a sequence, and of one that brings a mesh, however small
+DECLARED = 6e5  # of a map, which has few entries
+CODED = 800.0  # of a byte of coded values
 FRESH, MOST_FRESH = 2.0, 4e6
 """Of a vertex of the mesh for each chain, in memory that is fresh; beyond some size that costs nothing."""
 

@@ -1,7 +1,5 @@
 """Denoising by learnt networks, one after the other: each sees the mesh that the one before it left."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +10,7 @@ from bsm.codec.denoise.learnt.network import Network, read_networks
 from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals
 
 VERTEX_ITERATIONS = 15
-IMAGES = ((False, False), (True, True))
-"""Frames that are averaged over: nothing tells the two ends of an axis apart."""
+IMAGES = ((False, False), (True, True))  # frames that are averaged over: nothing tells the two ends of an axis apart
 
 
 def regressed_normals(positions: Positions, topology: Topology, network: Network) -> Floats:

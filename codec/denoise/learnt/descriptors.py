@@ -1,7 +1,5 @@
 """What a small network is told of a face: how the surface goes about it, in a frame of the face's own."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
@@ -22,20 +20,15 @@ from bsm.codec.geometry.graph import Rows
 
 Singles = npt.NDArray[np.float32]
 
-RADIUS = 4.0
-"""Of the surroundings, in mean distances of adjacent centroids."""
+RADIUS = 4.0  # of the surroundings, in mean distances of adjacent centroids
 RANGES, SCALES, SECTORS, RINGS = 4, 2, 8, 2
 FILTERED = SCALES * (2 * RANGES + 1)
-OWN = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + SCALES * (2 * RANGES + 1) + 1
-"""Numbers that the kernel gives."""
-REPEATED = ((0.3, 3), (0.3, 10), (0.5, 3), (0.5, 10))
-"""sigma_r and iterations of the repeated filters."""
+OWN = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + SCALES * (2 * RANGES + 1) + 1  # numbers that the kernel gives
+REPEATED = ((0.3, 3), (0.3, 10), (0.5, 3), (0.5, 10))  # sigma_r and iterations of the repeated filters
 NUMBERS = OWN + 3 * len(REPEATED) + 1
 """The last one is the same for the whole mesh: how much its normals differ from the smoothed ones."""
-BASE = slice(45, 48)
-"""The filtered normal to which a network adds: guided by patches, both kernels wide."""
-BATCH = 1024
-"""Faces whose numbers pass the layers together: what a layer makes of so many stays in the cache."""
+BASE = slice(45, 48)  # the filtered normal to which a network adds: guided by patches, both kernels wide
+BATCH = 1024  # faces whose numbers pass the layers together: what a layer makes of so many stays in the cache
 
 
 def descriptions(positions: Positions, topology: Topology, batch: int = BATCH) -> Iterator[tuple[Singles, Floats]]:

@@ -1,7 +1,5 @@
 """A small network of dense layers, as numbers in a file."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -10,8 +8,7 @@ import numpy as np
 
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles
 
-FARTHEST = np.float32(6.0)
-"""Bound of standardised numbers."""
+FARTHEST = np.float32(6.0)  # bound of standardised numbers
 MOST_NEGATIVE = np.float32(80.0)
 WEIGHTS = Path(__file__).with_name("weights.npz")
 

@@ -11,12 +11,9 @@ from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.surface import Floats
 
-FEWEST_VALUES = 16
-"""Different values of a coordinate without which a grid is not told from a few planes."""
-NEAR = 0.02
-"""Distance from a multiple, in steps, that the precision of files explains."""
-SAME = 1e-6
-"""Values closer together, as a share of the extent, are one value."""
+FEWEST_VALUES = 16  # different values of a coordinate without which a grid is not told from a few planes
+NEAR = 0.02  # distance from a multiple, in steps, that the precision of files explains
+SAME = 1e-6  # values closer together, as a share of the extent, are one value
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,14 +62,10 @@ def _step(coordinate: Floats) -> float | None:
     return step if off.max() < NEAR and len(values) * 8 > count else None
 
 
-UNEVEN = 0.26
-"""Largest spread of the levels of strong noise (logarithms) beyond chance."""
-LEVEL_SPREAD = 0.92
-"""Chance makes levels of windows of w vertices spread by about this over sqrt(w)."""
-ASIDE = 0.2
-"""Largest median of the standardised residual: noise lies on both sides."""
-CENTRE = (0.55, 1.6)
-"""Share of residuals about zero, as a multiple of the normal distribution's."""
+UNEVEN = 0.26  # largest spread of the levels of strong noise (logarithms) beyond chance
+LEVEL_SPREAD = 0.92  # chance makes levels of windows of w vertices spread by about this over sqrt(w)
+ASIDE = 0.2  # largest median of the standardised residual: noise lies on both sides
+CENTRE = (0.55, 1.6)  # share of residuals about zero, as a multiple of the normal distribution's
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,8 +6,6 @@ around them are peeled off one by one, by matching pursuit, the clearest first. 
 and as many to one side of the surface as to the other, are less clear ones believed.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,8 +20,7 @@ from bsm.codec.geometry.metrics import mean_edge_length
 CLEAR = 0.7
 """Share of the energy around it that a clear outlier explains by itself: no clean mesh tried has more than a few."""
 LESS_CLEAR = (0.5, 0.35, 0.25)
-FEWEST_SHARE = 0.004
-"""Clear outliers, as a share of the vertices, from which on they are believed."""
+FEWEST_SHARE = 0.004  # clear outliers, as a share of the vertices, from which on they are believed
 FEWEST = 12
 MOST_SHARE = 0.2
 ONE_SIDED = 0.5
@@ -32,8 +29,7 @@ FAINT, WORTH, STRONG = 0.03, 0.05, 0.15
 median from which on the least clear ones are believed as well: among faint ones they are detail."""
 LARGEST = 1.2
 """Less clear ones are no larger than the clear ones, of which nine in ten are smaller than this ratio says."""
-DISTINCT = 4.0
-"""Displacement over what calm surroundings show."""
+DISTINCT = 4.0  # displacement over what calm surroundings show
 CALM, CALM_BOUND = 0.5, 0.6745
 ROUNDS = 40
 REFINEMENTS = 30

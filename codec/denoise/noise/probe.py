@@ -21,8 +21,7 @@ from bsm.codec.geometry.graph import Graph, graph_of_faces
 WINDOW = 200
 """Vertices of a window: fewer are judged by chance, and more hide where noise ends. Half of it leaves 2 % more of the
 angle, twice 31 %, nearly all of it on one of four meshes."""
-FEWEST_IN_WINDOW = 20
-"""Vertices of a window that say anything."""
+FEWEST_IN_WINDOW = 20  # vertices of a window that say anything
 
 
 class Windows:

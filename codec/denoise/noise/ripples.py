@@ -27,23 +27,16 @@ DISTINCT = 30.0
 """Power of a peak over the mean of the spectrum: the strongest of some million values of noise is 17, clean meshes
 reach this here and there."""
 MOST_WAVES = 6
-WORTH = 0.97
-"""A wave has to lower the level of what the filter sees to this."""
-SETTLING, POLISHING = 3, 14
-"""Steps after each wave, and after the last."""
-SMOOTHING = 1
-"""Averagings of the heights at which phases are taken."""
-FAINTEST, STRONGEST = 0.04, 1.0
-"""Standard deviation of all waves together, in mean edges, that is believed."""
+WORTH = 0.97  # a wave has to lower the level of what the filter sees to this
+SETTLING, POLISHING = 3, 14  # steps after each wave, and after the last
+SMOOTHING = 1  # averagings of the heights at which phases are taken
+FAINTEST, STRONGEST = 0.04, 1.0  # standard deviation of all waves together, in mean edges, that is believed
 CALMER, MANY_WINDOWS, CALMER_OF_FEW = 0.85, 20, 0.62
 """Median over the windows of the level without the waves, over that with them: of many windows, and of fewer, where six
 waves have more to choose from; clean made shapes of few windows reach 0.67."""
-ROUND = 0.05
-"""Share of the normals in their least direction: a corrugated sheet has none, and keeps its waves."""
-FEWEST = 1000
-"""Vertices."""
-OUTSIDE = 2.5
-"""Standardised values from which on they are creases, not waves."""
+ROUND = 0.05  # share of the normals in their least direction: a corrugated sheet has none, and keeps its waves
+FEWEST = 1000  # vertices
+OUTSIDE = 2.5  # standardised values from which on they are creases, not waves
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,8 +6,6 @@ and no value has a preference. Detail and creases are strong in some places and 
 noise in all these ways is taken for noise: the answer for anything else is "none", and "unknown" for small meshes.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,10 +16,8 @@ from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.surface import Floats, Mask
 from bsm.codec.geometry.metrics import mean_edge_length
 
-FEWEST_WINDOWS, FEWEST_INNER = 5, 3
-"""Windows without which nothing is said; and those wholly inside a noisy part."""
-FAINTEST = 0.05
-"""Levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong."""
+FEWEST_WINDOWS, FEWEST_INNER = 5, 3  # windows without which nothing is said; and those wholly inside a noisy part
+FAINTEST = 0.05  # levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong
 MANY_WINDOWS = 20
 FAINTEST_OF_FEW = {"white": 0.085, "correlated": 0.1, "impulses": 0.14, "local": 0.14}
 """With fewer windows their spread says less, and noise has to be this strong."""
@@ -35,21 +31,17 @@ clean meshes have little of."""
 SURELY_WHITE = (0.925, 1.06)
 """Faint noise whose finest frequencies are in this ratio to the fine ones is judged like ordinary noise: noise of 0.08
 edges and more reads 0.93 to 1.03, the rough clean meshes as even as noise 0.87 and less."""
-WHITE = 0.82
-"""The finest frequencies carry as much white noise as the fine ones; below this ratio it is correlated."""
-HEAVY = 1.25
-"""Tails beyond the normal distribution's from which noise counts as impulses."""
+WHITE = 0.82  # the finest frequencies carry as much white noise as the fine ones; below this ratio it is correlated
+HEAVY = 1.25  # tails beyond the normal distribution's from which noise counts as impulses
 LOCAL_LEVEL, LOCAL_STEP, LOCAL_SHARE = 0.12, 1.5, 0.1
 """Noise that is only here and there: how strong at least, over the rest at least, in how much of the mesh at least."""
-NEARBY = 4
-"""Rings about a vertex that decide whether it is in or out."""
+NEARBY = 4  # rings about a vertex that decide whether it is in or out
 ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
 """Surfaces along an axis show nothing of rounding; so much of the mesh has to lie otherwise."""
 ROUNDED_LEVEL, ROUNDED_SEEN, ROUNDED_ZEROS = (0.025, 0.35), (0.4, 4.5), 0.15
 """Rounding that is worth a treatment, in mean edges; how much of what is expected has to be there, creases included;
 and the largest share of vertices with nothing of it: shapes that were drawn on a grid have many."""
-HEAVY_LEVEL = 0.3
-"""From here on normals are taken from a smoother version."""
+HEAVY_LEVEL = 0.3  # from here on normals are taken from a smoother version
 
 
 def find_noise(positions: Positions, probe: Probe) -> Finding:
@@ -184,14 +176,11 @@ def _otsu(ordered: Floats) -> float:
     return float(0.5 * (ordered[place] + ordered[place + 1]))
 
 
-AXIS_WINDOWS = 5
-"""In which the direction shows, without which nothing is said."""
-LEAST_REACHED = 0.1
-"""Share of the mesh that it has to reach."""
+AXIS_WINDOWS = 5  # in which the direction shows, without which nothing is said
+LEAST_REACHED = 0.1  # share of the mesh that it has to reach
 AXIS_LEVEL, AXIS_RANK, AXIS_REACH, AXIS_CALM, AXIS_FEWEST = 0.1, 0.3, 0.4, 0.6, 40
 """Noise along an axis: how strong at least, how much weaker in the second direction, where it shows and where not."""
-AXIS_TAIL = 2.0
-"""Tails of what an axis explains, over the normal distribution's, that noise does not have: creases do."""
+AXIS_TAIL = 2.0  # tails of what an axis explains, over the normal distribution's, that noise does not have: creases do
 DEPTH_FEWEST, DEPTH_WORTH, DEPTH_MOST = 12, 0.7, 3.0
 """Noise that grows with depth: windows that are needed, what is left of the spread, and the logarithm of the ratio
 between both ends."""

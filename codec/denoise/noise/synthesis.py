@@ -4,8 +4,6 @@ The random-walk Laplacian, applied four times, leaves little of a surface and mo
 the normals and across them is compared, by medians, with what it leaves of white noise on the same mesh.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

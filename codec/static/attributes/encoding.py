@@ -1,7 +1,5 @@
 """The attributes of a given mesh to the frames of a stream."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
@@ -34,8 +32,7 @@ from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble_encoding import Prepared
 
-CHUNK = 1 << 15
-"""Values of a frame."""
+CHUNK = 1 << 15  # values of a frame
 SEMANTICS = ("generic", "color", "normal", "texcoord")
 
 

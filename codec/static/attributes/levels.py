@@ -1,7 +1,5 @@
 """An attribute's values as levels, as floats allow, and levels as the numbers that are coded, in one piece or two."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,8 +29,7 @@ Reals = npt.NDArray[np.float64]
 
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64")
 MOST_LEVEL = 2**32 - 1
-_NEAR_ZERO = 1 << 20
-"""What is below costs less than an offset."""
+_NEAR_ZERO = 1 << 20  # what is below costs less than an offset
 _SLACK = 1.0 - 2.0**-20
 _USUAL_STEPS = (1.0, 1.0 / 255.0, 1.0 / 65535.0)
 
@@ -244,8 +241,7 @@ def _of_bits(words: Words, kind: np.dtype[Any]) -> Values:
     return np.where(np.isfinite(values), values, kind.type(0))
 
 
-MOST_WHOLE = (1 << 20) - 1
-"""Larger levels are coded in two pieces."""
+MOST_WHOLE = (1 << 20) - 1  # larger levels are coded in two pieces
 PIECE_BITS = 16
 
 

@@ -1,7 +1,5 @@
 """How well attributes are kept: what a user may ask for, and what is done where nothing is asked for."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,8 +11,7 @@ from bsm.codec.geometry.attributes import Attribute
 Way = Literal["exact", "bits", "bound", "share", "rms", "angle", "recompute", "none"]
 Grade = Literal["small", "balanced", "fine"]
 
-MOST_BITS = 24
-"""Of a float; who wants more wants it exact."""
+MOST_BITS = 24  # of a float; who wants more wants it exact
 LEAST_NORMAL_BITS, MOST_NORMAL_BITS = 2, 16
 
 _FORMS: tuple[tuple[str, Way], ...] = (

@@ -1,7 +1,5 @@
 """Where the coded values of an attribute are, and which of them the user of a mesh knows by which number."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

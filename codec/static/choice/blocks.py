@@ -1,7 +1,5 @@
 """Blocks, alone or with a layer of refinement on them: ways to code a mesh, and the drafts that they come to."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import partial
@@ -33,10 +31,8 @@ from bsm.codec.static.work import Allowance
 WIDEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
 are worth."""
-BASE = 0.36
-"""The step of blocks below a layer, over the square root of that of the layer."""
-FINEST_LAYER = 1e-6
-"""Step of a layer, in BSM units."""
+BASE = 0.36  # the step of blocks below a layer, over the square root of that of the layer
+FINEST_LAYER = 1e-6  # step of a layer, in BSM units
 UNSEEN_RATIO = 2.0
 """How much coarser levels in the plane are than those along the normal, where it is flat: for distances alone."""
 PULLED, NEAR = 0.11, 16.0
@@ -44,8 +40,7 @@ PULLED, NEAR = 0.11, 16.0
 far a vertex may be brought from its place, in steps of the layer."""
 NOISE = 0.008
 """Errors that are looked at to learn where they are seen, over the look that is asked for and the mean edge."""
-WITHIN_REACH = 0.8
-"""How far levels are chosen off a place, of how far they may be: what moves others moves steps, too."""
+WITHIN_REACH = 0.8  # how far levels are chosen off a place, of how far they may be: what moves others moves steps, too
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,5 @@
 """How far a decoded mesh is from what a contract asks for; and what is measured of its original once."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -29,10 +27,8 @@ COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
 SIDES, NEARLY = 1.25, (0.85, 1.08)
 """How much more, or less, may be seen from all sides than from a few; and shares of what is asked for outside of which
 a few sides are enough."""
-LEAST = 1e-6
-"""Share of a bound below which all is as good as it can be."""
-MARGIN = 1e-9
-"""Of a bound on distances, for what rounding may add."""
+LEAST = 1e-6  # share of a bound below which all is as good as it can be
+MARGIN = 1e-9  # of a bound on distances, for what rounding may add
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
 pixel in a picture of 512."""

@@ -1,7 +1,5 @@
 """Positions on grids whose places are rounded, or chosen for the normals: ways to code a mesh."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from itertools import product
@@ -18,13 +16,11 @@ from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid
 
-NEAR_PLACE = 3.0
-"""How far shaping may bring a vertex from its place, in cells, where bounds are wide."""
+NEAR_PLACE = 3.0  # how far shaping may bring a vertex from its place, in cells, where bounds are wide
 FINEST_BITS, PARTS_OF_OCTAVE, WIDER, MOST_TRIED = 16, 128, 1.4, 8
 """Bits along the longest side of the finest grid on which a mesh may have been made; how many steps are compared
 between one and twice it; how much coarser ones may be than one that is about right; and how many are tried."""
-MOST_PARTS = 256
-"""Of models of few vertices: cells along the longest side."""
+MOST_PARTS = 256  # of models of few vertices: cells along the longest side
 
 
 class Gridded:

@@ -1,7 +1,5 @@
 """Drafts of positions on given grids, and of exact ones."""
 
-from __future__ import annotations
-
 import math
 import sys
 from dataclasses import replace
@@ -18,8 +16,7 @@ from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.ways.grid import Grid, encode_exact, encode_grid
 
-EXACT_CELLS = 65535
-"""Along the longest side, where floats are exact; from 2^15 to 2^20 bytes are the same within 0.1 %."""
+EXACT_CELLS = 65535  # along the longest side, where floats are exact; from 2^15 to 2^20 bytes are the same within 0.1 %
 PART_OF_CELL = 1.0 / 64.0
 
 

@@ -1,7 +1,5 @@
 """How a mesh is going to be coded, by the encoder's options and by what is measured on the mesh."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from bsm.bitstream.errors import OptionError
@@ -21,10 +19,8 @@ from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import patience
 from bsm.codec.threads import ordered_map
 
-PAPER_FRACTION = 0.10
-"""Coefficients of a block, as a fraction of its vertices, with a fixed number of bits."""
-SMOOTHING_FACES = 1 << 12
-"""On more faces than these, smoothing is not tried."""
+PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
+SMOOTHING_FACES = 1 << 12  # on more faces than these, smoothing is not tried
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 """Amounts that are tried, in this order, while they help; a factor of sqrt 2 between them is worth 0.1 %."""
 

@@ -1,7 +1,5 @@
 """The smallest stream that keeps a contract, and the best one of a size: one secant for every way to code a mesh."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -20,8 +18,7 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES
 from bsm.codec.static.targets import STEEPEST, secant
 from bsm.codec.static.ways.block_coder import Progress
 
-DEARER = 1.08
-"""A way is left alone whose first step takes so many times the bytes of what was found."""
+DEARER = 1.08  # a way is left alone whose first step takes so many times the bytes of what was found
 
 
 class Way(Protocol):

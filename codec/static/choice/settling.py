@@ -22,25 +22,19 @@ from bsm.codec.look.measure import DISSIMILAR, POWER, LookMetric
 from bsm.codec.look.pictures import CREASE, MOST_AROUND
 from bsm.codec.signal.frames import in_frames, local_frames, tangent_steps
 
-PULL = 0.8
-"""A level is expected at so much of the mean of its neighbours'."""
+PULL = 0.8  # a level is expected at so much of the mean of its neighbours'
 AROUND, SIZES = 10, 16
 """Classes of the neighbours' mean size, and sizes of what is left of a level, that bits are estimated for."""
-BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5
-"""What they are before any is counted."""
-SPREADS = 2
-"""Costs are as those of neighbours, so often over: what a vertex was blamed for is part chance."""
+BITS = 2.0 * np.log2(1.0 + np.arange(SIZES)) + 0.5  # what they are before any is counted
+SPREADS = 2  # costs are as those of neighbours, so often over: what a vertex was blamed for is part chance
 LEAST = 0.1
 """What errors cost at least, of their mean cost: nothing is hidden from all sides that somebody may look from."""
 ASIDE, RATIO = 0.35, 10.0
 """What rounding along a tangent costs over what it costs along the normal, where steps are as of a layer of this
 ratio."""
-SWEEPS = 2
-"""More move few levels, and take no bytes off: over all axes, and over those along the surface."""
-SHADED = 0.5
-"""How unlike pixels count that a crease shades otherwise which is there in only one of two pictures."""
-WITHIN = 8.0
-"""Degrees, on both sides of the angle that makes a crease, in which bends are watched."""
+SWEEPS = 2  # more move few levels, and take no bytes off: over all axes, and over those along the surface
+SHADED = 0.5  # how unlike pixels count that a crease shades otherwise which is there in only one of two pictures
+WITHIN = 8.0  # degrees, on both sides of the angle that makes a crease, in which bends are watched
 
 
 class Creases(NamedTuple):

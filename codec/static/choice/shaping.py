@@ -5,8 +5,6 @@ the vertices that takes, of the levels nearby, the one at which faces are bent l
 angle between normals the levels can be twice as coarse. The cost of a level is an estimate of its bits.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -19,12 +17,10 @@ from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.metrics import LOST, Original
 from bsm.codec.static.choice.settling import PULL, Creases, creases_of
 
-SAMPLE = 1 << 11
-"""Flaps, faces and edges that the character of a surface is measured on."""
+SAMPLE = 1 << 11  # flaps, faces and edges that the character of a surface is measured on
 EXTRA = np.concatenate([np.zeros(16), 2.0 + np.arange(64) // 4])
 """Bits that tell second differences apart which are counted together (see `bucket` in shaping.c)."""
-SHARP = 0.4
-"""Of the mean angle between faces beside each other: with a median below it, a surface has sharp edges."""
+SHARP = 0.4  # of the mean angle between faces beside each other: with a median below it, a surface has sharp edges
 UNEVEN = 0.33
 """Of that mean, a third quartile below which nearly all of it is flat; of the mean area of a face, a median below which
 a few faces are most of the surface."""

@@ -1,7 +1,5 @@
 """One block after the other: around, dictionary, prediction, code, commit; the same steps on both sides."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -36,8 +34,7 @@ from bsm.codec.static.work import (
 )
 from bsm.codec.threads import ordered_map
 
-FRAME = 5
-"""Bytes of a block's frame besides its levels, at least."""
+FRAME = 5  # bytes of a block's frame besides its levels, at least
 Progress = Callable[[int, int], None]
 
 

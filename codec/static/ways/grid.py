@@ -1,7 +1,5 @@
 """Positions on a grid instead of blocks: the encoder's packets, and the stage of the decoder that takes them."""
 
-from __future__ import annotations
-
 from collections import deque
 from dataclasses import dataclass
 from itertools import pairwise
@@ -95,8 +93,7 @@ def encode_exact(faces: Indices, grid: Grid, coded: Levels, floats: Numbers) -> 
 
 
 FULL = grid_field, grid_cost, grid_chunk_cost
-LIGHT = light_field, light_cost, light_chunk_cost
-"""How values are decoded, and what that and each frame cost."""
+LIGHT = light_field, light_cost, light_chunk_cost  # how values are decoded, and what that and each frame cost
 
 
 class GridStage:

@@ -29,10 +29,8 @@ from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.work import chunk_cost, layer_cost, layer_memory
 from bsm.codec.threads import Lanes, Pending
 
-CHUNK = 1 << 15
-"""Vertices of a frame."""
-BENT_BY = 2
-"""How many rings of vertices a step along the surface follows from."""
+CHUNK = 1 << 15  # vertices of a frame
+BENT_BY = 2  # how many rings of vertices a step along the surface follows from
 
 
 def encode_layer(faces: Indices, levels: Levels) -> list[packets.Refinement]:
