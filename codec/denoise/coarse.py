@@ -73,7 +73,9 @@ class CoarseFilter:
         sums = np.zeros_like(values)
         for vertices, copies, dictionary in self._blocks:
             subspace = dictionary[:, :width]
-            sums[vertices] += copies * (subspace @ (subspace.T @ values[vertices]))
+            # Constants are in the subspace but for rounding, which far from the origin would be all there is.
+            center = values[vertices].mean(axis=0)
+            sums[vertices] += copies * (subspace @ (subspace.T @ (values[vertices] - center)) + center)
         return sums / self._weights
 
     @property

@@ -72,7 +72,7 @@ class Cutter:
                 if not self._allowed:
                     raise MeshError(
                         f"frame {self._number} has other faces than the one before: {difference}; with runs = True "
-                        "(--set runs=yes) they may change"
+                        "(--runs) they may change"
                     )
                 return
             else:
@@ -233,7 +233,7 @@ class _Frames:
                     vertex = used[np.argmax(apart)]
                     raise MeshError(
                         f"vertices {one.first[one.index[vertex]]} and {vertex} part at frame {self.number - 1}; with "
-                        "keep_order = True (--keep-order), or runs = True (--set runs=yes), they may"
+                        "keep_order = True (--keep-order), or runs = True (--runs), they may"
                     )
                 self.number -= 1
                 self._ahead = positions

@@ -14,9 +14,9 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import fields
 from functools import partial
 from pathlib import Path
+from typing import get_type_hints
 
 from bsm.bitstream.container.gop import GopBody, GopField, GopMethod
 from bsm.bitstream.container.grammar import FOLLOWERS, _reachable
@@ -85,11 +85,11 @@ THINGS = {
 def things() -> set[str]:
     """What there can be many of, by the grammar: frames that come again, ways of GOPs, counts, and lists in GOPs."""
     again = {kind.name for kind in FOLLOWERS if kind is not None and kind in _reachable(kind)}
-    lists = {item.name for one in (GopBody, GopField) for item in fields(one) if item.type not in _SINGLE}
+    lists = {name for one in (GopBody, GopField) for name, kind in get_type_hints(one).items() if kind not in _SINGLE}
     return again | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | set(LIMITED_FIELDS) | lists
 
 
-_SINGLE = ("int", "float", "bool", "GopMethod")
+_SINGLE = (int, float, bool, GopMethod)
 
 
 def bombs() -> int:

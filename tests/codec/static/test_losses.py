@@ -7,7 +7,7 @@ from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.events import BlockEvent, EndEvent, LossEvent
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import EncodeOptions, Paper
 from tests.shapes import torus
 
 SMALL = {"block_size": 100, "keep": 0.3, "step": 0.003}
@@ -104,7 +104,7 @@ def test_a_whole_stream_loses_nothing():
 
 
 def test_damage_before_the_first_block_is_raised():
-    data = stream(partition="metis")
+    data = stream(paper=Paper(partition="metis"))
     first = spans(data)[0][0]
     for place in range(5, first, 11):
         broken = bytearray(data)
