@@ -19,32 +19,23 @@ from pathlib import Path
 import msgpack
 import numpy as np
 from reference_integers import (
+    ERRORS,
     CorruptError,
+    FormatError,
     GridReader,
     LevelsReader,
     LimitError,
     Model,
+    NumericError,
     RangeDecoder,
     TruncatedError,
+    UnsupportedError,
     decode_connectivity,
     neighbours_of,
     place,
 )
 
-
-class FormatError(Exception):
-    """Not a BSM stream."""
-
-
-class UnsupportedError(Exception):
-    """Of a version, method or extension that is not in the core."""
-
-
-class NumericError(Exception):
-    """The mathematics broke down."""
-
-
-EXIT_CODES = {FormatError: 3, CorruptError: 4, TruncatedError: 12, UnsupportedError: 5, LimitError: 6, NumericError: 7}
+EXIT_CODES = dict(zip(ERRORS, (3, 4, 5, 6, 7, 12)))
 LIMITS = {"vertices": 1 << 24, "faces": 1 << 25, "blocks": 1 << 17, "block_size": 8192, "coefficients": 4096}  # M 14.1
 MOST_FRAME_BYTES, MOST_METADATA_BYTES = 1 << 28, 1 << 23
 
@@ -62,8 +53,7 @@ def require_limit(value, most, what):
 # ---------------------------------------------------------------- F 1: varints and maps
 
 
-def varint(data, start):
-    """F 1.2: value and offset behind it, None if the data ends inside."""
+def varint(data, start):  # F 1.2: value and offset behind it, None if the data ends inside
     value = 0
     for position in range(5):
         if start + position >= len(data):
@@ -76,8 +66,7 @@ def varint(data, start):
     raise CorruptError("varint is longer than five bytes")
 
 
-def varints(data, count):
-    """So many at the beginning of a payload, and what is behind them."""
+def varints(data, count):  # So many at the beginning of a payload, and what is behind them
     values, at = [], 0
     for _ in range(count):
         found = varint(data, at)
@@ -86,8 +75,7 @@ def varints(data, count):
     return *values, data[at:]
 
 
-def canonical_map(payload):
-    """F 1.5: one map has one encoding, so decode, check the types, encode again and compare."""
+def canonical_map(payload):  # F 1.5: one map has one encoding, so decode, check the types, encode again and compare
     try:
         pairs = msgpack.unpackb(payload, raw=False, strict_map_key=False, object_pairs_hook=tuple)
     except Exception as error:  # msgpack raises many kinds
@@ -134,8 +122,7 @@ RANKS = {
 SKIPPED = {ORDER: "order", ATTRIBUTE: "attributes", VALUES: "attributes"}
 
 
-def frames_of(stream):
-    """F 2 and F 3: yields (type, payload, offset of the tag) of every frame; skippable ones too."""
+def frames_of(stream):  # F 2 and F 3: yields (type, payload, offset of the tag) of every frame; skippable ones too
     magic = b"\x89BSM"
     if not magic.startswith(stream[:4]):
         raise FormatError("not a BSM stream")  # F 2.1
@@ -298,8 +285,7 @@ def sweep(graph, segment, start):
     return distance, found
 
 
-def bisect(graph, parts):
-    """M 3: the vertices part after part, and where each part begins."""
+def bisect(graph, parts):  # M 3: the vertices part after part, and where each part begins
     order, ends, distances = list(range(len(graph))), [len(graph)] * (parts + 1), [{}, {}]
     if len(order) > 8:  # M 3.2
         distances[0] = sweep(graph, order, sweep(graph, order, 0)[1][-1])[0]
@@ -321,8 +307,7 @@ def bisect(graph, parts):
     return order, ends
 
 
-def derive_labels(graph, parts):
-    """M 4."""
+def derive_labels(graph, parts):  # M 4
     order, ends = bisect(graph, parts)
     labels = [0] * len(graph)
     for part in range(parts):
@@ -346,8 +331,7 @@ def derive_labels(graph, parts):
     return labels
 
 
-def chain_of(graph, labels, parts):
-    """M 5.1: the parts in the order of the blocks."""
+def chain_of(graph, labels, parts):  # M 5.1: the parts in the order of the blocks
     edges = [{} for _ in range(parts)]
     for v, row in enumerate(graph):
         for w in row:
@@ -366,8 +350,7 @@ def chain_of(graph, labels, parts):
     return chain
 
 
-def grow(graph, core, size):
-    """M 5.2."""
+def grow(graph, core, size):  # M 5.2
     found, seen = list(core), set(core)
     for v in found:  # `found` grows meanwhile
         for w in graph[v]:
@@ -377,9 +360,7 @@ def grow(graph, core, size):
     return found
 
 
-class Block:
-    """M 6: vertices in row order, and the Laplacian (M 7.1) of the block's own graph."""
-
+class Block:  # M 6: vertices in row order, and the Laplacian (M 7.1) of the block's own graph
     def __init__(self, graph, found):
         number = {v: r for r, v in enumerate(found)}
         local = [[number[w] for w in graph[v] if w in number] for v in found]
@@ -395,9 +376,7 @@ class Block:
         return len(grow(self.graph, [0], self.size)) == self.size
 
 
-class Known:
-    """M 7.2: weighted sums of all copies that are decoded."""
-
+class Known:  # M 7.2: weighted sums of all copies that are decoded
     def __init__(self, vertices):
         self.sums, self.weights = np.zeros((vertices, 3)), np.zeros(vertices)
 
@@ -407,8 +386,7 @@ class Known:
         self.weights[block.vertices] += weights
 
 
-def surroundings(graph, block, known):
-    """M 7.3: springs and pulls of each row."""
+def surroundings(graph, block, known):  # M 7.3: springs and pulls of each row
     springs, pulls, inside = np.zeros(block.size), np.zeros((block.size, 3)), set(block.vertices)
     for r, v in enumerate(block.vertices):
         for w, k in [(v, 8.0)] + [(w, 1.0) for w in graph[v] if w not in inside]:  # M 1.1
@@ -421,27 +399,22 @@ def surroundings(graph, block, known):
 # ---------------------------------------------------------------- M 7, M 8: extensions and dictionaries
 
 
-def ordered_sum(terms):
-    """M 1.3: one term after the other."""
+def ordered_sum(terms):  # M 1.3: one term after the other
     return np.add.accumulate(terms, axis=0)[-1] if len(terms) else np.zeros(terms.shape[1:])
 
 
-def product(left, right):
-    """M 1.3: sums of products, one term after the other."""
+def product(left, right):  # M 1.3: sums of products, one term after the other
     result = np.zeros((len(left), right.shape[1]), np.result_type(left, right))
     for k in range(left.shape[1]):
         result += left[:, k, None] * right[k]
     return result
 
 
-def dot(a, b):
-    """M 1.3: scalar products of rows."""
+def dot(a, b):  # M 1.3: scalar products of rows
     return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
 
 
-class Solver:
-    """M 7.5 to M 7.7: (L + S + shift I)^-1 in single precision."""
-
+class Solver:  # M 7.5 to M 7.7: (L + S + shift I)^-1 in single precision
     def __init__(self, laplacian, springs):
         size, matrix = len(laplacian), laplacian.copy()
         farthest = [max(np.flatnonzero(row), default=0) for row in laplacian]
@@ -454,8 +427,7 @@ class Solver:
             self.c[k, k + 1 :] = own * self.d[k]
             self.c[k + 1 :, k + 1 :] -= self.c[k, k + 1 :, None] * own
 
-    def solve(self, columns):
-        """M 7.7, of rows in the order of elimination."""
+    def solve(self, columns):  # M 7.7, of rows in the order of elimination
         x = columns.astype(np.float32)
         for k in range(len(x)):
             x[k + 1 :] -= self.c[k, k + 1 :, None] * x[k]
@@ -464,8 +436,7 @@ class Solver:
             x[:k] -= self.c[:k, k, None] * x[k]
         return x
 
-    def extend(self, springs, pulls):
-        """M 7.4."""
+    def extend(self, springs, pulls):  # M 7.4
         total, result = ordered_sum(springs), np.zeros_like(pulls)
         if total == 0.0:
             return result
@@ -473,8 +444,7 @@ class Solver:
         result[self.order] = self.solve((pulls - springs[:, None] * mean)[self.order])
         return result + mean
 
-    def iterate(self, start, solutions):
-        """M 8.4."""
+    def iterate(self, start, solutions):  # M 8.4
         columns, result = start[self.order], np.zeros_like(start)
         for _ in range(solutions):
             columns = onorm(self.solve(columns), self.order)
@@ -492,8 +462,7 @@ def elimination_order(rows, first, last, farthest):
     return before + [r for r in rows if r < cut <= farthest[r]]
 
 
-def onorm(columns, order):
-    """M 8.1."""
+def onorm(columns, order):  # M 8.1
     x, lengths = columns.copy(), ordered_sum(columns * columns)
     for begin in range(0, x.shape[1], 64):
         panel = x[:, begin : begin + 64]
@@ -522,8 +491,7 @@ def onorm(columns, order):
     return x
 
 
-def cleaned(before, column, order):
-    """M 8.8."""
+def cleaned(before, column, order):  # M 8.8
     v, times = column.copy(), 0
     while times < 8:
         square = ordered_sum(v * v)
@@ -542,8 +510,7 @@ def cleaned(before, column, order):
     raise NumericError("columns cannot be made orthonormal")
 
 
-def cosine_columns(rows, first, last):
-    """M 8.2, before they are rounded."""
+def cosine_columns(rows, first, last):  # M 8.2, before they are rounded
     k, unit = np.arange(rows + 1), 3.141592653589793 / (2 * rows)
     low, high = k * unit, (rows - k) * unit
     value, slope = np.ones(rows + 1), np.ones(rows + 1)
@@ -556,8 +523,7 @@ def cosine_columns(rows, first, last):
     return table[np.minimum(fold, 2 * rows - fold)] * np.where(fold <= rows, 1.0, -1.0)
 
 
-def hash_entry(row, column):
-    """M 8.6."""
+def hash_entry(row, column):  # M 8.6
     z = ((row << 32) + column + 1) * 0x9E3779B97F4A7C15 % 2**64
     z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 % 2**64
     z = (z ^ z >> 27) * 0x94D049BB133111EB % 2**64
@@ -570,9 +536,7 @@ def hash_entry(row, column):
 EXPERIENCE_SHA256 = "2a093067f31fc03a6ec865ebc6193347d2b21ff18e6f4903e80cfc3af97c39d0"
 
 
-class CoefficientModel:
-    """One for each chain."""
-
+class CoefficientModel:  # One for each chain
     def __init__(self, width):
         data = (Path(__file__).parent / "priors.bin").read_bytes()  # M 9.1
         assert hashlib.sha256(data).hexdigest() == EXPERIENCE_SHA256, "priors.bin is not that of the law"
@@ -590,8 +554,7 @@ class CoefficientModel:
         self.width, self.blocks = width, 0
         self.now, self.before, self.usual = ([[0, 0, 0] for _ in range(width + 11)] for _ in range(3))  # M 9.3
 
-    def block(self, decoder, count):
-        """`count` rows of points, in half steps."""
+    def block(self, decoder, count):  # `count` rows of points, in half steps
         points, last = [[0, 0, 0] for _ in range(count)], [0, 0, 0]
         for row in range(count):
             for d in range(3):
@@ -609,27 +572,19 @@ class CoefficientModel:
         self.blocks += 1
         return points
 
-    def inputs(self, row, d):
-        """M 9.4."""
+    def inputs(self, row, d):  # M 9.4
         n, b, u, j, e, f = self.now, self.before, self.usual, 8 + row, (d + 1) % 3, (d + 2) % 3
         return [
-            *(16 * n[j - i][d] for i in (1, 2, 3)),
-            8 * (n[j - 4][d] + n[j - 5][d]),
+            *(16 * n[j - i][d] for i in (1, 2, 3)), 8 * (n[j - 4][d] + n[j - 5][d]),
             4 * (n[j - 6][d] + n[j - 7][d] + 2 * n[j - 8][d]),
-            16 * n[j][d - 1] if d > 0 else 0,
-            16 * n[j][d - 2] if d > 1 else 0,
-            8 * (n[j - 1][e] + n[j - 1][f]),
-            4 * (n[j - 2][e] + n[j - 2][f] + n[j - 3][e] + n[j - 3][f]),
-            16 * b[j][d],
-            8 * (b[j - 1][d] + b[j + 1][d]),
+            16 * n[j][d - 1] if d > 0 else 0, 16 * n[j][d - 2] if d > 1 else 0,
+            8 * (n[j - 1][e] + n[j - 1][f]), 4 * (n[j - 2][e] + n[j - 2][f] + n[j - 3][e] + n[j - 3][f]),
+            16 * b[j][d], 8 * (b[j - 1][d] + b[j + 1][d]),
             4 * (b[j - 2][d] + b[j + 2][d] + b[j - 3][d] + b[j + 3][d]),
-            8 * (b[j][e] + b[j][f]),
-            4 * (b[j - 1][e] + b[j - 1][f] + b[j + 1][e] + b[j + 1][f]),
-            u[j][d],
-            (u[j - 1][d] + u[j + 1][d]) >> 1,
-            (u[j][e] + u[j][f]) >> 1,
-            *(16, 256 // (row + 1), 1024 // (row + 1) ** 2),
-        ]
+            8 * (b[j][e] + b[j][f]), 4 * (b[j - 1][e] + b[j - 1][f] + b[j + 1][e] + b[j + 1][f]),
+            u[j][d], (u[j - 1][d] + u[j + 1][d]) >> 1, (u[j][e] + u[j][f]) >> 1,
+            16, 256 // (row + 1), 1024 // (row + 1) ** 2,
+        ]  # fmt: skip
 
     def level(self, decoder, row, d, grid):
         inputs, contexts = self.inputs(row, d), []
@@ -660,15 +615,12 @@ class CoefficientModel:
 # ---------------------------------------------------------------- M 10, M 12, M 17: positions
 
 
-class Chain:
-    """M 10.1: what blocks learn from those before them."""
-
+class Chain:  # M 10.1: what blocks learn from those before them
     def __init__(self, header, graph):
         self.header, self.graph, self.model = header, graph, CoefficientModel(header["coefficients"])
         self.known, self.dictionary = Known(header["vertices"]), None
 
-    def decode(self, block, width, payload):
-        """M 10.2: positions of the next block."""
+    def decode(self, block, width, payload):  # M 10.2: positions of the next block
         decoder = RangeDecoder(payload)
         points = np.array(self.model.block(decoder, width)) * (self.header["step"] / 2)
         decoder.finish()
@@ -690,8 +642,7 @@ class Chain:
     def follows(self, block):  # M 8.3
         return self.dictionary is not None and len(self.dictionary) == block.size
 
-    def charge(self, block, width):
-        """M 14.2, M 14.3: what the dictionary of the next block works."""
+    def charge(self, block, width):  # M 14.2, M 14.3: what the dictionary of the next block works
         n, rows, c = self.header["vertices"], block.size, -(-width // 16) * 16
         require_limit(8 * (6 * rows * c + 2 * c**2), 2**26 + 1024 * n, "memory")
         s = 3 if self.follows(block) else 6
@@ -699,8 +650,7 @@ class Chain:
         return 5 * rows * c + s * solution + (s + 1) * rows * (3 + 0.4 * c + c**2 / 80)
 
 
-def decode_blocks(header, graph, blocks):
-    """M 4 to M 12.1: positions in BSM units."""
+def decode_blocks(header, graph, blocks):  # M 4 to M 12.1: positions in BSM units
     parts, work, blended = header["blocks"], 0.0, Known(header["vertices"])
     labels = derive_labels(graph, parts)
     cores = [[v for v, label in enumerate(labels) if label == part] for part in range(parts)]
@@ -716,8 +666,7 @@ def decode_blocks(header, graph, blocks):
     return blended.sums / blended.weights[:, None]
 
 
-def smooth(graph, positions, amount):
-    """M 12.2."""
+def smooth(graph, positions, amount):  # M 12.2
     if amount == 0.0:
         return positions
     current, result = positions, positions
@@ -728,8 +677,7 @@ def smooth(graph, positions, amount):
     return result
 
 
-def smoothing_powers(amount):
-    """M 12.3: p_2 to p_5."""
+def smoothing_powers(amount):  # M 12.3: p_2 to p_5
     nodes = [0.4, 0.9, 1.4, 1.8]
     table, powers = [-amount / (1.0 + amount * x * x) for x in nodes], [0.0] * 4
     for level in range(1, 4):
@@ -740,8 +688,7 @@ def smoothing_powers(amount):
     return powers
 
 
-def refine(header, faces, positions, refinements):
-    """M 17: base positions and what the layer adds to them."""
+def refine(header, faces, positions, refinements):  # M 17: base positions and what the layer adds to them
     (step, ratio), count, coded = header["refinement"], len(positions), 0
     sums = np.zeros((count, 3))
     for a, b, c in faces:  # M 17.1
@@ -766,8 +713,7 @@ def refine(header, faces, positions, refinements):
     return refined
 
 
-def tangent_ratios(faces, places, ratio):
-    """M 17.4: t of each vertex."""
+def tangent_ratios(faces, places, ratio):  # M 17.4: t of each vertex
     if ratio <= 1:
         return np.full(len(places), ratio)
     sums, rims = np.zeros((len(places), 3)), np.zeros((len(places), 3))
@@ -817,8 +763,7 @@ def decode_packets(packets, fault):
     return positions, np.array(faces, np.int32).reshape(-1, 3)
 
 
-def decode(stream):
-    """Positions, shape (n, 3), faces, shape (m, 3), and the names of the extensions that were skipped."""
+def decode(stream):  # Positions, shape (n, 3), faces, shape (m, 3), and the names of the extensions that were skipped
     packets, fault = {BLOCK: [], GRID: [], REFINEMENT: []}, None
     try:
         read_frames(stream, packets)

@@ -5,21 +5,15 @@ Slow, plain, easy to compare: the rules stand beside what follows them.
 
 import hashlib
 import heapq
+import math
 import struct
+from bisect import bisect_left
 from collections import OrderedDict, namedtuple
-from decimal import Decimal, getcontext
 
-
-class CorruptError(Exception):
-    """Contradicts the documents or itself."""
-
-
-class TruncatedError(Exception):
-    """The data ends too early."""
-
-
-class LimitError(Exception):
-    """Asks for more than the caller granted."""
+# F 1: the errors that a decoder tells apart
+ERRORS = ("FormatError", "CorruptError", "UnsupportedError", "LimitError", "NumericError", "TruncatedError")
+ERRORS = [type(name, (Exception,), {}) for name in ERRORS]
+FormatError, CorruptError, UnsupportedError, LimitError, NumericError, TruncatedError = ERRORS
 
 
 def clamp(x, low, high):  # F 1.4
@@ -37,36 +31,13 @@ def div(a, b):  # F 1.4: towards zero
 # ---------------------------------------------------------------- C 1 to C 3: the entropy coder
 
 
-def make_squash():  # C 2.1: squash(x) for x = -2880 .. 2879
-    one = 1 << 128
-    term = step = one
-    for k in range(1, 20):
-        term //= 256 * k
-        step += term
-    upper, power = [], one
-    for _ in range(2881):
-        upper.append((2 * 65536 * power + power + one) // (2 * (power + one)))
-        power = power * step // one
-    table = [65536 - upper[-x] if x < 0 else upper[x] for x in range(-2880, 2880)]
-    return [min(max(value, 1), 65535) for value in table]
+# C 2.1 for x = -2880 .. 2879, C 2.2 for j = 0 .. 4095
+SQUASH = [clamp(math.floor(65536 / (1 + math.exp(-x / 256)) + 0.5), 1, 65535) for x in range(-2880, 2880)]
+UPPER = [bisect_left(SQUASH, 16 * j + 8) - 2880 for j in range(2048, 4096)]
+STRETCH = [-x for x in reversed(UPPER)] + UPPER
 
 
-def make_stretch():  # C 2.2: stretch(j) for j = 0 .. 4095
-    upper, x = [], -2880
-    for j in range(2048, 4096):
-        while SQUASH[x + 2880] < 16 * j + 8:
-            x += 1
-        upper.append(x)
-    return [-value for value in reversed(upper)] + upper
-
-
-SQUASH = make_squash()
-STRETCH = make_stretch()
-
-
-class RangeDecoder:
-    """C 1: decisions out of a payload."""
-
+class RangeDecoder:  # C 1: decisions out of a payload
     def __init__(self, payload):  # C 1.1
         self.payload, self.taken, self.range = payload, 4, 2**32 - 1
         self.low = int.from_bytes(payload[:4].ljust(4, b"\0"), "big")
@@ -115,15 +86,12 @@ class RangeDecoder:
         raise TruncatedError("a payload ends too early") if self.overran() else CorruptError(problem)
 
 
-class Model:
-    """C 2.3: slots and weights, made when they are first used."""
-
+class Model:  # C 2.3: slots and weights, made when they are first used
     def __init__(self, inputs, limit=255, rate=14, first=(1 << 21, 0)):
         self.limit, self.rate, self.first, self.slots, self.weights = limit, rate, first, {}, {}
         self.first_weight = {1: 65536, 2: 32768, 3: 27306, 4: 20480, 5: 16384, 6: 13653, 14: 5851}[inputs]
 
-    def bit(self, decoder, contexts, node):
-        """C 2.4 to C 2.6: predict a decision, decode it, learn from it."""
+    def bit(self, decoder, contexts, node):  # C 2.4 to C 2.6: predict a decision, decode it, learn from it
         places = [(i, context, node) for i, context in enumerate(contexts)]
         stretched = [STRETCH[self.slots.get(place, self.first)[0] >> 10] for place in places]  # C 2.4
         weights = [self.weights.get((i, node), self.first_weight) for i in range(len(contexts))]
@@ -187,25 +155,19 @@ def decode_connectivity(payload, vertices, faces, most=1 << 24):
     return result
 
 
-class Vertex:
-    """C 5.1: a vertex of the closed surface; the rank of a dummy is -1."""
-
+class Vertex:  # C 5.1: a vertex of the closed surface; the rank of a dummy is -1
     def __init__(self, label, rank):
         self.label, self.rank, self.sum = label, rank, 0
 
 
-class Node:
-    """C 5.2: a place on the front."""
-
+class Node:  # C 5.2: a place on the front
     def __init__(self, number, vertex):
         self.number, self.vertex, self.apex, self.alive = number, vertex, vertex, True
         self.next = self.previous = self
         self.free = self.stamp = 0
 
 
-class Conquest:
-    """C 5 and C 6: triangle by triangle over the closed surface."""
-
+class Conquest:  # C 5 and C 6: triangle by triangle over the closed surface
     def __init__(self, decoder, rare, vertices, faces, fans, dummies):
         self.decoder, self.rare = decoder, rare
         self.valence = Model(inputs=14, limit=1023, rate=16)
@@ -291,7 +253,11 @@ class Conquest:
         usual = self.event.bit(self.decoder, self.look_around(f), 0)  # C 6.5
         dummy = not usual and self.dummies_left > 0 and self.rare.bit(self.decoder, (0,), DUMMY)
         if usual or dummy:  # C 6.6
-            vertex, valence = self.add_dummy() if dummy else self.add_fan()
+            if dummy:  # it closes a boundary loop
+                self.dummies_left -= 1
+                vertex, valence = Vertex(0, -1), 2 + read_unsigned(self.decoder, self.rare, (0,), 2, LOOP)
+            else:
+                vertex, valence = self.add_fan()
             node = other = self.add_node(vertex, valence - 2)
         else:  # C 6.7
             node = self.find_node(f)
@@ -336,10 +302,6 @@ class Conquest:
         self.fans += 1
         return Vertex(self.latest, self.fans - 1), valence
 
-    def add_dummy(self):  # C 6.6: the vertex that closes a boundary loop, and its valence
-        self.dummies_left -= 1
-        return Vertex(0, -1), 2 + read_unsigned(self.decoder, self.rare, (0,), 2, LOOP)
-
     def read_valence(self):  # C 6.9
         if self.valence.bit(self.decoder, self.contexts, 0):
             return 6
@@ -357,8 +319,7 @@ class Conquest:
                 self.decoder.fail("there are too many faces")
             self.faces.append([a.rank, b.rank, c.rank])
 
-    def look_around(self, f):
-        """C 6.10: set the contexts of the valence, return those of the event."""
+    def look_around(self, f):  # C 6.10: set the contexts of the valence, return those of the event
         n, p = f.next, f.previous
         nn, pp, nnn = n.next, p.previous, n.next.next
         lf, ln, lp, lnn, lpp, lnnn = (node.vertex.label for node in (f, n, p, nn, pp, nnn))
@@ -368,21 +329,10 @@ class Conquest:
         kf, kn, kp = clamp(lf - ff, 0, 15), clamp(ln - fn, 0, 15), clamp(lp - fp, 0, 15)
         b = 4 * (lf == 0) + 2 * (ln == 0) + (lp == 0)
         digits = [
-            (0,),
-            (lf, ln, af),
-            (lf, sf),
-            (lf, ln, af, sf),
-            (ln, af, sn),
-            (lp, sp, ap, ff),
-            (fp, fn, lp, fnn),
-            (b, fnn, lnn),
-            (b, fpp),
-            (b, ap, kf, lp, fn),
-            (ff, fp, lf, ln, lp),
-            (lp, lnn, kp, kn, an, fpp, lpp),
-            (ap, sn, self.latest, sf, ff, sp, fnn),
-            (b, fnn, af, fp, fn, lnnn, kn),
-        ]
+            (0,), (lf, ln, af), (lf, sf), (lf, ln, af, sf), (ln, af, sn), (lp, sp, ap, ff), (fp, fn, lp, fnn),
+            (b, fnn, lnn), (b, fpp), (b, ap, kf, lp, fn), (ff, fp, lf, ln, lp), (lp, lnn, kp, kn, an, fpp, lpp),
+            (ap, sn, self.latest, sf, ff, sp, fnn), (b, fnn, af, fp, fn, lnnn, kn),
+        ]  # fmt: skip
         self.contexts = [self.hash(each) for each in digits]
         return 16 * ff + fn, 256 * ff + 16 * fp + fn, b
 
@@ -404,9 +354,18 @@ def meet(a, b):  # C 5.6
         a.sum += b.label - 6
 
 
-def read_seams(decoder, faces, fans):
-    """C 7: the vertex of each fan."""
-    after, before = find_borders(faces, fans)
+def read_seams(decoder, faces, fans):  # C 7: the vertex of each fan
+    edges, directions = [(face[k], face[(k + 1) % 3]) for face in faces for k in range(3)], {}
+    for edge in edges:
+        directions.setdefault(frozenset(edge), []).append(edge)
+    after, before = [-1] * fans, [-1] * fans  # C 7.1: the fans along the boundary, -1 inside
+    for a, b in edges:
+        both = directions[frozenset((a, b))]
+        if len(both) != 2 or both[0] == both[1]:
+            after[a] = b
+    for fan, following in enumerate(after):
+        if following >= 0:
+            before[following] = fan
     model, latest = Model(inputs=1), []  # the latest fan of each vertex
     vertex, earlier = [-1] * fans, [-1] * fans  # earlier: the latest fan of the same vertex before this one
 
@@ -450,25 +409,7 @@ def read_seams(decoder, faces, fans):
     return vertex
 
 
-def find_borders(faces, fans):
-    """C 7.1: the fans after and before each fan along the boundary, -1 inside."""
-    edges = [(face[k], face[(k + 1) % 3]) for face in faces for k in range(3)]
-    directions = {}
-    for edge in edges:
-        directions.setdefault(frozenset(edge), []).append(edge)
-    after, before = [-1] * fans, [-1] * fans
-    for a, b in edges:
-        both = directions[frozenset((a, b))]
-        if len(both) != 2 or both[0] == both[1]:
-            after[a] = b
-    for fan, following in enumerate(after):
-        if following >= 0:
-            before[following] = fan
-    return after, before
-
-
-def read_degenerate(decoder, count, known, vertices):
-    """C 8: `count` faces that repeat a corner."""
+def read_degenerate(decoder, count, known, vertices):  # C 8: `count` faces that repeat a corner
     faces = []
     for _ in range(count):
         face = []
@@ -483,8 +424,7 @@ def read_degenerate(decoder, count, known, vertices):
     return faces
 
 
-def neighbours_of(faces, vertices):
-    """M 2.1: the neighbours of each vertex, ascending."""
+def neighbours_of(faces, vertices):  # M 2.1: the neighbours of each vertex, ascending
     found = [set() for _ in range(vertices)]
     for face in faces:
         for a in face:
@@ -495,33 +435,25 @@ def neighbours_of(faces, vertices):
 # ---------------------------------------------------------------- V 1 to V 3: corners, order, neighbourhood
 
 
-class Mesh:
-    """What both sides know."""
-
+class Mesh:  # What both sides know
     def __init__(self, faces, vertices, traverse):
-        self.vertex = [v for face in faces for v in face]
+        self.vertex = [v for face in faces for v in face]  # V 1.1
+        self.next, self.previous = ([k - k % 3 + (k + i) % 3 for k in range(len(self.vertex))] for i in (1, 2))
         self.vertices, self.corners, self.opposite = vertices, [[] for _ in range(vertices)], {}
         for k, v in enumerate(self.vertex):
             self.corners[v].append(k)
+        self.degree = [len(corners) for corners in self.corners]
         self.pair()
         self.order = self.traverse() if traverse else list(range(vertices))
         self.rank = [0] * vertices
         for number, v in enumerate(self.order):
             self.rank[v] = number
 
-    @staticmethod
-    def next(k):  # V 1.1
-        return k - 2 if k % 3 == 2 else k + 1
-
-    @staticmethod
-    def previous(k):  # V 1.1
-        return k + 2 if k % 3 == 0 else k - 1
-
     def pair(self):  # V 1.2
         for v in range(self.vertices):
             waits = {}
             for k in self.corners[v]:
-                for end, facing in ((self.next(k), self.previous(k)), (self.previous(k), self.next(k))):
+                for end, facing in ((self.next[k], self.previous[k]), (self.previous[k], self.next[k])):
                     u = self.vertex[end]
                     if u > v and u in waits:
                         other = waits.pop(u)
@@ -554,7 +486,7 @@ class Mesh:
             known[v] = True
             order.append(v)
             for k in self.corners[v]:  # V 2.3
-                a, b = self.next(k), self.previous(k)
+                a, b = self.next[k], self.previous[k]
                 known_a, known_b = known[self.vertex[a]], known[self.vertex[b]]
                 if known_a and known_b:
                     if k in self.opposite and not known[self.vertex[self.opposite[k]]]:
@@ -564,13 +496,10 @@ class Mesh:
                     promote(self.vertex[t], int(t in self.opposite and known[self.vertex[self.opposite[t]]]))
         return order
 
-    def degree(self, v):  # V 1.1: deg(v)
-        return len(self.corners[v])
-
     def neighbours(self, v):  # V 3.1
         found = []
         for k in self.corners[v]:
-            for u in (self.vertex[self.next(k)], self.vertex[self.previous(k)]):
+            for u in (self.vertex[self.next[k]], self.vertex[self.previous[k]]):
                 if self.rank[u] < self.rank[v] and u not in found:
                     found.append(u)
         return found[:16]
@@ -580,7 +509,7 @@ class Mesh:
         for k in self.corners[v]:
             if k in self.opposite:
                 tip = self.opposite[k]
-                flap = (self.vertex[self.next(k)], self.vertex[self.previous(k)], self.vertex[tip])
+                flap = (self.vertex[self.next[k]], self.vertex[self.previous[k]], self.vertex[tip])
                 if all(self.rank[u] < self.rank[v] for u in flap):
                     found.append((*flap, tip))
         return found[:8]
@@ -589,32 +518,21 @@ class Mesh:
 # ---------------------------------------------------------------- V 14, V 4, V 5: values
 
 TABLES_SHA256 = "55311cc8ec5fcbb0687028fd79e580ec8a33a972c60c8621a9d5c22a0ec5a1bc"
-getcontext().prec = 50
 
 
-def make_survival():  # V 14.1
-    def logistic(z):
-        return 1 / (1 + z.exp())
-
-    table = []
-    for z in (Decimal(i) / 32 for i in range(-512, 513)):
-        tail = logistic(16 * z) + 2 * logistic(4 * z) + 4 * logistic(3 * z / 2) + logistic(z) + logistic(z / 3)
-        table.append(round(-65536 * (tail / 9).ln()))
-    return table
+def make_survival(z):  # V 14.1
+    terms = zip((1, 2, 4, 1, 1), (16, 4, 1.5, 1, 1 / 3))
+    return round(-65536 * math.log(sum(factor / (1 + math.exp(rate * z)) for factor, rate in terms) / 9))
 
 
-def make_odds():  # V 14.2
-    odds, less = [], []
-    for i in range(544):
-        units = Decimal(max(2 * i, 1)) / 2 if i < 32 else (32 + i % 32 + Decimal("0.5")) * 2 ** (i // 32 - 1)
-        d = units / 65536
-        odds.append(clamp(round(256 * (d.exp() - 1).ln()), -4000, 4000))
-        less.append(clamp(round(256 * (1 - (-d).exp()).ln()), -4000, 4000))
-    return odds, less
+def make_odds(i):  # V 14.2: ODDS(i), LESS(i)
+    d = (max(i, 0.5) if i < 32 else (32 + i % 32 + 0.5) * 2.0 ** (i // 32 - 1)) / 65536
+    more = d + math.log(-math.expm1(-d))
+    return [clamp(round(256 * x), -4000, 4000) for x in (more, math.log(-math.expm1(-d)) if d < 30 else -math.exp(-d))]
 
 
-SURVIVAL = make_survival()
-ODDS, LESS = make_odds()
+SURVIVAL = [make_survival(i / 32) for i in range(-512, 513)]
+ODDS, LESS = (list(table) for table in zip(*map(make_odds, range(544))))
 _BYTES = struct.pack("<2113i", *SURVIVAL, *ODDS, *LESS)
 assert hashlib.sha256(_BYTES).hexdigest() == TABLES_SHA256, "the tables are not those of V 14.3"
 
@@ -634,29 +552,16 @@ def survival(distance, inverse):  # V 4.1: A
     return SURVIVAL[i] + (((SURVIVAL[i + 1] - SURVIVAL[i]) * (z & 31)) >> 5)
 
 
-def entry(d):  # V 4.2: i
-    if d < 32:
-        return max(d, 0)
-    e = d.bit_length() - 6
-    return min(32 * e + (d >> e), 543)
+def odds(d, table=ODDS):  # V 4.2: G, or with LESS H
+    e = max(d.bit_length() - 6, 0)
+    return table[min(32 * e + (d >> e), 543) if d > 0 else 0]
 
 
-def odds(d):  # V 4.2: G
-    return ODDS[entry(d)]
-
-
-def less(d):  # V 4.2: H
-    return LESS[entry(d)]
-
-
-class ValueModel:
-    """V 4.3."""
-
+class ValueModel:  # V 4.3
     def __init__(self):
         self.slots, self.node_weights, self.kind_weights, self.hits, self.scales = {}, {}, {}, {}, {}
 
-    def bit(self, decoder, e, node, kind, given):
-        """V 4.4, V 4.5."""
+    def bit(self, decoder, e, node, kind, given):  # V 4.4, V 4.5
         places = [(i, context, node) for i, context in enumerate(e.contexts)]
         slots = [self.slots.get(place, (1 << 21, 0)) for place in places]
         x = [clamp(o, -2047, 2047) for o in given] + [STRETCH[p >> 10] for p, _ in slots] + [256]
@@ -691,8 +596,7 @@ class ValueModel:
             self.scales[j, e.scale_context] = mean, min(count + 1, 255)
         return value
 
-    def ask(self, decoder, e, inverse):
-        """V 5.4: the value, if a question finds it, and the refuted numbers."""
+    def ask(self, decoder, e, inverse):  # V 5.4: the value, if a question finds it, and the refuted numbers
         p, refuted, remaining = e.predictions, [], list(range(7))
         while remaining and len(refuted) < 3:
             rates = [self.hits.get((j, e.hit_context), (1 << 18, 0))[0] for j in remaining]
@@ -705,7 +609,7 @@ class ValueModel:
             for j in range(7):
                 d = abs(16 * q - p[j])
                 a, b = survival(d - 8, inverse[j]), survival(d + 8, inverse[j])
-                given.append(-odds(a - 256 * less(b - a)))
+                given.append(-odds(a - 256 * odds(b - a, LESS)))
             if self.bit(decoder, e, 2 * best + (1 if refuted else 0), 0, given):
                 return q, refuted
             refuted.append(q)
@@ -743,9 +647,10 @@ class ValueModel:
                 t, b = a + (1 << (h + 4)), a + (2 << (h + 4))
                 s = inverse[j]
                 if t >= 0:
-                    given.append(less(survival(b, s) - survival(t, s)) - odds(survival(t, s) - survival(a, s)))
+                    given.append(odds(survival(b, s) - survival(t, s), LESS) - odds(survival(t, s) - survival(a, s)))
                 else:
-                    given.append(odds(survival(-t, s) - survival(-b, s)) - less(survival(-a, s) - survival(-t, s)))
+                    low = odds(survival(-a, s) - survival(-t, s), LESS)
+                    given.append(odds(survival(-t, s) - survival(-b, s)) - low)
             if self.bit(decoder, e, 48 + 2 * min(i, 8) + x, 4 + x, given):
                 distance += 1 << h
         if h > 0:  # V 5.8
@@ -785,15 +690,12 @@ def limited(terms):  # V 6.1
 # ---------------------------------------------------------------- V 7 to V 10, V 12: positions on a grid
 
 
-class Field:
-    """V 7.1: vertices of an order, from frame to frame."""
-
+class Field:  # V 7.1: vertices of an order, from frame to frame
     def __init__(self, mesh):
         self.mesh, self.next = mesh, 0
         self.x, self.gap = ([[0] * 3 for _ in range(mesh.vertices)] for _ in range(2))
 
-    def read(self, payload, count):
-        """The next `count` vertices, decoded."""
+    def read(self, payload, count):  # The next `count` vertices, decoded
         decoder = RangeDecoder(payload)
         vertices = self.mesh.order[self.next : self.next + count]
         for v in vertices:
@@ -871,7 +773,7 @@ class GridReader(Field):
         f, hits, first_gap = min(len(flaps), 3), 0, 0
         for step, j in enumerate(sorted(range(3), key=lambda j: (abs(main.n[j]), j))):
             far, tilt = 16 * self.largest[j], main.tilt(j)
-            place = (f, step == 2, clamp(mesh.degree(v) - 3, 0, 5))  # V 9.1
+            place = (f, step == 2, clamp(mesh.degree[v] - 3, 0, 5))  # V 9.1
             guess = self.guesses.setdefault(place, Learner([49152, 0, 0, 0, 0, 0, 0]))
             size = self.sizes.setdefault((f, step), Learner([49152, 8192, 0, 0]))
             terms = [tilt, mean[j] - base[j], closing[j], *(term[j] for term in shape)]  # V 9.2
@@ -884,14 +786,11 @@ class GridReader(Field):
             p1 = across[1][j] if len(flaps) > 1 else base[j]  # V 10.1
             in_first = across[0][j] + planes[0].tilt(j) if flaps else mean[j]
             predictions = [
-                base[j] + tilt,
-                across[0][j] if flaps else mean[j],
-                p1,
+                base[j] + tilt, across[0][j] if flaps else mean[j], p1,
                 p1 + planes[1].tilt(j) if len(flaps) > 1 else mean[j],
                 16 * self.near_value(j, clamp(whole(in_first), 0, self.largest[j])),
-                16 * x[near[0]][j] if near else mean[j],
-                base[j] + shift,
-            ]
+                16 * x[near[0]][j] if near else mean[j], base[j] + shift,
+            ]  # fmt: skip
             predictions = [clamp(p, 0, far) for p in predictions]
             d = [p - predictions[6] for p in predictions]
             b, u = size_class(e >> 1), e // 2 + 4  # V 10.3
@@ -917,7 +816,7 @@ class GridReader(Field):
             guess.learn(terms, 16 * value - base[j], e)
             size.learn(hints, min(abs(self.gap[v][j]), 8 * e + 64), e)
         for k in mesh.corners[v]:  # V 8.4
-            w = mesh.vertex[mesh.next(k)]
+            w = mesh.vertex[mesh.next[k]]
             self.count[w] += 1
             self.sum[w] = [s + value for s, value in zip(self.sum[w], x[v])]
 
@@ -928,12 +827,12 @@ class GridReader(Field):
             o = [8 * (x[a][j] + x[b][j]) - 16 * x[c][j] for j in range(3)]
             square = sum(value * value for value in q)
             skew = clamp(div(-16 * sum(s * t for s, t in zip(o, q)), square), -384, 384) if square else 0
-            turn = clamp(mesh.degree(a) - mesh.degree(b), -8, 8)
+            turn = clamp(mesh.degree[a] - mesh.degree[b], -8, 8)
             for j in range(3):
                 shape[0][j] += o[j]
                 shape[1][j] += (skew * q[j]) >> 4
                 shape[2][j] += 4 * q[j] * turn
-            for k in (mesh.previous(tip), mesh.next(tip)):
+            for k in (mesh.previous[tip], mesh.next[tip]):
                 if k in mesh.opposite and mesh.rank[mesh.vertex[mesh.opposite[k]]] < mesh.rank[v]:
                     z, e = mesh.vertex[mesh.opposite[k]], mesh.vertex[k]
                     other = b if e == a else a
@@ -942,7 +841,7 @@ class GridReader(Field):
         return [[rounded(value, len(flaps)) for value in term] for term in shape] if len(flaps) > 1 else shape
 
     def closing(self, near, base):  # V 8.4
-        found, total = [u for u in near if self.mesh.degree(u) - self.count[u] <= 1], [0, 0, 0]
+        found, total = [u for u in near if self.mesh.degree[u] - self.count[u] <= 1], [0, 0, 0]
         for u in found:
             for j in range(3):
                 balance = 16 * ((self.count[u] + 1) * self.x[u][j] - self.sum[u][j]) - base[j]
@@ -958,8 +857,7 @@ class GridReader(Field):
         return t if below is None else below
 
 
-def place(values, header):
-    """V 12: the position of a vertex."""
+def place(values, header):  # V 12: the position of a vertex
     if header["lattice"]:
         m, k = header["lattice"]
         values = [(2 * value * m + k) // (2 * k) for value in values]
@@ -1011,7 +909,7 @@ class LevelsReader(Field):
         w = sum(abs(rest) > bound for bound in (1, 3, 6))
         a, s = min(size_class(typical), 23), min(size_class(error), 23)
         b, o = min(size_class(busy), 23), min(size_class(4 * own), 11)
-        degree = clamp(self.mesh.degree(v) - 3, 0, 7)
+        degree = clamp(self.mesh.degree[v] - 3, 0, 7)
 
         def c3(value):
             return clamp(value - c, -3, 3) + 3
