@@ -14,6 +14,7 @@ import hashlib
 import math
 import sys
 import zlib
+from collections import Counter
 from pathlib import Path
 
 import msgpack
@@ -108,17 +109,8 @@ def packed_value(value, nested):
 
 HEADER, METADATA, CONNECTIVITY, PARTITION, ORDER, BLOCK, GOP, GRID, REFINEMENT, END = 1, 2, 3, 4, 5, 6, 7, 12, 13, 15
 ATTRIBUTE, VALUES = 14, 0
-RANKS = {
-    HEADER: 0,
-    CONNECTIVITY: 1,
-    ORDER: 2,
-    ATTRIBUTE: 3,
-    BLOCK: 4,
-    GRID: 4,
-    REFINEMENT: 5,
-    VALUES: 6,
-    END: 7,
-}  # F 3.8
+PLACES = [HEADER], [CONNECTIVITY], [ORDER], [ATTRIBUTE], [BLOCK, GRID], [REFINEMENT], [VALUES], [END]  # F 3.8
+RANKS = {kind: rank for rank, kinds in enumerate(PLACES) for kind in kinds}
 SKIPPED = {ORDER: "order", ATTRIBUTE: "attributes", VALUES: "attributes"}
 
 
@@ -166,17 +158,16 @@ FIELDS = {
     "lattice": (14, int, 1, COUNT, [], 0, 2),
     "corner": (15, int, -(2**31), COUNT, [], 0, 3),
 }
-EXTENSIONS = {16: "light", 17: "sequence", 18: "sequence", 19: "paper"}
+EXTENSIONS = {16: "extension light", 17: "extension sequence", 18: "extension sequence", 19: "extension paper"}
 
 
 def parse_header(payload):
     require(len(payload) <= 65536, "a header of too many bytes")  # F 4.9
     h, entries, names = {}, canonical_map(payload), {field[0]: name for name, field in FIELDS.items()}
-    for key, _ in entries:
-        require(type(key) is int, "a key is not an integer")  # F 4.1
+    require(all(type(key) is int for key, _ in entries), "a key is not an integer")  # F 4.1
     for key, _ in entries:  # F 4.2, F 4.8
         if key not in names:
-            raise UnsupportedError(f"extension {EXTENSIONS.get(key, key)}")
+            raise UnsupportedError(EXTENSIONS.get(key, f"key {key}"))
     for key, value in entries:
         _, kind, low, high, default, *lengths = FIELDS[names[key]]
         items = value if lengths and type(value) is list else [value]
@@ -267,21 +258,14 @@ def read_frames(stream, packets):
 
 def sweep(graph, segment, start):
     """M 3.3: distance of every vertex of the segment from `start`, and the order in which they were found."""
-    inside, distance, found = set(segment), {start: 0}, [start]
-    level, frontier = 0, [start]
-    while len(found) < len(segment) or frontier:
-        level, behind, frontier = level + 1, frontier, []
-        for v in behind:
-            for w in graph[v]:
-                if w in inside and w not in distance:
-                    distance[w] = level
-                    frontier.append(w)
-                    found.append(w)
-        if not frontier and len(found) < len(segment):
-            rest = next(v for v in reversed(segment) if v not in distance)
-            distance[rest] = level
-            frontier.append(rest)
-            found.append(rest)
+    distance, found, left = {start: 0}, [start], {*segment} - {start}
+    for v in found:  # `found` grows meanwhile
+        more = [w for w in graph[v] if w in left]
+        if not more and v == found[-1] and left:
+            more = [next(w for w in reversed(segment) if w in left)]
+        left -= {*more}
+        distance |= dict.fromkeys(more, distance[v] + 1)
+        found += more
     return distance, found
 
 
@@ -332,15 +316,12 @@ def derive_labels(graph, parts):  # M 4
 
 
 def chain_of(graph, labels, parts):  # M 5.1: the parts in the order of the blocks
-    edges = [{} for _ in range(parts)]
+    edges = [Counter() for _ in range(parts)]
     for v, row in enumerate(graph):
-        for w in row:
-            if labels[v] != labels[w]:
-                edges[labels[v]][labels[w]] = edges[labels[v]].get(labels[w], 0) + 1
-    chain, shared = [0], [0] * parts
+        edges[labels[v]].update(labels[w] for w in row if labels[v] != labels[w])
+    chain, shared = [0], Counter()
     while len(chain) < parts:
-        for part, count in edges[chain[-1]].items():
-            shared[part] += count
+        shared.update(edges[chain[-1]])
         beside = [part for part in sorted(edges[chain[-1]]) if part not in chain]
         ways = (part for last in reversed(chain) for part in sorted(edges[last]) if part not in chain)
         if beside:
@@ -763,7 +744,8 @@ def decode_packets(packets, fault):
     return positions, np.array(faces, np.int32).reshape(-1, 3)
 
 
-def decode(stream):  # Positions, shape (n, 3), faces, shape (m, 3), and the names of the extensions that were skipped
+def decode(stream):
+    """Positions, shape (n, 3), faces, shape (m, 3), and the names of the extensions that were skipped."""
     packets, fault = {BLOCK: [], GRID: [], REFINEMENT: []}, None
     try:
         read_frames(stream, packets)

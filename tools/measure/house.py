@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 34_000,
-    "all Python, lines": 73_700,
+    "all Python, lines": 73_530,
     "product modules": 214,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
