@@ -59,11 +59,7 @@ FLOORS = {
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # Of these, only numpy is there wherever a mesh or a sequence is encoded.
-CODEC_LIBRARIES = {
-    "numpy": "bsm.codec",
-    "scipy": "bsm.codec.denoise",
-    "pymetis": "bsm.codec.blocks.partition",
-}
+CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.partition"}
 
 
 # Where each room is, and the name that it is imported by.

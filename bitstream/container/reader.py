@@ -20,14 +20,7 @@ from bsm.bitstream.container.wire import (
     parse_tag,
     write_preamble,
 )
-from bsm.bitstream.errors import (
-    ArgumentError,
-    BsmError,
-    CorruptError,
-    OptionError,
-    TruncatedError,
-    UnsupportedError,
-)
+from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.bitstream.public import public
 

@@ -11,14 +11,7 @@ import numpy as np
 from bsm.bitstream.errors import NumericError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Basis, Matrix
-from bsm.codec.basis.cost import (
-    Steps,
-    careful_cost,
-    completion_cost,
-    dictionary_cost,
-    unpaid,
-    up_to,
-)
+from bsm.codec.basis.cost import Steps, careful_cost, completion_cost, dictionary_cost, unpaid, up_to
 from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize
 
 _DONE, _NEEDS_CARE = 0, 1

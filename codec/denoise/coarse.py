@@ -23,15 +23,7 @@ Weights = Callable[[Indices], Floats]
 BLOCK_SIZE = 500  # about the paper's; half or twice of it leaves 2.4 and 0.6 % more of the angle
 OVERLAP = 1.15
 KEEP = 0.10
-RULES = ChainRules(
-    exact=False,
-    key_interval=16,
-    power=3,
-    iterations=2,
-    key_iterations=4,
-    shift=0.125,
-    stiffness=0.0,
-)
+RULES = ChainRules(exact=False, key_interval=16, power=3, iterations=2, key_iterations=4, shift=0.125, stiffness=0.0)
 
 
 class CoarseFilter:

@@ -135,10 +135,7 @@ class TriangleMesh:
         renumber = np.cumsum(used) - 1
         every_face = np.arange(len(self.faces))
         attributes = tuple(attribute.taken(kept, every_face) for attribute in self.attributes)
-        return (
-            replace(self, positions=self.positions[kept], faces=renumber[self.faces], attributes=attributes),
-            kept,
-        )
+        return (replace(self, positions=self.positions[kept], faces=renumber[self.faces], attributes=attributes), kept)
 
 
 def _as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> npt.NDArray[Any]:

@@ -176,12 +176,7 @@ class LookMetric:
         return summed(self._sums(pictures, placed, faces, normals, range(len(pictures))))
 
     def _sums(
-        self,
-        pictures: Sequence[Picture],
-        placed: Positions,
-        faces: Faces,
-        normals: Normals,
-        sides: Sequence[int],
+        self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals, sides: Sequence[int]
     ) -> Matrix:
         """What `difference` says of some sides, a row each."""
 

@@ -201,13 +201,7 @@ class Dictionaries:
 
 
 def find_sites(
-    blocks: Blocks,
-    faces: Faces,
-    first_frame: Positions,
-    *,
-    width: int,
-    threads: int | None,
-    allowance: Allowance,
+    blocks: Blocks, faces: Faces, first_frame: Positions, *, width: int, threads: int | None, allowance: Allowance
 ) -> tuple[Site, ...]:
     """What the dictionary of every part follows from, with weights from the decoded first frame."""
     graph = blocks.graph

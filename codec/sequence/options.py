@@ -13,9 +13,7 @@ from bsm.codec.choices import check_options
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.attributes.quality import checked_qualities
 
-CHOICES = {
-    "limits": tuple(NAMED_LIMITS),
-}
+CHOICES = {"limits": tuple(NAMED_LIMITS)}
 SIZES, SPANS = (5_000, 10_000), (512, 256)
 """Frames of a GOP by default, up to so many vertices and from so many on, and in between evenly; that takes much the
 same memory."""

@@ -40,12 +40,7 @@ class Cutter:
     """Cuts frames into runs."""
 
     def __init__(
-        self,
-        frames: Iterable[Frame],
-        faces: npt.ArrayLike,
-        *,
-        allowed: bool,
-        attributes: Sequence[Attribute] = (),
+        self, frames: Iterable[Frame], faces: npt.ArrayLike, *, allowed: bool, attributes: Sequence[Attribute] = ()
     ) -> None:
         self._frames = iter(frames)
         self._faces = faces

@@ -41,12 +41,7 @@ class Assembly:
     """Blends the blocks of one mesh."""
 
     def __init__(
-        self,
-        blocks: Blocks,
-        smoothing: float,
-        units: Units,
-        numbering: Numbering,
-        spend: Spend = free,
+        self, blocks: Blocks, smoothing: float, units: Units, numbering: Numbering, spend: Spend = free
     ) -> None:
         graph = blocks.graph
         self._graph = graph

@@ -7,12 +7,7 @@ from typing import ClassVar, Protocol
 
 import numpy as np
 
-from bsm.bitstream.coefficients.adaptive import (
-    MAX_LEVEL,
-    CoefficientModel,
-    decode_coefficients,
-    encode_coefficients,
-)
+from bsm.bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel, decode_coefficients, encode_coefficients
 from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
 from bsm.bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
 from bsm.bitstream.container.header import Header

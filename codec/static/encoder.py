@@ -293,11 +293,7 @@ class Encoder:
         options = self.options
         parts = Parts(options.block_size, options.overlap, options.paper.partition == "metis")
         return prepare(
-            self._joined.mesh,
-            parts,
-            keep_order=options.keep_order,
-            splits=self._joined.splits,
-            light=options.quick,
+            self._joined.mesh, parts, keep_order=options.keep_order, splits=self._joined.splits, light=options.quick
         )
 
     def _search(self, contract: Contract, progress: Progress | None) -> Search:

@@ -146,13 +146,7 @@ class PreambleStage:
                 raise unreadable(arrival)
             case _:
                 structure = Structure(
-                    self.setup,
-                    self.header,
-                    self.faces,
-                    self.graph,
-                    self.numbering,
-                    self.partition,
-                    self.declarations,
+                    self.setup, self.header, self.faces, self.graph, self.numbering, self.partition, self.declarations
                 )
                 if not self.setup.tolerant:
                     for declared in self.declarations.known:

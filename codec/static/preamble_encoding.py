@@ -131,12 +131,7 @@ class Parts:
 
 
 def prepare(
-    mesh: TriangleMesh,
-    parts: Parts,
-    *,
-    keep_order: bool,
-    splits: Splits | None = None,
-    light: bool = False,
+    mesh: TriangleMesh, parts: Parts, *, keep_order: bool, splits: Splits | None = None, light: bool = False
 ) -> Prepared:
     """Code the connectivity of a mesh."""
     used, kept = mesh.without_isolated_vertices()

@@ -52,13 +52,7 @@ REFINED: list[Packet] = [
     Refinement(0, 60, b"levels"),
     Refinement(60, 40, b"more"),
 ]
-STREAMS = {
-    "static": STATIC,
-    "bare": BARE,
-    "animated": ANIMATED,
-    "grid": GRID,
-    "refined": REFINED,
-}
+STREAMS = {"static": STATIC, "bare": BARE, "animated": ANIMATED, "grid": GRID, "refined": REFINED}
 
 
 def encoded(name: str) -> bytes:

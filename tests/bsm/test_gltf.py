@@ -134,10 +134,7 @@ def test_geometry_is_coded_and_all_else_stays(source, tmp_path, capsys):
             node = node[key]
         return document.array(node)
 
-    for path in (
-        ("animations", 0, "samplers", 0, "input"),
-        ("animations", 0, "samplers", 0, "output"),
-    ):
+    for path in (("animations", 0, "samplers", 0, "input"), ("animations", 0, "samplers", 0, "output")):
         np.testing.assert_array_equal(value(after, *path), value(before, *path))
     matrices = after.tree["accessors"][after.tree["skins"][0]["inverseBindMatrices"]]
     assert after.view(matrices["bufferView"]) == before.view(7)

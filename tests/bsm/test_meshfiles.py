@@ -181,10 +181,7 @@ BAD = {
     "points.ply": (ply(SQUARE, faces=0), MeshError),
     "huge.ply": (ply("", 12000000, 12000000), TruncatedError),
     "huge_binary.ply": (ply("", 12000000, 12000000, "binary_little_endian"), TruncatedError),
-    "strips.ply": (
-        ply(SQUARE).replace("element face 1", "element tristrips 1") + "4 0 1 2 3\n",
-        MeshError,
-    ),
+    "strips.ply": (ply(SQUARE).replace("element face 1", "element tristrips 1") + "4 0 1 2 3\n", MeshError),
     "flat.ply": (ply(SQUARE + "3 0 1 2\n").replace("float y", "float u"), MeshError),
     "no_list.ply": (ply(SQUARE + "3 0 1 2\n").replace("vertex_indices", "strange"), MeshError),
     "cut.stl": (b"\0" * 80 + (1000).to_bytes(4, "little") + bytes(50), TruncatedError),

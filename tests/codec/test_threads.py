@@ -100,11 +100,7 @@ def test_dictionaries_are_computed_without_the_interpreter_lock():
     factor = factorize(laplacian_of(grow_blocks(graph, derive_partition(graph, 1), 2025).block(0)), 0.1)
     start = first_columns(2025, 200, noisy=False)
     orthogonal_iteration(factor, start[:, :2].copy(), power=1, iterations=1)
-    running = threading.Thread(
-        target=orthogonal_iteration,
-        args=(factor, start),
-        kwargs={"power": 9, "iterations": 4},
-    )
+    running = threading.Thread(target=orthogonal_iteration, args=(factor, start), kwargs={"power": 9, "iterations": 4})
     running.start()
     steps = 0
     while running.is_alive():

@@ -9,10 +9,7 @@ import pytest
 
 SPEC = Path(__file__).parents[2] / "spec"
 FLAPS = "found.append((*flap, tip))\n        return found"
-CHANGES = {
-    "17 neighbours (V 3.1)": ("found[:16]", "found[:17]"),
-    "9 flaps (V 3.2)": (f"{FLAPS}[:8]", f"{FLAPS}[:9]"),
-}
+CHANGES = {"17 neighbours (V 3.1)": ("found[:16]", "found[:17]"), "9 flaps (V 3.2)": (f"{FLAPS}[:8]", f"{FLAPS}[:9]")}
 
 
 def decoded(folder: Path) -> dict[str, np.ndarray] | None:

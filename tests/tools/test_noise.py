@@ -6,11 +6,7 @@ import pytest
 from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.metrics import mean_edge_length
 from tests.codec.denoise.denoise_shapes import sphere
-from tools.noise import (
-    gaussian_along_normals,
-    gaussian_isotropic,
-    impulsive,
-)
+from tools.noise import gaussian_along_normals, gaussian_isotropic, impulsive
 
 POSITIONS, FACES = sphere(24)
 EDGE = mean_edge_length(POSITIONS, FACES)

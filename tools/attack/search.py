@@ -23,17 +23,7 @@ from random import Random
 
 import bsm
 from bsm.bitstream.limits import Limits
-from tools.attack.readers import (
-    DATA_URI,
-    HUGE_WORDS,
-    Sample,
-    _binary_of,
-    _grown,
-    _json_of,
-    reading,
-    samples,
-    warm_up,
-)
+from tools.attack.readers import DATA_URI, HUGE_WORDS, Sample, _binary_of, _grown, _json_of, reading, samples, warm_up
 from tools.attack.sweep import mutate
 from tools.attack.taken import Taken, bounds, taken_by_each
 

@@ -194,13 +194,7 @@ def _layers(rows: int, columns: int, chunk: int) -> bytes:
     blocks = -(-size // 4000)
     frames: Frames = [
         _header(
-            coded,
-            **PACKED,
-            blocks=blocks,
-            block_size=min(size, 8000),
-            coefficients=1,
-            power=1,
-            refinement=(1.0, 1.0),
+            coded, **PACKED, blocks=blocks, block_size=min(size, 8000), coefficients=1, power=1, refinement=(1.0, 1.0)
         ),
         _faces(coded),
         *_blocks(blocks, 1),

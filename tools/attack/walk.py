@@ -119,15 +119,11 @@ def cases(size: int) -> Iterator[Case]:
     for base, stream in bases().items():
         for name, declared in HEADER_FIELDS.items():
             for number, value in enumerate(_largest(declared, size)):
-                yield Case(
-                    f"{base} header {name} {number}",
-                    partial(with_header, stream, -1, **{name: value}),
-                )
+                yield Case(f"{base} header {name} {number}", partial(with_header, stream, -1, **{name: value}))
     for name, declared in fields_of(Declaration).items():
         for number, value in enumerate(_largest(declared, size)):
             yield Case(
-                f"declaration {name} {number}",
-                partial(with_declaration, _good()["ATTRIBUTE"], 0, **{name: value}),
+                f"declaration {name} {number}", partial(with_declaration, _good()["ATTRIBUTE"], 0, **{name: value})
             )
     for kind in FrameType:
         if kind.name not in _good() and kind is not FrameType.END:

@@ -410,9 +410,7 @@ def automatic_table(folder: Path) -> dict[str, list[float]]:
     return rows
 
 
-TABLES: dict[str, Callable[[Path], object]] = {
-    "automatic": automatic_table,
-}
+TABLES: dict[str, Callable[[Path], object]] = {"automatic": automatic_table}
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -78,13 +78,7 @@ def _fastest(work: Callable[[], Result]) -> tuple[float, Result]:
     return min(seconds), result
 
 
-BLOCKS = {
-    "bunny_34834": 70,
-    "julius_36201": 70,
-    "horse_48485": 100,
-    "armadillo_20002_derived": 40,
-    "fandisk_6475": 15,
-}
+BLOCKS = {"bunny_34834": 70, "julius_36201": 70, "horse_48485": 100, "armadillo_20002_derived": 40, "fandisk_6475": 15}
 """Meshes of the paper's mode, and into how many blocks each is cut."""
 CAD = ("fandisk_6475", "block", "twelve_dodecahedron")
 COEFFICIENT_LIMITS = (

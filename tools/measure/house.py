@@ -30,8 +30,8 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_000,
-    "all Python, lines": 73_530,
+    "product Python, lines": 33_900,
+    "all Python, lines": 73_200,
     "product modules": 214,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

@@ -140,15 +140,7 @@ def write(*, keep: bool) -> int:
         streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else good.make()
         decoder = _decode_sequence if "-sequence" in name else _decode_static
         meshes[vector] = decoder(streams[vector])
-    wrong = {
-        **BAD,
-        **BAD_FIELDS,
-        **BAD_SEQUENCES,
-        **BAD_ATTRIBUTES,
-        **BAD_LIGHT,
-        **BAD_EXACT,
-        **EDGES_BAD,
-    }
+    wrong = {**BAD, **BAD_FIELDS, **BAD_SEQUENCES, **BAD_ATTRIBUTES, **BAD_LIGHT, **BAD_EXACT, **EDGES_BAD}
     for name, bad in wrong.items():
         vector = Vector(name, bad.probes, bad.error)
         streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else bad.make()

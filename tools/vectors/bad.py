@@ -186,9 +186,7 @@ FRAMING: dict[str, Bad] = {
     "bad-end-count": Bad("END counts one frame too many", "corrupt", lambda: _end(1, 0)),
     "bad-end-crc": Bad("END has another CRC-32 of the stream", "corrupt", lambda: _end(0, 1)),
     "bad-end-long": Bad(
-        "END has a byte too many",
-        "corrupt",
-        lambda: _base()[:-8] + write_frame(END, b"\x04" + bytes(5)),
+        "END has a byte too many", "corrupt", lambda: _base()[:-8] + write_frame(END, b"\x04" + bytes(5))
     ),
     "bad-skippable-first": Bad("a skippable frame before HEADER", "corrupt", _framed(lambda f: f.insert(0, (8, b"")))),
     "bad-connectivity-first": Bad("CONNECTIVITY before HEADER", "corrupt", _framed(_swap(HEADER, CONNECTIVITY))),
@@ -240,9 +238,7 @@ HEADERS: dict[str, Bad] = {
     "bad-block-large": Bad("blocks larger than the mesh", "corrupt", _entries(block_size=57)),
     "bad-blocks-small": Bad("blocks too small to cover the mesh", "corrupt", _entries(block_size=20)),
     "bad-blocks-overlap": Bad(
-        "blocks that overlap too much",
-        "corrupt",
-        _entries(vertices=5000, faces=10_000, blocks=3000, block_size=50),
+        "blocks that overlap too much", "corrupt", _entries(vertices=5000, faces=10_000, blocks=3000, block_size=50)
     ),
     "bad-coefficients-many": Bad("more coefficients than rows", "corrupt", _entries(coefficients=50)),
     "bad-sequence-short": Bad("frames without a length for GOPs", "corrupt", _entries(sequence=[3])),
@@ -273,11 +269,7 @@ HEADERS: dict[str, Bad] = {
     ),
     "bad-limit-memory": Bad("a dictionary of 108 MB", "limit", lambda: one_block(36, 36, 1296, power=1)),
     "bad-key-order": Bad("keys that descend", "corrupt", _map(_reversed)),
-    "bad-key-repeated": Bad(
-        "a key twice",
-        "corrupt",
-        _map(lambda e: write_map([(1, 56), *sorted(e.items())])),
-    ),
+    "bad-key-repeated": Bad("a key twice", "corrupt", _map(lambda e: write_map([(1, 56), *sorted(e.items())]))),
     "bad-key-negative": Bad("a negative key", "corrupt", _map(lambda e: write_map([(-1, 1), *sorted(e.items())]))),
     "bad-key-string": Bad(
         "a string among integer keys", "corrupt", _map(lambda e: write_map([*sorted(e.items()), ("a", 1)]))
@@ -365,9 +357,7 @@ PAYLOADS: dict[str, Bad] = {
         "a block index that is too large", "corrupt", _framed(_edit(BLOCK, lambda p: b"\x7f" + p[1:], which=1))
     ),
     "bad-block-descending": Bad(
-        "block indices that descend",
-        "corrupt",
-        _framed(lambda f: f.__setitem__(slice(2, 4), [f[3], f[2]])),
+        "block indices that descend", "corrupt", _framed(lambda f: f.__setitem__(slice(2, 4), [f[3], f[2]]))
     ),
     "bad-block-repeated": Bad("a block index twice", "corrupt", _framed(lambda f: f.insert(2, f[2]))),
     "bad-block-missing": Bad("the first block is missing", "corrupt", _framed(lambda f: f.pop(2))),

@@ -226,9 +226,7 @@ BAD_ATTRIBUTES: dict[str, Bad] = {
         lambda: with_declaration(_unsigned(), 0, largest=[2**32 - 65537]),
     ),
     "bad-attribute-loose": Bad(
-        "no rows for loose vertices",
-        "corrupt",
-        lambda: with_declaration(encode(_split(), ORDERED), 2, rows=56),
+        "no rows for loose vertices", "corrupt", lambda: with_declaration(encode(_split(), ORDERED), 2, rows=56)
     ),
     "bad-sequence-attribute-leans": Bad(
         "an attribute of a sequence that leans", "corrupt", lambda: with_declaration(_sequence(), 0, leans=1)

@@ -217,9 +217,7 @@ BAD_SEQUENCES: dict[str, Bad] = {
         "a frame that refers to one before the first", "corrupt", _frames(_without(0), base="low-delay")
     ),
     "bad-sequence-next-after-gop": Bad(
-        "a first frame that refers to the one before it",
-        "corrupt",
-        _gop(lambda d: b"\x02" + d[1:], base="low-delay"),
+        "a first frame that refers to the one before it", "corrupt", _gop(lambda d: b"\x02" + d[1:], base="low-delay")
     ),
     "bad-sequence-learnt-next-first": Bad(
         "a first GOP that refers to one before it", "corrupt", _gop(lambda d: b"\x03" + d[1:])

@@ -156,11 +156,7 @@ STATIC: dict[str, Good] = {
     "good-fine": _static("a fine step: levels of many bits", _small, step=1e-6, keep=1.0),
     "good-coarse": _static("a coarse step: most levels are 0", _small, step=0.04),
     "good-all": _static(
-        "everything as the encoder chooses it",
-        lambda: torus(24, 16),
-        block_size=100,
-        keep=0.2,
-        smoothing=1.0,
+        "everything as the encoder chooses it", lambda: torus(24, 16), block_size=100, keep=0.2, smoothing=1.0
     ),
     "good-far": _static(
         "a mesh far from the origin, and small",

@@ -8,14 +8,7 @@ import numpy.typing as npt
 from bsm.codec import _kernels
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.normals import filter_normals, patch_guidance
-from bsm.codec.denoise.surface import (
-    FaceGeometry,
-    Floats,
-    Topology,
-    face_geometry,
-    mean_centroid_distance,
-    reach,
-)
+from bsm.codec.denoise.surface import FaceGeometry, Floats, Topology, face_geometry, mean_centroid_distance, reach
 from bsm.codec.geometry.graph import Rows
 
 Singles = npt.NDArray[np.float32]

@@ -13,16 +13,7 @@ from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import BsmError, CorruptError, NumericError
 from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
-from bsm.bitstream.fields.grid import (
-    Cells,
-    Floats,
-    Numbers,
-    cells_of,
-    floats_of,
-    grid_field,
-    light_field,
-    spread,
-)
+from bsm.bitstream.fields.grid import Cells, Floats, Numbers, cells_of, floats_of, grid_field, light_field, spread
 from bsm.codec.arrays import Indices, Levels, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.attributes.decoding import Complete, ValuesStage, completed

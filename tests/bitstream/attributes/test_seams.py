@@ -88,10 +88,7 @@ def test_without_seams_there_is_next_to_nothing():
         face
         for i in range(49)
         for j in range(49)
-        for face in (
-            [rows[i][j], rows[i][j + 1], rows[i + 1][j]],
-            [rows[i + 1][j], rows[i][j + 1], rows[i + 1][j + 1]],
-        )
+        for face in ([rows[i][j], rows[i][j + 1], rows[i + 1][j]], [rows[i + 1][j], rows[i][j + 1], rows[i + 1][j + 1]])
     ]
     corners = corners_of(faces, 2500)
     assert len(encode_seams(corners, find_seams(corners, faces))) <= 4

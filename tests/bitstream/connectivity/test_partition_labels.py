@@ -11,11 +11,7 @@ from bsm.bitstream.errors import BsmError
 def grid(rows, columns):
     """CSR of a grid with diagonals, rows sorted."""
     index = np.arange(rows * columns).reshape(rows, columns)
-    pairs = [
-        (index[:, 1:], index[:, :-1]),
-        (index[1:], index[:-1]),
-        (index[1:, 1:], index[:-1, :-1]),
-    ]
+    pairs = [(index[:, 1:], index[:, :-1]), (index[1:], index[:-1]), (index[1:, 1:], index[:-1, :-1])]
     a = np.concatenate([p.ravel() for p, _ in pairs])
     b = np.concatenate([q.ravel() for _, q in pairs])
     ends = sorted(zip(np.r_[a, b].tolist(), np.r_[b, a].tolist(), strict=True))

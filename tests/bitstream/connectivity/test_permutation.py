@@ -10,12 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.order import (
-    decode_permutation,
-    decode_rotations,
-    encode_permutation,
-    encode_rotations,
-)
+from bsm.bitstream.connectivity.order import decode_permutation, decode_rotations, encode_permutation, encode_rotations
 from bsm.bitstream.container.splits import decode_order, encode_order
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS

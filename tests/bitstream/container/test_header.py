@@ -319,8 +319,7 @@ def test_limits():
 
 
 @pytest.mark.parametrize(
-    "changes",
-    [{"vertices": 0}, {"vertices": 1.5}, {"step": math.nan}, {"step": "x"}, {"light": 3}, {"center": (1, 2)}],
+    "changes", [{"vertices": 0}, {"vertices": 1.5}, {"step": math.nan}, {"step": "x"}, {"light": 3}, {"center": (1, 2)}]
 )
 def test_a_header_cannot_be_made_of_illegal_values(changes):
     with pytest.raises(OptionError):

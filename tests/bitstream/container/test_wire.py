@@ -20,8 +20,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 
 @pytest.mark.parametrize(
-    ("value", "expected"),
-    [(0, "00"), (1, "01"), (127, "7f"), (128, "8001"), (300, "ac02"), (2**35 - 1, "ffffffff7f")],
+    ("value", "expected"), [(0, "00"), (1, "01"), (127, "7f"), (128, "8001"), (300, "ac02"), (2**35 - 1, "ffffffff7f")]
 )
 def test_varint_known_bytes(value, expected):
     assert write_varint(value).hex() == expected

@@ -285,8 +285,7 @@ def test_an_off(head, behind, of_face, expected):
 
 
 @pytest.mark.parametrize(
-    ("behind", "of_face", "dropped"),
-    [(" 7 8 9", "", "numbers behind the coordinates"), ("", " 5", "colours of faces")],
+    ("behind", "of_face", "dropped"), [(" 7 8 9", "", "numbers behind the coordinates"), ("", " 5", "colours of faces")]
 )
 def test_what_an_off_loses(behind, of_face, dropped):
     rows = "".join(f"{row}{behind}\n" for row in ("0 0 0", "1 0 0", "1 1 0"))
@@ -357,10 +356,7 @@ def by_material(mesh):
 
 def test_faces_of_an_obj_are_grouped_unless_they_are():
     mesh = torus(40, 24)
-    for numbers, changes in (
-        (np.arange(len(mesh.faces)) % 3, 3),
-        (np.arange(len(mesh.faces)) // 100 % 3, 20),
-    ):
+    for numbers, changes in ((np.arange(len(mesh.faces)) % 3, 3), (np.arange(len(mesh.faces)) // 100 % 3, 20)):
         of_faces = Attribute("material", numbers, "face")
         data = format_mesh(TriangleMesh(mesh.positions, mesh.faces, [of_faces]), "obj")
         assert data.count(b"usemtl") == changes

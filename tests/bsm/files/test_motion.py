@@ -79,10 +79,7 @@ def painted(frames=COUNT):
     positions = positions.astype(np.float32).astype(np.float64)
     corners = positions[0][faces][:, :, :2].reshape(-1, 2).astype(np.float32) * 0.3 + 0.5
     color = (np.abs(positions[0]) * 99).astype(np.uint8)
-    attributes = (
-        Attribute("texcoord", corners, "corner", "texcoord"),
-        Attribute("color", color, "vertex", "color"),
-    )
+    attributes = (Attribute("texcoord", corners, "corner", "texcoord"), Attribute("color", color, "vertex", "color"))
     return positions, faces, attributes
 
 

@@ -93,12 +93,7 @@ def test_the_smallest_meshes_pass(count: int) -> None:
 # best iteration by an oracle that knows the clean mesh.
 @pytest.mark.slow
 @pytest.mark.real
-@pytest.mark.parametrize(
-    ("clean", "noisy", "oracle"),
-    [
-        ("twelve_dodecahedron", "twelve_dodecahedron_noisy", 3.60),
-    ],
-)
+@pytest.mark.parametrize(("clean", "noisy", "oracle"), [("twelve_dodecahedron", "twelve_dodecahedron_noisy", 3.60)])
 def test_it_is_as_good_as_the_best_fixed_scheme_with_an_oracle(
     partners: Partners, clean: str, noisy: str, oracle: float
 ) -> None:

@@ -29,14 +29,7 @@ def blocks_of(mesh: TriangleMesh, parts: int) -> Blocks:
 
 def dictionaries(mesh: TriangleMesh, parts: int, width: int, allowance: Allowance | None = None) -> Dictionaries:
     allowance = allowance or Allowance(Limits())
-    sites = find_sites(
-        blocks_of(mesh, parts),
-        mesh.faces,
-        mesh.positions,
-        width=width,
-        threads=1,
-        allowance=allowance,
-    )
+    sites = find_sites(blocks_of(mesh, parts), mesh.faces, mesh.positions, width=width, threads=1, allowance=allowance)
     return Dictionaries(sites, FIRST_FRAME, allowance, threads=2)
 
 

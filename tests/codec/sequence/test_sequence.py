@@ -478,8 +478,7 @@ def test_long_motion_is_one_gop_or_two_whatever_costs_less():
 
 
 @pytest.mark.parametrize(
-    ("vertices", "low_delay", "frames"),
-    [(1, 0, 512), (5000, 0, 512), (7500, 0, 384), (10_000, 0, 256), (100, 1, 256)],
+    ("vertices", "low_delay", "frames"), [(1, 0, 512), (5000, 0, 512), (7500, 0, 384), (10_000, 0, 256), (100, 1, 256)]
 )
 def test_gops_have_fewer_frames_of_larger_meshes(vertices, low_delay, frames):
     assert SequenceOptions(low_delay=low_delay).longest(vertices) == frames

@@ -21,11 +21,7 @@ ORDER = ("small", "balanced", "fine", "near-lossless")
 ROOMS, TOO_LARGE = ("assets", "hostile", "static"), "static/dragon_437645.ply"
 
 
-BY_CHANCE = (
-    "hostile/c3d_teapot.obj",
-    "hostile/draco_triangle_with_degenerate_tex_coords.obj",
-    "hostile/igl_truck.obj",
-)
+BY_CHANCE = ("hostile/c3d_teapot.obj", "hostile/draco_triangle_with_degenerate_tex_coords.obj", "hostile/igl_truck.obj")
 """Out of order: small by 3 bytes; near-lossless with a look of 0.23 after 0.16 of fine; fine with 0.879 after 0.872, in
 the mesh's own unit."""
 

@@ -54,10 +54,7 @@ def test_what_cannot_be_met_is_an_error_that_says_the_best_there_is(finest):
     assert finest <= min(steps) <= 1.0001 * finest, "the finest, and not a hair finer"
 
 
-@pytest.mark.parametrize(
-    ("kind", "value"),
-    [("theta_deg", 5.0), ("nmsve_db", -40.0), ("bpv", 8.0), ("size", 1200)],
-)
+@pytest.mark.parametrize(("kind", "value"), [("theta_deg", 5.0), ("nmsve_db", -40.0), ("bpv", 8.0), ("size", 1200)])
 def test_targets_are_met_by_what_the_decoder_sees(kind, value):
     mesh = torus(50, 30)
     encoder = Encoder(mesh, EncodeOptions(block_size=200, contract=None, target=Target(kind, value)))

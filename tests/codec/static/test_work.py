@@ -162,12 +162,7 @@ def test_every_preset_is_within_the_limits_of_a_service(preset, spent):
 
 @pytest.mark.parametrize(
     "options",
-    [
-        {"bits": 12},
-        {"bits": 12, "key_interval": 1, "key_seed": "cosines"},
-        {"step": 0.002},
-        {"doi": (1e-4, 1e-2)},
-    ],
+    [{"bits": 12}, {"bits": 12, "key_interval": 1, "key_seed": "cosines"}, {"step": 0.002}, {"doi": (1e-4, 1e-2)}],
 )
 def test_an_encoder_does_the_sums_of_the_decoder(options, spent):
     encoder = Encoder(torus(60, 50), changed(EncodeOptions(), **{"block_size": 300, "key_interval": 3, **options}))

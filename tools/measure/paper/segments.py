@@ -133,10 +133,7 @@ def number_of_segments(study: Study) -> Exhibit:
         Column("MND, weighted average", 4, 0.05, _UNSTATED),
         Column("gain by weights", 4),
     )
-    pictures = [
-        portrait("original", model, model.clean, pixels),
-        portrait("noisy", model, model.noisy, pixels),
-    ]
+    pictures = [portrait("original", model, model.clean, pixels), portrait("noisy", model, model.noisy, pixels)]
     rows = []
     for segments, (simple_there, weighted_there) in study.effort.some(BUNNY.items()):
         study.note(f"Bunny, {segments} segments")

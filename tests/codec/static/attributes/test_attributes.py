@@ -86,12 +86,7 @@ def compared(given: TriangleMesh, decoded: TriangleMesh, encoder: Encoder) -> di
 
 @pytest.mark.parametrize(
     "options",
-    [
-        EncodeOptions(),
-        PRESETS["grid14"],
-        EncodeOptions(keep_order=True),
-        replace(PRESETS["grid14"], keep_order=True),
-    ],
+    [EncodeOptions(), PRESETS["grid14"], EncodeOptions(keep_order=True), replace(PRESETS["grid14"], keep_order=True)],
     ids=["blocks", "grid", "blocks in order", "grid in order"],
 )
 @pytest.mark.parametrize("shape", [patch(30, 24), torus(), tetrahedron()], ids=["patch", "torus", "tetrahedron"])
