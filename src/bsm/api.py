@@ -269,9 +269,12 @@ def encode_frames(
     meshes : iterable of meshes, pairs of arrays, or paths
         A frame each, as `encode` takes a mesh. Colours and numbers of vertices may change from frame to frame; other
         attributes are those of the first frame with other faces than before.
-    options, metadata, **keywords
-        As `encode_sequence` takes them; faces may change unless `runs` is false. Targets are for frames that share
-        them.
+    options : SequenceOptions, optional
+        As `encode_sequence` takes them; faces may change unless `runs` is false.
+    metadata : mapping of str, optional
+        What belongs to the whole sequence.
+    **keywords
+        Fields of the options. Targets are for frames that share them.
 
     Returns
     -------

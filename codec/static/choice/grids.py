@@ -17,9 +17,10 @@ from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid
 
 NEAR_PLACE = 3.0  # how far shaping may bring a vertex from its place, in cells, where bounds are wide
-FINEST_BITS, PARTS_OF_OCTAVE, WIDER, MOST_TRIED = 16, 128, 1.4, 8
+FINEST_BITS, PARTS_OF_OCTAVE, WIDER, MOST_TRIED, APART = 16, 128, 1.4, 8, 1.02
 """Bits along the longest side of the finest grid on which a mesh may have been made; how many steps are compared
-between one and twice it; how much coarser ones may be than one that is about right; and how many are tried."""
+between one and twice it; how much coarser ones may be than one that is about right; how many are tried; and how far
+apart, at least, those are that are coarser."""
 MOST_PARTS = 256  # of models of few vertices: cells along the longest side
 
 
@@ -37,7 +38,8 @@ class Gridded:
         below = np.where(narrow > low, np.nextafter(narrow, np.float32(-np.inf)), narrow).astype(np.float64)
         self._origin = below if fine else low
         self._low = prepared.units.into(self._origin)
-        self.least = float((prepared.positions - self._low).max()) / (MOST_LARGEST - 4)
+        smallest = float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale
+        self.least = max(float((prepared.positions - self._low).max()) / (MOST_LARGEST - 4), smallest)
         self.most = COARSEST
         self.first = min(bounds.first_step, COARSEST)
 
@@ -64,9 +66,9 @@ class Gridded:
         return self._candidate(grid, places - least)
 
     def smooth(self, right: float) -> Iterator[Candidate]:
-        """Grids on which the mesh takes less than on those beside them, as where it was made on one: the least first.
+        """Grids on which the mesh takes less than on those beside them, as where it was made on one.
 
-        Finer ones than one that is about right, and hardly coarser.
+        First ones that are finer than one that is about right, and take less all the same; then ones that are coarser.
         """
         character, extent = self._shaper.character, float(extent_of(self._prepared.positions).max())
         steps = {extent / ((1 << bits) - 1) for bits in range(1, FINEST_BITS)}
@@ -77,7 +79,13 @@ class Gridded:
             entropies[1:-1] < character.entropy(right)
         )
         found = np.flatnonzero(low) + 1
-        yield from (self.at(tried[i]) for i in found[np.argsort(entropies[found])][:MOST_TRIED])
+        made, last = [i for i in found if tried[i] <= right], right
+        made.sort(key=lambda i: float(entropies[i]))
+        for i in found:
+            if tried[i] > APART * last:
+                made.append(i)
+                last = tried[i]
+        yield from (self.at(tried[i]) for i in made[:MOST_TRIED])
 
     def fitting(self) -> Iterator[Candidate]:
         """Grids that a model of few vertices fits better than all coarser ones, from its corner or from its zero."""
