@@ -55,8 +55,10 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
     target = Path(os.path.realpath(path))
     refuse_to_overwrite(path, overwrite)
     with termination_as_exception(), _by_its_own_name(path):
-        handle, name, lock = _temporary(target)
+        name = lock = None
         try:
+            with _signals_wait():
+                handle, name, lock = _temporary(target)
             with os.fdopen(handle, "wb") as file:
                 yield file
                 file.flush()
@@ -67,12 +69,26 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
             else:
                 _rename_unless_present(name, target)
         except BaseException:
-            with suppress(FileNotFoundError):
-                os.unlink(name)
+            if name is not None:
+                with suppress(FileNotFoundError):
+                    os.unlink(name)
             raise
         finally:
             if lock is not None:
                 os.close(lock)
+
+
+@contextmanager
+def _signals_wait() -> Iterator[None]:
+    """Until what is made is held by who takes it away again."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
