@@ -87,7 +87,7 @@ SETTINGS = (
     Setting("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
     Setting("block_size", int, "N", "vertices of a block before overlap, about (default 550)"),
     Setting("partition", str, "derived|metis", "who cuts the mesh into blocks (default derived: both sides)"),
-    Setting("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with --bits svd)"),
+    Setting("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with bits svd)"),
     Setting("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 32)"),
     Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
