@@ -50,7 +50,7 @@ def test_an_image_that_is_missing_is_named(tmp_path):
     }
     (tmp_path / "mesh.gltf").write_text(json.dumps(tree))
     notes = " ".join(read_mesh(tmp_path / "mesh.gltf").notes)
-    assert "the image lost.png was left out: there is no such file" in notes
+    assert "the image lost.png was left out: there is no such file beside the mesh" in notes
     assert "the image ../secret.png was left out: it is not in the folder" in notes
 
 

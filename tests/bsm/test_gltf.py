@@ -405,11 +405,12 @@ def test_a_gltf_with_files_beside_it(tmp_path):
     (tmp_path / "loop").symlink_to("loop")
     os.mkfifo(tmp_path / "pipe")
     for uri, why in {
-        "../elsewhere.bin": "not in its folder",
-        "https://example.org/a.bin": "no file beside",
-        "loop": "cannot be opened|no file beside",
-        "pipe": "no file beside",
-        "none": "no file beside",
+        "../elsewhere.bin": "not in the folder",
+        "https://example.org/a.bin": "no such file beside",
+        "loop": "cannot be opened|no such file beside",
+        "pipe": "no such file beside",
+        "none": "no such file beside",
+        "./" * 600: "1200 characters",
         "a\0b": "cannot be opened",
     }.items():
         tree["buffers"][0]["uri"] = uri

@@ -13,6 +13,7 @@ import urllib.parse
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias, Union, cast
 
 from bsm.bitstream.errors import ArgumentError, BsmError, DependencyError, FormatError, LimitError, OptionError
@@ -21,6 +22,7 @@ from bsm.bitstream.extras import how_to_install
 _URL = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+)(?:::|://)")
 _PIECE, _IN_MEMORY = 1 << 20, 1 << 26
 """Bytes that are sent at a time, and those that wait in memory and not on the disk."""
+_LONGEST_NAME = 1024  # of a file beside another: resolving takes the square of it
 _WEB = ("http", "https")
 _VERSIONS = (
     "ETag",
@@ -63,6 +65,22 @@ def name_in(url: str) -> str:
 
 def beside(url: str, name: str) -> str:
     return f"{_path(url).rpartition('/')[0]}/{name}"
+
+
+def file_beside(folder: Path, name: str) -> Path:
+    """The regular file in a folder, or below, that a file there names; why there is none as a `FormatError`."""
+    if len(name) > _LONGEST_NAME:
+        raise FormatError(f"its name has {len(name)} characters")
+    try:
+        path = Path(folder, name).resolve()
+        inside, is_file = path.is_relative_to(folder.resolve()), path.is_file()
+    except (OSError, RuntimeError, ValueError) as error:  # of a loop of links, or a NUL
+        raise FormatError(f"it cannot be opened: {error}") from error
+    if not inside:
+        raise FormatError("it is not in the folder of the mesh")
+    if not is_file:
+        raise FormatError("there is no such file beside the mesh")
+    return path
 
 
 def inside(folder: str, name: str) -> str:

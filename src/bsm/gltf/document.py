@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, FormatError, LimitError, TruncatedError, UnsupportedError
 from bsm.bitstream.limits import Limits
-from bsm.files.pipes import Input
+from bsm.files.pipes import Input, file_beside
 from bsm.files.room import require_count
 
 Array = npt.NDArray[Any]
@@ -191,22 +191,16 @@ def _resource(uri: str, folder: Path | None) -> bytes:
         except ValueError as error:
             raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
     if folder is None:
-        raise FormatError(f"this glTF needs the file {uri} beside it, and did not come from a folder")
+        raise FormatError(f"this glTF needs the file {uri[:80]} beside it, and did not come from a folder")
     return Input(str(_file(uri, folder))).read_all()
 
 
 def _file(uri: str, folder: Path) -> Path:
     """The regular file in the folder of a document, or below, that is meant."""
     try:
-        path = Path(folder, unquote(uri)).resolve()
-        inside, is_file = path.is_relative_to(folder.resolve()), path.is_file()
-    except (OSError, RuntimeError, ValueError) as error:  # of a loop of links, or a NUL
-        raise FormatError(f"this glTF refers to {uri}, which cannot be opened: {error}") from error
-    if not inside:
-        raise FormatError(f"this glTF refers to {uri}, which is not in its folder")
-    if not is_file:
-        raise FormatError(f"this glTF refers to {uri}, which is no file beside it")
-    return path
+        return file_beside(folder, unquote(uri))
+    except FormatError as error:
+        raise FormatError(f"this glTF refers to {uri[:80]}, but {error}") from error
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes]:

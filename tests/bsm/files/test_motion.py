@@ -455,7 +455,7 @@ def test_files_elsewhere_are_not_read(tmp_path):
     assert frames_of(tmp_path / "in" / "a.gltf")[0].count == 25
     tree["buffers"][0]["uri"] = "../a.bin"
     (tmp_path / "in" / "a.gltf").write_text(json.dumps(tree))
-    with pytest.raises(FormatError, match="not in its folder"):
+    with pytest.raises(FormatError, match="not in the folder"):
         frames_of(tmp_path / "in" / "a.gltf")
 
 

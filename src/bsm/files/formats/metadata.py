@@ -18,8 +18,10 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.container.wire import MAX_ENTRIES
+from bsm.bitstream.errors import FormatError
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.files.pipes import file_beside
 
 Value: TypeAlias = "str | int | float | bytes"
 Material: TypeAlias = dict[str, "str | int | float"]
@@ -271,18 +273,16 @@ def _beside(folder: Path | None, name: str, most: int) -> bytes | str:
     """The bytes of a file beside the mesh, or why there are none."""
     if folder is None:
         return "the mesh did not come from a file"
-    root = folder.resolve()
-    relative = name.replace("\\", "/")
-    try:
-        for candidate in (relative, relative.rpartition("/")[2]):
-            path = Path(root, candidate).resolve()
-            if not path.is_relative_to(root) or not path.is_file():
-                continue
-            size = path.stat().st_size
-            return path.read_bytes() if size <= most else f"its {size} bytes are more than the {most} of all metadata"
-    except (OSError, ValueError) as error:
-        return str(error)
-    return "there is no such file beside the mesh"
+    relative, reason = name.replace("\\", "/"), ""
+    for candidate in (relative, relative.rpartition("/")[2]):
+        try:
+            path = file_beside(folder, candidate)
+        except FormatError as error:
+            reason = str(error)
+            continue
+        size = path.stat().st_size
+        return path.read_bytes() if size <= most else f"its {size} bytes are more than the {most} of all metadata"
+    return reason
 
 
 _MOST_BYTES = 1 << 15  # of the remarks of one file

@@ -25,6 +25,7 @@ from bsm.files.formats.polygons import (
     meaning_of,
     sorted_into_parts,
 )
+from bsm.files.pipes import file_beside
 from bsm.files.room import require_count
 from bsm.files.rows import Doubles
 
@@ -59,17 +60,17 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
             f"3MF and DAE among them, after: {how_to_install('formats')})"
         )
     try:
-        with np.errstate(all="ignore"):  # what is not finite is refused later
-            scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
-            found = joined(scene, limits, len(data))
         tree, up = {}, re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
         if kind in ("glb", "gltf"):
             tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")] if kind == "glb" else data)
         absent, unread = _absent_images(tree, path), _unread(tree)
+        with np.errstate(all="ignore"):  # what is not finite is refused later
+            scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
+            found = joined(scene, limits, len(data))
     except (BsmError, MemoryError):
         raise
     except Exception as error:  # it promises nothing about what damaged files raise
-        raise FormatError(f"trimesh cannot read this file: {type(error).__name__}: {error}") from error
+        raise FormatError(f"trimesh cannot read this file: {type(error).__name__}: {str(error)[:200]}") from error
     axis = {"up": "y"} if tree else {"up": up[1].decode().lower()} if up else {}
     metadata = {**axis, **found.metadata}
     if metadata.get("name") == Path(path or "").name:
@@ -78,15 +79,20 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
 
 
 def _absent_images(tree: dict[str, Any], path: str | None) -> list[str]:
-    """Notes about images that a glTF names, and that do not lie in its folder or below."""
-    named, notes = [image["uri"] for image in tree.get("images", []) if "uri" in image], []
-    folder = None if path is None else Path(path).resolve().parent
-    for name in (unquote(one) for one in named if not one.startswith("data:")):
-        image = None if folder is None else (folder / name).resolve()
-        if folder is None or image is None or not image.is_relative_to(folder):
-            notes.append(f"the image {name} was left out: it is not in the folder of the mesh")
-        elif not image.is_file():
-            notes.append(f"the image {name} was left out: there is no such file")
+    """Notes about images that a glTF names, and that do not lie in its folder or below; buffers must."""
+    notes = []
+    for kind in ("buffer", "image"):
+        # trimesh takes for a name what is not base64.
+        uris = [one.get("uri", "base64,") for one in tree.get(f"{kind}s", [])]
+        for name in (unquote(uri) for uri in uris if "base64," not in uri):
+            try:
+                if path is None:
+                    raise FormatError("the mesh did not come from a file")
+                file_beside(Path(path).resolve().parent, name)
+            except FormatError as error:
+                if kind == "buffer":
+                    raise FormatError(f"the buffer {name[:80]} is missing: {error}") from error
+                notes.append(f"the image {name[:80]} was left out: {error}")
     return notes
 
 
