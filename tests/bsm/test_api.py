@@ -2,9 +2,6 @@
 
 import io
 import mmap
-import os
-import threading
-from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -93,50 +90,6 @@ def test_a_file_that_cannot_seek(stream, decoded):
 
     assert same(bsm.decode(Trickle(stream)), decoded)
     assert same(bsm.load(Trickle(stream)), decoded)
-
-
-def test_a_pipe_and_a_named_pipe(stream, decoded, tmp_path):
-    os.mkfifo(tmp_path / "fifo")
-    reading, writing = os.pipe()
-    with open(reading, "rb") as source, fed(writing, stream):
-        assert same(bsm.load(source), decoded)
-    with fed(tmp_path / "fifo", stream):
-        assert same(bsm.load(tmp_path / "fifo"), decoded)
-
-
-@contextmanager
-def fed(target, data):
-    """Write into a pipe meanwhile."""
-
-    def feed():
-        with open(target, "wb") as file:
-            file.write(data)
-
-    thread = threading.Thread(target=feed)
-    thread.start()
-    yield
-    thread.join()
-
-
-def test_decoding_with_limits(stream):
-    with pytest.raises(bsm.LimitError):
-        bsm.decode(stream, limits=bsm.Limits(vertices=10))
-    with pytest.raises(bsm.LimitError):
-        bsm.load(stream, limits=bsm.Limits(vertices=10))
-
-
-def test_events(stream, decoded):
-    positions = np.zeros_like(decoded.positions)
-    file = io.BytesIO(stream)
-    with bsm.Decoder() as decoder:
-        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-            if event is bsm.NEED_DATA:
-                chunk = file.read(100)
-                decoder.receive_data(chunk) if chunk else decoder.receive_eof()
-            elif isinstance(event, bsm.BlockEvent):
-                positions[event.vertices] = event.positions
-    assert isinstance(event, bsm.Signal)
-    assert np.array_equal(positions, decoded.positions)
 
 
 def test_sequences():

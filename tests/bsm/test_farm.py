@@ -356,31 +356,6 @@ def test_what_was_written_and_not_yet_told_of_is_known_again(sources, tmp_path):
     assert all("resumed" in facts for facts in again)
 
 
-@pytest.mark.parametrize("name", ["..", "x\ny", "\x1b[2J", "a;rm -rf b", "$(touch owned)", "-o", "ü網"])
-def test_malicious_names_on_a_cluster(name, cluster, sources, tmp_path):
-    """Names are names there as well: nothing is written elsewhere, run, or taken for an option."""
-    folder = tmp_path / "in"
-    folder.mkdir()
-    (folder / f"{name}.ply").write_bytes(Path(sources[0]).read_bytes())
-    (facts,) = bsm.encode_many([folder / f"{name}.ply"], tmp_path / "out", dask=cluster.scheduler_address, grid=8)
-    assert "error" not in facts, facts
-    assert list(contents(tmp_path / "out")) == [f"{name}.bsm"]
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["in", "out"]
-
-
-def test_a_cluster_whose_store_fails_tells_of_each_and_goes_on(cluster, sources, tmp_path):
-    """A folder that cannot be written to, one that is a file, and an input that is cut short while it is read."""
-    (tmp_path / "file").write_bytes(b"mine")
-    (tmp_path / "cut.ply").write_bytes(Path(sources[0]).read_bytes()[:2000])
-    names, where = [tmp_path / "cut.ply", *sources[:2]], cluster.scheduler_address
-    done = bsm.encode_many(names, tmp_path / "out", dask=where, grid=8)
-    assert [facts.get("exit") for facts in done] == [12, None, None]
-    assert sorted(contents(tmp_path / "out")) == ["00.bsm", "01.bsm"]
-    with pytest.raises(OSError, match="file"):
-        bsm.encode_many(sources[:2], tmp_path / "file", dask=cluster.scheduler_address, grid=8)
-    assert (tmp_path / "file").read_bytes() == b"mine"
-
-
 NOBODYS = Path("/sys/kernel")
 """A folder in which not even root makes files."""
 

@@ -52,12 +52,6 @@ def test_meshio():
         as_mesh(meshio.Mesh(SQUARE, [("tetra", [[0, 1, 2, 3]])]))
 
 
-def test_pyvista():
-    pyvista = pytest.importorskip("pyvista")
-    mesh = as_mesh(pyvista.PolyData(SQUARE, [4, 0, 1, 2, 3, 3, 0, 2, 1]))
-    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3], [0, 2, 1]]
-
-
 @pytest.mark.parametrize("points", ["vertices", "points", "positions"])
 @pytest.mark.parametrize("faces", ["faces", "triangles"])
 def test_any_object_with_points_and_faces(points, faces):

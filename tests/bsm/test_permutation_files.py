@@ -31,11 +31,6 @@ def test_reorder_undoes_a_numbering(order):
     assert np.array_equal(back.faces, SAMPLE.faces)
 
 
-def test_reorder_closes_the_gaps_of_vertices_left_out(order):
-    back = reorder(renumbered(SAMPLE, order), 10 * order + 3)
-    assert np.array_equal(back.positions, SAMPLE.positions)
-
-
 def test_equal_numbering_is_recognised_whatever_the_order_of_faces_and_corners():
     shuffled = np.random.default_rng(1).permutation(np.roll(SAMPLE.faces, 1, axis=1))
     other = TriangleMesh(SAMPLE.positions + 1, shuffled)
@@ -44,15 +39,6 @@ def test_equal_numbering_is_recognised_whatever_the_order_of_faces_and_corners()
 
 def test_the_permutation_is_used(order):
     assert np.array_equal(in_order_of(SAMPLE, renumbered(SAMPLE, order), order), SAMPLE.positions)
-
-
-def test_the_numbering_of_the_decoder_is_recognised():
-    from bsm.codec.static.encoder import Encoder
-    from bsm.codec.static.options import EncodeOptions
-
-    encoder = Encoder(SAMPLE, EncodeOptions(block_size=100, threads=1))
-    decoded = TriangleMesh(SAMPLE.positions[encoder.vertex_order], np.argsort(encoder.vertex_order)[SAMPLE.faces])
-    assert np.array_equal(in_order_of(SAMPLE, decoded), SAMPLE.positions)
 
 
 @pytest.mark.parametrize("shift", range(4))

@@ -1,9 +1,7 @@
 """What people see first: short names, sizes in words, folders mirrored, sentences with units, maps and curves."""
 
-import copy
 import inspect
 import json
-import pickle
 
 import numpy as np
 import pytest
@@ -29,12 +27,6 @@ def test_what_is_printed_fits_a_line():
         while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
             if not isinstance(event, bsm.HeaderEvent):
                 assert len(repr(event)) < 120 and "array" not in repr(event)
-
-
-def test_errors_are_called_what_users_catch():
-    assert bsm.TargetError.__module__ == "bsm" and bsm.BsmError.__module__ == "bsm"
-    error = pickle.loads(pickle.dumps(bsm.CorruptError("no", offset=3)))
-    assert isinstance(error, bsm.CorruptError) and isinstance(copy.deepcopy(error), bsm.CorruptError)
 
 
 @pytest.mark.parametrize(

@@ -24,13 +24,6 @@ def test_packed_round_trip(bits, data):
     assert np.array_equal(unpack_coefficients(packed, values.size, bits), values)
 
 
-def test_repetitive_coefficients_shrink():
-    values = np.tile(np.arange(12), (50, 3))
-    packed = pack_coefficients(values, 12)
-    assert len(packed) < values.size * 12 // 8 // 5
-    assert np.array_equal(unpack_coefficients(packed, values.size, 12), values.ravel())
-
-
 def test_packing_refuses_what_does_not_fit():
     for values, bits in [([8], 3), ([-1], 3), ([0.5], 3), ([0], 0), ([0], 33)]:
         with pytest.raises(OptionError):

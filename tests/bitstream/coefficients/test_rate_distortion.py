@@ -65,15 +65,6 @@ def test_the_trellis_saves_a_decibel_of_error() -> None:
     assert 10 * np.log10(squared_error(levels, wanted) / wanted.size * 12) == pytest.approx(-1.09, abs=0.05)
 
 
-def test_the_model_stays_as_it_is() -> None:
-    model = CoefficientModel(64)
-    encode_coefficients(model, chosen(range(1), 0.1)[0])
-    before = model.copy()
-    choose_levels(model, targets(2), 0.2)
-    for one, other in zip((*model.bank, *model.past), (*before.bank, *before.past)):
-        np.testing.assert_array_equal(one, other)
-
-
 def test_dearer_bits_make_fewer_of_them() -> None:
     sizes = [coded_bits(chosen(range(6), weight)) for weight in (0.0, 0.1, 0.3, 1.0)]
     assert sizes == sorted(sizes, reverse=True)
@@ -105,13 +96,6 @@ def test_rows_that_are_not_worth_their_bits_are_left_out() -> None:
     assert choose_levels(CoefficientModel(64), np.zeros((9, 3), np.int64), 0.3).width == 1
     wanted[59] = 20 * TARGET_UNIT
     assert choose_levels(CoefficientModel(64), wanted, 0.3).width == 60
-
-
-def test_what_is_zero_stays_zero() -> None:
-    wanted = targets(4)
-    wanted[:, 2] = 0
-    choice = choose_levels(CoefficientModel(64), wanted, 0.3)
-    assert not choice.levels[:, 2].any() and choice.levels[:, 0].any()
 
 
 def test_what_the_model_is_not_made_for_is_refused() -> None:

@@ -48,12 +48,3 @@ def test_another_number_of_parts_is_refused():
     for parts in (4, 6):
         with pytest.raises(BsmError):
             decode_labels(data, *GRID, parts)
-
-
-@given(st.binary(max_size=40), st.integers(1, 42))
-def test_any_bytes_decode_to_a_partition_or_an_error(data, parts):
-    try:
-        labels = decode_labels(data, *GRID, parts)
-    except BsmError:
-        return
-    assert set(labels.tolist()) == set(range(parts))

@@ -3,7 +3,6 @@ damage."""
 
 from __future__ import annotations
 
-import contextlib
 import tracemalloc
 from dataclasses import replace
 from pathlib import Path
@@ -64,23 +63,6 @@ def test_values_come_back(name, mesh, reach, kind, seed, chunk, data):
     field = field_of(name, faces, vertices, largest := largest_of(name, data.draw), at, rng.integers(0, 9, vertices))
     given = offered(name, len(faces) if name == "faces" else vertices, largest, kind, seed)
     np.testing.assert_array_equal(decode(field, encode(field, given, chunk)), given)
-
-
-@named
-@settings(max_examples=100)
-@given(SOUPS, st.binary(max_size=300), SEEDS)
-def test_noise_is_a_typed_error_or_values_in_range(name, mesh, payload, seed):
-    faces, vertices = mesh
-    rows = len(faces) if name == "faces" else vertices
-    if not rows:
-        return
-    at = np.random.default_rng(seed).integers(-(2**31), 2**31, (vertices, 3))
-    largest = [254, 254] if name == "normal" else [5, 1000, MOST_LARGEST][: COLUMNS.get(name, 3)]
-    field = field_of(name, faces, vertices, largest, at)
-    with contextlib.suppress(CorruptError, TruncatedError):
-        found = FieldDecoder(field).chunk(payload, rows)[1]
-        assert (found >= field.low).all() and (found <= field.high).all()
-        assert field.canonical is None or (field.canonical(found) == found).all()
 
 
 GOLDEN: dict[str, tuple[Field, np.ndarray, list[str]]] = {
@@ -240,12 +222,6 @@ def test_counts_are_checked():
         encoder.chunk(1)
 
 
-def test_few_vertices():
-    one = grid_field(NOTHING, 1, (9, 9, 9))
-    assert decode(one, encode(one, [[5, 6, 7]])).tolist() == [[5, 6, 7]]
-    assert encode(grid_field(NOTHING, 0, (9, 9, 9)), NOTHING) == []
-
-
 def test_a_first_vertex_of_a_light_grid_by_hand():
     """Nothing is known, the guess is 0 and all decisions are even, a one being the lower half.
 
@@ -302,12 +278,6 @@ def test_what_is_known_helps():
     noise = np.tile(values(108, [0], [255], "noise", 3), (2, 1))
     alone = size_of(values_field(twice, 216, (255,)), noise)
     assert size_of(values_field(twice, 216, (255,), "plain", None, np.tile(K, 2)), noise) < 0.7 * alone
-
-
-def test_constant_values_cost_nothing():
-    colours = np.tile([[192, 192, 192, 255]], (108, 1))
-    assert size_of(values_field(TORUS, 108, colours[0], "color"), colours) < 24
-    assert size_of(face_values_field(TORUS, (1,)), np.ones((len(TORUS), 1), int)) < 12
 
 
 @given(st.integers(1, 300), st.integers(2, 2000), SEEDS)

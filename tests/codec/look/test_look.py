@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import MeshError
-from bsm.codec import _kernels
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric, judged, look
@@ -340,49 +339,3 @@ def test_normals_are_sums_of_what_is_around_and_not_behind_a_crease():
             around = (mesh.faces == mesh.faces[face, corner]).any(axis=1) & (unit @ unit[face] > CREASE)
             total = crosses[around].sum(axis=0)
             assert found[face, corner] == pytest.approx(total / np.linalg.norm(total), abs=1e-6)
-
-
-def test_kernels_refuse_what_does_not_fit():
-    shape = Shape.of(MESH.positions, MESH.faces)
-    normals = shape.normals(MESH.positions)
-    camera = cameras(MESH.positions, 64)[0]
-    room = [np.empty((64, 64), np.float32) for _ in range(3)]
-    good = (
-        MESH.positions,
-        shape.faces,
-        normals,
-        camera,
-        np.empty(MESH.positions.shape),
-        *room[:2],
-        np.empty((8, 8), np.float32),
-        room[2],
-        np.empty((64, 64), np.int32),
-    )
-    _kernels.draw_shaded(*good)
-    for place in (0, 2, 3, 4, 5, 6, 7, 9):
-        with pytest.raises(ValueError, match="fit together"):
-            _kernels.draw_shaded(*(value[:-1] if k == place else value for k, value in enumerate(good)))
-    with pytest.raises(ValueError, match="fit together"):
-        _kernels.draw_shaded(good[0], shape.faces + 10**6, *good[2:])
-    wide, narrow = np.ones(6, np.float32), np.ones(4, np.float32)
-    for first, second, scratch in ((room[0], room[1][:-1], 88), (room[0], room[1], 87)):
-        with pytest.raises(ValueError, match="fit together"):
-            rows = np.empty((scratch, 80), np.float32)
-            _kernels.likeness(first, second, wide, narrow, 0.1, 0.2, rows, np.zeros(4), np.empty((0, 0), np.float32))
-    starts, around = shape.around
-    given = [
-        MESH.positions,
-        shape.faces,
-        shape.joined,
-        starts,
-        around,
-        0.7,
-        0.9,
-        128,
-        np.empty((len(normals), 4)),
-        normals,
-    ]
-    _kernels.shown_normals(*given)
-    for place, wrong in ((1, shape.faces + 10**6), (2, shape.joined + 10**6), (4, around[:-1]), (8, given[8][:-1])):
-        with pytest.raises(ValueError, match="fit together"):
-            _kernels.shown_normals(*(wrong if k == place else value for k, value in enumerate(given)))

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from bsm.codec import _kernels
 from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.codec.sequence.temporal import BATCH, frames_of
+from bsm.codec.sequence.temporal import frames_of
 
 
 @pytest.mark.parametrize("vertices", [0, 1, 4, 37])
@@ -17,20 +16,3 @@ def test_frames_are_components_times_the_basis(vertices, first, components, widt
     expected = np.einsum("vk,dtk->tvd", field[:, first : first + components], basis)
     shown = np.array(list(frames_of(field, first, basis))).reshape(frames, vertices, width)
     assert np.allclose(shown, expected, atol=1e-14)
-
-
-def test_a_kernel_is_given_what_fits():
-    field, weights, frames = np.zeros((5, 7)), np.zeros((4, 3 * BATCH)), np.zeros((BATCH * 5, 3))
-    _kernels.show_frames(field, 3, weights, frames)
-    for first, given, to in (
-        (4, weights, frames),
-        (-1, weights, frames),
-        (0, weights[:, :-1].copy(), frames),
-        (0, weights, frames[:-1].copy()),
-        (0, weights, np.zeros(((BATCH + 1) * 5, 3))),
-        (0, weights, np.zeros((BATCH * 5, 2))),
-    ):
-        with pytest.raises(ValueError, match="fit together"):
-            _kernels.show_frames(field, first, given, to)
-    with pytest.raises(ValueError, match="fit together"):
-        _kernels.show_frames(np.zeros((0, 7)), 0, weights, frames)

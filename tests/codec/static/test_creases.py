@@ -5,7 +5,6 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from bsm.codec import _kernels
 from bsm.codec.geometry.graph import graph_of_faces, vertex_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
@@ -107,27 +106,3 @@ def test_levels_keep_creases(monkeypatch):
 def test_a_mesh_without_faces_has_none():
     creases = creases_of(np.zeros((3, 3)), np.empty((0, 3), np.int32))
     assert len(creases.pairs) == len(creases.members) == 0
-
-
-def test_kernels_refuse_what_does_not_fit():
-    positions, faces = ROUGH.positions, ROUGH.faces
-    around = vertex_faces(faces, len(positions))
-    given = [
-        positions, faces, around.starts, around.members, 128, 0.7, 0.6, 0.8, np.empty((len(faces), 4)),
-        np.empty((5, 2), np.int32), np.empty(5, np.uint8), np.empty(5),
-    ]  # fmt: skip
-    assert _kernels.collect_creases(*given) > 5
-    for place in (0, 2, 8, 9, 10, 11):
-        with pytest.raises(ValueError, match="fit together"):
-            _kernels.collect_creases(*(value[:-1] if k == place else value for k, value in enumerate(given)))
-    for place in (1, 3):
-        with pytest.raises(ValueError, match="fit together"):
-            _kernels.collect_creases(*(value + len(faces) if k == place else value for k, value in enumerate(given)))
-    pairs, members = np.zeros((4, 2), np.int32), np.empty(24, np.int32)
-    starts = np.empty(len(positions) + 1, np.int32)
-    assert _kernels.hang_creases(faces, pairs, starts, members) == 12
-    for wrongly in (faces + 900, pairs, starts, members), (faces, pairs - 1, starts, members), (
-        faces, pairs, starts, members[:-1],
-    ), (faces, pairs, starts[:-1], members):  # fmt: skip
-        with pytest.raises(ValueError, match="fit together"):
-            _kernels.hang_creases(*wrongly)

@@ -3,18 +3,16 @@
 import numpy as np
 import pytest
 
-from bsm.codec import _kernels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.signal.frames import in_frames, local_frames, tangent_steps
-from bsm.codec.static.choice.settling import AROUND, RATIO, SIZES, Sensitivity, creases_of
+from bsm.codec.static.choice.settling import RATIO, Sensitivity
 from tests.shapes import patch, together, torus
 
 MESH = torus(40, 30)
 GRAPH = graph_of_faces(MESH.faces, len(MESH.positions))
 ANYWHERE = np.full(len(MESH.positions), np.inf)
-CREASES = creases_of(torus(150, 8).positions, torus(150, 8).faces).priced(0.0)
 FRAMES = local_frames(MESH.positions, MESH.faces)
 STEPS = np.tile((0.002, 0.006, 0.006), (len(MESH.positions), 1))
 
@@ -111,32 +109,3 @@ def test_slides_keep_heights_and_follow_their_steps(sensitivity):
     slides = sensitivity.levels(wanted, FRAMES, steps, lambda _: finer, 0.001, ANYWHERE)
     assert (slides[:, 0] == levels[:, 0]).all()
     assert np.abs((finer * slides - wanted)[:, 1:]).mean() < 0.7 * np.abs((steps * levels - wanted)[:, 1:]).mean()
-
-
-def test_the_kernel_refuses_what_does_not_fit():
-    count = len(MESH.positions)
-    rates = np.ones((3 * AROUND, SIZES))
-    given = [
-        np.zeros((count, 3)), np.ones((count, 3)), np.ones((count, 2)), np.ones((count, 3)), ANYWHERE, GRAPH.offsets,
-        GRAPH.neighbours, rates, 0.8, 0, CREASES, MESH.positions, FRAMES, np.empty((count, 3)),
-        np.zeros((count, 3), np.int32), np.empty_like(rates),
-    ]  # fmt: skip
-    assert _kernels.settle_levels(*given) == 0
-    for place in (0, 1, 2, 3, 4, 5, 6, 7, 11, 12, 13, 14, 15):
-        with pytest.raises(ValueError, match="fit together"):
-            _kernels.settle_levels(*(value[:-1] if k == place else value for k, value in enumerate(given)))
-    _kernels.settle_levels(np.full((count, 3), 1e300), *given[1:])
-    with pytest.raises(ValueError, match="fit together"):
-        _kernels.settle_levels(*given[:3], np.zeros((count, 3)), *given[4:])
-    with pytest.raises(ValueError, match="fit together"):
-        _kernels.settle_levels(*given[:6], GRAPH.neighbours + count, *given[7:])
-    for other in (
-        CREASES._replace(pairs=CREASES.pairs + len(MESH.faces)),
-        CREASES._replace(faces=CREASES.faces + count),
-        CREASES._replace(costs=CREASES.costs[:-1]),
-        CREASES._replace(sharp=CREASES.sharp[:-1]),
-        CREASES._replace(starts=CREASES.starts[:-1]),
-        CREASES._replace(members=CREASES.members + len(CREASES.pairs)),
-    ):
-        with pytest.raises(ValueError, match="fit together"):
-            _kernels.settle_levels(*given[:10], other, *given[11:])

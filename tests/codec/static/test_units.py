@@ -32,11 +32,3 @@ def test_a_number_beyond_the_range_is_an_error(row, value):
     positions[row, row % 3] = value
     with pytest.raises(NumericError, match="not finite"):
         UNITS.back(positions)
-
-
-def test_what_is_no_place_in_space_is_refused():
-    for shape in ((4, 2), (4, 4)):
-        with pytest.raises(ValueError, match="fit together"):
-            UNITS.back(np.zeros(shape))
-    with pytest.raises(ValueError, match="fit together"):
-        UNITS.back(np.zeros((4, 3)), out=np.zeros((3, 3)))

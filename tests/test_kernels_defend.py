@@ -1,0 +1,120 @@
+"""Kernels that are given an array too short, or indices beyond others, refuse them, or do not need them."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bsm.bitstream import _kernels as of_bytes
+from bsm.bitstream.coefficients import adaptive
+from bsm.codec import _kernels as of_arrays
+from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.measure import LookMetric
+from bsm.codec.sequence.decoder import decode_sequence
+from bsm.codec.sequence.encoder import encode_sequence
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.signal.frames import local_frames
+from bsm.codec.static.choice.settling import Sensitivity
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import EncodeOptions, changed
+from tests.codec.static.attributes.test_attributes import dressed
+from tests.motion import bending
+from tests.shapes import torus
+from tools.vectors.good_fields import LAYER, refined
+from tools.vectors.meshes import tangled
+
+STAGES = (
+    *("find_fronts", "chain_blocks", "reaches_all", "suspend", "smooth_all", "place_block", "back_into_unit"),
+    *("show_frames", "draw_shaded", "likeness", "shown_normals", "collect_creases", "hang_creases", "settle_levels"),
+)
+"""Of the codec's kernels those that do whole stages; others are called by what has looked at its arrays."""
+NAMING, BEYOND = {"draw_shaded", "shown_normals", "collect_creases", "hang_creases", "settle_levels"}, 10**6
+"""Kernels that look at each index that they are given."""
+KERNELS = {
+    **{name: kernel for name, kernel in vars(of_bytes).items() if callable(kernel)},
+    **{name: getattr(of_arrays, name) for name in STAGES},
+}
+REFUSALS = 40
+"""Of a kernel, after which it is left alone."""
+NOTHING_SHORT = {"priors", "code_bit", "code_uniform", "code_mixed_bit", "code_signed", "points_of_levels"}
+"""Kernels that are given no array, or one that may be of any length."""
+
+
+def copied(value: Any) -> Any:
+    """Arguments with arrays of their own."""
+    if isinstance(value, tuple):
+        items = [copied(item) for item in value]
+        return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+    return value.copy() if isinstance(value, np.ndarray) else value
+
+
+def spoiled(value: Any, beyond: int) -> Iterator[Any]:
+    """Copies of arguments, in each of which one array lacks its last row, or has numbers so far beyond its own."""
+    if isinstance(value, np.ndarray) and value.ndim and len(value):
+        yield value[:-1].copy()
+        if beyond and value.dtype == np.int32:
+            yield value + np.int32(beyond)
+    if isinstance(value, tuple):
+        for place, item in enumerate(value):
+            for wrong in spoiled(item, beyond):
+                items = [*map(copied, value[:place]), wrong, *map(copied, value[place + 1 :])]
+                yield type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+
+
+def defended(kernel: Callable[..., Any], name: str, refusals: dict[str, int]) -> Callable[..., Any]:
+    """A kernel that is called with every array too short before it is called as it should be."""
+
+    def call(*arguments: Any) -> Any:
+        if refusals.setdefault(name, 0) < REFUSALS:
+            for wrong in spoiled(arguments, BEYOND * (name in NAMING)):
+                try:
+                    kernel(*wrong)
+                except ValueError:
+                    refusals[name] += 1
+        return kernel(*arguments)
+
+    return call
+
+
+@pytest.fixture
+def refusals(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
+    """How often each kernel that was called refused."""
+    counts: dict[str, int] = {}
+    wrapped = {name: defended(kernel, name, counts) for name, kernel in KERNELS.items()}
+    for library, room in ((of_bytes, "bsm.bitstream."), (of_arrays, "bsm.codec.")):
+        watched = SimpleNamespace(**{name: wrapped.get(name, kernel) for name, kernel in vars(library).items()})
+        for name, module in list(sys.modules.items()):
+            if name.startswith(room) and getattr(module, "_kernels", None) is library:
+                monkeypatch.setattr(module, "_kernels", watched)
+    return counts
+
+
+def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
+    bare = torus(16, 12)
+    mesh, size = dressed(bare), len(bare.positions)
+    cases: tuple[tuple[TriangleMesh, dict[str, Any]], ...] = (
+        (mesh, {"bits": 12, "key_seed": "svd", "partition": "metis"}),
+        (mesh, {"step": 0.01, "smoothing": 1.0}),
+        (mesh, {"quick": True, "contract": None, "grid": 9, "keep_order": True}),
+        (mesh, {"exact": True, "contract": None}),
+        (tangled(), {"grid": 9}),
+    )
+    for shape, options in cases:
+        decode(encode(shape, changed(EncodeOptions(), threads=1, **options)), threads=1)
+    decode(refined(bare, LAYER, (size,)), threads=1)
+    decode_sequence(encode_sequence(*bending(3, 12, 8), SequenceOptions(threads=1, step=0.01)), threads=1)
+    frames, steps = local_frames(bare.positions, bare.faces), np.ones((size, 3))
+    seen = Sensitivity(bare.positions, bare.faces, graph_of_faces(bare.faces, size), LookMetric(bare), 0.01)
+    seen.levels(2.0 * bare.positions, frames, steps, lambda _: steps, 0.01, np.full(size, np.inf))
+    adaptive.look_at_block(adaptive.make_past(60), np.ones((9, 3), np.int32))
+    adaptive.expectation_bin(np.ones(20, np.int32), np.ones(20, np.int32))
+    names = {*KERNELS} - NOTHING_SHORT
+    assert not names - set(refusals), "kernels that this test does not reach"
+    assert not {name for name in names if not refusals[name]}, "kernels that refuse nothing"
