@@ -1,9 +1,21 @@
-"""What to type for a library that is missing."""
+"""Libraries that may be missing, and what to type then."""
 
+import importlib
 import json
 from pathlib import Path
+from typing import Any
+
+from bsm.bitstream.errors import DependencyError
 
 DISTRIBUTION = "bsm-codec"
+
+
+def imported(module: str, why: str, extra: str) -> Any:
+    """A module that an extra installs; `DependencyError` says why it is needed, and how it is installed."""
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise DependencyError(f"{why}; run: {how_to_install(extra)}") from error
 
 
 def how_to_install(extra: str) -> str:

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import CorruptError, DependencyError, OptionError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.extras import imported
 
 _MAGIC = b"\x28\xb5\x2f\xfd"
 _LEVEL = 19
@@ -47,14 +47,8 @@ def decompress(data: bytes, exact_size: int) -> bytes:
 
 def _zstandard() -> Any:
     """The library, loaded when a stream needs it: only coefficients of a fixed number of bits do, the paper's mode."""
-    try:
-        import zstandard
-    except ImportError:
-        raise DependencyError(
-            "coefficients of a fixed number of bits are packed by zstd, which is not installed: "
-            f"{how_to_install('paper')}"
-        ) from None
-    return zstandard
+    why = "coefficients of a fixed number of bits are packed by zstd, which is not installed"
+    return imported("zstandard", why, "paper")
 
 
 MAX_BITS = 32

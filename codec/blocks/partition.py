@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.bitstream.errors import DependencyError, OptionError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import OptionError
+from bsm.bitstream.extras import imported
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices
 from bsm.codec.geometry.graph import Graph
@@ -77,10 +77,7 @@ def derive_partition(graph: Graph, parts: int, threads: int | None = 1) -> Parti
 
 def metis_partition(graph: Graph, parts: int) -> Partition:
     """METIS k-way partition; its labels differ between builds, so a stream has to carry them."""
-    try:
-        import pymetis
-    except ImportError:
-        raise DependencyError(f"METIS is not installed: {how_to_install('denoise')}") from None
+    pymetis = imported("pymetis", "METIS is not installed", "denoise")
     if parts == 1:
         return partition_of_labels(np.zeros(graph.size, np.int32))
     adjacency = pymetis.CSRAdjacency(graph.offsets, graph.neighbours)

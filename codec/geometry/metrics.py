@@ -12,7 +12,7 @@ import numpy as np
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.public import public
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
+from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, mesh_edges, vertex_neighbours
 from bsm.codec.geometry.mesh import extent_of
 
@@ -226,11 +226,6 @@ class Original:
         """Mean angle, degrees, between corresponding normals of this and of `decoded`, shape (n, 3)."""
         decoded = np.ascontiguousarray(decoded, np.float64)
         return math.degrees(_kernels.weighted_angle(self.normals, self.weights, decoded, self.faces, LOST))
-
-    def angle_of(self, rows: Mask, decoded: Positions) -> float:
-        """What some faces, `rows`, shape (m,), contribute to `angle` of `decoded`, shape (n, 3)."""
-        normals, weights, faces = self.normals[rows], self.weights[rows], self.faces[rows]
-        return math.degrees(_kernels.weighted_angle(normals, weights, decoded, faces, LOST))
 
     def farthest(self, decoded: Positions) -> float:
         """Largest distance of a vertex of `decoded`, shape (n, 3), from its place."""

@@ -79,10 +79,6 @@ class Prepared:
         return self.parts.cut(self.graph)
 
     @property
-    def block_count(self) -> int:
-        return self.parts.count(self.graph.size)
-
-    @property
     def size(self) -> int:
         """Vertices of the largest block, n_d."""
         parts, vertices = self.partition.parts, self.graph.size

@@ -15,11 +15,11 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
-from bsm.console import watched
+from bsm.console import Console, watched
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
-from bsm.files.stream import decode_whole
+from bsm.files.stream import decode_whole, events
 from bsm.lengths import LENGTHS, refuse_other_units
 from bsm.libraries import as_mesh, read_any, with_metadata
 
@@ -140,7 +140,6 @@ def encode_many(
     >>> [("error" in row, row["output"]) for row in rows]
     [(False, 'streams/a.bsm'), (False, 'streams/b.bsm')]
     """
-    from bsm.console import Console
     from bsm.jobs.encode import EncodeJob, encode_one
     from bsm.jobs.report import Run
     from bsm.jobs.run import plan, run_many
@@ -343,7 +342,6 @@ def decode_frames(
     """
     from bsm.codec.sequence.decoder import SequenceDecoder
     from bsm.codec.sequence.events import FrameEvent
-    from bsm.files.stream import events
 
     with SequenceDecoder(limits, threads) as decoder:
         for event in events(decoder, read_chunks(stream)):

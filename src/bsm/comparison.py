@@ -7,11 +7,11 @@ import os
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Positions
@@ -22,9 +22,6 @@ from bsm.codec.static.joining import join
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes
-
-if TYPE_CHECKING:
-    from bsm.bitstream.connectivity.faces import EncodedConnectivity
 
 Order = npt.NDArray[np.int64]
 
@@ -59,8 +56,6 @@ def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
 def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Positions:
     """The positions of `other`, numbered as in `original`; neither may have vertices that no face uses."""
     if len(original.positions) > len(other.positions):
-        from bsm.codec.static.joining import join
-
         joined = join(original, keep=False)
         if len(joined.mesh.positions) == len(other.positions):
             by_joined = None if order is None else joined.index[order].astype(np.int64)
@@ -127,8 +122,6 @@ def _canonical_order(faces: Faces) -> tuple[Order, Order]:
 
 
 def _encode(mesh: TriangleMesh) -> EncodedConnectivity:
-    from bsm.bitstream.connectivity.faces import encode_connectivity
-
     return encode_connectivity(mesh.faces, len(mesh.positions))
 
 

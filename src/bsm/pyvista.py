@@ -20,8 +20,8 @@ from typing import Any
 import numpy as np
 
 from bsm.api import decode, save
-from bsm.bitstream.errors import DependencyError, OptionError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import OptionError
+from bsm.bitstream.extras import imported
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.libraries import as_mesh
@@ -35,10 +35,7 @@ def to_pyvista(mesh: Any) -> Any:
     Vertices are split where corners differ, in texture coordinates for instance. Normals and texture coordinates are
     the active ones.
     """
-    try:
-        import pyvista
-    except ImportError as error:
-        raise DependencyError(f"pyvista is not installed; run: {how_to_install('pyvista')}") from error
+    pyvista = imported("pyvista", "pyvista is not installed", "pyvista")
     mesh = split_by_attributes(as_mesh(mesh))
     found = pyvista.PolyData.from_regular_faces(np.array(mesh.positions), mesh.faces)
     for attribute in mesh.attributes:

@@ -45,11 +45,6 @@ class Planner:
             raise OptionError(f"step = {step:g} is too fine for blocks of {size}, try {smallest_step(size):.1e}")
         return Scheme(self._prepared.blocks, rules, Adaptive(self._width(step), single(step)))
 
-    def is_flat(self, step: float, share: float) -> bool:
-        """Whether as large a share of all frequencies, or a larger one, is worth coding at a step."""
-        most = max(1, round(share * self._prepared.size))
-        return self._spectrum.worthwhile_size(step, most) >= most
-
     def smoothing(self, blended: Matrix) -> float:
         """The amount of smoothing that lowers what the options are after most."""
         vertices, reference = self._sample

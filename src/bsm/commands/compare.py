@@ -16,14 +16,15 @@ from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.arrays import Faces, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import mnd, rms_over_edge
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
-from bsm.comparison import in_order_of, read_permutation
+from bsm.comparison import compare_meshes, in_order_of, pair, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
-from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
 from bsm.files.stream import (
@@ -118,8 +119,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
 def _compared(
     original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespace, console: Console
 ) -> dict[str, Any]:
-    from bsm.comparison import compare_meshes, pair
-
     paired = pair(original, decoded, read_permutation(args.permutation) if args.permutation else None)
     if paired.joined:
         console.note("vertices at one position are compared as one")
@@ -154,15 +153,12 @@ def _look(original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespac
     looker = LookMetric(original)
     seen = looker.compare(decoded)
     if args.picture:
-        picture = png(side_by_side(*looker.pictures(decoded)))
-        with open_output(args.picture, overwrite=args.force) as file:
-            file.write(picture)
+        write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
     return seen
 
 
 def _surface(original: TriangleMesh, positions: Positions) -> dict[str, float]:
     """What the literature on denoising measures."""
-    from bsm.codec.geometry.metrics import mnd, rms_over_edge
     from bsm.codec.geometry.surface_distance import surface_distance
 
     faces = original.faces
@@ -250,9 +246,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         from bsm.evaluation.plots import frame_errors
 
         refuse_to_overwrite(args.picture, args.force)
-        picture = frame_errors(of_frames, Path(args.decoded).name)
-        with open_output(args.picture, overwrite=args.force) as file:
-            file.write(picture)
+        write_output(args.picture, frame_errors(of_frames, Path(args.decoded).name), overwrite=args.force)
     loops = Loops()
     for frame in runs[0][0] if len(runs) == 1 else ():
         loops.take(frame)
@@ -311,9 +305,7 @@ def _write_map(path: str, original: TriangleMesh, positions: Positions, *, overw
     distances = np.linalg.norm(positions - original.positions, axis=1)
     top = float(np.percentile(distances, SHOWN)) or float(distances.max(initial=0.0)) or 1.0
     if kind == "png":
-        picture = _picture(original, distances / top)
-        with open_output(path, overwrite=overwrite) as file:
-            file.write(picture)
+        write_output(path, _picture(original, distances / top), overwrite=overwrite)
         return
     color = Attribute("color", np.rint(colors_of(distances / top)).astype(np.uint8), "vertex", "color")
     mesh = replace(original.bare, attributes=(color, Attribute("distance", distances)))

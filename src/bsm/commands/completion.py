@@ -5,8 +5,7 @@ The script is written once and knows everything, so that completing starts no Py
 
 import argparse
 
-from bsm.bitstream.errors import DependencyError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.extras import imported
 from bsm.console import Console
 
 SHELLS = ("bash", "zsh", "fish")
@@ -19,12 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    try:
-        import shtab
-    except ImportError as missing:
-        raise DependencyError(
-            f"completion scripts are made with shtab; run: {how_to_install('completion')}"
-        ) from missing
+    shtab = imported("shtab", "completion scripts are made with shtab", "completion")
     from bsm.cli import program_parser
 
     parser = program_parser(complete=True)

@@ -1,22 +1,17 @@
 """bsm demo: the whole road of a mesh, on a sample made by formula."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_preset_flags, options_of
 from bsm.console import Console, print_json
-from bsm.files.output import open_output, refuse_to_overwrite
+from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.options import encode_options
 from bsm.pictures import bounds_of, colors_of, png, render
-
-if TYPE_CHECKING:
-    from bsm.codec.geometry.mesh import TriangleMesh
 
 _PLAIN_BYTES = (12, 12)  # bytes of a vertex and of a face as float32 and int32
 
@@ -35,7 +30,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
         refuse_to_overwrite(path, args.force)
     Path(args.output).mkdir(parents=True, exist_ok=True)
 
-    from bsm.codec.geometry.mesh import TriangleMesh
     from bsm.codec.geometry.metrics import compare
     from bsm.codec.static.decoder import decode
     from bsm.codec.static.encoder import Encoder
@@ -69,8 +63,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         f"{error.nmsve_db:.2f} dB, normals {error.theta_deg:.2f} degrees off on average"
     )
 
-    with open_output(stream_path, overwrite=args.force) as file:
-        file.write(stream)
+    write_output(stream_path, stream, overwrite=args.force)
     with console.progress("drawing"):
         _draw(picture_path, sample, decoded, overwrite=args.force)
     written = [str(stream_path), str(picture_path)]
@@ -87,5 +80,4 @@ def _draw(path: Path, sample: TriangleMesh, decoded: TriangleMesh, *, overwrite:
     heat = colors_of(distance / (float(np.percentile(distance, 99)) or 1.0))[sample.faces].mean(axis=1) / 255.0
     looks = ((sample, None), (decoded, None), (sample, heat))
     picture = np.hstack([render(mesh.positions, mesh.faces, bounds=bounds, colors=colors) for mesh, colors in looks])
-    with open_output(path, overwrite=overwrite) as file:
-        file.write(png(picture))
+    write_output(path, png(picture), overwrite=overwrite)

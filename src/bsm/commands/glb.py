@@ -7,7 +7,7 @@ from typing import Any
 from bsm.bitstream.errors import OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
-from bsm.files.output import open_output
+from bsm.files.output import write_output
 from bsm.files.pipes import read_bytes
 from bsm.files.stream import is_stream
 from bsm.gltf.compress import ImageRule, compress, count_primitives
@@ -62,8 +62,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
             raise OptionError("a stream becomes a scene as it is: only -o, -f and -q go with it")
         stream = read_bytes(args.input)
         scene = moving_scene(stream)
-        with open_output(args.output, overwrite=args.force) as file:
-            file.write(scene)
+        write_output(args.output, scene, overwrite=args.force)
         console.note(f"{args.input} -> {args.output}: a mesh that moves, {len(stream)} -> {len(scene)} bytes")
         return
     document = read_document(args.input)
@@ -77,10 +76,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     with console.progress("encoding", "primitives") as progress:
         found = compress(document, coder, rule, beside.name if beside else None, progress)
     if beside and found.fallback:
-        with open_output(str(beside), overwrite=args.force) as file:
-            file.write(found.fallback)
-    with open_output(args.output, overwrite=args.force) as file:
-        file.write(found.data)
+        write_output(str(beside), found.fallback, overwrite=args.force)
+    write_output(args.output, found.data, overwrite=args.force)
     console.note(
         f"{args.input} -> {args.output}: {found.coded} of {found.coded + sum(found.left.values())} primitives coded, "
         f"{document.received} -> {len(found.data)} bytes"

@@ -12,7 +12,7 @@ from bsm.bitstream.errors import FormatError, OptionError
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.console import Console
 from bsm.files.mesh import read_mesh
-from bsm.files.output import open_output
+from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.viewer.page import Content, Growing, PageServer, compared, page_with, written_to
 
@@ -41,8 +41,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.save:
         with reading:
             contents = _contents(args, console)
-        with open_output(args.save, overwrite=args.force) as file:
-            file.write(page_with(contents).encode())
+        write_output(args.save, page_with(contents).encode(), overwrite=args.force)
         console.note(f"{args.save}: open it in a browser")
         return 0
     with reading:

@@ -1,9 +1,5 @@
 """Evaluation as data: codecs are run and written down as JSON, and everything shown is drawn from the JSON alone."""
 
-from bsm.bitstream.errors import DependencyError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.extras import imported
 
-try:
-    import scipy  # noqa: F401
-except ImportError:
-    raise DependencyError(f"evaluation needs scipy: {how_to_install('eval')}") from None
+imported("scipy", "evaluation needs scipy", "eval")

@@ -7,15 +7,14 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import partial
 from pathlib import Path
-from types import ModuleType
 from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
-from bsm.bitstream.errors import CorruptError, DependencyError, MeshError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import CorruptError, MeshError
+from bsm.bitstream.extras import imported
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -30,7 +29,7 @@ from bsm.codec.static.targets import Target
 from bsm.console import finite
 from bsm.evaluation.plots import MEASURES, draw_rates, points_of
 from bsm.evaluation.sample import knot
-from bsm.files.output import open_output
+from bsm.files.output import write_output
 from bsm.files.stream import inspect_stream
 
 Triangles = npt.NDArray[np.int64]
@@ -95,13 +94,8 @@ def _canonical(faces: npt.NDArray[np.integer]) -> Triangles:
     return np.sort(keys.min(axis=0))
 
 
-def _draco() -> ModuleType:
-    try:
-        import DracoPy
-    except ImportError as error:
-        raise DependencyError(f"Draco needs the package DracoPy: {how_to_install('eval')}") from error
-    module: ModuleType = DracoPy
-    return module
+def _draco() -> Any:
+    return imported("DracoPy", "Draco needs the package DracoPy", "eval")
 
 
 Result = dict[str, Any]
@@ -302,8 +296,7 @@ def write_result(result: Result, folder: Path) -> Path:
     path = folder / (
         f"{mesh['name']}.{result['codec']}.json" if mesh else f"{result['sequence']['name']}-sequence.json"
     )
-    with open_output(path, overwrite=True) as file:
-        file.write(json.dumps(result, indent=1, allow_nan=False).encode())
+    write_output(path, json.dumps(result, indent=1, allow_nan=False).encode(), overwrite=True)
     return path
 
 

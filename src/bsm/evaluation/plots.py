@@ -3,13 +3,11 @@
 import io
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 
-from bsm.bitstream.errors import DependencyError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.extras import imported
 
 Result = Mapping[str, Any]
 FORMATS = ("png", "svg")
@@ -117,12 +115,8 @@ def title_of(result: Result) -> str:
     return "{name}: {vertices} vertices, {faces} faces".format_map(result["mesh"])
 
 
-def import_matplotlib() -> ModuleType:
-    try:
-        import matplotlib
-    except ImportError as error:
-        raise DependencyError(f"pictures need matplotlib: {how_to_install('eval')}") from error
-    return matplotlib
+def import_matplotlib() -> None:
+    imported("matplotlib", "pictures need matplotlib", "eval")
 
 
 def new_figure(width: float = 7.0, height: float = 5.0) -> Any:

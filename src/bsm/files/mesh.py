@@ -20,13 +20,13 @@ from typing import Any
 import numpy as np
 
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import DependencyError, FormatError, OptionError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import FormatError, OptionError
+from bsm.bitstream.extras import imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.metadata import Written, fetched
 from bsm.files.formats.polygons import MeshFile, Polygons
-from bsm.files.output import can_be_replaced, open_output, refuse_to_overwrite
+from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
 from bsm.files.pipes import Source, as_input, is_url
 from bsm.files.room import gunzipped, require_archive, require_counts_of_head, require_room
 
@@ -156,10 +156,8 @@ def save_written(
     for name in beside:
         refuse_to_overwrite(name, replace_beside)
     for name, data in beside.items():
-        with open_output(name, overwrite=replace_beside) as file:
-            file.write(data)
-    with open_output(path, overwrite=overwrite) as file:
-        file.write(written.data)
+        write_output(name, data, overwrite=replace_beside)
+    write_output(path, written.data, overwrite=overwrite)
     return (*written.left_out, *(() if beside else written.beside))
 
 
@@ -197,10 +195,7 @@ def format_of_bytes(data: bytes) -> str | None:
 
 
 def read_with_openmesh(data: bytes, kind: str, ours: TriangleMesh, limits: Limits) -> MeshFile:
-    try:
-        import openmesh
-    except ImportError as error:
-        raise DependencyError(f"openmesh is not installed; run: {how_to_install('openmesh')}") from error
+    openmesh = imported("openmesh", "openmesh is not installed", "openmesh")
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder, f"mesh.{kind}")
         copy.write_bytes(data)

@@ -78,6 +78,11 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
                 os.close(lock)
 
 
+def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool) -> None:
+    with open_output(path, overwrite=overwrite) as file:
+        file.write(data)
+
+
 @contextmanager
 def _signals_wait() -> Iterator[None]:
     """Until what is made is held by who takes it away again."""

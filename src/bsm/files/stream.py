@@ -25,8 +25,6 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.pipes import Source, as_input, is_pipe
 
 if TYPE_CHECKING:
-    from bsm.codec.geometry.attributes import Attribute
-    from bsm.codec.geometry.mesh import TriangleMesh
     from bsm.codec.static.decoder import Decoder
     from bsm.codec.static.events import AttributeEvent
 
@@ -280,8 +278,6 @@ class _Part:
 
     def mesh(self) -> TriangleMesh:
         """The faces whose vertices are known, with the attributes that have come as a whole."""
-        from bsm.codec.geometry.mesh import TriangleMesh
-
         complete = np.flatnonzero(self._known[self._faces].all(axis=1))
         if len(complete) == 0:
             raise MeshError("no face is complete in the blocks that are there")
@@ -293,8 +289,6 @@ class _Part:
 
     def _attribute(self, events: list[AttributeEvent]) -> Attribute | None:
         """The attribute that events tell of, None if values of it are missing."""
-        from bsm.codec.geometry.attributes import Attribute
-
         first = events[0]
         rows = np.concatenate([event.rows for event in events])
         sizes = {"vertex": len(self._positions), "face": len(self._faces)}

@@ -16,8 +16,8 @@ from urllib.parse import quote
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import BsmError, DependencyError, FormatError, OptionError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import BsmError, FormatError, OptionError
+from bsm.bitstream.extras import imported
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -682,21 +682,16 @@ class ImageRule:
 
 def smaller(data: bytes, rule: ImageRule) -> bytes | None:
     """An image by a rule; None if that would not be smaller, or Pillow cannot read it."""
-    try:
-        from PIL import Image, UnidentifiedImageError
-    except ImportError as error:
-        raise DependencyError(f"images are written with Pillow; run: {how_to_install('formats')}") from error
-    try:
-        found = _written(Image.open(io.BytesIO(data)), rule)
-    except (UnidentifiedImageError, OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+    pillow = imported("PIL.Image", "images are written with Pillow", "formats")
+    try:  # what Pillow does not know is an OSError
+        found = _written(pillow.open(io.BytesIO(data)), rule, pillow.Resampling.LANCZOS)
+    except (OSError, ValueError, SyntaxError, pillow.DecompressionBombError):
         return None
     return found if found and len(found) < len(data) else None
 
 
-def _written(image: Any, rule: ImageRule) -> bytes | None:
+def _written(image: Any, rule: ImageRule, how: Any) -> bytes | None:
     """The file of an image; None if the format would lose what shows through."""
-    from PIL import Image
-
     if rule.kind == "jpeg" and image.mode not in ("RGB", "L"):
         if "A" in image.getbands() or "transparency" in image.info:
             return None
@@ -704,7 +699,7 @@ def _written(image: Any, rule: ImageRule) -> bytes | None:
     if rule.side and max(image.size) > rule.side:
         factor = rule.side / max(image.size)
         size = (max(1, round(image.width * factor)), max(1, round(image.height * factor)))
-        image = image.resize(size, Image.Resampling.LANCZOS)
+        image = image.resize(size, how)
     written = io.BytesIO()
     image.save(written, rule.kind, quality=rule.quality, **({"method": 6} if rule.kind == "webp" else {}))
     return written.getvalue()

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -215,7 +216,6 @@ class Echo:
 
     def compare(self, chunk: bytes, order: np.ndarray) -> None:
         """Decode a piece of the stream and add up the error of its frames; vertex j of a decoded one is `order[j]`."""
-        from bsm.bitstream.container.reader import Signal
         from bsm.codec.sequence.events import FrameEvent
 
         self._decoder.receive_data(chunk)

@@ -14,7 +14,7 @@ from bsm import __version__
 from bsm.bitstream.errors import FormatError
 from bsm.console import Console
 from bsm.exits import behind, is_expected
-from bsm.files.output import open_output
+from bsm.files.output import write_output
 from bsm.files.pipes import about, files_behind, read_bytes, read_chunks, state_of
 
 _Same = TypeVar("_Same", bound="Task")
@@ -143,8 +143,7 @@ class Report:
         begin = time.perf_counter()
         state = {"complete": not self._open, "seconds": begin - self._begin, "totals": totals(self._files)}
         text = json.dumps({**self._head, **state, "files": self._files}, indent=1, allow_nan=False)
-        with open_output(self._path, overwrite=True) as file:
-            file.write(text.encode() + b"\n")
+        write_output(self._path, text.encode() + b"\n", overwrite=True)
         end = time.perf_counter()
         self._next = end + max(_EVERY, (end - begin) / _SHARE)
 

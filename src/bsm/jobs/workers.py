@@ -17,7 +17,7 @@ from itertools import islice
 from typing import Any
 
 from bsm.bitstream.errors import DependencyError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.extras import imported
 from bsm.exits import exit_of
 from bsm.files.output import Terminated, termination_as_exception
 from bsm.jobs.report import Numbered, Outcome, Outcomes, Task, Tasks, Work, far_outcome
@@ -108,12 +108,9 @@ def _interrupts_ignored() -> Iterator[None]:
 
 def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
     """Do jobs on the workers of a cluster; those of a worker that dies are taken up by others."""
+    distributed = imported("distributed", "a cluster needs Dask", "dask")
     try:
-        import distributed
-    except ImportError as error:
-        raise DependencyError(f"a cluster needs Dask: {how_to_install('dask')}") from error
-    try:
-        client: Any = distributed.Client(address, set_as_default=False)  # type: ignore[no-untyped-call]
+        client: Any = distributed.Client(address, set_as_default=False)
     except (OSError, ValueError) as error:
         raise OSError(errno.EHOSTUNREACH, "no Dask scheduler answers here", address) from error
     waiting, run = iter(tasks), uuid.uuid4().hex
@@ -125,7 +122,7 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
     logger.setLevel(logging.CRITICAL + 1)
     try:
         with client:
-            running: Any = distributed.as_completed(loop=client.loop)  # type: ignore[no-untyped-call]
+            running: Any = distributed.as_completed(loop=client.loop)
             try:
                 while True:
                     while len(handed) < AHEAD * max(1, sum(client.ncores().values())) and (task := next(waiting, None)):

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bsm.api import encode, encode_sequence
-from bsm.bitstream.errors import DependencyError, OptionError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import OptionError
+from bsm.bitstream.extras import imported
 from bsm.files.pipes import Input
 from bsm.files.stream import is_stream
 from bsm.libraries import as_mesh
@@ -52,10 +52,8 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
     >>> import bsm
     >>> widget = bsm.show("bunny.ply", preset="fine")
     """
-    try:
-        from bsm.viewer.widget import StreamWidget
-    except ImportError as error:
-        raise DependencyError(f"a notebook needs the package anywidget: {how_to_install('notebook')}") from error
+    imported("anywidget", "a notebook needs the package anywidget", "notebook")
+    from bsm.viewer.widget import StreamWidget
 
     return StreamWidget(_content(source, original, keywords), height)
 

@@ -26,6 +26,7 @@ from bsm.bitstream.container.wire import MAGIC, FrameType, Tag, parse_map, parse
 from bsm.bitstream.errors import BsmError, CorruptError, DependencyError, MeshError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.metrics import Reference
 from bsm.comparison import in_order_of
 from bsm.files.pipes import Input
 from bsm.files.stream import decode_whole, peek_header
@@ -177,8 +178,6 @@ def compared(name: str, stream: bytes, original: TriangleMesh, limits: Limits = 
 
 def _rival(original: TriangleMesh, decoded: TriangleMesh) -> Rival | None:
     """Draco's file of `original` with normals as good as those of `decoded`."""
-    from bsm.codec.geometry.metrics import Reference
-
     try:
         from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order
     except DependencyError:

@@ -10,8 +10,8 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, DependencyError, FormatError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import BsmError, FormatError
+from bsm.bitstream.extras import how_to_install, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.metadata import Material, Value, described, kind_of_image
@@ -42,11 +42,7 @@ _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "
 
 def import_trimesh(what: str) -> Any:
     """The library; `DependencyError` where it is missing."""
-    try:
-        import trimesh
-    except ImportError as error:
-        raise DependencyError(f"{what} with trimesh; run: {how_to_install('formats')}") from error
-    return trimesh
+    return imported("trimesh", f"{what} with trimesh", "formats")
 
 
 def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) -> Polygons:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -14,8 +15,8 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from bsm.bitstream.errors import DependencyError, FormatError, LimitError, MeshError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import FormatError, LimitError, MeshError
+from bsm.bitstream.extras import imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
@@ -270,19 +271,9 @@ _UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millime
 
 def import_usd() -> Any:
     """The modules of usd-core; `DependencyError` where they are missing."""
-    try:
-        import pxr.Gf
-        import pxr.Sdf
-        import pxr.Tf
-        import pxr.Usd
-        import pxr.UsdGeom
-        import pxr.UsdShade
-        import pxr.UsdSkel
-        import pxr.UsdUtils
-        import pxr.Vt
-    except ImportError as error:
-        raise DependencyError(f"USD files are read and written with usd-core; run: {how_to_install('usd')}") from error
-    return pxr
+    for name in ("Gf", "Sdf", "Tf", "Usd", "UsdGeom", "UsdShade", "UsdSkel", "UsdUtils", "Vt"):
+        imported(f"pxr.{name}", "USD files are read and written with usd-core", "usd")
+    return sys.modules["pxr"]
 
 
 # ----------------------------------------------------------------------------------------------------------------- in
