@@ -37,8 +37,8 @@ FLOORS = {
         ("sequence",),
     ),
     "bsm.bitstream": (
-        ("_kernels", "errors", "extras", "once", "public"),
-        ("limits",),
+        ("_kernels", "errors", "once", "public"),
+        ("extras", "limits"),
         ("entropy",),
         ("connectivity", "coefficients", "fields"),
         ("attributes",),
