@@ -77,6 +77,8 @@ struct bsmdec {
     bool has_positions;
     ConstDoubles2 positions;
     Arena shown;
+    bool has_checksum;    /* whether the stream has told that of all positions: */
+    uint32_t told, shown_sum; /* the one told, and that of all frames so far */
     bsmdec_error loss;
     bsmdec_error *losses; /* of the LOSS events that wait, by index */
     int64_t loss_count, loss_room;
@@ -96,6 +98,9 @@ bool take_in(bsmdec *decoder, const Packet *packet);
 bool build(bsmdec *decoder);
 /* Have an error be told as a loss: of so many frames of a sequence from `index` on, or of a block. */
 bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
+
+/* Whether the checksum of all positions is the one that was told; a tolerant decoder tells of another as a loss. */
+bool check_sum(bsmdec *decoder, uint32_t found);
 
 /* The same for sequences. */
 bool accept_in_sequence(bsmdec *decoder, const Packet *packet);

@@ -183,6 +183,9 @@ static bool read_payload(Reader *reader, Frame frame, Packet *packet) {
             packet->count = take_varint(&cursor);
             Span sum = take_span(&cursor, 4);
             packet->sum = sum.size == 4 ? (uint32_t)little_endian(sum.data, 4) : 0;
+            packet->has_positions = cursor.left.size > 0;
+            if (packet->has_positions) sum = take_span(&cursor, 4);
+            packet->positions = sum.size == 4 ? (uint32_t)little_endian(sum.data, 4) : 0;
             return at_end(&cursor);
         }
         default: break;
@@ -205,7 +208,11 @@ static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
     if (told && !read_metadata(reader, frame.payload, false)) return false;
     if (!check_packet(context, grammar, packet)) return false;
     if (told && !WITHIN(context, metadata_bytes, reader->told + frame.payload.size)) return false;
-    if (packet->type != END_FRAME || reader->damaged || grammar->joined) return true;
+    if (packet->type != END_FRAME) return true;
+    if (reader->damaged || grammar->joined) {
+        packet->has_positions = false;
+        return true;
+    }
     if (packet->count != reader->frames) return FAIL(context, CORRUPT, "END counts # frames before it, there were #", packet->count, reader->frames);
     return packet->sum == reader->sum || FAIL(context, CORRUPT, "the CRC-32 of the whole stream is wrong");
 }

@@ -17,6 +17,8 @@ typedef struct {
     int64_t coefficients; /* of a block */
     int64_t first, count; /* of a grid, a layer or values */
     uint32_t sum;         /* of END, whose `count` is that of frames */
+    bool has_positions;   /* whether END has their checksum, which is this: */
+    uint32_t positions;
     Span data;
     const Header *header;
     const Declaration *declaration;

@@ -305,6 +305,7 @@ bool show(bsmdec *decoder, int64_t index) {
     if (!show_frame(gops, t, &decoder->scratch, 0, &frame)) return false;
     decoder->positions = frame;
     decoder->has_positions = into_unit(&decoder->context, &mesh->header, (Doubles2){(double *)frame.data, frame.rows, 3});
+    if (decoder->has_positions) decoder->shown_sum = crc32_of_positions(&decoder->reader.sums, frame, decoder->shown_sum);
     for (int k = 0; k < mesh->mover_count && decoder->has_positions; k++) {
         Attribute *one = mesh->attributes.one[mesh->movers[k].number];
         if (!one->whole) continue;
@@ -385,6 +386,7 @@ bool end_sequence(bsmdec *decoder) {
     }
     int64_t missing = sequence->announced > 0 ? sequence->announced - sequence->next : 0;
     if ((missing != 0 || (sequence->damaged && sequence->announced == 0)) && !report_loss(decoder, missing)) return false;
+    if (!sequence->lossy && !check_sum(decoder, decoder->shown_sum)) return false;
     decoder->ended = true;
     return tell(decoder, BSMDEC_END, 0, 0);
 }

@@ -231,6 +231,8 @@ bool take_in(bsmdec *decoder, const Packet *packet) {
 bool accept_packet(bsmdec *decoder, const Packet *packet) {
     Mark mark = mark_of(&decoder->scratch);
     bool in_sequence = decoder->sequence.is_one || (packet->type == HEADER_FRAME && packet->header->gop_frames > 0);
+    decoder->has_checksum = packet->has_positions && decoder->sequence.start == 0;
+    decoder->told = packet->positions;
     bool done = (in_sequence ? accept_in_sequence : take_in)(decoder, packet);
     release_to(&decoder->scratch, mark);
     return done;
@@ -279,6 +281,18 @@ bool look_at_positions(bsmdec *decoder) {
     return finish_positions(decoder);
 }
 
+bool check_sum(bsmdec *decoder, uint32_t found) {
+    if (!decoder->has_checksum || found == decoder->told) return true;
+    FAIL(&decoder->context, CORRUPT, "the checksum of decoded positions is wrong: they are not those that the encoder saw");
+    return bear(decoder, -1, true);
+}
+
+/* Whether nothing of the positions is lost. */
+static bool is_whole(const Mesh *mesh) {
+    if (mesh->has_grid) return !mesh->grid.broken && mesh->grid.coded == mesh->header.vertices;
+    return !mesh->assembly.lossy && !(mesh->has_layer && mesh->layer.lossy);
+}
+
 /* Nothing follows. */
 bool accept_end(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
@@ -286,6 +300,7 @@ bool accept_end(bsmdec *decoder) {
     if (!decoder->has_mesh || !mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
     if (mesh->header.on_grid ? !begun_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
     if (!finish_attributes(decoder) || !finish_positions(decoder)) return false;
+    if (decoder->has_checksum && is_whole(mesh) && !check_sum(decoder, crc32_of_positions(&decoder->reader.sums, decoder->positions, 0))) return false;
     decoder->has_positions = decoder->ended = true;
     return tell(decoder, BSMDEC_END, 0, 0);
 }

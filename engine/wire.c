@@ -10,14 +10,39 @@ void make_sums(Sums *sums) {
             value = value & 1 ? value >> 1 ^ 0xedb88320u : value >> 1;
             other = other & 0x8000 ? other << 1 ^ 0x1021u : other << 1;
         }
-        sums->long_sums[byte] = value;
+        sums->long_sums[0][byte] = value;
         sums->short_sums[byte] = (uint16_t)other;
     }
+    for (int k = 1; k < 8; k++)
+        for (int byte = 0; byte < 256; byte++) {
+            uint32_t before = sums->long_sums[k - 1][byte];
+            sums->long_sums[k][byte] = sums->long_sums[0][before & 255] ^ before >> 8;
+        }
+}
+
+/* Eight bytes, the first the lowest. */
+INLINE uint32_t add_word(const Sums *sums, uint32_t value, uint64_t word) {
+    uint32_t low = (uint32_t)word ^ value, high = (uint32_t)(word >> 32);
+    return sums->long_sums[7][low & 255] ^ sums->long_sums[6][low >> 8 & 255] ^ sums->long_sums[5][low >> 16 & 255] ^ sums->long_sums[4][low >> 24]
+        ^ sums->long_sums[3][high & 255] ^ sums->long_sums[2][high >> 8 & 255] ^ sums->long_sums[1][high >> 16 & 255] ^ sums->long_sums[0][high >> 24];
 }
 
 uint32_t crc32_of(const Sums *sums, Span bytes, uint32_t before) {
     uint32_t value = ~before;
-    for (int64_t i = 0; i < bytes.size; i++) value = sums->long_sums[(value ^ bytes.data[i]) & 255] ^ value >> 8;
+    int64_t i = 0;
+    for (; i + 8 <= bytes.size; i += 8) value = add_word(sums, value, little_endian(bytes.data + i, 8));
+    for (; i < bytes.size; i++) value = sums->long_sums[0][(value ^ bytes.data[i]) & 255] ^ value >> 8;
+    return ~value;
+}
+
+uint32_t crc32_of_positions(const Sums *sums, ConstDoubles2 positions, uint32_t before) {
+    uint32_t value = ~before;
+    for (int64_t i = 0; i < 3 * positions.rows; i++) {
+        double place = positions.data[i] + 0.0;
+        uint64_t word;
+        memcpy(&word, &place, sizeof word);
+        value = add_word(sums, value, word);
+    }
     return ~value;
 }
 

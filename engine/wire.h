@@ -10,13 +10,16 @@ typedef struct {
     int64_t size;
 } Span;
 
+/* `long_sums[k]`: of a byte and k zeros behind it. */
 typedef struct {
-    uint32_t long_sums[256];
+    uint32_t long_sums[8][256];
     uint16_t short_sums[256];
 } Sums;
 
 void make_sums(Sums *sums);
 uint32_t crc32_of(const Sums *sums, Span bytes, uint32_t before);
+/* Of positions behind those with the checksum `before` (F 5.10). */
+uint32_t crc32_of_positions(const Sums *sums, ConstDoubles2 positions, uint32_t before);
 uint16_t crc16_of(const Sums *sums, Span bytes);
 /* `size` bytes, at most eight, as a number. */
 uint64_t little_endian(const uint8_t *bytes, int size);

@@ -237,7 +237,8 @@ def read_frames(stream, packets):
             require(first == covered and 0 < count <= header["vertices"] - first, "vertices do not follow each other")
         elif kind == END:  # F 5.5
             count, crc = varints(payload, 1)
-            require(len(crc) == 4, "END has a wrong length")
+            require(len(crc) in (4, 8), "END has a wrong length")
+            parsed = crc[4:]  # F 5.10
         rank = RANKS[kind]  # F 3.8: ascending; CONNECTIVITY is required; only what comes behind ORDER repeats
         legal = kind == HEADER if last is None else rank > last or (rank == last and rank > RANKS[ORDER])
         require(legal and (rank <= 1 or last >= 1), f"frame type {kind} may not come here")
@@ -247,7 +248,7 @@ def read_frames(stream, packets):
             require(not header["grid"] or covered == header["vertices"], "positions are missing")  # F 3.11
         if kind == END:
             require(count == number, "END counts other frames")
-            require(int.from_bytes(crc, "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
+            require(int.from_bytes(crc[:4], "little") == zlib.crc32(stream[:offset]), "CRC of the stream is wrong")
         last, header = rank, header or parsed
         covered += parsed[1] if kind in (GRID, REFINEMENT) else 0
         packets.setdefault(kind, []).append(parsed)
@@ -741,6 +742,8 @@ def decode_packets(packets, fault):
         raise fault
     if not np.isfinite(positions).all():
         raise NumericError("positions are not finite")
+    (told,) = packets[END]
+    require(not told or int.from_bytes(told, "little") == zlib.crc32((positions + 0.0).astype("<f8")), "F 5.10")
     return positions, np.array(faces, np.int32).reshape(-1, 3)
 
 

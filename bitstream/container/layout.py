@@ -104,15 +104,17 @@ def parse_attribute(payload: bytes, limits: Limits) -> Attribute:
 
 
 def write_end(end: End) -> bytes:
-    """Varint number of frames, CRC-32 little-endian."""
-    return write_varint(end.frames) + end.crc.to_bytes(4, "little")
+    """Varint number of frames, CRC-32 of bytes and, if it is known, of positions, little-endian."""
+    sums = [end.crc] if end.positions is None else [end.crc, end.positions]
+    return write_varint(end.frames) + b"".join(one.to_bytes(4, "little") for one in sums)
 
 
 def parse_end(payload: bytes, limits: Limits) -> End:
     cursor = Cursor(payload)
-    end = End(cursor.varint(), int.from_bytes(cursor.take(4), "little"))
+    frames, crc = cursor.varint(), int.from_bytes(cursor.take(4), "little")
+    positions = None if cursor.ended else int.from_bytes(cursor.take(4), "little")
     cursor.finish()
-    return end
+    return End(frames, crc, positions)
 
 
 _PLAIN: dict[FrameType, type[Any]] = {

@@ -102,10 +102,11 @@ class Values:
 
 @dataclass(frozen=True)
 class End:
-    """The last frame: how many were before it, and the CRC-32 of all bytes before it."""
+    """The last frame: how many were before it, the CRC-32 of all bytes before it, and that of decoded positions."""
 
     frames: int
     crc: int
+    positions: int | None = None
 
 
 @dataclass(frozen=True)

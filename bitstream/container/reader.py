@@ -2,7 +2,7 @@
 
 import zlib
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any, TypeAlias
 
@@ -272,6 +272,10 @@ class TolerantReader(Reader):
             self._grammar.header is None and isinstance(packet, Header) and packet.run_number > 0
         )
         super()._consume(frame, packet)
+
+    def _parse(self, frame: Frame) -> Packet | None:
+        packet = super()._parse(frame)
+        return replace(packet, positions=None) if isinstance(packet, End) and self._lossy else packet
 
     def _check_end(self, end: End) -> None:
         if not self._lossy:

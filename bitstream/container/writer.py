@@ -33,9 +33,9 @@ class Writer:
             raise OptionError("END is made by Writer.end()")
         return self._frame(packet)
 
-    def end(self) -> bytes:
-        """The END frame; nothing may be written after it."""
-        return self._frame(End(self._frames, self._crc or 0))
+    def end(self, positions: int | None = None) -> bytes:
+        """The END frame, with the checksum of decoded positions if it is known; nothing may be written after it."""
+        return self._frame(End(self._frames, self._crc or 0, positions))
 
     def _frame(self, packet: Packet) -> bytes:
         if self._crc is None:

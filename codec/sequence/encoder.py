@@ -37,6 +37,7 @@ from bsm.codec.static.encoder import PROMISED_SIZES
 from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
+from bsm.codec.static.units import checksum_of
 from bsm.codec.static.ways.block_coder import CodedBlock, Progress, as_of_decoders
 from bsm.codec.static.work import Allowance, run_cost
 
@@ -177,7 +178,7 @@ class SequenceEncoder:
         shelf = Meshes(options)
         writer = Writer()
         number = 0
-        self.run_starts, self.samples = [], 0
+        self.run_starts, self.samples, self._checksum = [], 0, 0
         cutter = Cutter(frames, self._faces, allowed=options.runs, attributes=self._attributes)
         runs = joined_runs(self._dressed(cutter), options.together, keep_order=options.keep_order, allowed=options.runs)
         for index, run in enumerate(runs):
@@ -194,7 +195,7 @@ class SequenceEncoder:
             raise OptionError(f"{self._count} frames were announced and {number} came")
         changes = (f"{name} changes at frame {first}, but stays as before" for name, first in cutter.changed.items())
         self.notes = (*self.notes, *changes)
-        yield writer.end()
+        yield writer.end(self._checksum)
 
     def _dressed(self, cutter: Cutter) -> Iterator[Run]:
         """Runs with the attributes that each is sent with."""
@@ -240,6 +241,8 @@ class SequenceEncoder:
                 yield packets.Gop(run.first + self._done, write_gop_body(body, index, numbers))
                 self._done += body.frames
                 self.samples += body.frames * len(self.vertex_order)
+            for frame in gops.decoded_frames():
+                self._checksum = checksum_of(prepared.units.back(frame), self._checksum)
             del group  # before the next one is read
             group = next_group(frames, longest, prepared, run.moving)
             if len(group):

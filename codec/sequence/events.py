@@ -11,6 +11,7 @@ from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
+from bsm.codec.static.units import unlike_the_encoders
 
 
 @public
@@ -69,6 +70,8 @@ class Course:
 
     def __init__(self, *, tolerant: bool) -> None:
         self.next = 0
+        self.positions = 0  # the checksum of those of all frames so far
+        self.expected: int | None = None  # what the stream has at its end
         self.announced = 0
         self.lossy = False
         self._tolerant = tolerant
@@ -99,4 +102,8 @@ class Course:
         missing = announced - self.next if announced else 0
         if missing or (self._damage and not announced):
             self.report_loss(missing, queue)
+        if not self.lossy and self.expected not in (None, self.positions):
+            if not self._tolerant:
+                raise unlike_the_encoders()
+            queue.append(LossEvent(None, unlike_the_encoders()))
         queue.append(EndEvent())

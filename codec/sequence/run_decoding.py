@@ -21,6 +21,7 @@ from bsm.codec.static.attributes.decoding import AttributeDecoders, without_posi
 from bsm.codec.static.events import AttributeEvent, HeaderEvent, LossEvent, unreadable
 from bsm.codec.static.preamble_decoding import Structure
 from bsm.codec.static.stages import Arrival, Ended, Stage, misplaced
+from bsm.codec.static.units import checksum_of
 from bsm.codec.static.ways.block_coder import FRAME, ChainDecoder
 
 Result = TypeVar("Result")
@@ -134,8 +135,8 @@ class GopStage:
             case packets.Damaged():
                 if arrival.type is not FrameType.END or not self._course.lossy:
                     self._lose(unreadable(arrival))
-            case packets.End():
-                pass  # what may come behind it, damaged, is a loss that belongs before the end
+            case packets.End():  # what may come behind it, damaged, is a loss that belongs before the end
+                self._course.expected = None if self._request.start else arrival.positions
             case Signal.END_OF_STREAM:
                 self._course.end(self.header.frames, queue)
                 return Ended()
@@ -221,11 +222,11 @@ class GopStage:
 
     def _events(self, first: int, frames: Iterator[Fields]) -> Iterator[FrameEvent]:
         numbering, units = self._structure.numbering, self._structure.units
-        for index, (positions, *changes) in enumerate(frames, first):
+        for index, (coded, *changes) in enumerate(frames, first):
             if index >= self._request.start:
-                yield FrameEvent(
-                    index, numbering.arranged(units.back(positions)), numbering.faces, self._in_frame(changes)
-                )
+                positions = units.back(coded)
+                self._course.positions = checksum_of(positions, self._course.positions)
+                yield FrameEvent(index, numbering.arranged(positions), numbering.faces, self._in_frame(changes))
 
     def _in_frame(self, changes: list[Matrix]) -> tuple[Attribute, ...]:
         """The attributes of a frame in which those that move differ so much from the first, shapes (n, d)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -139,12 +139,20 @@ class EncodedGops:
         """What the decoder makes of them, shape (T, n, 3), in BSM units; not kept, since it is large."""
         if self.encoder.low_delay and self.encoder.latest is not None:
             return self.encoder.latest
-        setting = self.first_frame.setting
-        decoder = GopDecoder(setting, setting.tracks[:1], [self.inherited] if self.inherited else None)
-        frames = np.empty((sum(body.frames for body in self.bodies), setting.vertices, 3))
-        for number, (frame,) in enumerate(frame for body in self.bodies for frame in decoder.decode(body)):
+        frames = np.empty((sum(body.frames for body in self.bodies), self.first_frame.setting.vertices, 3))
+        for number, frame in enumerate(self.decoded_frames()):
             frames[number] = frame
         return frames
+
+    def decoded_frames(self) -> Iterator[Matrix]:
+        """The same, one after the other, each of shape (n, 3)."""
+        if self.encoder.low_delay and self.encoder.latest is not None:
+            yield from self.encoder.latest
+            return
+        setting = self.first_frame.setting
+        decoder = GopDecoder(setting, setting.tracks[:1], [self.inherited] if self.inherited else None)
+        for body in self.bodies:
+            yield from (frame for (frame,) in decoder.decode(body))
 
 
 class RunEncoder:

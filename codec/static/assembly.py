@@ -93,11 +93,11 @@ class Assembly:
         """Take note that the block with a number will not come."""
         self._lost.append(number)
 
-    def mesh(self) -> TriangleMesh:
+    def mesh(self, checksum: int | None = None) -> TriangleMesh:
         """The mesh in its own unit, once every block is in."""
         smoothed = smooth(self._graph, self._blend.all_positions(), self._smoothing)
         decoded = self._units.back(smoothed, out=smoothed)
-        return TriangleMesh(self._numbering.arranged(decoded), self._numbering.faces)
+        return self._numbering.mesh(decoded, checksum if self.whole else None)
 
     @property
     def whole(self) -> bool:

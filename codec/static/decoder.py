@@ -104,7 +104,7 @@ class BlockStage:
                 values = ValuesStage(self._assembly, self._structure, self._request.tolerant)
                 return values.accept(arrival, queue)
             case packets.End():
-                self._end(queue)
+                self._end(queue, arrival.positions)
             case Signal.END_OF_STREAM:
                 return self._complete or self._end(queue)  # a tolerant reader may find no END
             case _:
@@ -129,9 +129,9 @@ class BlockStage:
             queue.append(LossEvent(lost, error))
         self._next = index
 
-    def _end(self, queue: deque[Item]) -> Complete:
+    def _end(self, queue: deque[Item], checksum: int | None = None) -> Complete:
         self._skip_to(self._blocks, queue)
-        self._complete = completed(self._assembly, self._structure)
+        self._complete = completed(self._assembly, self._structure, checksum)
         queue.append(self._complete)
         return self._complete
 
@@ -225,8 +225,8 @@ class Decoder(StreamDecoder[Item]):
                 return self._refinement_event(levels)
             case PendingValues() as values:
                 return self._attribute_event(values)
-            case Complete(whole):
-                return EndEvent(whole.losses())
+            case Complete() as complete:
+                return self._end_event(complete)
             case event:
                 return event
 
@@ -248,10 +248,24 @@ class Decoder(StreamDecoder[Item]):
                 case PendingValues() as values:
                     self._attribute_event(values)
         match self._stage:
-            case Complete(whole):
-                return replace(whole.mesh(), metadata=self.metadata) if self.metadata else whole.mesh()
+            case Complete() as complete:
+                mesh = complete.mesh()
+                return replace(mesh, metadata=self.metadata) if self.metadata else mesh
             case _:
                 raise misplaced(END_OF_STREAM)
+
+    def _end_event(self, complete: Complete) -> EndEvent | LossEvent:
+        end = EndEvent(complete.whole.losses())
+        if complete.checksum is None:
+            return end
+        try:
+            complete.whole.mesh(complete.checksum)
+        except BsmError as error:
+            if not self._tolerant:
+                raise self._fail(error) from None
+            self._queue.append(end)
+            return LossEvent(None, error)
+        return end
 
     def _block_event(self, block: PendingBlock) -> BlockEvent | LossEvent:
         try:

@@ -9,6 +9,7 @@ from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Positions
+from bsm.codec.static.units import checksum_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,4 +41,4 @@ class Draft:
         yield writer.start()
         for packet in (self.header, *self.body):
             yield writer.write(packet)
-        yield writer.end()
+        yield writer.end(checksum_of(self.decoded))

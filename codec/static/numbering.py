@@ -7,7 +7,9 @@ import numpy as np
 from bsm.bitstream.connectivity.order import Arrangement
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Order, Positions
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.events import Changes, ConnectivityEvent
+from bsm.codec.static.units import checksum_of, unlike_the_encoders
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +48,12 @@ class Numbering:
         rows = np.repeat(np.arange(len(vertices)), counts)
         within = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
         return members[starts[vertices][rows] + within], rows
+
+    def mesh(self, positions: Positions, checksum: int | None) -> TriangleMesh:
+        """The mesh of all coded vertices, shape (n, 3); with a checksum only if it is theirs."""
+        if checksum is not None and checksum_of(positions) != checksum:
+            raise unlike_the_encoders()
+        return TriangleMesh(self.arranged(positions), self.faces)
 
     def arranged(self, positions: Positions) -> Positions:
         """Positions of all coded vertices, shape (n, 3), as the user numbers them, shape (k, 3)."""

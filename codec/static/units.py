@@ -1,10 +1,11 @@
 """BSM units, in which every mesh is about one long, and the way back to the unit of the mesh."""
 
+import zlib
 from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.bitstream.errors import NumericError
+from bsm.bitstream.errors import CorruptError, NumericError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
@@ -27,6 +28,16 @@ class Units:
         if not _kernels.back_into_unit(np.ascontiguousarray(positions), self.scale, np.array(self.center), moved):
             raise NumericError("positions are not finite in the unit of the mesh")
         return moved
+
+
+def checksum_of(positions: Positions, before: int = 0) -> int:
+    """CRC-32 of decoded positions, shape (n, 3), in the mesh's unit, behind those with the CRC-32 `before` (F 5.10)."""
+    return zlib.crc32(np.ascontiguousarray(positions + 0.0, "<f8").data, before)
+
+
+def unlike_the_encoders() -> CorruptError:
+    """The error where that is another than the stream has."""
+    return CorruptError("the checksum of decoded positions is wrong: they are not those that the encoder saw")
 
 
 def units_of(mesh: TriangleMesh) -> Units:

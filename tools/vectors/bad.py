@@ -46,8 +46,8 @@ class Bad:
 
 @cache
 def _base(**options: Any) -> bytes:
-    """A sound stream; smaller ones fail in fewer ways."""
-    return encode(patch(8, 7), changed(BASE, **{"coefficients": 6, **options}))
+    """A sound stream without a checksum of positions; smaller ones fail in fewer ways."""
+    return stream_of(frames_of(encode(patch(8, 7), changed(BASE, **{"coefficients": 6, **options}))))
 
 
 @cache
@@ -148,6 +148,12 @@ def _end(frames: int, crc: int) -> bytes:
     return body + write_frame(END, payload)
 
 
+def unlike(stream: bytes) -> bytes:
+    """The stream with another checksum of positions."""
+    whole = stream_of(frames_of(stream))
+    return whole[:-8] + write_frame(END, whole[-7:-2] + b"\xba\xdb\xad\x00")
+
+
 def _packed(edit: Callable[[bytes], bytes], options: dict[str, int] = _NARROW) -> Callable[[], bytes]:
     """A stream of packed values with another first block."""
 
@@ -188,6 +194,7 @@ FRAMING: dict[str, Bad] = {
     "bad-end-long": Bad(
         "END has a byte too many", "corrupt", lambda: _base()[:-8] + write_frame(END, b"\x04" + bytes(5))
     ),
+    "bad-end-positions": Bad("positions that are none of the encoder's", "corrupt", lambda: unlike(_ordered())),
     "bad-skippable-first": Bad("a skippable frame before HEADER", "corrupt", _framed(lambda f: f.insert(0, (8, b"")))),
     "bad-connectivity-first": Bad("CONNECTIVITY before HEADER", "corrupt", _framed(_swap(HEADER, CONNECTIVITY))),
     "bad-two-headers": Bad("HEADER twice", "corrupt", _framed(lambda f: f.insert(1, f[0]))),

@@ -8,7 +8,7 @@ from functools import cache
 
 from bsm.bitstream.container.wire import Cursor, FrameType, write_map, write_varint
 from tools.surgery import Frames, change_entries, frames_of, header_entries, stream_of, with_header
-from tools.vectors.bad import Bad
+from tools.vectors.bad import Bad, unlike
 from tools.vectors.good_sequences import SEQUENCES
 
 Edit = Callable[[bytes], bytes]
@@ -162,6 +162,9 @@ BAD_SEQUENCES: dict[str, Bad] = {
         "smoothing of a sequence", "unsupported", lambda: with_header(_base("learnt"), smoothing=1.0)
     ),
     "bad-sequence-empty": Bad("a GOP without method", "corrupt", _gop(lambda d: b"")),
+    "bad-sequence-end-positions": Bad(
+        "positions that are none of the encoder's", "corrupt", lambda: unlike(_base("learnt"))
+    ),
     "bad-sequence-no-frames": Bad("a GOP of no frames", "corrupt", _gop(lambda d: d[:1] + b"\0" + d[2:])),
     "bad-sequence-long": Bad("a GOP of more frames than announced", "corrupt", _gop(lambda d: d[:1] + b"\x07" + d[2:])),
     "bad-sequence-beyond": Bad(

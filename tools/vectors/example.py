@@ -47,11 +47,12 @@ def _bytes(stream: bytes) -> Iterator[tuple[bytes, str]]:
         else:
             yield payload, "coded faces"
         yield frame[len(tag) + len(payload) :], "CRC-16"
-    start = len(stream) - 8
-    yield stream[start : start + 1], "END, 5 bytes"
-    yield stream[start + 1 : start + 2], f"{stream[start + 1]} frames before it"
-    yield stream[start + 2 : start + 6], "CRC-32 of all bytes before END"
-    yield stream[start + 6 :], "CRC-16"
+    start = len(stream) - 13
+    yield stream[start : start + 2], "END, 9 bytes"
+    yield stream[start + 2 : start + 3], f"{stream[start + 2]} frames before it"
+    yield stream[start + 3 : start + 7], "CRC-32 of all bytes before END"
+    yield stream[start + 7 : start + 11], "CRC-32 of positions"
+    yield stream[start + 11 :], "CRC-16"
 
 
 def _header(payload: bytes) -> Iterator[tuple[bytes, str]]:

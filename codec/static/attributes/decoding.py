@@ -46,24 +46,6 @@ from bsm.codec.static.work import (
     values_memory,
 )
 
-
-class Outcome(Protocol):
-    """What a decoder has put together."""
-
-    def mesh(self) -> TriangleMesh:
-        """The mesh in its own unit."""
-
-    def losses(self) -> Losses:
-        """What of it is missing or less good."""
-
-
-@dataclass(frozen=True, eq=False)
-class Complete(Ended):
-    """All that is wanted is there, or known to be lost."""
-
-    whole: Outcome
-
-
 SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
 
@@ -137,8 +119,14 @@ def numbers_of(declaration: Declaration, faces: int) -> int:
     return rows * max(declaration.words, declaration.components)
 
 
-class Whole(Outcome, Protocol):
+class Whole(Protocol):
     """What a decoder has put together before attributes."""
+
+    def mesh(self, checksum: int | None = None) -> TriangleMesh:
+        """The mesh in its own unit; where nothing of it is lost, `checksum` must be that of its positions."""
+
+    def losses(self) -> Losses:
+        """What of it is missing or less good."""
 
     def solid(self) -> Solid | None:
         """Decoded positions, in the order of coding; None where some are missing or not as the encoder had them."""
@@ -290,14 +278,9 @@ class AttributedMesh:
         """Decode a chunk of values."""
         return self._carried.add(packet, lambda: self._places)
 
-    def mesh(self) -> TriangleMesh:
-        """The mesh in its own unit, with the attributes that are whole."""
-        solid = self._whole.solid() if self._carried.recomputed else None
-        return replace(self._whole.mesh(), attributes=self._carried.attributes(solid))
-
-    def losses(self) -> Losses:
-        """What of it is missing or less good."""
-        return self._whole.losses()
+    def attributes(self) -> tuple[Attribute, ...]:
+        """Those that are whole."""
+        return self._carried.attributes(self._whole.solid() if self._carried.recomputed else None)
 
     @cached_property
     def _places(self) -> Levels:
@@ -320,18 +303,33 @@ class PendingValues:
     attributed: AttributedMesh
 
 
-def completed(whole: Whole, structure: MeshContext) -> Complete:
+@dataclass(frozen=True, eq=False)
+class Complete(Ended):
+    """All that is wanted is there, or known to be lost, and what the stream says of it at its end."""
+
+    whole: Whole
+    attributed: AttributedMesh | None
+    checksum: int | None
+
+    def mesh(self) -> TriangleMesh:
+        """The mesh, with the attributes that are whole."""
+        mesh = self.whole.mesh(self.checksum)
+        return replace(mesh, attributes=self.attributed.attributes()) if self.attributed else mesh
+
+
+def completed(whole: Whole, structure: MeshContext, checksum: int | None = None) -> Complete:
     """The end of a decoder's way, where no values came."""
-    return Complete(AttributedMesh(whole, structure) if structure.declarations.known else whole)
+    return Complete(whole, AttributedMesh(whole, structure) if structure.declarations.known else None, checksum)
 
 
 class ValuesStage:
     """All positions are there, or known to be lost; values of attributes come."""
 
     def __init__(self, whole: Whole, structure: MeshContext, tolerant: bool) -> None:
+        self._whole = whole
         self._attributed = AttributedMesh(whole, structure)
         self._tolerant = tolerant
-        self._ended = False
+        self._complete: Complete | None = None
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
         match arrival:
@@ -340,15 +338,14 @@ class ValuesStage:
             case packets.Damaged():
                 queue.append(LossEvent(None, unreadable(arrival)))
             case packets.End():
-                self._end(queue)
+                self._end(queue, arrival.positions)
             case Signal.END_OF_STREAM:
-                if not self._ended:  # a tolerant reader may find no END
-                    self._end(queue)
-                return Complete(self._attributed)
+                return self._complete or self._end(queue)  # a tolerant reader may find no END
             case _:
                 raise misplaced(arrival)
         return self
 
-    def _end(self, queue: deque[Any]) -> None:
-        self._ended = True
-        queue.append(Complete(self._attributed))
+    def _end(self, queue: deque[Any], checksum: int | None = None) -> Complete:
+        self._complete = Complete(self._whole, self._attributed, checksum)
+        queue.append(self._complete)
+        return self._complete

@@ -118,7 +118,7 @@ class GridStage:
             case packets.Damaged():
                 self._lose(unreadable(arrival), queue)
             case packets.End():
-                self._end(queue)
+                self._end(queue, arrival.positions)
             case Signal.END_OF_STREAM:
                 return self._complete or self._end(queue)  # a tolerant reader may find no END
             case _:
@@ -162,8 +162,8 @@ class GridStage:
         self._broken = True
         queue.append(LossEvent(None, error))
 
-    def _end(self, queue: deque[Any]) -> Complete:
-        self._complete = completed(self._result, self._structure)
+    def _end(self, queue: deque[Any], checksum: int | None = None) -> Complete:
+        self._complete = completed(self._result, self._structure, checksum)
         queue.append(self._complete)
         return self._complete
 
@@ -177,9 +177,8 @@ class OnGrid:
     places: Levels
     known: np.ndarray[Any, np.dtype[np.bool_]]
 
-    def mesh(self) -> TriangleMesh:
-        numbering = self.structure.numbering
-        return TriangleMesh(numbering.arranged(self.positions), numbering.faces)
+    def mesh(self, checksum: int | None = None) -> TriangleMesh:
+        return self.structure.numbering.mesh(self.positions, checksum if self.known.all() else None)
 
     def solid(self) -> Solid | None:
         """Decoded positions; None if some are missing."""

@@ -70,15 +70,15 @@ class RefinementStage:
             case packets.Values():
                 return ValuesStage(self._refined, self._structure, self._tolerant).accept(arrival, queue)
             case packets.End():
-                self._end(queue)
+                self._end(queue, arrival.positions)
             case Signal.END_OF_STREAM:
                 return self._complete or self._end(queue)
             case _:
                 raise misplaced(arrival)
         return self
 
-    def _end(self, queue: deque[Any]) -> Complete:
-        self._complete = completed(self._refined, self._structure)
+    def _end(self, queue: deque[Any], checksum: int | None = None) -> Complete:
+        self._complete = completed(self._refined, self._structure, checksum)
         queue.append(self._complete)
         return self._complete
 
@@ -150,9 +150,9 @@ class Refined:
         positions = self._structure.units.back(self._positions[vertices])
         return RefinementEvent(numbers, positions[rows])
 
-    def mesh(self) -> TriangleMesh:
-        numbering = self._structure.numbering
-        return TriangleMesh(numbering.arranged(self._structure.units.back(self._positions)), numbering.faces)
+    def mesh(self, checksum: int | None = None) -> TriangleMesh:
+        decoded = self._structure.units.back(self._positions)
+        return self._structure.numbering.mesh(decoded, checksum if self._whole else None)
 
     def lose(self) -> None:
         """Take note that levels are lost, and not just none were sent."""
@@ -160,7 +160,11 @@ class Refined:
 
     def solid(self) -> Solid | None:
         """Decoded positions; None if any of it is missing."""
-        return Solid(self._positions) if self._assembly.whole and not self._lossy else None
+        return Solid(self._positions) if self._whole else None
+
+    @property
+    def _whole(self) -> bool:
+        return self._assembly.whole and not self._lossy
 
     def losses(self) -> Losses:
         """What is missing or less good: also what the layer has begun to refine and not reached."""

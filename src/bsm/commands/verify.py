@@ -37,5 +37,13 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
         info = inspect_stream(iter(chunks), limits)
         if not args.quick:
             decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
-    console.note(f"{args.input}: whole, {info.header.blocks} blocks, {info.sizes['total']} bytes")
-    return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": info.sizes["total"]}
+    checked = not args.quick and info.checksum is not None
+    said = ", positions as the encoder saw them" if checked else ""
+    console.note(f"{args.input}: whole, {info.header.blocks} blocks, {info.sizes['total']} bytes{said}")
+    return {
+        "input": args.input,
+        "ok": True,
+        "decoded": not args.quick,
+        "checked": checked,
+        "bytes": info.sizes["total"],
+    }

@@ -81,6 +81,7 @@ class StreamInfo:
     attributes: tuple[AttributeInfo, ...]
     sizes: dict[str, int]  # bytes by what they carry, "framing" nothing of all that; "total" is the whole
     runs: tuple[RunInfo, ...]
+    checksum: int | None  # of decoded positions
 
     @property
     def frames(self) -> int:
@@ -124,6 +125,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     sizes = dict.fromkeys(carried, 0)
     declared: list[packets.Attribute] = []
     lengths: Counter[int] = Counter()
+    checksum: int | None = None
     reader = Reader(limits)
     for packet in read_packets(chunks, reader):
         frame = reader.last_frame
@@ -140,7 +142,9 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
                 lengths[packet.index] += len(write_attribute(packet))
             case packets.Values():
                 lengths[packet.attribute] += len(packet.data)
-            case packets.End() | packets.Damaged():
+            case packets.End():
+                checksum = packet.positions
+            case packets.Damaged():
                 pass
             case _:
                 sizes[_CARRIED[type(packet)]] += len(packet.data)
@@ -156,7 +160,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     sizes["attributes"] = sum(one.bytes for one in attributes)
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
     numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
-    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known)
+    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum)
 
 
 def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:

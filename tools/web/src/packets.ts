@@ -76,7 +76,7 @@ export const COMMON: Parsers = {
     end: (payload) => {
         const frames = payload.varint();
         const crc = payload.take(4);
-        payload.finish();
+        if (![0, 4].includes(payload.rest().length)) throw new CorruptError("END has a wrong length");
         return { type: "end", frames, crc: littleEndian(crc) };
     },
 };
