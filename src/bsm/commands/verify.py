@@ -39,11 +39,6 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
             decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
     checked = not args.quick and info.checksum is not None
     said = ", positions as the encoder saw them" if checked else ""
-    console.note(f"{args.input}: whole, {info.header.blocks} blocks, {info.sizes['total']} bytes{said}")
-    return {
-        "input": args.input,
-        "ok": True,
-        "decoded": not args.quick,
-        "checked": checked,
-        "bytes": info.sizes["total"],
-    }
+    size = info.sizes["total"]
+    console.note(f"{args.input}: whole, {info.header.blocks} blocks, {size} bytes{said}")
+    return {"input": args.input, "ok": True, "decoded": not args.quick, "checked": checked, "bytes": size}
