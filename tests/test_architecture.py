@@ -46,8 +46,8 @@ FLOORS = {
     ),
     "bsm.codec.static": (
         ("work",),
-        ("coding", "contract", "draft", "events", "joining", "stages", "targets", "units"),
-        ("numbering", "preamble_encoding", "rules"),
+        ("coding", "contract", "events", "joining", "stages", "targets", "units"),
+        ("draft", "numbering", "preamble_encoding", "rules"),
         ("attributes",),
         ("assembly", "options"),
         ("preamble_decoding",),
