@@ -30,7 +30,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 33_930,
+    "product Python, lines": 34_010,
     "all Python, lines": 73_200,
     "product modules": 214,
     "product C files and headers": 72,
