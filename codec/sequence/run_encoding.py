@@ -145,7 +145,7 @@ class EncodedGops:
         return frames
 
     def decoded_frames(self) -> Iterator[Matrix]:
-        """The same, one after the other, each of shape (n, 3)."""
+        """What the decoder makes of each of their frames, one after the other, each of shape (n, 3)."""
         if self.encoder.low_delay and self.encoder.latest is not None:
             yield from self.encoder.latest
             return

@@ -279,7 +279,7 @@ class AttributedMesh:
         return self._carried.add(packet, lambda: self._places)
 
     def attributes(self) -> tuple[Attribute, ...]:
-        """Those that are whole."""
+        """The attributes that are whole."""
         return self._carried.attributes(self._whole.solid() if self._carried.recomputed else None)
 
     @cached_property
