@@ -43,6 +43,11 @@ class Gridded:
         self.most = COARSEST
         self.first = min(bounds.first_step, COARSEST)
 
+    def guess(self) -> float:
+        """About the bytes that the first step takes; of a model nobody can tell."""
+        character = self._shaper.character
+        return 0.0 if character.is_model else character.entropy(self.first)
+
     def at(self, step: float) -> Candidate:
         """What a step comes to."""
         unit = self._prepared.units.scale

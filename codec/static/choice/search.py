@@ -18,7 +18,8 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES
 from bsm.codec.static.targets import STEEPEST, secant
 from bsm.codec.static.ways.block_coder import Progress
 
-DEARER = 1.08  # a way is left alone whose first step takes so many times the bytes of what was found
+DEARER, FAR_DEARER = 1.08, 1.25
+"""A way is left alone whose first step takes so many times the bytes of what was found; or is about to, by a guess."""
 
 
 class Way(Protocol):
@@ -30,6 +31,9 @@ class Way(Protocol):
     @property
     def first(self) -> float:
         """A step that is about right."""
+
+    def guess(self) -> float:
+        """About the bytes that the first step takes, where that can be told without coding; or 0."""
 
     def at(self, step: float) -> Candidate:
         """What a step comes to."""
@@ -130,8 +134,7 @@ class Search:
             blocks += [Refined(prepared, options, bounds, self._progress, look)]
             if not seen:
                 blocks += [Plain(prepared, options, bounds, self._progress)]
-        # The smaller ones first: the others are left alone sooner.
-        yield from (*grids, *blocks) if character.is_sharp else (*blocks, *grids)
+        yield from (*blocks, *grids)  # the smaller ones first, nearly always: the others are left alone sooner
 
     def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""
@@ -145,6 +148,8 @@ class Search:
 def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf) -> Candidate | None:
     """The smallest candidate that is found to keep bounds, unless it would not be smaller than so many bytes."""
     kept, excess = list[Candidate](), bounds.excess()
+    if way.guess() > FAR_DEARER * most_bytes:
+        return None
     begin = min(max(way.first, way.least), way.most)
     first = way.at(begin) if most_bytes < math.inf else None
     if first is not None and first.draft.size > DEARER * most_bytes:
