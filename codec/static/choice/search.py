@@ -7,6 +7,7 @@ from operator import attrgetter
 from typing import Protocol
 
 from bsm.bitstream.errors import LimitError, TargetError
+from bsm.codec.look.measure import LookMetric
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded
@@ -54,6 +55,11 @@ class Search:
         self._progress = progress
         self._size = size
 
+    @property
+    def metric(self) -> LookMetric | None:
+        """None: nothing of the mesh can be seen."""
+        return self._measures.look
+
     def smallest(self, contract: Contract) -> Draft:
         """The smallest stream that keeps a contract.
 
@@ -67,6 +73,9 @@ class Search:
         bounds, kept = Bounds(self._measures, contract), list[Candidate]()
         least = math.inf
         for way in self._ways(bounds, contract.look):
+            on_grid = any(one.draft.places is not None for one in kept)
+            if not on_grid and way.guess() > FAR_DEARER * least:
+                continue
             found = widest(way, bounds, least)
             if found is not None:
                 kept.append(found)
@@ -148,8 +157,6 @@ class Search:
 def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf) -> Candidate | None:
     """The smallest candidate that is found to keep bounds, unless it would not be smaller than so many bytes."""
     kept, excess = list[Candidate](), bounds.excess()
-    if way.guess() > FAR_DEARER * most_bytes:
-        return None
     begin = min(max(way.first, way.least), way.most)
     first = way.at(begin) if most_bytes < math.inf else None
     if first is not None and first.draft.size > DEARER * most_bytes:
