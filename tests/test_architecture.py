@@ -20,7 +20,7 @@ FLOORS = {
         ("jobs",),
         ("api",),
         ("blender", "gltf", "research", "viewer"),
-        ("vtk",),
+        ("tiles", "vtk"),
         ("pyvista", "trimesh"),
         # Finds the module of a command by its name.
         ("cli",),

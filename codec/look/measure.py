@@ -107,8 +107,7 @@ class LookMetric:
         if not np.isfinite(positions).all():
             raise MeshError("a position is not finite")
         placed = self._placed(positions)
-        normals = Shape.of(placed, self._shape.faces).normals(placed)  # vertices that have come to one place are one
-        shaded = [(self._pictures, normals), *([self._own] if self._own else [])]
+        shaded = [(self._pictures, self._shape.normals(placed)), *([self._own] if self._own else [])]
         glances = [self._glanced(pictures, placed, normals, least, most) for pictures, normals in shaded]
         return max(glances, key=lambda glance: (glance[1] or glance[0]).distance)
 

@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     )
     from bsm.comparison import MeshComparison as MeshComparison
     from bsm.files.mesh import read_mesh as read_mesh
+    from bsm.tiles.shards import Tiles as Tiles, open_tiles as open_tiles
     from bsm.viewer.notebook import show as show
     from bsm.files.formats.polygons import MeshFile as MeshFile
     from bsm.codec.denoise import DenoiseOptions as DenoiseOptions
@@ -105,6 +106,7 @@ _ROOMS = {
     ),
     "bsm.comparison": "MeshComparison",
     "bsm.files.mesh": "read_mesh",
+    "bsm.tiles.shards": "Tiles open_tiles",
     "bsm.viewer.notebook": "show",
     "bsm.files.formats.polygons": "MeshFile",
     "bsm.codec.denoise": "DenoiseOptions",

@@ -21,6 +21,8 @@ COMMANDS = {
     "compare": "measure the error of a mesh",
     "verify": "check streams",
     "view": "show streams in a browser as they arrive",
+    "tile": "cut meshes larger than memory into tiles, coarse to fine",
+    "untile": "make one mesh of tiles",
     "glb": "compress the geometry of glTF scenes that stay scenes",
     "denoise": "remove noise from meshes and sequences",
     "demo": "compress a sample and show what became of it",

@@ -30,9 +30,9 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_010,
-    "all Python, lines": 73_200,
-    "product modules": 214,
+    "product Python, lines": 35_110,
+    "all Python, lines": 74_070,
+    "product modules": 222,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "header fields": 19,

@@ -140,10 +140,6 @@ class Plain:
         self.least, self.most = 1.01 * smallest_step(prepared.size), COARSEST
         self.first = bounds.first_step
 
-    def guess(self) -> float:
-        """Nothing: coding tells."""
-        return 0.0
-
     def at(self, step: float) -> Candidate:
         """What a step of coefficients comes to."""
         base = self._spectral.base(step, self._progress)
@@ -171,10 +167,6 @@ class Refined:
     def first(self) -> float:
         """The step that is about right."""
         return self._bounds.first_step if self._sensitivity is None else self._sensitivity.first_step(self._look)
-
-    def guess(self) -> float:
-        """Nothing: coding tells."""
-        return 0.0
 
     def at(self, step: float) -> Candidate:
         """What a step of the layer comes to."""

@@ -118,11 +118,10 @@ class Bounds:
         metric = self.measures.look
         return self.measures.original.angle(positions) if metric is None else metric.distance(self._decoded(positions))
 
-    @cached_property
-    def rough_step(self) -> float:
-        """A step at which normals are about as wrong as they may be, in BSM units."""
-        angle = min(self.contract.angle, ANGLE_OF_LOOK * self.contract.look)
-        return self.measures.shaper.character.step_of(angle, COARSEST)
+    @property
+    def about_angle(self) -> float:
+        """Mean angle of normals that is about as good as all that is asked for, degrees."""
+        return min(self.contract.angle, ANGLE_OF_LOOK * self.contract.look)
 
     @cached_property
     def first_step(self) -> float:
@@ -133,7 +132,7 @@ class Bounds:
                 # Of errors, or of their squares.
                 step /= math.sqrt(max(*self._shares(np.rint(positions / step) * step), LEAST))
             return min(step, COARSEST)
-        step = self.rough_step
+        step = self.measures.shaper.character.step_of(self.about_angle, COARSEST)
         few, _ = self._glance(np.rint(positions / step) * step, math.inf, math.inf)
         return step * min(max(self.contract.look / max(few, LEAST), 0.1), 10.0)
 

@@ -7,7 +7,6 @@ from operator import attrgetter
 from typing import Protocol
 
 from bsm.bitstream.errors import LimitError, TargetError
-from bsm.codec.look.measure import LookMetric
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded
@@ -19,8 +18,7 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES
 from bsm.codec.static.targets import STEEPEST, secant
 from bsm.codec.static.ways.block_coder import Progress
 
-DEARER, FAR_DEARER = 1.08, 1.25
-"""A way is left alone whose first step takes so many times the bytes of what was found; or is about to, by a guess."""
+DEARER = 1.08  # a way is left alone whose first step takes so many times the bytes of what was found
 
 
 class Way(Protocol):
@@ -32,9 +30,6 @@ class Way(Protocol):
     @property
     def first(self) -> float:
         """A step that is about right."""
-
-    def guess(self) -> float:
-        """About the bytes that the first step takes, where that can be told without coding; or 0."""
 
     def at(self, step: float) -> Candidate:
         """What a step comes to."""
@@ -55,11 +50,6 @@ class Search:
         self._progress = progress
         self._size = size
 
-    @property
-    def metric(self) -> LookMetric | None:
-        """None: nothing of the mesh can be seen."""
-        return self._measures.look
-
     def smallest(self, contract: Contract) -> Draft:
         """The smallest stream that keeps a contract.
 
@@ -73,9 +63,6 @@ class Search:
         bounds, kept = Bounds(self._measures, contract), list[Candidate]()
         least = math.inf
         for way in self._ways(bounds, contract.look):
-            on_grid = any(one.draft.places is not None for one in kept)
-            if not on_grid and way.guess() > FAR_DEARER * least:
-                continue
             found = widest(way, bounds, least)
             if found is not None:
                 kept.append(found)
@@ -143,7 +130,8 @@ class Search:
             blocks += [Refined(prepared, options, bounds, self._progress, look)]
             if not seen:
                 blocks += [Plain(prepared, options, bounds, self._progress)]
-        yield from (*blocks, *grids)  # the smaller ones first, nearly always: the others are left alone sooner
+        # The smaller ones first: the others are left alone sooner.
+        yield from (*grids, *blocks) if character.is_sharp else (*blocks, *grids)
 
     def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""

@@ -14,6 +14,7 @@ from bsm.files.pipes import read_chunks
 from bsm.files.stream import MOST_SAID, Loops, SequenceStream, StreamInfo, inspect_stream, said_of_runs
 from bsm.jobs.report import Facts, Job, Task
 from bsm.jobs.run import input_names, run_jobs
+from bsm.tiles.shards import is_tiles, open_tiles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,7 +24,7 @@ class InfoJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_inputs(parser, "stream, or - for standard input")
+    add_inputs(parser, "stream, folder of tiles, or - for standard input")
     parser.add_argument("--loops", action="store_true", help="decode sequences, and say which frames repeat others")
     add_limits_flag(parser)
 
@@ -35,6 +36,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def info_of_one(args: InfoJob, console: Console) -> Facts:
     limits = limits_of(args.limits)
+    if is_tiles(args.input):
+        return {"input": args.input, **open_tiles(args.input).manifest}
     chunks = list(read_chunks(args.input)) if args.loops else read_chunks(args.input)
     summary = summarise(inspect_stream(iter(chunks), limits))
     if args.loops and summary["header"]["sequence"]:
@@ -82,6 +85,8 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
 
 
 def _worded(summary: Facts) -> str:
+    if "shards" in summary:
+        return "\n".join(_tile_lines(summary))
     total = summary["bytes"]["total"]
     sizes = {("positions" if name == "coefficients" else name): size for name, size in summary["bytes"].items()}
     shares = [f"  {name:<13}{size:>12}  {100 * size / total:5.1f} %" for name, size in sizes.items()]
@@ -105,6 +110,17 @@ def _worded(summary: Facts) -> str:
         *(["metadata:", *said] if said else []),
     ]
     return "\n".join(lines)
+
+
+def _tile_lines(summary: Facts) -> Iterator[str]:
+    yield (
+        f"tiles of {printable(str(summary['source']))}: {summary['vertices']} vertices, {summary['faces']} faces, on a "
+        f"grid of {summary['cell']:g}"
+    )
+    for level in summary["levels"]:
+        counts = f"{level['tiles']:>6} tiles {level['faces']:>12} faces {level['bytes']:>12} bytes"
+        yield f"  level {level['level']}: {counts}, off by up to {level['error']:.3g}"
+    yield f"{len(summary['shards'])} shards, {sum(shard['size'] for shard in summary['shards'])} bytes"
 
 
 def _position_lines(summary: dict[str, Any]) -> list[str]:

@@ -5,10 +5,12 @@ from dataclasses import dataclass
 
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
 from bsm.console import Console
+from bsm.exits import worded
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_through, decode_whole, inspect_stream
 from bsm.jobs.report import Facts, Job, Task
 from bsm.jobs.run import input_names, run_jobs
+from bsm.tiles.shards import is_tiles, open_tiles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,7 +22,7 @@ class VerifyJob(Task):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    add_inputs(parser, "stream, or - for standard input")
+    add_inputs(parser, "stream, folder of tiles, or - for standard input")
     add_limits_flag(parser)
     parser.add_argument("--quick", action="store_true", help="check structure and checksums only, do not decode")
 
@@ -31,8 +33,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def verify_one(args: VerifyJob, console: Console) -> Facts:
-    chunks = list(read_chunks(args.input))
     limits = limits_of(args.limits)
+    if is_tiles(args.input):
+        return _verify_tiles(args, console)
+    chunks = list(read_chunks(args.input))
     with console.progress("decoding"):
         info = inspect_stream(iter(chunks), limits)
         if not args.quick:
@@ -42,3 +46,17 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
     size = info.sizes["total"]
     console.note(f"{args.input}: whole, {info.header.blocks} blocks, {size} bytes{said}")
     return {"input": args.input, "ok": True, "decoded": not args.quick, "checked": checked, "bytes": size}
+
+
+def _verify_tiles(args: VerifyJob, console: Console) -> Facts:
+    """Every tile of every shard; all that is wrong is said, and the first of it is the error."""
+    tiles = open_tiles(args.input, limits_of(args.limits))
+    with console.progress("decoding"):
+        faults = list(tiles.faults(not args.quick))
+    for fault in faults[1:]:
+        console.note(worded(fault))
+    if faults:
+        raise faults[0]
+    count, size = (sum(shard[name] for shard in tiles.manifest["shards"]) for name in ("tiles", "size"))
+    console.note(f"{args.input}: whole, {count} tiles, {size} bytes")
+    return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": size}

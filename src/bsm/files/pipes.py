@@ -16,7 +16,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias, Union, cast
 
-from bsm.bitstream.errors import ArgumentError, BsmError, DependencyError, FormatError, LimitError, OptionError
+from bsm.bitstream.errors import (
+    ArgumentError,
+    BsmError,
+    DependencyError,
+    FormatError,
+    LimitError,
+    OptionError,
+    TruncatedError,
+)
 from bsm.bitstream.extras import how_to_install
 
 _URL = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+)(?:::|://)")
@@ -347,6 +355,21 @@ def read_bytes(source: Source) -> bytes:
 
 def read_chunks(source: Source) -> Iterator[bytes]:
     return as_input(source).chunks()
+
+
+def read_range(name: str, first: int, size: int) -> bytes:
+    """Some bytes out of the middle of a file or URL; `TruncatedError` where they are not there."""
+    if is_url(name):
+        with _errors_of(name):
+            files, path = _system(name)
+            data = bytes(files.cat_file(path, start=first, end=first + size))
+    else:
+        with open(name, "rb") as file:
+            file.seek(first)
+            data = file.read(size)
+    if len(data) != size:
+        raise TruncatedError(f"{name}: there are {len(data)} bytes of {size} from byte {first} on")
+    return data
 
 
 def standard_input() -> BinaryIO:

@@ -38,7 +38,7 @@ def require_count(name: str, count: int, limits: Limits) -> None:
     """Raise `LimitError` where a file has more vertices, faces or frames than a stream may."""
     most = int(min(getattr(limits, name), 1 << 62))
     if count > most:
-        raise LimitError(f"{name} = {count:,} is over the limit of {most:,}; cut it into parts")
+        raise LimitError(f"{name} = {count:,} is over the limit of {most:,}; cut it into parts, as bsm tile does")
 
 
 def require_counts_of_head(kind: str | None, head: bytes, limits: Limits) -> None:

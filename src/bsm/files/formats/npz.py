@@ -166,14 +166,22 @@ class NpzArray:
 
     def frames(self) -> Iterator[Array]:
         """The first index' parts one after the other, without ever holding all of them."""
+        for piece in self.pieces(1):
+            yield piece[0]
+
+    def pieces(self, rows: int) -> Iterator[Array]:
+        """Up to so many of the first index' parts at a time."""
         if self._fortran:
             raise MeshError(f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray")
         size = size_of(self.shape[1:], self._kind)
-        for number in range(self.shape[0]):
-            data = self._read(size)
-            if len(data) < size:
-                raise CorruptError(f"the array {self._name} ends early, in frame {number} of {self.shape[0]}")
-            yield np.frombuffer(data, self._kind).reshape(self.shape[1:])
+        for first in range(0, self.shape[0], rows):
+            count = min(rows, self.shape[0] - first)
+            data = self._read(count * size)
+            if len(data) < count * size:
+                raise CorruptError(
+                    f"the array {self._name} ends early, in part {first + len(data) // max(1, size)} of {self.shape[0]}"
+                )
+            yield np.frombuffer(data, self._kind).reshape(count, *self.shape[1:])
 
     def _read(self, size: int) -> bytes:
         try:

@@ -86,6 +86,26 @@ def read_obj(data: bytes, limits: Limits) -> Polygons:
     )
 
 
+class ObjPieces:
+    """Points and faces of a text that comes in pieces of whole lines; nothing else of it."""
+
+    def __init__(self) -> None:
+        self._seen = 0
+
+    def take(self, text: bytes) -> tuple[Doubles, Ints, Ints]:
+        """Points, shape (k, 3), and of faces how many corners they have, and these."""
+        lines = _Lines(without_comments(text))
+        polygons, are_points = lines.of(b"f"), lines.are(b"v")
+        sizes = np.fromiter((len(line.split()) for line in polygons), np.int64, len(polygons))
+        written = _References(polygons).of(0)[: int(sizes.sum())]
+        if (written == 0).any():
+            raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
+        seen = np.repeat(self._seen + np.cumsum(are_points)[np.flatnonzero(lines.are(b"f"))], sizes)
+        self._seen += int(are_points.sum())
+        points = Rows(lines.of(b"v"), "vertex").columns(0, 3)
+        return points, sizes, np.where(written > 0, written - 1, written + seen)
+
+
 class _Lines:
     def __init__(self, text: bytes) -> None:
         parts = [line.split(None, 1) or [b""] for line in text.splitlines()]

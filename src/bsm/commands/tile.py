@@ -1,0 +1,114 @@
+"""bsm tile: a mesh larger than memory to a folder of tiles, coarse to fine."""
+
+import argparse
+import os
+import shutil
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from bsm.bitstream.errors import FormatError, OptionError
+from bsm.commands.flags import asked, point, run_of
+from bsm.console import Console, print_json
+from bsm.exits import tell
+from bsm.files.output import refuse_to_overwrite
+from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
+from bsm.jobs.report import Facts, Job, Outcome
+from bsm.jobs.run import came_to, run_many
+from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
+from bsm.tiles.making import TileJob, simplifier, tile_one
+from bsm.tiles.reading import read_big
+from bsm.tiles.shards import MANIFEST, write_shards
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("input", metavar="MESH", help="binary PLY, binary STL, npz or OBJ of any size; URLs as well")
+    add("-o", "--output", metavar="FOLDER", required=True, help="folder or URL for shards and their manifest.json")
+    add("--format", choices=("ply", "stl", "npz", "obj"), help="format of the input (default: by its name or content)")
+    add("--triangles", type=int, default=1 << 20, metavar="N", help="of a tile, at most (default 2^20)")
+    add("--grid-cell", type=float, metavar="H", help="the grid of all tiles (default: a power of two by the look)")
+    add("--grid-origin", type=point, metavar="X,Y,Z", help="a place of that grid (default 0,0,0)")
+    add("--finest", action="store_true", help="the finest level alone, no coarser ones")
+    add(
+        "--work",
+        metavar="FOLDER",
+        help="where files go until all is done (default: OUTPUT/.work); several times the input",
+    )
+    add("-j", "--jobs", type=int, default=1, metavar="N", help="tiles to work on at a time, 0: one per core (1)")
+    add(
+        "--dask",
+        metavar="ADDRESS",
+        help="work on the Dask cluster of this scheduler, whose machines have the same folders",
+    )
+    add("--resume", action="store_true", help="go on with what an earlier run has left in --work")
+    add("--json", action="store_true", help="print the manifest")
+
+
+def run(args: argparse.Namespace, console: Console) -> int:
+    if args.triangles < 64:
+        raise OptionError(f"--triangles {args.triangles}: tiles have 64 triangles or more")
+    if not args.finest:
+        simplifier()
+    refuse_to_overwrite(inside(args.output, MANIFEST), args.force)
+    if not is_url(args.output):
+        os.makedirs(args.output, exist_ok=True)
+    beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
+    work = Path(os.path.abspath(args.work or beside))
+    with about(args.input):
+        plan = _planned(args, work, console)
+    asked_for = asked(TileJob, args, input="", output="", most=args.triangles, cell=plan.lattice.cell, force=False)
+    done: list[Facts] = []
+    levels = plan.levels()
+
+    def ended(job: Job, outcome: Outcome) -> None:
+        if outcome.error is not None:
+            tell(outcome.error)
+
+    for level in reversed(range(len(levels))):
+        names = [name for name in levels[level] if name in plan.leaves or not args.finest]
+        jobs = [Job(_input_of(work, plan, name), str(work / f"{name}.bsm")) for name in names]
+        many = replace(run_of(args), report=str(work / f"level-{level}.json"), resume=True)
+        found = run_many(many, asked_for, console, tile_one, jobs, ended) if jobs else []
+        if failed := [facts for facts in found if "error" in facts]:
+            console.note(
+                f"{len(failed)} of {len(found)} tiles of level {level} failed; --resume goes on from the others"
+            )
+            return int(failed[0]["exit"])
+        done += found
+    manifest = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=args.force or args.resume)
+    taken, given = size_of(args.input), sum(shard["size"] for shard in manifest["shards"])
+    console.note(
+        f"{args.input} -> {args.output}: {plan.vertices} vertices, {plan.faces} faces, {len(done)} tiles in "
+        f"{len(manifest['levels'])} levels, on a grid of {plan.lattice.cell:g}, {came_to(taken, given)}"
+    )
+    shutil.rmtree(work)
+    if args.json:
+        print_json(manifest)
+    return 0
+
+
+def _input_of(work: Path, plan: Plan, name: str) -> str:
+    """What a tile depends on: the plan, or those that it is made of."""
+    return str(work / ("plan.json" if name in plan.leaves else f"{name}[0-7].bsm"))
+
+
+def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
+    """The plan of a run that is gone on with, or that of a new one."""
+    options: dict[str, Any] = {name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin")}
+    asked_for = repr((options, state_of(args.input)))
+    note = work / "asked"
+    if args.resume and (work / "plan.json").is_file():
+        if note.read_text() != asked_for:
+            raise FormatError(
+                f"{work} is of another mesh or of other options: leave out --resume, or name another --work"
+            )
+        return load_plan(work / "plan.json")
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    raw = read_big(args.input, args.format, work, console)
+    with console.progress("cutting"):
+        plan = cut(raw, chosen_lattice(raw, args.grid_cell, args.grid_origin), args.triangles, work)
+    note.write_text(asked_for)
+    plan.save(work / "plan.json")
+    return plan

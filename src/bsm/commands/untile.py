@@ -1,0 +1,60 @@
+"""bsm untile: one mesh out of a folder of tiles."""
+
+import argparse
+from pathlib import Path
+
+from bsm.bitstream.errors import OptionError
+from bsm.commands.flags import add_limits_flag, limits_of
+from bsm.console import Console
+from bsm.files.mesh import write_mesh
+from bsm.files.output import refuse_terminal, refuse_to_overwrite
+from bsm.tiles.joining import write_joined
+from bsm.tiles.shards import open_tiles
+
+
+def box(text: str) -> tuple[float, ...]:
+    numbers = tuple(map(float, text.split(",")))
+    if len(numbers) != 6:
+        raise ValueError(text)
+    return numbers
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("input", metavar="FOLDER", help="folder of tiles, or a URL of one")
+    add(
+        "-o",
+        "--output",
+        metavar="OUT",
+        required=True,
+        help=".ply (- for a pipe) for the finest level of any size; with --box or --error any mesh format, or .bsm",
+    )
+    add("--box", type=box, metavar="X,Y,Z,X,Y,Z", help="the triangles that reach into this box, in memory")
+    add("--error", type=float, metavar="H", help="the coarsest tiles that are at most so far off, in the mesh's unit")
+    add_limits_flag(parser)
+
+
+def run(args: argparse.Namespace, console: Console) -> None:
+    tiles = open_tiles(args.input, limits_of(args.limits))
+    refuse_to_overwrite(args.output, args.force)
+    if args.box is None and args.error is None:
+        if args.output != "-" and Path(args.output).suffix.lower() != ".ply":
+            raise OptionError(
+                f"the finest level is written as .ply, not {args.output}; --error 0 makes one mesh in memory"
+            )
+        refuse_terminal(args.output)
+        said = write_joined(tiles, args.output, console, overwrite=args.force)
+    else:
+        far = 1e300
+        ends = args.box or (-far, -far, -far, far, far, far)
+        with console.progress("decoding"):
+            mesh = tiles.region(ends[:3], ends[3:], args.error or 0.0)
+        said = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
+        if Path(args.output).suffix.lower() == ".bsm":
+            import bsm
+
+            cell, origin = tiles.lattice.cell, tiles.lattice.origin
+            bsm.save(mesh, args.output, grid_cell=cell, grid_origin=origin)
+        else:
+            write_mesh(args.output, mesh, overwrite=args.force)
+    console.note(f"{args.input} -> {args.output}: {said['vertices']} vertices, {said['faces']} faces")

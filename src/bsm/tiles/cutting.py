@@ -1,0 +1,208 @@
+"""One integer lattice for a whole mesh, and an octree over it: which triangle is of which tile."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import OptionError
+from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
+from bsm.files.output import open_output
+from bsm.tiles.reading import Raw, pieces_of
+
+Ints: TypeAlias = npt.NDArray[np.int64]
+Places: TypeAlias = npt.NDArray[np.int32]
+DEPTH = 10  # levels below the first that has to be cut
+COARSEST = 1 << 15  # triangles of the coarsest level, about
+_SAMPLE = 40_000
+_FARTHEST = 1 << 30  # from the origin, in cells
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """Where places are in the mesh's unit."""
+
+    cell: float
+    origin: tuple[float, ...] = (0.0, 0.0, 0.0)
+
+    def places(self, positions: npt.NDArray[Any]) -> Places:
+        """As the encoder rounds them."""
+        found = np.floor((positions.astype(np.float64) - np.array(self.origin)) / self.cell + 0.5)
+        return np.asarray(found, np.int32)
+
+    def positions(self, places: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+        return np.asarray(places * self.cell + np.array(self.origin))
+
+
+def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | None) -> Lattice:
+    """The lattice that is asked for, or one by the look of a sample, in cells that every place is told exactly in."""
+    lattice = Lattice(_cell_by_look(raw) if cell is None else cell, origin or (0.0, 0.0, 0.0))
+    farthest = max(
+        abs(end - at) / lattice.cell for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin)
+    )
+    exact = math.frexp(lattice.cell)[0] == 0.5 and not any(at % lattice.cell for at in lattice.origin)
+    if not farthest < (_FARTHEST if exact else MOST_LARGEST // 2):
+        better = 2.0 ** max(
+            math.floor(math.log2(lattice.cell)),
+            math.ceil(math.log2(2 * max(map(abs, (*raw.low, *raw.high))) / _FARTHEST)),
+        )
+        raise OptionError(
+            f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell places "
+            f"exactly; a power of two does, such as --grid-cell {better!r}"
+        )
+    return lattice
+
+
+def _cell_by_look(raw: Raw) -> float:
+    """The largest power of two that keeps the default's promise for some triangles from the middle of the file."""
+    first = max(0, raw.triangles - _SAMPLE) // 2
+    with raw.faces.open("rb") as file:
+        file.seek(12 * first)
+        faces = np.fromfile(file, "<u4", 3 * _SAMPLE)
+    used, corners = np.unique(faces, return_inverse=True)
+    positions = np.memmap(raw.positions, raw.kind, "r").reshape(-1, 3)[used].astype(np.float64)
+    encoder = Encoder(
+        TriangleMesh(positions, corners.reshape(-1, 3).astype(np.int32)), EncodeOptions(quick=True, threads=1)
+    )
+    return float(2.0 ** math.floor(math.log2(encoder.result().header.scale)))
+
+
+# --------------------------------------------------------------------------------------------------------------- octree
+
+
+@dataclass(frozen=True)
+class Root:
+    """The cube of the whole mesh; a node is named "r" and the eighths on the way to it."""
+
+    low: tuple[int, ...]
+    bits: int
+
+    def cube(self, name: str) -> tuple[Ints, int]:
+        """The lowest place of a node, and how many places it has along each side."""
+        corner = np.array(self.low, np.int64)
+        for level, eighth in enumerate(name[1:], 1):
+            corner += (np.array([4, 2, 1]) & int(eighth)).astype(bool).astype(np.int64) << (self.bits - level)
+        return corner, 1 << (self.bits - len(name) + 1)
+
+    def outside(self, name: str, places: Places) -> npt.NDArray[np.bool_]:
+        """Which places are not in the cube of a node."""
+        corner, side = self.cube(name)
+        return np.asarray(((places < corner) | (places >= corner + side)).any(axis=1))
+
+
+@dataclass(frozen=True)
+class Plan(Root):
+    """How a mesh is cut: `leaves` tells of each tile of the finest level where its faces begin in the file `cut`, and
+    how many they are."""
+
+    lattice: Lattice
+    depth: int
+    vertices: int
+    faces: int
+    leaves: dict[str, tuple[int, int]]
+
+    def codes(self, places: npt.NDArray[Any]) -> Ints:
+        """The node of the deepest level that holds each place, in their order along the octree's curve."""
+        shifted = (places.astype(np.int64) - np.array(self.low)) >> (self.bits - self.depth)
+        found = np.zeros(len(places), np.int64)
+        for level in range(self.depth):
+            bits = (shifted >> level) & 1
+            found |= (bits[:, 0] << 2 | bits[:, 1] << 1 | bits[:, 2]) << (3 * level)
+        return found
+
+    def ends(self, name: str) -> tuple[int, int]:
+        """The codes of a node: from the first on, before the second."""
+        below = 3 * (self.depth - len(name) + 1)
+        code = int(name[1:] or "0", 8)
+        return code << below, (code + 1) << below
+
+    def levels(self) -> list[list[str]]:
+        """The names of all nodes, the root's level first."""
+        nodes = {leaf[: 1 + level] for leaf in self.leaves for level in range(len(leaf))}
+        return [sorted(name for name in nodes if len(name) == size) for size in range(1, 1 + max(map(len, nodes)))]
+
+    def save(self, path: Path) -> None:
+        with open_output(path, overwrite=True) as file:
+            file.write(json.dumps(asdict(self)).encode())
+
+
+def load_plan(path: Path) -> Plan:
+    given = json.loads(path.read_bytes())
+    given["lattice"] = Lattice(given["lattice"]["cell"], tuple(given["lattice"]["origin"]))
+    return Plan(**{**given, "low": tuple(given["low"])})
+
+
+def cut(raw: Raw, lattice: Lattice, most: int, folder: Path) -> Plan:
+    """Write the lattice's places, faces leaf by leaf, and which places are used from outside of their leaf."""
+    low, high = np.full(3, _FARTHEST, np.int64), np.full(3, -_FARTHEST, np.int64)
+    with (folder / "places").open("wb") as file:
+        for piece in pieces_of(raw.positions, raw.kind):
+            places = lattice.places(piece)
+            low, high = np.minimum(low, places.min(axis=0)), np.maximum(high, places.max(axis=0))
+            places.tofile(file)
+    raw.positions.unlink()
+    # Above the first level that is cut there is one node a level, down to a mesh that is there at once.
+    above = max(0, math.ceil(math.log(min(most, raw.triangles) / COARSEST, 4)))
+    bits = int((high - low).max()).bit_length() + above
+    depth = min(DEPTH + above, bits)
+    plan = Plan(tuple(map(int, low)), bits, lattice, depth, raw.vertices, raw.triangles, {})
+    codes, counts = np.zeros(0, np.int64), np.zeros(0, np.int64)
+    for _, corners in _corners(raw, folder):
+        found, number = np.unique(plan.codes(corners.sum(axis=1) // 3), return_counts=True)
+        codes, inverse = np.unique(np.concatenate([codes, found]), return_inverse=True)
+        counts = np.bincount(inverse, np.concatenate([counts, number])).astype(np.int64)
+    before = np.concatenate([[0], np.cumsum(counts)])
+
+    def leaves(name: str) -> Iterator[tuple[str, tuple[int, int]]]:
+        first, last = np.searchsorted(codes, plan.ends(name))
+        begin, count = int(before[first]), int(before[last] - before[first])
+        if count and len(name) > above and (count <= most or len(name) > depth):
+            yield name, (begin, count)
+        elif count:
+            for eighth in "01234567":
+                yield from leaves(name + eighth)
+
+    plan = Plan(plan.low, bits, lattice, depth, raw.vertices, raw.triangles, dict(leaves("r")))
+    _sort_faces(plan, raw, folder)
+    return plan
+
+
+def _corners(raw: Raw, folder: Path) -> Iterator[tuple[npt.NDArray[np.uint32], Ints]]:
+    """Faces, shape (k, 3), and the places of their corners, shape (k, 3, 3)."""
+    for faces in pieces_of(raw.faces, "<u4"):
+        # Mapped anew for each piece, so that no more of it is in memory than the piece needs.
+        places = np.memmap(folder / "places", np.int32, "r").reshape(-1, 3)
+        yield faces, places[faces].astype(np.int64)
+
+
+def _sort_faces(plan: Plan, raw: Raw, folder: Path) -> None:
+    """Faces by their leaves, in the order of the file inside each; and the places that tiles reach out to."""
+    ends = np.array([plan.ends(name) for name in plan.leaves])
+    following = np.array([begin for begin, _ in plan.leaves.values()])
+    outside: list[Ints] = []
+    with (folder / "cut").open("wb") as file:
+        for faces, places in _corners(raw, folder):
+            leaf = np.searchsorted(ends[:, 0], plan.codes(places.sum(axis=1) // 3), "right") - 1
+            order = np.argsort(leaf, kind="stable")
+            numbers, first, count = np.unique(leaf[order], return_index=True, return_counts=True)
+            for number, begin, size in zip(numbers.tolist(), first.tolist(), count.tolist()):
+                file.seek(12 * int(following[number]))
+                faces[order[begin : begin + size]].tofile(file)
+            following[numbers] += count
+            reached, user = places.reshape(-1, 3), np.repeat(leaf, 3)
+            homes = plan.codes(reached)
+            out = (homes < ends[user, 0]) | (homes >= ends[user, 1])
+            found = np.concatenate([homes[out, None], reached[out], ends[user[out], :1]], axis=1)
+            outside.append(np.unique(found, axis=0))
+    np.save(folder / "outside.npy", np.unique(np.concatenate(outside), axis=0))
+    raw.faces.unlink()

@@ -1,0 +1,299 @@
+"""Tiles in few files: shards with an index at their end, and a manifest; written once, read by ranges."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.public import public
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.output import open_output
+from bsm.files.pipes import about, inside, is_url, read_bytes, read_range
+from bsm.files.stream import decode_whole
+from bsm.jobs.report import Facts
+from bsm.tiles.cutting import Lattice, Places, Plan, Root
+from bsm.tiles.making import Faces
+
+MANIFEST = "manifest.json"
+SHARD = 64_000_000  # bytes from which on a shard takes no more tiles
+_END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
+_FOOT = 16
+_MOST = 1 << 31  # bytes of a tile, or of an index
+
+
+@dataclass(frozen=True)
+class Tile:
+    """What an index says of a tile: its node, where its bytes are, and what they hold."""
+
+    name: str
+    offset: int
+    size: int
+    sha256: str
+    vertices: int
+    faces: int
+    error: float
+    low: tuple[int, ...]
+    high: tuple[int, ...]
+
+    @property
+    def level(self) -> int:
+        return len(self.name) - 1
+
+
+def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> Facts:
+    """Write tiles in their order, and the manifest when all else is there."""
+    shards: list[Facts] = []
+    waiting = list(reversed(done))
+    while waiting:
+        name = f"{len(shards):05}.tiles"
+        tiles: list[Tile] = []
+        with open_output(inside(folder, name), overwrite=overwrite) as file:
+            offset = 0
+            while waiting and offset < SHARD:
+                facts = waiting.pop()
+                data, node = Path(facts["output"]).read_bytes(), Path(facts["output"]).stem
+                sums_of = facts["vertices"], facts["faces"], facts["apart"]
+                ends = tuple(facts["low"]), tuple(facts["high"])
+                tiles.append(Tile(node, offset, len(data), facts["output_sha256"], *sums_of, *ends))
+                offset += file.write(data)
+            index = json.dumps([asdict(tile) for tile in tiles], separators=(",", ":")).encode()
+            file.write(index + len(index).to_bytes(8, "little") + _END)
+        shards.append({"file": name, "size": offset + len(index) + _FOOT, "index": len(index), "tiles": len(tiles)})
+        shards[-1] |= {"sha256": sha256(index).hexdigest(), **_bounds(tiles)}
+    sums: dict[int, dict[str, Any]] = {}
+    for facts in done:
+        level = sums.setdefault(len(Path(facts["output"]).stem) - 1, {"tiles": 0, "faces": 0, "bytes": 0, "error": 0.0})
+        level["tiles"] += 1
+        level["faces"] += facts["faces"]
+        level["bytes"] += facts["output_bytes"]
+        level["error"] = max(level["error"], facts["apart"])
+    manifest = {
+        "format": "bsm tiles",
+        "version": 1,
+        "source": source,
+        "cell": plan.lattice.cell,
+        "origin": plan.lattice.origin,
+        "root": {"low": plan.low, "bits": plan.bits},
+        "vertices": plan.vertices,
+        "faces": plan.faces,
+        "levels": [{"level": level, **sums[level]} for level in sorted(sums)],
+        "shards": shards,
+    }
+    with open_output(inside(folder, MANIFEST), overwrite=overwrite) as file:
+        file.write(json.dumps(manifest, indent=1).encode() + b"\n")
+    return manifest
+
+
+def _bounds(tiles: Sequence[Tile]) -> dict[str, list[int]]:
+    lows, highs = zip(*((tile.low, tile.high) for tile in tiles))
+    return {"low": np.min(lows, axis=0).tolist(), "high": np.max(highs, axis=0).tolist()}
+
+
+def is_tiles(path: str) -> bool:
+    """Whether a folder, or a URL that ends with a slash, holds a manifest."""
+    return path.endswith("/") if is_url(path) else Path(path, MANIFEST).is_file()
+
+
+def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
+    """Open a folder of tiles, as `bsm tile` writes it; only its manifest is read.
+
+    Parameters
+    ----------
+    path : str
+        A folder, or a URL of one.
+    limits : Limits
+        Of each tile.
+
+    Returns
+    -------
+    Tiles
+
+    Raises
+    ------
+    FormatError, CorruptError
+        If there is no manifest of tiles.
+    OSError
+        If it cannot be read.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> part = bsm.open_tiles("scan").region((0, 0, 0), (1, 1, 1), error=0.01)
+    """
+    name = inside(path, MANIFEST)
+    try:
+        given = json.loads(read_bytes(name))
+        if given["format"] != "bsm tiles":
+            raise KeyError("format")
+        if given["version"] != 1:
+            raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
+        lattice = Lattice(_number(given["cell"]), tuple(map(_number, given["origin"])))
+        root = Root(tuple(int(_number(one)) for one in given["root"]["low"]), int(_number(given["root"]["bits"])))
+        for shard in given["shards"]:
+            if not re.fullmatch(r"\d{5,9}\.tiles", shard["file"]) or not 0 < shard["index"] < min(_MOST, shard["size"]):
+                raise ValueError(shard["file"])
+            _ends(shard)
+        for level in given["levels"]:
+            [_number(level[key]) for key in ("level", "tiles", "faces", "bytes", "error")]
+        _number(given["faces"])
+        if lattice.cell <= 0 or len(lattice.origin) != 3 or len(root.low) != 3 or not 0 < root.bits < 60:
+            raise ValueError("cell, origin or root")
+    except _NO_JSON as error:
+        raise FormatError(f"{name}: this is no manifest of tiles: {error!r}") from error
+    return Tiles(path, given, lattice, root, limits)
+
+
+_NO_JSON = (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError)
+
+
+def _number(value: Any) -> float:
+    if type(value) not in (int, float) or not abs(value) < 1e300:
+        raise ValueError(f"{value!r} is no number")
+    return float(value)
+
+
+def _ends(given: Mapping[str, Any]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    low, high = (tuple(int(_number(one)) for one in given[key]) for key in ("low", "high"))
+    if len(low) != 3 or len(high) != 3:
+        raise ValueError("bounds")
+    return low, high
+
+
+@public
+@dataclass(frozen=True, eq=False)
+class Tiles:
+    """A mesh in tiles, made by `open_tiles`.
+
+    Parameters
+    ----------
+    path : str
+        The folder or URL.
+    manifest : mapping
+        What its manifest says: the grid's `cell` and `origin`, `levels`, `shards`.
+    lattice : Lattice
+        Where places are.
+    root : Root
+        The cube that is cut into eighths.
+    limits : Limits
+        Of each tile.
+
+    Raises
+    ------
+    CorruptError
+        By what reads tiles, where a shard is missing bytes or has others than were written.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> tiles = bsm.open_tiles("scan")
+    >>> tiles.manifest["levels"][0]["error"]
+    0.31...
+    """
+
+    path: str
+    manifest: Mapping[str, Any]
+    lattice: Lattice
+    root: Root
+    limits: Limits = DEFAULT_LIMITS
+    _held: dict[str, list[Tile]] = field(default_factory=dict, init=False, repr=False)
+
+    def region(self, low: Sequence[float], high: Sequence[float], error: float = 0.0) -> TriangleMesh:
+        """Triangles that reach into a box, from the coarsest tiles whose error is at most `error`, as one mesh."""
+        ends = np.array([low, high], np.float64)
+        if ends.shape != (2, 3) or not np.isfinite(ends).all():
+            raise ArgumentError("a box has a low and a high corner of three numbers each")
+        box = (ends - np.array(self.lattice.origin)) / self.lattice.cell
+        tables, triangles, first = [], [], 0
+        for shard, tile in self.chosen(error, box):
+            places, faces = self.decoded(shard, tile)
+            corners = places[faces]
+            faces = faces[((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)]
+            tables.append(places)
+            triangles.append(faces + first)
+            first += len(places)
+        if not sum(map(len, triangles)):
+            raise OptionError("there is nothing of the mesh in this box")
+        used, rows = np.unique(np.concatenate(triangles), return_inverse=True)
+        different, numbers = np.unique(np.concatenate(tables)[used], axis=0, return_inverse=True)
+        joined = numbers.reshape(-1)[rows].reshape(-1, 3).astype(np.int32)
+        return TriangleMesh(self.lattice.positions(different), joined)
+
+    def chosen(self, error: float, box: Any = None) -> Iterator[tuple[Facts, Tile]]:
+        """The coarsest tiles whose error is at most that, and that meet a box of places."""
+        found: dict[str, tuple[Facts, Tile]] = {}
+        for shard in self.manifest["shards"]:
+            if box is None or _meet(box, shard["low"], shard["high"]):
+                found |= {tile.name: (shard, tile) for tile in self.index(shard)}
+        taken: set[str] = set()
+        for name in sorted(found, key=lambda name: (len(name), name)):
+            if name[:-1] in taken:
+                taken.add(name)
+            elif found[name][1].error <= error:
+                taken.add(name)
+                if box is None or _meet(box, found[name][1].low, found[name][1].high):
+                    yield found[name]
+
+    def index(self, shard: Facts) -> list[Tile]:
+        """What a shard says of its tiles."""
+        if shard["file"] not in self._held:
+            self._held[shard["file"]] = self._read_index(shard)
+        return self._held[shard["file"]]
+
+    def _read_index(self, shard: Facts) -> list[Tile]:
+        name, size = inside(self.path, shard["file"]), shard["index"] + _FOOT
+        data = read_range(name, shard["size"] - size, size)
+        index = data[: shard["index"]]
+        if data[-_FOOT:] != len(index).to_bytes(8, "little") + _END or sha256(index).hexdigest() != shard["sha256"]:
+            raise CorruptError(f"{name}: the index at the end of this shard is not what the manifest says was written")
+        try:
+            tiles = [Tile(**{**one, **dict(zip(("low", "high"), _ends(one)))}) for one in json.loads(index)]
+            for tile in tiles:
+                if (
+                    not re.fullmatch("r[0-7]{0,60}", tile.name)
+                    or not 0 <= tile.offset <= tile.offset + tile.size <= shard["size"]
+                ):
+                    raise ValueError(tile.name)
+                [_number(one) for one in (tile.error, tile.vertices, tile.faces)]
+        except _NO_JSON as error:
+            raise CorruptError(f"{name}: the index at the end of this shard makes no sense: {error!r}") from error
+        return tiles
+
+    def data(self, shard: Facts, tile: Tile) -> bytes:
+        """The stream of a tile."""
+        name = inside(self.path, shard["file"])
+        data = read_range(name, tile.offset, tile.size)
+        if sha256(data).hexdigest() != tile.sha256:
+            raise CorruptError(f"{name}: tile {tile.name} is not what was written", offset=tile.offset)
+        return data
+
+    def decoded(self, shard: Facts, tile: Tile) -> tuple[Places, Faces]:
+        with about(f"{inside(self.path, shard['file'])}, tile {tile.name}"):
+            mesh = decode_whole(iter([self.data(shard, tile)]), self.limits)
+        return self.lattice.places(mesh.positions), mesh.faces
+
+    def faults(self, decode: bool) -> Iterator[BsmError | OSError]:
+        """What is wrong, shard by shard and tile by tile."""
+        for shard in self.manifest["shards"]:
+            try:
+                tiles = self.index(shard)
+            except (BsmError, OSError) as error:
+                yield error
+                continue
+            for tile in tiles:
+                try:
+                    self.decoded(shard, tile) if decode else self.data(shard, tile)
+                except (BsmError, OSError) as error:
+                    yield error
+
+
+def _meet(box: Any, low: Sequence[float], high: Sequence[float]) -> bool:
+    return bool((box[0] <= np.array(high)).all() and (box[1] >= np.array(low)).all())

@@ -1,0 +1,275 @@
+"""Meshes in tiles: borders, levels, shards, and the way back."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.surface_distance import distances_to_surface
+from bsm.commands import tile as command
+from bsm.files.mesh import write_mesh
+from bsm.tiles.cutting import Lattice
+from bsm.tiles.making import simplified, welded
+from tests.bsm.program import bsm as program
+from tests.shapes import curved, torus
+
+CELL = 2.0**-14
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    made = curved(torus(80, 60))
+    return TriangleMesh(made.positions.astype(np.float32), made.faces)  # which every format holds to the bit
+
+
+@pytest.fixture(scope="module")
+def folder(mesh, tmp_path_factory):
+    pytest.importorskip("fast_simplification")
+    return made(mesh, tmp_path_factory.mktemp("tiles") / "out")
+
+
+def made(mesh, output, *more, triangles=700, suffix="ply"):
+    source = output.parent / f"mesh.{suffix}"
+    write_mesh(source, mesh)
+    tile(source, output, "--grid-cell", CELL, "--triangles", triangles, *more)
+    return output
+
+
+def tile(source, output, *more):
+    done = program("tile", source, "-o", output, *more, text=True)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def sets(mesh, lattice=Lattice(CELL)):  # noqa: B008
+    """Places that faces use, and faces as places from the first of their corners on, in order."""
+    corners = lattice.places(mesh.positions)[mesh.faces]
+    order = np.array([min(range(3), key=lambda first: face[first].tolist()) for face in corners])
+    turned = np.take_along_axis(corners, ((order[:, None] + np.arange(3)) % 3)[..., None], axis=1).reshape(-1, 9)
+    return np.unique(corners.reshape(-1, 3), axis=0), turned[np.lexsort(turned.T)]
+
+
+def same(first, second):
+    return all(np.array_equal(one, other) for one, other in zip(sets(first), sets(second)))
+
+
+def edges(faces):
+    found = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    return np.unique(found, axis=0, return_counts=True)
+
+
+def contents(folder):
+    return {path.name: path.read_bytes() for path in Path(folder).iterdir()}
+
+
+@pytest.mark.parametrize("suffix", ["ply", "stl", "npz", "obj"])
+def test_untile_gives_the_mesh_back(mesh, suffix, tmp_path):
+    output = made(mesh, tmp_path / "out", "--finest", suffix=suffix)
+    assert program("untile", output, "-o", tmp_path / "back.ply").returncode == 0
+    back = bsm.load(tmp_path / "back.ply")
+    assert same(bsm.load(tmp_path / f"mesh.{suffix}"), back) and len(back.positions) == len(mesh.positions)
+    assert bsm.open_tiles(str(output)).manifest["levels"][-1]["tiles"] > 8
+    assert not (output / ".work").exists()
+
+
+def test_polygons_and_other_orders_of_obj(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3/1 -2//2 -1\nv 0 1 0\nf 1 2 3 4\n# f 9 9 9\n")
+    tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 0.25)
+    found = bsm.open_tiles(str(tmp_path / "out")).region((0, 0, 0), (1, 1, 1))
+    assert len(found.positions) == 4 and len(found.faces) == 3
+
+
+def test_tiles_that_meet_have_the_same_bits_there(mesh, folder):
+    tiles = bsm.open_tiles(str(folder))
+    seen, faces = {}, 0
+    for shard, one in tiles.chosen(0.0):
+        decoded = bsm.decode(tiles.data(shard, one))
+        faces += len(decoded.faces)
+        for place, position in zip(tiles.lattice.places(decoded.positions), decoded.positions):
+            seen.setdefault(place.tobytes(), set()).add(position.tobytes())
+    assert faces == len(mesh.faces)
+    assert all(len(positions) == 1 for positions in seen.values())
+
+
+def test_levels_meet_without_a_crack_and_are_as_near_as_they_say(mesh, folder):
+    tiles = bsm.open_tiles(str(folder))
+    nodes = {one.name: (shard, one) for shard in tiles.manifest["shards"] for one in tiles.index(shard)}
+    inner = [name for name in nodes if name + "0" <= max(nodes) and any(other[:-1] == name for other in nodes)]
+    leaves = [one.name for _, one in tiles.chosen(0.0)]
+    coarse = [name for name in inner if len(name) > 1]
+    assert len(coarse) > 2 and all(nodes[name][1].error > 0 for name in coarse)
+    for name in ("r", *coarse):
+        parts = [tiles.decoded(*nodes[one]) for one in (name, *(leaf for leaf in leaves if not leaf.startswith(name)))]
+        offsets = np.cumsum([0, *(len(places) for places, _ in parts)])
+        _, numbers = welded(np.concatenate([places for places, _ in parts]))
+        corners = numbers[np.concatenate([faces + first for (_, faces), first in zip(parts, offsets)])]
+        solid = corners[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
+        _, counts = edges(solid)
+        assert (counts == 2).all(), name
+        places, faces = parts[0]
+        below = [tiles.decoded(*nodes[leaf])[0] for leaf in leaves if leaf.startswith(name)]
+        apart = distances_to_surface(np.concatenate(below).astype(float), places.astype(float), faces).max() * CELL
+        assert apart <= nodes[name][1].error
+    levels = tiles.manifest["levels"]
+    assert levels[0]["faces"] < 0.4 * len(mesh.faces)
+
+
+def test_a_region_in_python(mesh, folder):
+    tiles = bsm.open_tiles(str(folder))
+    low, high = (-10.0, -10.0, -10.0), (10.0, 10.0, 10.0)
+    assert same(tiles.region(low, high), mesh)
+    coarse = tiles.region(low, high, error=1e9)
+    assert len(coarse.faces) < 0.4 * len(mesh.faces)
+    part = tiles.region((0, 0, 0), high)
+    assert 0 < len(part.faces) < len(mesh.faces)
+    corners = part.positions[part.faces]
+    assert (corners.max(axis=1) >= 0).all()
+    with pytest.raises(OptionError, match="nothing of the mesh"):
+        tiles.region((8, 8, 8), high)
+
+
+def test_untile_of_a_box_and_of_a_level(folder, tmp_path):
+    assert program("untile", folder, "-o", tmp_path / "a.bsm", "--error", "1e9", "--box", "0,0,0,9,9,9").returncode == 0
+    expected = bsm.open_tiles(str(folder)).region((0, 0, 0), (9, 9, 9), 1e9)
+    assert same(bsm.load(tmp_path / "a.bsm"), expected)
+
+
+def test_locked_vertices_stay_where_nothing_else_holds_them():
+    mesh = torus(60, 40)
+    places = Lattice(CELL).places(mesh.positions)
+    pytest.importorskip("fast_simplification")
+    locked = np.arange(0, len(places), 37)
+    new, faces = simplified(places, mesh.faces, locked, 900)
+    assert len(faces) <= 1000
+    assert set(map(tuple, places[locked].tolist())) <= set(map(tuple, new.tolist()))
+
+
+@pytest.mark.slow
+def test_processes_and_clusters_give_the_same_bytes(mesh, folder, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    assert contents(made(mesh, tmp_path / "two", "-j", "2")) == contents(folder)
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": 50}
+    with distributed.LocalCluster(**options) as cluster:
+        assert contents(made(mesh, tmp_path / "dask", "--dask", cluster.scheduler_address)) == contents(folder)
+
+
+def test_a_run_that_was_interrupted_goes_on(mesh, folder, tmp_path, monkeypatch):
+    source, output = tmp_path / "mesh.ply", tmp_path / "out"
+    write_mesh(source, mesh)
+    words = ("tile", source, "-o", output, "--grid-cell", CELL, "--triangles", 700)
+    done = []
+
+    def interrupted(job, console, most=5, work=command.tile_one):
+        if len(done) == most:
+            raise KeyboardInterrupt
+        done.append(job.output)
+        return work(job, console)
+
+    interrupted.__name__ = command.tile_one.__name__
+    monkeypatch.setattr(command, "tile_one", interrupted)
+    assert program(*words).returncode == 130
+    assert not (output / "manifest.json").exists()
+    monkeypatch.setattr(interrupted, "__defaults__", (1 << 30, *interrupted.__defaults__[1:]))
+    assert program(*words, "--resume", "--triangles", 800).returncode == 3
+    assert program(*words, "--resume").returncode == 0
+    assert len(done) == len(set(done)) and contents(output) == contents(folder)
+
+
+@pytest.mark.parametrize("harm", ["changed", "cut", "missing", "index"])
+def test_damage_is_told(folder, tmp_path, harm):
+    for name, data in contents(folder).items():
+        (tmp_path / name).write_bytes(data)
+    shard = tmp_path / "00000.tiles"
+    data = shard.read_bytes()
+    at = 1000 if harm == "changed" else len(data) - 100
+    if harm == "missing":
+        shard.unlink()
+    else:
+        shard.write_bytes(data[:-5] if harm == "cut" else data[:at] + bytes([data[at] ^ 1]) + data[at + 1 :])
+    done = program("verify", tmp_path, text=True)
+    said = {"changed": "is not what was written", "cut": "there are", "missing": "No such file", "index": "the index"}
+    assert done.returncode in (4, 9, 12) and said[harm] in done.stderr and "00000.tiles" in done.stderr
+    expected = {"missing": FileNotFoundError, "cut": TruncatedError}.get(harm, CorruptError)
+    with pytest.raises(expected):
+        bsm.open_tiles(str(tmp_path)).region((-9, -9, -9), (9, 9, 9))
+
+
+def test_info_and_verify_of_a_folder(folder):
+    assert program("verify", folder).returncode == 0
+    told = program("info", folder, text=True).stdout
+    assert "level 0" in told and "1 shards" in told
+    assert json.loads(program("info", folder, "--json").stdout)["cell"] == CELL
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"cell": 0}, {"format": "x"}, {"shards": [{"file": "../../x"}]}, {"root": {}}, {"version": 2}, {"levels": 1}],
+)
+def test_a_manifest_that_makes_no_sense(folder, tmp_path, change):
+    (tmp_path / "manifest.json").write_text(
+        json.dumps({**json.loads((folder / "manifest.json").read_text()), **change})
+    )
+    with pytest.raises(FormatError, match="manifest"):
+        bsm.open_tiles(str(tmp_path))
+
+
+@pytest.mark.parametrize(
+    ("harm", "said", "code"),
+    [("cut", "cut short", 12), ("index", "outside 0", 3), ("nan", "not finite", 3), ("text", "is text", 3)],
+)
+def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, said, code):
+    source = tmp_path / "mesh.ply"
+    write_mesh(source, mesh)
+    data = source.read_bytes()
+    body = data.index(b"end_header\n") + 11
+    harmed = {
+        "cut": data[:-7],
+        "index": data[:-4] + (1 << 30).to_bytes(4, "little"),
+        "nan": data[:body] + b"\xff" * 8 + data[body + 8 :],
+        "text": data.replace(b"binary_little_endian", b"ascii"),
+    }[harm]
+    source.write_bytes(harmed)
+    done = program("tile", source, "-o", tmp_path / "out", text=True)
+    assert done.returncode == code and said in done.stderr
+    assert not (tmp_path / "out" / "manifest.json").exists()
+
+
+def test_grids_that_cannot_be_told_exactly(mesh, tmp_path):
+    source = tmp_path / "mesh.npz"
+    write_mesh(source, TriangleMesh(mesh.positions + 1e6, mesh.faces))
+    done = program("tile", source, "-o", tmp_path / "out", "--grid-cell", "0.001", text=True)
+    assert done.returncode == 2 and "a power of two does" in done.stderr
+    power = done.stderr.rsplit("--grid-cell ", 1)[1].strip()
+    tile(source, tmp_path / "out", "--grid-cell", power, "--finest")
+
+
+def test_the_grid_is_chosen_by_the_look(mesh, tmp_path):
+    source = tmp_path / "mesh.ply"
+    write_mesh(source, mesh)
+    tile(source, tmp_path / "out")
+    cell = bsm.open_tiles(str(tmp_path / "out")).lattice.cell
+    assert np.log2(cell) % 1 == 0 and 1e-5 < cell < 0.1
+
+
+def test_a_mesh_that_is_too_large_is_told_of_tiles(tmp_path):
+    (tmp_path / "big.ply").write_text(
+        "ply\nformat binary_little_endian 1.0\nelement vertex 20000000\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    done = program("encode", tmp_path / "big.ply", text=True)
+    assert done.returncode == 6 and "bsm tile" in done.stderr
+
+
+@pytest.mark.real
+@pytest.mark.slow
+def test_a_scan_comes_back(meshes, tmp_path):
+    source = meshes / "static" / "bunny_34834.ply"
+    tile(source, tmp_path / "out", "--triangles", 2000, "--finest")
+    assert program("untile", tmp_path / "out", "-o", tmp_path / "back.ply").returncode == 0
+    lattice = bsm.open_tiles(str(tmp_path / "out")).lattice
+    for one, other in zip(sets(bsm.load(source), lattice), sets(bsm.load(tmp_path / "back.ply"), lattice)):
+        assert np.array_equal(one, other)
