@@ -249,8 +249,8 @@ def span_of(accessor: Tree, view: Tree) -> tuple[int, int]:
 
 def _count(where: Tree, name: str) -> int:
     value = where.get(name, 0)
-    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
-        raise FormatError(f"{name} of this glTF is {value!r}, not a number of bytes or values")
+    if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < 1 << 53:
+        raise FormatError(f"{name} of this glTF is {repr(value)[:40]}, not a number of bytes or values")
     return value
 
 
@@ -261,9 +261,8 @@ def read_document(path: str) -> Document:
 def require_room_for_meshes(data: bytes, limits: Limits, folder: Path | None = None) -> None:
     """Count what the meshes of a glTF become, before anybody makes them; its buffers must be files of its folder."""
     document = Document(data)
-    for buffer in document.items("buffers"):
-        if folder and not (uri := str(buffer.get("uri", "data:"))).startswith("data:"):
-            _file(uri, folder)
+    uris = (str(buffer.get("uri", "data:")) for buffer in document.items("buffers") if folder)
+    beside = sum(_file(uri, folder).stat().st_size for uri in uris if folder and not uri.startswith("data:"))
     with as_format_error():
         numbers, named = 0, set()
         for primitive in document.primitives():
@@ -276,7 +275,6 @@ def require_room_for_meshes(data: bytes, limits: Limits, folder: Path | None = N
         vertices = sum(document.count(index) for index in named)
         depths = _depths(document.items("nodes"))
         climbed = sum(depths[number] ** 2 for number, node in enumerate(document.items("nodes")) if "mesh" in node)
-    beside = sum(_count(buffer, "byteLength") for buffer in document.items("buffers") if "uri" in buffer)
     if (deepest := max(depths.values(), default=0)) > MOST_NESTED:
         raise LimitError(f"the nodes of this glTF are nested {deepest} deep; the limit is {MOST_NESTED}")
     require_count("vertices", vertices, limits)
