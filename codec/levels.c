@@ -5,6 +5,11 @@
 #include "codec/sequence/kernels.h"
 #include "codec/signal/signal.h"
 
+#if KERNEL_LEVELS == 1
+#define CHOOSE(result, name, parameters, arguments)                                                                    \
+    result name##_v1 parameters;                                                                                       \
+    result name parameters { return name##_v1 arguments; }
+#else
 #define CHOOSE(result, name, parameters, arguments)                                                                    \
     result name##_v1 parameters;                                                                                       \
     result name##_v3 parameters;                                                                                       \
@@ -17,6 +22,7 @@
             return name##_v3 arguments;                                                                                \
         return name##_v1 arguments;                                                                                    \
     }
+#endif
 
 CHOOSE(void, cosines, (Doubles table, Doubles2 columns), (table, columns))
 CHOOSE(void, resize_columns, (ConstSingles2 previous, Doubles table, Singles2 columns), (previous, table, columns))

@@ -22,13 +22,13 @@ static char *write_number(char *to, char *end, int64_t number) {
     return to;
 }
 
-bool fail_with(Context *context, bsmdec_status status, Said said) {
+bool fail_with(Context *context, bsmdec_status status, Message message) {
     if (failed(context)) return false;
     bsmdec_error *error = &context->error;
     char *to = error->message, *end = to + sizeof error->message - 1;
-    const int64_t numbers[] = {said.a, said.b, said.c};
+    const int64_t numbers[] = {message.a, message.b, message.c};
     int next = 0;
-    for (const char *from = said.text; *from != 0 && to < end; from++) {
+    for (const char *from = message.text; *from != 0 && to < end; from++) {
         if (*from == '#' && next < 3) to = write_number(to, end, numbers[next++]);
         else *to++ = *from;
     }

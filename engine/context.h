@@ -26,11 +26,11 @@ typedef struct {
 typedef struct {
     const char *text;
     int64_t a, b, c;
-} Said;
+} Message;
 
 /* Note the first thing wrong; always false, so that who finds it can return it. */
-bool fail_with(Context *context, bsmdec_status status, Said said);
-#define FAIL(context, status, ...) fail_with(context, BSMDEC_##status, (Said){.text = __VA_ARGS__})
+bool fail_with(Context *context, bsmdec_status status, Message message);
+#define FAIL(context, status, ...) fail_with(context, BSMDEC_##status, (Message){.text = __VA_ARGS__})
 INLINE bool failed(const Context *context) { return context->error.status != BSMDEC_OK; }
 /* Whether all is well. A decoder that leaves an array out for want of memory has failed, and says so here. */
 INLINE bool fine(const Context *context) { return context->error.status == BSMDEC_OK; }

@@ -9,13 +9,40 @@ from __future__ import annotations
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 FOLDERS = ("bitstream", "codec/basis", "codec/blocks", "codec/signal", "codec/sequence")
 FILES = ("codec/geometry/graph.c", "codec/static/units.c")
-INTERFACE = "engine/bsmdec.h"
+INTERFACE, VECTORS = "engine/bsmdec.h", "codec/basis/vectors.h"
+LEVELS = {1: "", 3: "avx2,bmi,bmi2", 4: "avx2,bmi,bmi2,avx512f,avx512vl,avx512dq,avx512bw"}
+_HEAD = """#include "bsmdec.h"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#if !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+"""
+_MANY = """
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(_MSC_VER) && !defined(KERNEL_ONE_TARGET) && !defined(__AVX512F__)
+#define KERNEL_LEVELS 3
+#else
+#define KERNEL_LEVELS 1
+#endif
+"""
+_BEGIN = """#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("{0}"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("{0}")
+#endif
+"""
+_END = """#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+"""
 _OWN = re.compile(r'^#include "([^"]+)"\n', re.MULTILINE)
 _PROTOTYPE = re.compile(r"^(?=(?:u?int\d+_t|void|bool|double|[A-Z]\w+) [^=;{]*\([^;{]*\);)", re.MULTILINE)
 _FUNCTION = re.compile(
@@ -48,7 +75,7 @@ def priors() -> str:
 
 def _read(path: str) -> str:
     """A file, and with it the vectors of doubles that it works on: others have vectors of floats."""
-    vectors = (ROOT / "codec/basis/vectors.h").read_text()
+    vectors = (ROOT / VECTORS).read_text()
     return (ROOT / path).read_text().replace(_DOUBLES, f"#define VECTORS_OF_DOUBLES\n{vectors}")
 
 
@@ -116,13 +143,24 @@ def amalgamated() -> str:
     own = {path: _names(texts[path]) for path in files}
     shared = {name for text in headers.values() for name in re.findall(r"\w+", _bare(text))}
     count = Counter(name for names in own.values() for name in names)
-    pieces = ['#include "bsmdec.h"\n', '#pragma GCC diagnostic ignored "-Wunused-function"\n']
-    pieces += [_private(text) for text in headers.values()]
+    pieces, leveled = [_HEAD, *(_private(text) for text in headers.values())], [_private(headers[VECTORS])]
     for path in files:
         suffix = re.sub(r"\W", "_", path[:-2])
         clashing = [name for name in own[path] if count[name] > 1 or name in shared]
-        pieces += [f"\n/* {path} */\n", _private(_renamed(texts[path], clashing, suffix))]
-    return "".join([*pieces, _private(priors())])
+        text = f"\n/* {path} */\n{_private(_renamed(texts[path], clashing, suffix))}"
+        (leveled if path.endswith(".simd.c") else pieces).append(text)
+    return "".join([*pieces, *_levels("".join(leveled)), _OWN.sub("", _read("codec/levels.c")), _private(priors())])
+
+
+def _levels(text: str) -> Iterator[str]:
+    """Files *.simd.c for each level of x86-64, with names of their own; for other processors the first of them."""
+    names = _names(text)
+    yield _MANY
+    for level, target in LEVELS.items():
+        yield f"\n#define KERNEL_LEVEL {level}\n{_BEGIN.format(target) if target else ''}"
+        yield f"{_renamed(text, names, f'v{level}')}\n{_END if target else ''}#undef KERNEL_LEVEL\n"
+        yield "" if target else "#if KERNEL_LEVELS > 1\n"
+    yield "#endif\n"
 
 
 def interface() -> str:

@@ -23,11 +23,11 @@ typedef float Real;
 
 /* Numbers that a register holds, how many vectors side by side have room in registers for several rows of them, and rows
  * of one vector that are summed side by side: eight registers, so that as many are left for what is added. */
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) || KERNEL_LEVEL == 4
 #define REGISTER (64 / REAL_BYTES)
 #define SIDE VECTORS
 #define ROWS 4
-#elif defined(__AVX__)
+#elif defined(__AVX__) || KERNEL_LEVEL == 3
 #define REGISTER (32 / REAL_BYTES)
 #define SIDE 1
 #define ROWS 4

@@ -9,16 +9,18 @@ from tests.engine.decoding import build, decode, of_sequence
 from tools.vectors.store import read_manifest
 
 AVX2, AVX512 = ("avx2", "fma"), ("avx512f", "avx512vl", "avx512dq", "avx512bw", "fma")
-BUILDS = [("gcc", ()), ("gcc", AVX2), ("gcc", AVX512), ("clang", ()), ("clang", AVX2), ("clang", AVX512)]
+BUILDS = [(compiler, wanted) for compiler in ("gcc", "clang") for wanted in ((), AVX2, AVX512, None)]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("compiler", "wanted"), BUILDS)
-def test_every_build_gives_the_same_bits(compiler: str, wanted: tuple[str, ...], tmp_path: Path) -> None:
+def test_every_build_gives_the_same_bits(compiler: str, wanted: tuple[str, ...] | None, tmp_path: Path) -> None:
+    """For one level of x86-64 each, and (None) with all of them, of which the program chooses when it runs."""
+    flags = ["-DKERNEL_ONE_TARGET", *(f"-m{one}" for one in wanted)] if wanted is not None else []
     cpu = Path("/proc/cpuinfo")
-    if shutil.which(compiler) is None or not (cpu.exists() and set(wanted) <= set(cpu.read_text().split())):
-        pytest.skip(f"no {compiler} here, or a processor without {' '.join(wanted)}")
-    library = build(tmp_path, "-O1", *(f"-m{one}" for one in wanted), "-w", compiler=compiler)
+    if shutil.which(compiler) is None or not (cpu.exists() and set(wanted or ()) <= set(cpu.read_text().split())):
+        pytest.skip(f"no {compiler} here, or a processor without {' '.join(wanted or ())}")
+    library = build(tmp_path, "-O1", *flags, "-w", compiler=compiler)
     for vector in read_manifest():
         if vector.error is not None:
             continue
