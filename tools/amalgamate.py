@@ -24,7 +24,8 @@ _HEAD = """#include "bsmdec.h"
 #endif
 """
 _MANY = """
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(_MSC_VER) && !defined(KERNEL_ONE_TARGET) && !defined(__AVX512F__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(_MSC_VER) && !defined(__AVX512F__) \\
+    && !defined(KERNEL_ONE_TARGET)
 #define KERNEL_LEVELS 3
 #else
 #define KERNEL_LEVELS 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Build the kernels with AddressSanitizer and UndefinedBehaviorSanitizer (GCC), and run them over all vectors, mutations
-# of them and bad meshes. Whatever they find ends the run with a report and exit code 1.
+# of them and bad meshes; then bsmdec, over mutations. Whatever they find ends the run with a report and exit code 1.
 #     tools/sanitize.sh [PYTHON] [OPTIONS of python -m tools.attack sweep ...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -10,8 +10,14 @@ python=$(command -v "$python")
 # Absolute, but through no link: it is the link that makes a virtual environment.
 python=$(cd "$(dirname "$python")" && pwd)/$(basename "$python")
 . tools/checking_copy.sh
+root=$PWD
 checking_copy sanitized -DBSM_SANITIZE=ON
 # libstdc++ as well: the sanitizer looks for its throw before Python has loaded it.
 export LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libstdc++.so)"
 export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 PYTHONMALLOC=malloc
 "$python" -m tools.attack.sweep "$@"
+cd "$root"
+unset PYTHONPATH PYTHONMALLOC
+LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
+    "$python" -m tests.engine.mutants 1000000 "$(git rev-parse HEAD)" --exact --tolerant --seconds 15 \
+    --flags="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -DKERNEL_ONE_TARGET"

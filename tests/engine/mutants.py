@@ -1,6 +1,6 @@
 """Mutants of the vectors by the decoder in C, with sanitizers if asked, and by Python: they agree.
 
-python -m tests.engine.mutants COUNT SEED [--tolerant] [--exact] [--sequences] [--flags="-O1 -fsanitize=undefined"]
+python -m tests.engine.mutants COUNT SEED [--tolerant] [--exact] [--sequences] [--seconds N] [--flags="-O1 -g"]
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import argparse
 import ctypes
 import sys
 import tempfile
+import time
 from collections import Counter
 from pathlib import Path
 from random import Random
@@ -78,14 +79,24 @@ def _alike(one: np.ndarray, other: np.ndarray, *, exact: bool) -> bool:
 
 
 def compare(
-    library: ctypes.CDLL, count: int, seed: str, *, exact: bool = False, tolerant: bool = False, sequences: bool = False
+    library: ctypes.CDLL,
+    count: int,
+    seed: str,
+    *,
+    exact: bool = False,
+    tolerant: bool = False,
+    sequences: bool = False,
+    seconds: float = np.inf,
 ) -> tuple[Counter[str], list[str]]:
-    """How so many mutants of a seed went, and what went wrong."""
+    """How so many mutants of a seed went, or as many as can be had in a time, and what went wrong."""
+    end = time.monotonic() + seconds
     random, seeds = Random(seed), vector_seeds()
     if sequences:
         seeds = [one for one in seeds if is_sequence(one)]
     tally, found = Counter[str](), list[str]()
     for number in range(count):
+        if time.monotonic() > end:
+            break
         stream = mutant(random, seeds)
         decoded = decode(library, stream, pieces=random.choice((0, 0, 1 + random.randrange(100))))
         tally[f"status {decoded.status}"] += 1
@@ -109,13 +120,13 @@ def main() -> int:
     parser.add_argument("--tolerant", action="store_true")
     parser.add_argument("--exact", action="store_true")
     parser.add_argument("--sequences", action="store_true", help="of these alone")
+    parser.add_argument("--seconds", type=float, default=np.inf, help="at most")
     parser.add_argument("--flags", default="", help="of the compiler")
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         library = build(Path(folder), "-w", *args.flags.split())
-        tally, found = compare(
-            library, args.count, args.seed, exact=args.exact, tolerant=args.tolerant, sequences=args.sequences
-        )
+        wanted = {name: getattr(args, name) for name in ("exact", "tolerant", "sequences", "seconds")}
+        tally, found = compare(library, args.count, args.seed, **wanted)
     print(dict(tally), *found[:20], f"{len(found)} findings", sep="\n")
     return 1 if found else 0
 
