@@ -8,8 +8,10 @@ import ast
 import inspect
 import os
 import re
+import shutil
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -78,7 +80,7 @@ def is_python(block):
 
 
 BLOCKS = [(name, block) for name in DOCUMENTS for block in blocks(name)]
-COMMANDS = [(name, command) for name in DOCUMENTS for command in commands(name)]
+COMMANDS = list(dict.fromkeys(command for name in DOCUMENTS for command in commands(name)))
 
 
 @pytest.fixture(scope="module")
@@ -176,29 +178,35 @@ def _run_by_ci():
     return done.stdout.splitlines()
 
 
+@cache
+def helped(folder, program):
+    """What a program says of itself."""
+    done = run(folder, f"{program} --help")
+    passed(done)
+    return done
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "command"), COMMANDS)
-def test_commands(name, command, folder):
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands(command, folder):
     if re.search(BY_CI, command):
         pytest.skip("run by CI itself")
     if re.search(f"{NEEDS_FOLDER}|{HELP_ONLY}", command) or re.fullmatch(r"bsm [a-z]+", command):
         program = re.match(r"bsm \w+|python -m tools\.(?:measure|attack) \w+|python -m [\w.]+", command).group()
-        done = run(folder, f"{program} --help")
-        passed(done)
+        done = helped(folder, program)
         for option in re.findall(r" (--[a-z-]+|-[a-z])\b", command[len(program) :]):
             assert option in done.stdout, f"{program} has no {option}"
         if only := re.search(r"--only (\w+)", command):
             assert only.group(1) in done.stdout
     else:
+        shutil.rmtree(folder / "streams", ignore_errors=True)
         passed(run(folder, filled(command)))
 
 
 @pytest.mark.long
 @pytest.mark.real
-@pytest.mark.parametrize(
-    ("name", "command"), [(n, c) for n, c in COMMANDS if re.search(NEEDS_FOLDER, c) and not re.search(HELP_ONLY, c)]
-)
-def test_commands_on_real_meshes(name, command, folder, meshes):
+@pytest.mark.parametrize("command", [c for c in COMMANDS if re.search(NEEDS_FOLDER, c) and not re.search(HELP_ONLY, c)])
+def test_commands_on_real_meshes(command, folder, meshes):
     places = {"MESHES": meshes / "static", "SEQUENCES": meshes / "dynamic", "FOLDER": meshes, "MESH...": "bunny.ply"}
     if "denoise" in command:
         places["MESHES"] = meshes
@@ -210,7 +218,7 @@ def test_commands_on_real_meshes(name, command, folder, meshes):
 def test_something_is_found():
     assert len(BLOCKS) >= 5 and len(COMMANDS) >= 15
     assert sum(is_python(block) for _, block in BLOCKS) >= 1
-    assert any("tools.attack fuzz" in command for _, command in COMMANDS)
+    assert any("tools.attack fuzz" in command for command in COMMANDS)
 
 
 # ------------------------------------------------------------------------------------------------- what is said exists

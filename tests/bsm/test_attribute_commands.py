@@ -15,6 +15,9 @@ from tests.bsm.files.test_file_attributes import attribute, dressed, png
 from tests.bsm.test_libraries import painted
 from tests.shapes import tetrahedron, torus
 
+GRID = ("--grid", "12")
+"""Of tests that are about what goes along with the shape."""
+
 
 def run_json(capsys, *words):
     assert main([*map(str, words), "--json"]) == 0
@@ -31,18 +34,8 @@ def test_everything_comes_back(tmp_path, capsys):
     (tmp_path / "a.npz").write_bytes(b"")
     bsm.save(painted(), tmp_path / "a.npz")
     for source in ("a.obj", "a.npz"):
-        words = (
-            "encode",
-            tmp_path / source,
-            "-o",
-            tmp_path / "a.bsm",
-            "-f",
-            "--meta",
-            "author=me=you",
-            "--meta",
-            "name=",
-        )
-        assert main([*map(str, words), "-q"]) == 0
+        words = ("encode", tmp_path / source, "-o", tmp_path / "a.bsm", "-fq", *GRID)
+        assert main([*map(str, words), "--meta", "author=me=you", "--meta", "name="]) == 0
         for target in ("b.obj", "b.ply", "b.npz"):
             assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / target), "-fq"]) == 0
             errors = run_json(capsys, "compare", tmp_path / source, tmp_path / target)["attributes"]
@@ -57,7 +50,7 @@ def test_everything_comes_back(tmp_path, capsys):
 
 def test_python_compares_as_the_command_does(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.npz")
-    bsm.save(painted(), tmp_path / "a.bsm", attributes={"label": "none"})
+    bsm.save(painted(), tmp_path / "a.bsm", attributes={"label": "none"}, grid=12)
     bsm.save(bsm.decode(tmp_path / "a.bsm"), tmp_path / "b.ply")
     for other in ("a.bsm", "b.ply"):
         found = bsm.compare(tmp_path / "a.npz", tmp_path / other)
@@ -69,7 +62,7 @@ def test_python_compares_as_the_command_does(tmp_path, capsys):
 
 
 def test_info_shows_metadata(tmp_path, capsys):
-    bsm.save(painted(), tmp_path / "a.bsm", metadata={"year": 1994})
+    bsm.save(painted(), tmp_path / "a.bsm", metadata={"year": 1994}, grid=12)
     info = run_json(capsys, "info", tmp_path / "a.bsm")
     said = info["metadata"]
     assert info["bytes"]["metadata"] > len(png()) and info["bytes"]["framing"] < 250
@@ -80,17 +73,17 @@ def test_info_shows_metadata(tmp_path, capsys):
 
 
 def test_the_shape_alone_brings_no_images():
-    kept = bsm.decode(bsm.encode(painted(), attributes={"*": "none"}, metadata={"author": "me"}))
+    kept = bsm.decode(bsm.encode(painted(), attributes={"*": "none"}, metadata={"author": "me"}, grid=12))
     assert not kept.attributes
     assert set(kept.metadata) == {"author", "name", "unit"}
-    some = bsm.decode(bsm.encode(painted(), attributes={"*": "none", "texcoord": "12bits"}))
+    some = bsm.decode(bsm.encode(painted(), attributes={"*": "none", "texcoord": "12bits"}, grid=12))
     assert [one.name for one in some.attributes] == ["texcoord"]
     assert some.metadata["image.0.data"] == png()
 
 
 def test_materials_that_are_left_out_are_named(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.npz")
-    words = ("encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "-f")
+    words = ("encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "-f", *GRID)
     assert "left out: materials, images" in notes(capsys, *words, "--attribute", "*=none")
     assert "left out: materials, images" not in notes(capsys, *words)
 
@@ -105,22 +98,8 @@ def test_metadata_that_say_nothing(tmp_path, text, capsys):
 def test_metadata_of_a_sequence(tmp_path, capsys):
     mesh = torus(12, 9)
     np.savez(tmp_path / "s.npz", positions=np.array([mesh.positions] * 3), faces=mesh.faces)
-    assert (
-        main(
-            [
-                "encode",
-                str(tmp_path / "s.npz"),
-                "-o",
-                str(tmp_path / "s.bsm"),
-                "-q",
-                "--meta",
-                "name=Ring",
-                "--set",
-                "step=0.01",
-            ]
-        )
-        == 0
-    )
+    words = ("encode", tmp_path / "s.npz", "-o", tmp_path / "s.bsm", "-q", "--meta", "name=Ring", "--set", "step=0.01")
+    assert main([*map(str, words)]) == 0
     assert run_json(capsys, "info", tmp_path / "s.bsm")["metadata"] == {"name": "Ring"}
     with bsm.SequenceDecoder() as decoder:
         decoder.receive_data(bsm.encode_sequence([mesh.positions] * 2, mesh.faces, metadata={"a": 1}, step=0.01))
@@ -130,7 +109,7 @@ def test_metadata_of_a_sequence(tmp_path, capsys):
 
 
 def test_what_a_format_cannot_hold_is_said(tmp_path, capsys):
-    bsm.save(dressed(), tmp_path / "a.bsm")
+    bsm.save(dressed(), tmp_path / "a.bsm", grid=12)
     told = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
     assert "off cannot hold" in told and all(name in told for name in ("texcoord", "height", "label", "material"))
     assert run_json(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz")["left_out"] == []
@@ -146,7 +125,7 @@ def test_a_part_of_a_stream_has_metadata_and_says_which_values_it_has_not(tmp_pa
 
 
 def test_what_lies_beside_is_not_overwritten_unasked(tmp_path, capsys):
-    bsm.save(painted(), tmp_path / "a.bsm")
+    bsm.save(painted(), tmp_path / "a.bsm", grid=12)
     (tmp_path / "a.0.png").write_bytes(b"mine")
     assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / "a.obj")]) != 0
     assert (tmp_path / "a.0.png").read_bytes() == b"mine" and not (tmp_path / "a.obj").exists()
@@ -155,7 +134,7 @@ def test_what_lies_beside_is_not_overwritten_unasked(tmp_path, capsys):
 
 
 def test_beside_a_pipe_nothing_lies(tmp_path, capfdbinary):
-    bsm.save(painted(), tmp_path / "a.bsm")
+    bsm.save(painted(), tmp_path / "a.bsm", grid=12)
     assert main(["decode", str(tmp_path / "a.bsm"), "-o", "-", "--format", "obj"]) == 0
     told = capfdbinary.readouterr()
     assert told.out.count(b"\nf ") == len(painted().faces) and b"obj cannot hold" in told.err
@@ -166,15 +145,14 @@ def test_a_permutation_takes_attributes_along(tmp_path):
     mesh = torus(12, 9)
     numbered = TriangleMesh(mesh.positions, mesh.faces, [Attribute("number", np.arange(len(mesh.positions)))])
     bsm.save(numbered, tmp_path / "a.ply")
-    assert main(["encode", str(tmp_path / "a.ply"), "--permutation", str(tmp_path / "p.npy"), "-q"]) == 0
+    assert main(["encode", str(tmp_path / "a.ply"), "--permutation", str(tmp_path / "p.npy"), "-q", *GRID]) == 0
     words = ["--permutation", str(tmp_path / "p.npy"), "-o", str(tmp_path / "b.ply"), "-q"]
     assert main(["decode", str(tmp_path / "a.bsm"), *words]) == 0
     again = read_mesh(tmp_path / "b.ply").mesh
     assert attribute(again, "number").values[:, 0].tolist() == list(range(len(mesh.positions)))
 
 
-def test_denoising_keeps_all_but_normals(tmp_path, capsys):
-    pytest.importorskip("scipy")
+def test_moving_keeps_all_but_normals():
     mesh = dressed()
     moved, stale = mesh.moved(mesh.positions + 1)
     assert stale == ("normal",) and {a.name for a in moved.attributes} == {a.name for a in mesh.attributes} - {"normal"}

@@ -8,6 +8,7 @@ import pytest
 
 import bsm
 from bsm.bitstream.errors import MeshError
+from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh
@@ -23,7 +24,7 @@ def test_a_size_that_no_promise_can_be_kept_for_is_told(scale, options):
         bsm.encode((mesh.positions * scale, mesh.faces), **options)
 
 
-@pytest.mark.parametrize("scale", [1e29, 1e-29, 1e-41, 1e12])
+@pytest.mark.parametrize("scale", [1e29, 1e-41])
 def test_large_and_small_meshes_come_back(scale):
     mesh = torus(6, 6)
     with warnings.catch_warnings():
@@ -61,10 +62,11 @@ def test_too_many_attributes_are_refused_before_any_is_coded():
         bsm.encode(TriangleMesh(shape.positions, shape.faces, tuple(many)))
 
 
-def test_attributes_that_decoders_would_refuse_are_not_written():
-    shape = torus(60, 40)
+def test_attributes_that_decoders_would_refuse_are_not_written(monkeypatch):
+    monkeypatch.setitem(NAMED_LIMITS, "default", lambda: bsm.Limits(memory=6e6))
+    shape = torus(12, 10)
     values = np.random.default_rng(0).normal(size=(3 * len(shape.faces), 4))
-    many = tuple(Attribute(f"a{number}", values, "corner") for number in range(40))
+    many = tuple(Attribute(f"a{number}", values, "corner") for number in range(60))
     with pytest.raises(bsm.OptionError, match="decoders with default limits would refuse this stream"):
         bsm.encode(TriangleMesh(shape.positions, shape.faces, many), grid=8)
     bsm.encode(TriangleMesh(shape.positions, shape.faces, many[:2]), grid=8)

@@ -42,7 +42,7 @@ def farthest(original: Positions, decoded: Positions) -> float:
 
 @pytest.mark.parametrize("gop", [3, 256])
 def test_every_frame_looks_the_same(gop: int) -> None:
-    _, original, decoded, faces = kept(*bending(8), Promise(0.01, 1.0), gop=gop)
+    _, original, decoded, faces = kept(*bending(5), Promise(0.01, 1.0), gop=gop)
     found = looks(original, decoded, faces)
     assert max(found) <= 1.0 and farthest(original, decoded) <= 0.01
     assert max(found) > 0.8  # with little to spare
@@ -94,7 +94,7 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     positions, faces = bending(60)
     positions[23] += 0.01 * np.random.default_rng(0).standard_normal(positions[23].shape)
     _, original, decoded, found = kept(positions, faces, Promise(0.02, 1.0))
-    some = sorted({*range(0, 60, 6), *range(20, 27), *drawn})
+    some = sorted({*range(0, 60, 6), *range(21, 26), *drawn})
     seen = dict(zip(some, looks(original[some], decoded[some], found), strict=True))
     assert max(seen.values()) <= 1.0 and len(drawn) < 40
     assert max(seen[index] for index in drawn) > 0.9 * max(seen.values())
@@ -125,7 +125,7 @@ def test_a_moving_look_is_what_pictures_differ_by() -> None:
 
 
 def test_presets_are_ordered() -> None:
-    sizes = [kept(*bending(3), PROMISES[name])[0] for name in ("small", "balanced", "fine")]
+    sizes = [kept(*bending(2), PROMISES[name])[0] for name in ("small", "balanced", "fine")]
     assert sizes == sorted(sizes) and sizes[0] < sizes[2]
 
 

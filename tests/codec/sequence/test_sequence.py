@@ -189,8 +189,8 @@ def test_memory_does_not_grow_with_the_number_of_frames(way):
 
     for work in (encode_all, decode_all):
         work(8)
-        short, long = peak_of(lambda: work(40)), peak_of(lambda: work(120))  # noqa: B023  (called at once)
-        assert long < short + 27 * positions[0].nbytes, "a third of what the frames would take"
+        short, long = peak_of(lambda: work(24)), peak_of(lambda: work(72))  # noqa: B023  (called at once)
+        assert long < short + 16 * positions[0].nbytes, "a third of what the frames would take"
 
 
 @pytest.mark.parametrize("way", WAYS)
