@@ -21,6 +21,8 @@ from bsm.codec.static.targets import Target
 from tests.shapes import curved, patch, tetrahedron, torus
 from tools.surgery import frames_of, stream_of
 
+QUICK = EncodeOptions(grid=12)
+"""Where the shape is not the point."""
 KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32")
 
 
@@ -149,7 +151,7 @@ def test_whole_numbers_are_exact(kind, domain):
     values = random.integers(bounds.min, bounds.max, (count, 4), dtype=np.int64, endpoint=True).astype(kind)
     values[:2] = [[bounds.min] * 4, [bounds.max] * 4]
     whole = replace(mesh, attributes=(Attribute("x", values, domain),))
-    decoded = decode(encode(whole, EncodeOptions(keep_order=True)))
+    decoded = decode(encode(whole, replace(QUICK, keep_order=True)))
     found = decoded.attributes[0]
     assert found.values.dtype == kind and found.domain == domain
     assert (at_corners(decoded, found) == at_corners(whole, whole.attributes[0])).all()
@@ -162,7 +164,7 @@ def test_floats_are_exact_to_the_bit(kind):
     values = (random.normal(size=(63, 4)) * 10.0 ** random.integers(-30, 30, (63, 4))).astype(kind)
     values[0] = [0.0, -0.0, np.finfo(kind).max, -np.finfo(kind).tiny]
     given = replace(mesh, attributes=(Attribute("x", values), Attribute("half", np.arange(63) / 255.0)))
-    decoded = decode(encode(given, EncodeOptions(keep_order=True, attributes={"*": "exact"})))
+    decoded = decode(encode(given, replace(QUICK, keep_order=True, attributes={"*": "exact"})))
     assert decoded.attributes[0].values.tobytes() == values.tobytes()
     assert (decoded.attributes[1].values == given.attributes[1].values).all()
 
@@ -179,7 +181,7 @@ def test_floats_are_exact_to_the_bit(kind):
 )
 def test_bounds_are_kept(name, quality, most):
     mesh = dressed(torus())
-    encoder = Encoder(mesh, EncodeOptions(attributes={name: quality}))
+    encoder = Encoder(mesh, replace(QUICK, attributes={name: quality}))
     errors = compared(mesh, decode(encoder.encode()), encoder)
     assert 0.0 < errors[name] <= most
 
@@ -187,7 +189,7 @@ def test_bounds_are_kept(name, quality, most):
 @pytest.mark.parametrize("degrees", [10.0, 1.0, 0.05])
 def test_angles_of_normals_are_kept(degrees):
     mesh = dressed(torus())
-    encoder = Encoder(mesh, EncodeOptions(keep_order=True, attributes={"normal": f"{degrees}deg"}))
+    encoder = Encoder(mesh, replace(QUICK, keep_order=True, attributes={"normal": f"{degrees}deg"}))
     decoded = decode(encoder.encode())
     wanted, found = (at_corners(each, each.attributes[2]) for each in (mesh, decoded))
     off = np.degrees(np.arccos(np.clip((wanted.astype(float) * found).sum(axis=2), -1, 1)))
@@ -196,7 +198,7 @@ def test_angles_of_normals_are_kept(degrees):
 
 def test_attributes_can_be_left_out():
     mesh = dressed(torus())
-    encoder = Encoder(mesh, EncodeOptions(attributes={"*": "none", "uv": "10bits"}))
+    encoder = Encoder(mesh, replace(QUICK, attributes={"*": "none", "uv": "10bits"}))
     assert [one.name for one in decode(encoder.encode()).attributes] == ["uv"]
     assert "left out: color, normal, heat, group, wild" in encoder.notes
 
@@ -239,12 +241,12 @@ def test_recomputed_normals_keep_their_creases():
 )
 def test_what_makes_no_sense_is_refused(asked, error):
     with pytest.raises(error):
-        encode(dressed(torus()), EncodeOptions(attributes=asked))
+        encode(dressed(torus()), replace(QUICK, attributes=asked))
 
 
 def test_values_come_as_events():
     mesh = dressed(torus())
-    stream = encode(mesh, EncodeOptions(keep_order=True))
+    stream = encode(mesh, replace(QUICK, keep_order=True))
     whole = {one.name: one for one in decode(stream).attributes}
     seen: dict[str, np.ndarray] = {}
     with Decoder() as decoder:
@@ -331,15 +333,17 @@ def test_seams_that_two_share_are_sent_once():
     mesh = dressed(torus())
     second = replace(mesh.attributes[1], name="uv2", values=1 - mesh.attributes[1].values)
     mesh = replace(mesh, attributes=(*mesh.attributes, second))
-    declared = [p for p, *_ in frames(encode(mesh)) if isinstance(p, packets.Attribute)]
+    declared = [p for p, *_ in frames(encode(mesh, QUICK)) if isinstance(p, packets.Attribute)]
     assert [p.declaration.seams_of for p in declared] == [0, 0, 0, 0, 0, 0, 2]
     assert [bool(p.seams) for p in declared] == [False, True, True, False, False, False, False]
-    encoder = Encoder(mesh)
+    encoder = Encoder(mesh, QUICK)
     assert max(compared(mesh, decode(encoder.encode()), encoder).values()) < 0.006
 
 
 def test_meshes_without_attributes_are_as_they_were():
-    assert encode(torus()) == encode(replace(dressed(torus()), metadata={}), EncodeOptions(attributes={"*": "none"}))
+    assert encode(torus(), QUICK) == encode(
+        replace(dressed(torus()), metadata={}), replace(QUICK, attributes={"*": "none"})
+    )
 
 
 @pytest.mark.parametrize(("kind", "value"), [("theta_deg", 3.0), ("size", 20000.0)])
