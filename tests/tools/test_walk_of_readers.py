@@ -54,8 +54,8 @@ def test_a_usd_file_that_is_nested_too_deep_is_refused_before_its_library_sees_i
 def test_files_that_are_slow_for_their_bytes_are_found():
     warm_up()
     assert set(KINDS) - {"gltf"} <= set(samples()) and {b"<AppendedData", b"usemtl"} <= set(words())
-    seen = [taken for _, taken in searched("obj", 1.0, Random(0))]
-    assert len(seen) >= 48 and not any(taken.escaped for taken in seen)
+    seen = [taken for _, taken in searched("obj", 2, Random(0))]
+    assert len(seen) == 96 and not any(taken.escaped for taken in seen)
     assert {taken.outcome == "read" for taken in seen} == {True, False}
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.errors import BsmError, MeshError, OptionError, TargetError
+from bsm.bitstream.errors import MeshError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original
@@ -24,13 +23,7 @@ from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import Target
-from bsm.files.mesh import read_mesh
-from tests.conftest import mesh_folder
 from tests.shapes import patch, tetrahedron, together, torus
-
-FOLDER = mesh_folder()
-QUICK = 6000
-"""Vertices of the real meshes that are tried by default."""
 
 
 def noisy(mesh: TriangleMesh, amount: float) -> TriangleMesh:
@@ -236,30 +229,6 @@ def test_a_contract_excludes_what_it_must() -> None:
         EncodeOptions(grid=12, step=0.01)
     with pytest.raises(OptionError):
         EncodeOptions(grid=21)
-
-
-REAL = sorted(
-    path
-    for folder in ("static", "assets", "hostile")
-    if FOLDER is not None
-    for path in (FOLDER / folder).glob("*")
-    if path.suffix.lower() in (".ply", ".obj", ".stl", ".off", ".glb") and path.stem != "dragon_437645"
-)
-
-
-@pytest.mark.real
-@pytest.mark.parametrize("path", REAL, ids=lambda path: path.name)
-def test_every_real_mesh_keeps_the_default_promise(path: Path) -> None:
-    try:
-        mesh = read_mesh(str(path)).mesh
-    except BsmError:
-        pytest.skip("no mesh")
-    if len(mesh.positions) > QUICK:
-        pytest.skip("long")
-    encoder = Encoder(mesh, replace(EncodeOptions(), threads=1))
-    data = encoder.encode()
-    assert kept(encoder, data)[0] <= 0.01 + 1e-9
-    assert looks(encoder, data) <= 1.0
 
 
 def test_small_parts_keep_their_shape() -> None:

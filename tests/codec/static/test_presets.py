@@ -10,6 +10,7 @@ import pytest
 from bsm.bitstream.errors import BsmError, MeshError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import look
+from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS
 from bsm.files.mesh import read_mesh
@@ -27,14 +28,18 @@ the mesh's own unit."""
 
 
 def encoded(mesh: TriangleMesh, preset: str) -> tuple[int, float]:
-    """Bytes of a preset, and how what it decodes to looks."""
-    encoder = Encoder(mesh, replace(PRESETS[preset], threads=1))
-    draft = encoder.draft()
-    coded = encoder.mesh
+    """Bytes of a preset, and how what it decodes to looks; it keeps what the preset promises."""
+    encoder, contract = Encoder(mesh, replace(PRESETS[preset], threads=1)), PRESETS[preset].contract
+    data, coded = encoder.encode(), encoder.mesh
+    decoded = decode(data, threads=1).positions
+    assert contract is not None
+    assert np.linalg.norm(decoded - coded.positions, axis=1).max() <= (contract.farthest + 1e-9) * coded.diagonal
     try:
-        return draft.size, look(coded, replace(coded, positions=draft.decoded)).distance
+        seen = look(coded, replace(coded, positions=decoded)).distance
     except MeshError:  # nothing of it can be seen
-        return draft.size, 0.0
+        return len(data), 0.0
+    assert preset != "balanced" or seen <= contract.look
+    return len(data), seen
 
 
 def outdone(mesh: TriangleMesh) -> list[tuple[str, str, int, int]]:
@@ -72,7 +77,7 @@ def shared(folder: Path | None) -> list[str]:
 
 @pytest.mark.real
 @pytest.mark.parametrize("name", shared(mesh_folder()) or [pytest.param("", marks=pytest.mark.skip("no real meshes"))])
-def test_finer_presets_are_no_smaller_and_look_no_worse(name: str, meshes: Path) -> None:
+def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_worse(name: str, meshes: Path) -> None:
     try:
         mesh = read_mesh(str(meshes / name)).mesh.bare
         found = [encoded(mesh, preset) for preset in ORDER]

@@ -52,17 +52,16 @@ def test_it_stays_within_what_there_is() -> None:
 
 
 def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, list[int]]:
-    """Bytes with all ways, and without each of them."""
+    """Bytes with all ways, and with each of them alone."""
     everything = Search._ways
     options = EncodeOptions(threads=1)
     found = [Encoder(mesh, options).draft().size]
-    count = len(list(everything(*_asked(mesh, options))))
-    for left_out in range(count if count > 1 else 0):
+    for alone in range(len(list(everything(*_asked(mesh, options))))):
 
-        def some(search: Search, bounds: Bounds, look: float, left_out: int = left_out) -> Iterator[Way]:
-            yield from (way for number, way in enumerate(everything(search, bounds, look)) if number != left_out)
+        def one(search: Search, bounds: Bounds, look: float, alone: int = alone) -> Iterator[Way]:
+            yield from (way for number, way in enumerate(everything(search, bounds, look)) if number == alone)
 
-        monkeypatch.setattr(Search, "_ways", some)
+        monkeypatch.setattr(Search, "_ways", one)
         found.append(Encoder(mesh, options).draft().size)
         monkeypatch.setattr(Search, "_ways", everything)
     return found[0], found[1:]
