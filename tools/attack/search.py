@@ -1,9 +1,10 @@
-"""`python -m tools.attack search [KIND...] --seconds N`: files that make readers slow, found step by step.
+"""`python -m tools.attack search [KIND...] --rounds N`: files that make readers slow, found step by step.
 
 A file is a head, a unit that is repeated, and a tail, at first of a sound one, cut anywhere. Those that take most time
-or memory for each byte are changed again, by what the reader's own source speaks of. Whatever takes more than it may,
-or lets out something else than an error of ours, is printed; then the slowest, and all files of `readers` that are
-large in one place, are read once more at four times the size, which must not take longer by more than `MOST_GROWTH`.
+or memory for each byte are changed again, by what the reader's own source speaks of: the first round is of the same
+files everywhere. Whatever takes more than it may, or lets out something else than an error of ours, is printed; then
+the slowest, and all files of `readers` that are large in one place, are read once more at four times the size, which
+must not take longer by more than `MOST_GROWTH`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ import base64
 import json
 import sys
 import tempfile
-import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
@@ -78,7 +78,7 @@ def words() -> tuple[bytes, ...]:
     return tuple(sorted(found))
 
 
-def searched(kind: str, seconds: float, random: Random) -> Iterator[tuple[Repeated, Taken]]:
+def searched(kind: str, rounds: int, random: Random) -> Iterator[tuple[Repeated, Taken]]:
     """Files of a kind, each found from those before it that took most, and what reading it takes."""
     like = samples()[kind if kind != "gltf" else "glb"]
     if kind == "gltf":
@@ -86,9 +86,8 @@ def searched(kind: str, seconds: float, random: Random) -> Iterator[tuple[Repeat
         tree["buffers"][0]["uri"] = DATA_URI + base64.b64encode(_binary_of(like.data)).decode()
         like = Sample("gltf", json.dumps(tree).encode())
     best: list[tuple[float, Repeated]] = []
-    begin, wanted = time.monotonic(), "seconds"
-    while time.monotonic() - begin < seconds:
-        wanted = "memory" if wanted == "seconds" else "seconds"
+    for turn in range(rounds):
+        wanted = "seconds" if turn % 2 else "memory"
         files = [
             _another(best[random.randrange(len(best))][1] if best else None, like, random) for _ in range(AT_A_TIME)
         ]
@@ -140,7 +139,9 @@ def main() -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("kinds", nargs="*", metavar="KIND", help=f"of {', '.join(KINDS)}; all, if none is named")
-    parser.add_argument("--seconds", type=float, default=60.0, help="for each kind (default: %(default)s)")
+    parser.add_argument(
+        "--rounds", type=int, default=60, help=f"for each kind, of {AT_A_TIME} files (default: %(default)s)"
+    )
     parser.add_argument("--most", type=float, default=MOST_GROWTH, help="growth at four times (default: %(default)s)")
     parser.add_argument("--seed", default="0", help="default: %(default)s")
     args = parser.parse_args()
@@ -149,7 +150,7 @@ def main() -> int:
     for kind in args.kinds or KINDS:
         seen: list[tuple[float, int, Repeated]] = []
         refused = 0
-        for file, taken in searched(kind, args.seconds, Random(f"{args.seed}/{kind}")):
+        for file, taken in searched(kind, args.rounds, Random(f"{args.seed}/{kind}")):
             seen.append((taken.seconds / (taken.size + 256), len(seen), file))
             refused += taken.outcome != "read"
             if problem := taken.problem(*bounds("default", taken)):
