@@ -4,8 +4,6 @@
 #include "codec/signal/signal.h"
 #include "codec/static/units.h"
 
-enum { DEGREE = 5, POWERS = DEGREE - 1 };
-
 bool begin_assembly(Assembly *assembly, int64_t vertices, Arena *arena) {
     *assembly = (Assembly){{zero_doubles2(arena, vertices, 3), zero_doubles(arena, vertices)}, zero_bytes(arena, vertices), false};
     return fine(arena->context);
@@ -21,8 +19,8 @@ void lose_block(Assembly *assembly, const Blocks *blocks, int64_t index) {
     assembly->lossy = true;
 }
 
-/* p_2 to p_5 (M 12.3), by divided differences. */
-static void filter_polynomial(double amount, double *powers) {
+/* By divided differences. */
+void filter_polynomial(double amount, double *powers) {
     static const double NODES_OF[POWERS] = {0.4, 0.9, 1.4, 1.8};
     double table[POWERS], before[POWERS];
     for (int i = 0; i < POWERS; i++) {
@@ -72,14 +70,14 @@ static bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scra
     return true;
 }
 
-bool mark_whole(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch, Bytes *whole) {
+bool mark_whole(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch, int beyond, Bytes *whole) {
     *whole = (Bytes){NULL, 0};
     if (!assembly->lossy) return true;
     Mark mark = mark_of(scratch);
     *whole = take_bytes(arena, graph->size);
     if (fine(arena->context)) {
         memcpy(whole->data, assembly->lost.data, (size_t)graph->size);
-        spread_marks(graph, *whole, header->smoothing > 0.0 ? DEGREE + 1 : 1, scratch);
+        spread_marks(graph, *whole, (header->smoothing > 0.0 ? DEGREE : 0) + beyond, scratch);
         for (int64_t v = 0; v < graph->size; v++) whole->data[v] = !whole->data[v];
     }
     release_to(scratch, mark);

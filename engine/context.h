@@ -30,7 +30,11 @@ typedef struct {
 
 /* Note the first thing wrong; always false, so that who finds it can return it. */
 bool fail_with(Context *context, bsmdec_status status, Message message);
+#ifdef BSMDEC_TERSE /* kind and place alone */
+#define FAIL(context, status, ...) fail_with(context, BSMDEC_##status, (Message){.text = ""})
+#else
 #define FAIL(context, status, ...) fail_with(context, BSMDEC_##status, (Message){.text = __VA_ARGS__})
+#endif
 INLINE bool failed(const Context *context) { return context->error.status != BSMDEC_OK; }
 /* Whether all is well. A decoder that leaves an array out for want of memory has failed, and says so here. */
 INLINE bool fine(const Context *context) { return context->error.status == BSMDEC_OK; }

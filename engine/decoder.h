@@ -63,8 +63,24 @@ typedef struct {
     Skipped *first, *last;
 } Sequence;
 
+/* Who decodes which chains of a static mesh or a first frame: chain c is that of number c % `among`, the decoder's is 0; all
+ * are its own where `among` is 0. One that helps decodes nothing else, and hands its blocks over. */
+typedef struct {
+    int64_t number, among;
+    bool helps;
+    DecodedBlock handed;
+} Share;
+
+INLINE bool is_own(const Share *share, const Header *header, int64_t index) {
+    return share->among == 0 || index / chain_length(header) % share->among == share->number;
+}
+
+/* Told of a block that a helper decodes: it has to be added before anything else is asked for. */
+enum { BLOCK_OF_HELPER = BSMDEC_ERROR + 1 };
+
 struct bsmdec {
     Context context;
+    Share share;
     Reader reader;
     Arena scratch;
     bool tolerant, has_mesh, ended;

@@ -57,4 +57,7 @@ typedef struct {
 bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch);
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch);
 
+/* Marks of the vertices whose steps follow from whole ones alone; empty: all. */
+Bytes fit_vertices(const Layer *layer, Arena *scratch);
+
 #endif

@@ -39,8 +39,7 @@ static ConstInts2 marked_levels(const Layer *layer, Bytes marked, int64_t first,
     return const_ints2(some);
 }
 
-/* Vertices whose steps follow from whole ones alone. */
-static Bytes fit_vertices(const Layer *layer, Arena *scratch) {
+Bytes fit_vertices(const Layer *layer, Arena *scratch) {
     Bytes fit = layer->whole;
     for (int round = 0; fit.size > 0 && round < BENT_BY; round++) {
         Bytes next = take_bytes(scratch, fit.size);

@@ -98,15 +98,32 @@ static bool skip_to(bsmdec *decoder, int64_t index) {
     return true;
 }
 
+/* Keep a block for whoever asked for it. */
+static void hand_over(bsmdec *decoder, const DecodedBlock *block) {
+    int64_t n = block->vertices.size;
+    Arena *arena = &decoder->shown;
+    release_all(arena);
+    Ints vertices = take_ints(arena, n);
+    Doubles2 positions = take_doubles2(arena, n, 3);
+    Doubles weights = take_doubles(arena, n);
+    if (failed(&decoder->context)) return;
+    memcpy(vertices.data, block->vertices.data, (size_t)n * sizeof *vertices.data);
+    memcpy(positions.data, block->positions.data, (size_t)(3 * n) * sizeof *positions.data);
+    memcpy(weights.data, block->weights.data, (size_t)n * sizeof *weights.data);
+    decoder->share.handed = (DecodedBlock){block->index, {vertices.data, n}, {positions.data, n, 3}, {weights.data, n}};
+}
+
 static bool accept_block(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     DecodedBlock block;
     if (!build(decoder) || !skip_to(decoder, packet->index)) return false;
     mesh->next_block++;
+    if (!is_own(&decoder->share, &mesh->header, packet->index)) return decoder->share.helps || tell(decoder, BLOCK_OF_HELPER, packet->index, 0);
     if (!decode_block(&mesh->chains, packet->index, packet->coefficients, packet->data, &decoder->scratch, &block))
         return bear(decoder, packet->index, mesh->header.gop_frames == 0);
-    add_block(&mesh->assembly, &block);
-    return tell(decoder, BSMDEC_BLOCK, packet->index, 0);
+    if (decoder->share.helps) hand_over(decoder, &block);
+    else add_block(&mesh->assembly, &block);
+    return fine(&decoder->context) && tell(decoder, BSMDEC_BLOCK, packet->index, 0);
 }
 
 static bool begun_grid(bsmdec *decoder) {
@@ -133,7 +150,7 @@ static bool begun_layer(bsmdec *decoder) {
     if (!build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
     end_chains(&mesh->chains);
     mesh->has_layer = blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &base)
-        && mark_whole(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &whole)
+        && mark_whole(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, 1, &whole)
         && begin_layer(&mesh->layer, &decoder->context, &mesh->header, const_ints2(mesh->faces), base, whole, &mesh->arena, &decoder->scratch);
     return mesh->has_layer;
 }
@@ -228,7 +245,13 @@ bool take_in(bsmdec *decoder, const Packet *packet) {
     }
 }
 
+/* What comes before the blocks of the first mesh, and these: all that a helper needs. */
+static bool is_for_helpers(const Packet *packet) {
+    return packet->type == HEADER_FRAME || packet->type == CONNECTIVITY_FRAME || packet->type == PARTITION_FRAME || packet->type == BLOCK_FRAME;
+}
+
 bool accept_packet(bsmdec *decoder, const Packet *packet) {
+    if (decoder->share.helps && !is_for_helpers(packet)) return true;
     Mark mark = mark_of(&decoder->scratch);
     bool in_sequence = decoder->sequence.is_one || (packet->type == HEADER_FRAME && packet->header->gop_frames > 0);
     decoder->has_checksum = packet->has_positions && decoder->sequence.start == 0;

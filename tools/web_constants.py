@@ -11,9 +11,7 @@ from enum import EnumMeta
 from pathlib import Path
 from typing import Any
 
-from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.grammar import FOLLOWERS
-from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Field, Header, Paper, defaults_of, fields_of
+from bsm.bitstream.container.header import Field, Header, Paper, defaults_of, fields_of
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
 
@@ -69,15 +67,6 @@ def _kinds(kinds: EnumMeta) -> str:
     return "\n".join(["/** Types of frames (F 3.4). */", "export const KINDS = {", *lines, "} as const;"])
 
 
-def _followers(called: str, followers: Any, what: str) -> str:
-    lines = []
-    for kind, behind in followers.items():
-        names = ", ".join(f'"{FrameType(each).name.lower()}"' for each in sorted(behind))
-        lines.append(f"    {'start' if kind is None else FrameType(kind).name.lower()}: [{names}],")
-    lines += [] if FrameType.METADATA in followers else ["    metadata: [],"]
-    return "\n".join([f"/** {what} */", f"export const {called} = {{", *lines, "} as const;"])
-
-
 def limits_there(limits: Limits) -> dict[str, float]:
     """Limits by the names that the browser's decoder has for them."""
     named = {name: name for name in _SAME_LIMITS} | _OTHER_LIMITS
@@ -88,8 +77,6 @@ def source() -> str:
     """The module."""
     granted = [f"    {name}: {_number(value)}," for name, value in limits_there(Limits()).items()]
     magic = ", ".join(map(str, (*MAGIC, VERSION)))
-    changed = dict(vars(LAW_OF_SEQUENCES).items() - vars(LAW).items())
-    others = ", ".join(f"{camel(name)}: {_number(changed[name])}" for name in sorted(changed))
     return (
         "\n\n".join(
             [
@@ -99,16 +86,8 @@ def source() -> str:
                 f"/** A payload of fewer bytes has a short checksum (F 3). */\nexport const SHORT = {SHORT};\n"
                 f"export const MAX_VARINT_BYTES = {MAX_VARINT_BYTES};",
                 _kinds(FrameType),
-                _followers(
-                    "FOLLOWERS",
-                    FOLLOWERS,
-                    "What may follow a frame of each type, METADATA and skippable ones left aside.",
-                ),
                 _fields("HEADER_FIELDS", Header, "Fields of the header (F 4.4)."),
                 _fields("PAPER_FIELDS", Paper, "Numbers of `paper`, by places, and the law's constants (F 4)."),
-                "/** What holds in their place for a sequence (S 1.1). */\n"
-                f"export const PAPER_OF_SEQUENCES = {{ {others} }} as const;",
-                _fields("DECLARATION_FIELDS", Declaration, "Fields of what an attribute declares (D 1)."),
                 "\n".join(
                     ["/** Limits that are Python's (M 14.1). */", "export const LIMITS = {", *granted, "} as const;"]
                 ),

@@ -11,26 +11,20 @@ const SOURCES = join(WEB, "src");
 const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];
 
-/** Puts another module in the place of some. */
-const instead = (modules, name) => ({
-    name,
-    setup({ onResolve }) {
-        onResolve({ filter: new RegExp(`^\\./(${modules.join("|")})$`) }, () => ({ path: join(SOURCES, name) }));
-    },
-});
-
-/** What most streams can do without: attributes, split vertices, damage, packed coefficients. */
-const SELDOM = ["attributes", "declaration", "parting", "splits", "tolerant", "zstd"];
-const SMALL = instead([...SELDOM, "sequence", "runs"], "absent.ts");
-const LIGHT = [instead([...SELDOM, "floats", "rules"], "absent.ts"), instead(["grammar"], "lightgrammar.ts")];
-const MOVING = instead([...SELDOM, "fields", "grid"], "absent.ts");
-
 const SENTENCE = /(new (?:Format|Unsupported|Corrupt|Truncated|Limit|Numeric)Error\(|[.]nonsense\(|\brefuse\()(?:"[^"\n]*"|`(?:[^`$\\]|\$\{[^{}`]*\})*`)(?=[,)])/g;
 /** Leaves out what errors say: a pool asks the decoder of everything what is wrong with a stream. */
 const TERSE = {
     name: "terse",
     setup({ onLoad }) {
         onLoad({ filter: /src.\w+\.ts$/ }, ({ path }) => ({ contents: readFileSync(path, "utf8").replace(SENTENCE, '$1""'), loader: "ts" }));
+    },
+};
+
+/** Meshes without attributes are drawn as they are. */
+const BARE = {
+    name: "bare",
+    setup({ onResolve }) {
+        onResolve({ filter: /^\.\/parting$/ }, () => ({ path: join(SOURCES, "absent.ts") }));
     },
 };
 
@@ -106,9 +100,9 @@ async function products() {
     const built = {
         "errors.js": await plain("errors.ts", []),
         "bsm.js": await plain("index.ts", [beside("errors")]),
-        "small.js": await plain("small.ts", [SMALL, TERSE, beside("errors")]),
-        "quick.js": await plain("quick.ts", [...LIGHT, TERSE, beside("errors")]),
-        "moving.js": await plain("small.ts", [MOVING, TERSE, beside("errors")]),
+        "small.js": await plain("small.ts", [BARE, beside("errors")]),
+        "moving.js": await plain("small.ts", [BARE, beside("errors")]),
+        "quick.js": await plain("quick.ts", [TERSE, beside("errors"), BARE]),
         "worker.js": thread("bsm.js"),
         "small-worker.js": thread("small.js"),
         "quick-worker.js": thread("quick.js"),

@@ -1,8 +1,7 @@
 /** Faces, their original order, and parts (specification, C 4 to C 10). */
 import { Coder, makeBank, unsignedSpan, type Bank } from "./entropy";
-import { CorruptError } from "./errors";
 import type { Header } from "./header";
-import type { Ints, Memory } from "./kernels";
+import type { Ints, Memory } from "./memory";
 import { checkLimit, checkMemory, type Limits } from "./limits";
 
 const ONE = 65536;
@@ -18,7 +17,6 @@ const [NONSENSE, NO_ROOM] = [1, 2];
 const ORDER = { unary: 6, inputs: 4, classes: 32 };
 /** Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together. */
 const [FACE, VERTEX, FAN] = [100, 400, 240];
-const LABEL = { inputs: 3, candidates: 4, contexts: 80 };
 
 type Models = readonly [valence: Bank, event: Bank, rare: Bank, bits: bigint];
 
@@ -134,21 +132,6 @@ function findBorders(memory: Memory, faces: Ints, after: Ints, before: Ints): vo
     for (let fan = 0; fan < next.length; fan++) {
         if (next[fan] >= 0) last[next[fan]] = fan;
     }
-}
-
-/** Parts of all vertices, numbered by first appearance (C 10). */
-export function decodeLabels(memory: Memory, payload: Uint8Array, offsets: Ints, neighbours: Ints, parts: number): Ints {
-    const labels = memory.ints(offsets.length - 1);
-    memory.scratch(() => {
-        labels.view.fill(0);
-        const coder = new Coder(memory, payload);
-        const { inputs, candidates, contexts } = LABEL;
-        const bank = makeBank(memory, { slots: inputs * contexts, selectors: candidates + 1, inputs });
-        const used = memory.call("code_labels", coder.parts, bank, offsets, neighbours, labels, BigInt(parts));
-        coder.finish();
-        if (used !== parts) throw new CorruptError(`the partition has ${used} parts where the header has ${parts}`);
-    });
-    return labels;
 }
 
 /** What the mesh was: the number that each vertex had, its faces, and the coded corner that each corner of these is. */

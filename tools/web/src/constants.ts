@@ -23,23 +23,6 @@ export const KINDS = {
     15: "end",
 } as const;
 
-/** What may follow a frame of each type, METADATA and skippable ones left aside. */
-export const FOLLOWERS = {
-    start: ["header"],
-    header: ["connectivity"],
-    connectivity: ["partition", "order", "block", "gop", "grid", "refinement", "attribute", "end"],
-    partition: ["order", "block", "gop", "grid", "refinement", "attribute", "end"],
-    order: ["block", "gop", "grid", "refinement", "attribute", "end"],
-    attribute: ["values", "block", "gop", "grid", "refinement", "attribute", "end"],
-    block: ["values", "block", "gop", "refinement", "end"],
-    gop: ["header", "gop", "end"],
-    grid: ["values", "grid", "end"],
-    refinement: ["values", "refinement", "end"],
-    values: ["values", "gop", "end"],
-    end: [],
-    metadata: [],
-} as const;
-
 /** Fields of the header (F 4.4). */
 export const HEADER_FIELDS = {
     vertices: { key: 1, type: "int", low: 1, high: 2147483647 },
@@ -73,27 +56,6 @@ export const PAPER_FIELDS = {
     keyIterations: { key: 5, type: "int", low: 1, high: 1024, default: 2 },
     shift: { key: 6, type: "float", low: 9.313225746154785e-10, high: 1073741824, default: 0.0078125 },
     springs: { key: 7, type: "int", low: 0, high: 1, default: 1 },
-} satisfies Record<string, Field>;
-
-/** What holds in their place for a sequence (S 1.1). */
-export const PAPER_OF_SEQUENCES = { iterations: 2, shift: 0.03125 } as const;
-
-/** Fields of what an attribute declares (D 1). */
-export const DECLARATION_FIELDS = {
-    name: { key: 1, type: "string", low: 1, high: 255 },
-    domain: { key: 2, type: "method", low: 0, high: 2, default: 0 },
-    origin: { key: 3, type: "method", low: 0, high: 1, default: 0 },
-    semantic: { key: 4, type: "method", low: 0, high: 3, default: 0 },
-    kind: { key: 5, type: "method", low: 0, high: 7, default: 6 },
-    components: { key: 6, type: "int", low: 1, high: 4, default: 1 },
-    coding: { key: 7, type: "method", low: 0, high: 3, default: 0 },
-    rows: { key: 8, type: "int", low: 0, high: 2147483647, default: 0 },
-    largest: { key: 9, type: "ints", low: 0, high: 4294967295, default: [], lengths: [0, 8] },
-    offset: { key: 10, type: "floats", low: -1e+300, high: 1e+300, default: [], lengths: [0, 8] },
-    step: { key: 11, type: "floats", low: 1e-300, high: 1e+300, default: [], lengths: [0, 4] },
-    leans: { key: 12, type: "method", low: 0, high: 1, default: 0 },
-    moves: { key: 13, type: "method", low: 0, high: 1, default: 0 },
-    seamsOf: { key: 15, type: "int", low: 0, high: 65535, default: 0 },
 } satisfies Record<string, Field>;
 
 /** Limits that are Python's (M 14.1). */

@@ -1,22 +1,17 @@
 /** A stream to a mesh, block by block, while it arrives. */
-import { begun } from "./begun";
 import type { Attribute } from "./attributes";
-import { Allowance } from "./chain";
-import { BsmError, CorruptError, errorLike } from "./errors";
-import type { Event, FrameEvent, Mesh, Wishes } from "./events";
+import { ATTRIBUTE, AWAITED, BLOCK, CONNECTIVITY, END, Engine, FAILED, FRAME, HEADER, LOSS, METADATA, NEED, OVER, REFINEMENT, type Told } from "./engine";
+import { BsmError, errorLike } from "./errors";
+import type { AttributeEvent, Event, Mesh, Wishes } from "./events";
 import type { Header } from "./header";
 import type { SharedBlock } from "./helper";
-import type { Kernels, Memory } from "./kernels";
-import { DEFAULT_LIMITS, type Limits } from "./limits";
-import { END_OF_STREAM, NEED_DATA, Reader, type Metadata, type Signal } from "./reader";
-import { Runs, type Course } from "./runs";
-import { Stages, type AwaitedBlock, type Item } from "./stages";
-import { TolerantReader } from "./tolerant";
+import type { Kernels } from "./kernels";
+import type { Limits } from "./limits";
+import type { Numbering } from "./numbering";
+import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";
 
 export type * from "./events";
-
-/** The next block is one that a helper has to send first. */
-export const NEED_BLOCK = "need block";
+export { END_OF_STREAM, NEED_BLOCK, NEED_DATA };
 
 /**
  * Takes the bytes of a stream as they come, and gives events as soon as they can be known.
@@ -25,38 +20,35 @@ export const NEED_BLOCK = "need block";
  * they do for the decoder. An error is thrown by `nextEvent` after the events before it, and by every later call.
  */
 export class Decoder {
-    private readonly limits: Limits;
-    private readonly reader: Reader;
-    private readonly memory: Memory;
-    private readonly allowance: Allowance;
-    private readonly queue: Item[] = [];
+    private readonly engine: Engine;
+    private readonly queue: Event[] = [];
     private error?: BsmError;
-    private stages?: Stages;
-    private runs?: Runs;
-    private readonly kept: { attributes: Attribute[]; first?: Mesh } = { attributes: [] };
-    /** What helpers have sent before it was its turn. */
+    private header?: Header;
+    private numbering?: Numbering;
+    private metadata = 0;
+    /** Frames of a run that has the mesh of another come behind attributes that were told of that one. */
+    private again = false;
+    private readonly kept: { attributes: Attribute[]; first?: Mesh; faces: Int32Array } = { attributes: [], faces: new Int32Array(0) };
+    /** What helpers have sent before it was its turn; the block that is awaited. */
     private readonly shared = new Map<number, SharedBlock>();
+    private awaited?: number;
 
     constructor(
-        private readonly kernels: Kernels,
+        kernels: Kernels,
         limits: Partial<Limits> = {},
         private readonly wishes: Wishes = {},
     ) {
-        this.limits = { ...DEFAULT_LIMITS, ...limits };
-        this.memory = kernels.instantiate(this.limits.memory);
-        this.allowance = new Allowance(this.limits);
-        const spend = this.allowance.spend.bind(this.allowance);
-        this.reader = wishes.tolerant ? new TolerantReader(this.limits, spend) : new Reader(this.limits, spend);
+        this.engine = new Engine(kernels, limits, wishes.tolerant ?? false);
     }
 
     /** Take more bytes of the stream. */
     receiveData(data: Uint8Array): void {
-        this.reader.receiveData(data);
+        this.engine.push(data);
     }
 
     /** Take note that no more bytes will come. */
     receiveEof(): void {
-        this.reader.receiveEof();
+        this.engine.finish();
     }
 
     /** Take what a helper has decoded. */
@@ -66,35 +58,27 @@ export class Decoder {
 
     /** Bytes of the stream that the events so far are made of. */
     get position(): number {
-        return this.reader.position;
+        return this.engine.state[0];
     }
 
     /** What has been charged, in nanoseconds of a processor core (specification, M 14.3). */
     get work(): number {
-        return this.allowance.work;
+        return this.engine.state[1];
     }
 
     /** Vertices that the faces so far really have. */
     get vertices(): number {
-        return this.allowance.counted.vertices;
+        return this.engine.state[2];
     }
 
     /** The next event, or `NEED_DATA`; with helpers `NEED_BLOCK`; `END_OF_STREAM` after the end and `receiveEof`. */
     nextEvent(): Event | Signal | typeof NEED_BLOCK {
-        for (;;) {
-            const item = this.nextItem();
-            if (typeof item === "string") return item;
-            if ("make" in item) return this.guarded((stages) => stages.framed(item));
-            if (!this.wishes.whole) return "type" in item ? item : this.guarded((stages) => stages.changed(item), item.index);
-            if (!("type" in item)) this.guarded((stages) => stages.add(item), item.index);
-            else if (item.type === "end") return { ...item, positions: this.guarded((stages) => stages.atEnd()) };
-            else if (item.type !== "block" && item.type !== "refinement") return item;
-        }
+        return this.next(!this.wishes.whole);
     }
 
     /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
     release(): void {
-        this.kernels.take(this.memory);
+        this.engine.release();
     }
 
     /** Decode the rest of a complete stream; faster than asking for events. Without helpers it is there at once. */
@@ -106,121 +90,105 @@ export class Decoder {
     advance(): Mesh | typeof NEED_BLOCK {
         const { kept } = this;
         this.receiveEof();
-        for (let item; (item = this.nextItem()) !== END_OF_STREAM; ) {
-            if (item === NEED_BLOCK) return item;
-            if (typeof item === "string") continue;
-            if ("type" in item) {
-                if (item.type === "attribute" && !kept.first) kept.attributes.push(item);
-            } else if ("make" in item) kept.first ??= this.firstOf(this.guarded((stages) => stages.framed(item)));
-            else begun(this.stages).add(item);
-        }
-        return kept.first ?? this.meshOf(this.guarded((stages) => stages.whole()));
-    }
-
-    private meshOf(positions: Float64Array): Mesh {
-        return { positions, faces: begun(this.stages).numbers.faces, attributes: this.kept.attributes };
-    }
-
-    private firstOf({ positions, attributes: moved }: FrameEvent): Mesh {
-        const mesh = this.meshOf(positions);
-        return { ...mesh, attributes: mesh.attributes.map((one) => moved.find(({ name }) => name === one.name) ?? one) };
-    }
-
-    private nextItem(): Exclude<Item, AwaitedBlock> | Signal | typeof NEED_BLOCK {
-        for (;;) {
-            const item = this.queue[0];
-            if (item && "awaited" in item) {
-                const shared = this.shared.get(item.awaited);
-                if (!shared) return NEED_BLOCK;
-                this.shared.delete(item.awaited);
-                this.queue.shift();
-                this.acceptShared(shared);
-            } else if (item) {
-                this.queue.shift();
-                return item;
-            } else {
-                if (this.error) throw this.error;
-                const signal = this.takePacket();
-                if (signal) return signal;
+        for (let event; (event = this.next(false)) !== END_OF_STREAM; ) {
+            if (event === NEED_BLOCK) return event;
+            if (typeof event === "string" || kept.first) continue;
+            if (event.type === "connectivity") kept.faces = event.faces;
+            if (event.type === "attribute") kept.attributes.push(withoutType(event));
+            if (event.type === "frame") {
+                const { positions, attributes: moved } = event;
+                const attributes = kept.attributes.map((one) => moved.find(({ name }) => name === one.name) ?? one);
+                kept.first = { positions, faces: kept.faces, attributes };
             }
+            if (event.type === "end") kept.first = { positions: event.positions ?? new Float64Array(0), faces: kept.faces, attributes: kept.attributes };
         }
+        return kept.first!;
     }
 
-    /** Turn the next packet into items, or into the error that follows them. */
-    private takePacket(): Signal | undefined {
-        let block: number | undefined;
+    private next(growing: boolean): Event | Signal | typeof NEED_BLOCK {
+        if (this.error) throw this.error;
         try {
-            const packet = this.reader.nextPacket();
-            if (packet === END_OF_STREAM && !this.stages?.over) {
-                this.acceptEnd(); // a tolerant reader may find no END
-                return undefined;
+            for (;;) {
+                const event = this.queue.shift() ?? (this.awaited === undefined ? this.heard(this.engine.next(), growing) : this.received(this.awaited, growing));
+                if (event) return event;
             }
-            if (typeof packet === "string") return packet;
-            if (packet.type === "block") block = packet.index;
-            if (packet.type === "header") this.begin(packet.header);
-            else if (!this.runs?.isLost) this.begunStages().accept(packet);
-            else if (packet.type === "end") this.acceptEnd();
         } catch (error) {
-            if (this.stages && this.runs && !this.runs.isLost && this.runs.bears(error)) this.stages.over = false;
-            else this.keep(error, block);
-        }
-        return undefined;
-    }
-
-    private acceptEnd(): void {
-        const stages = this.begunStages();
-        if (!this.runs?.isLost) return stages.acceptEnd();
-        stages.over = true;
-        this.runs.end(this.queue);
-    }
-
-    /** Take note of an error of the stream, with its place; others are passed on. */
-    private keep(error: unknown, block?: number): BsmError {
-        if (!(error instanceof BsmError)) throw error;
-        this.error = error.located({ offset: this.reader.position, block });
-        return this.error;
-    }
-
-    /** What `work` returns; its error is kept for all later calls. */
-    private guarded<Result>(work: (stages: Stages) => Result, block?: number): Result {
-        try {
-            return work(begun(this.stages));
-        } catch (error) {
-            this.queue.length = 0;
-            throw this.keep(error, block);
+            if (error instanceof BsmError) this.error = error;
+            throw error;
         }
     }
 
-    private begin(header: Header): void {
-        const { memory, limits, allowance, queue, reader } = this;
-        const open = (course?: Course): Stages => {
-            const wishes = header.run > 0 ? { ...this.wishes, helpers: undefined } : this.wishes;
-            return new Stages(memory, header, limits, allowance, wishes, queue, () => reader.position, course);
-        };
-        if (header.gopFrames === 0) return void (this.stages = open());
-        this.runs ??= new Runs(memory, allowance, this.wishes.tolerant ?? false);
-        this.stages = this.runs.begin(header, open);
+    /** What an event of the decoder in C is here; nothing if nobody is told of it. */
+    private heard(told: Told, growing: boolean): Event | Signal | undefined {
+        const { engine, wishes } = this;
+        const { type, index, count, vertices } = told;
+        if (type === NEED) return NEED_DATA;
+        if (type === OVER) return END_OF_STREAM;
+        if (type === FAILED) throw engine.error();
+        if (type === AWAITED) this.awaited = index;
+        if (type === HEADER) return this.begun(engine.header());
+        if (type === METADATA) {
+            const entries = engine.metadata(this.metadata, index);
+            this.metadata = index;
+            return { type: "metadata", entries };
+        }
+        if (type === CONNECTIVITY) {
+            const { faces, size, loose } = (this.numbering = engine.numbering(told));
+            if (this.again) this.queue.push(...engine.attributes().map((one): Event => ({ type: "attribute", ...one })));
+            return { type: "connectivity", faces, vertices: size, loose };
+        }
+        if (growing && (type === BLOCK || type === REFINEMENT)) return this.changed(type === BLOCK ? index : undefined);
+        if (type === ATTRIBUTE) return { type: "attribute", ...engine.attribute(index)! };
+        if (type === FRAME) return { type: "frame", index, positions: engine.positions(vertices), attributes: engine.attributes(true) };
+        if (type === LOSS) {
+            const isOfFrames = this.header!.gopFrames > 0 && index >= 0;
+            return { type: "loss", block: isOfFrames || index < 0 ? undefined : index, ...(isOfFrames ? { frames: { first: index, count } } : {}), error: engine.error(true).described };
+        }
+        if (type !== END) return undefined;
+        const isMesh = this.header!.gopFrames === 0;
+        const losses = wishes.tolerant && isMesh ? engine.losses() : { missing: new Int32Array(0), degraded: new Int32Array(0) };
+        const numbered = (coded: Int32Array): Int32Array => this.numbering!.copiesOf(coded);
+        const end = { type: "end" as const, missing: numbered(losses.missing), degraded: numbered(losses.degraded) };
+        return !growing && isMesh ? { ...end, positions: engine.positions(vertices) } : end;
     }
 
-    private begunStages(): Stages {
-        if (!this.stages) throw new CorruptError("the stream ends before its first block");
-        return this.stages;
+    private begun(header: Header): Event {
+        const { wishes, engine } = this;
+        this.header = header;
+        this.again = header.again !== undefined;
+        const helpers = header.run > 0 ? 0 : (wishes.helpers?.(header) ?? 0);
+        engine.share(helpers > 0 ? helpers + 1 : 0);
+        return { type: "header", header };
     }
 
-    private acceptShared({ index, block, problem }: SharedBlock): void {
-        const refuse = (): never => {
-            throw errorLike(begun(problem));
-        };
-        if (block) this.queue.unshift(block);
-        else this.guarded((stages) => stages.tolerating(refuse, index), index);
+    private changed(block?: number): Event {
+        const changes = this.numbering!.spread(this.engine.changes());
+        return block === undefined ? { type: "refinement", ...changes } : { type: "block", index: block, ...changes };
     }
+
+    /** What the block of a helper is, if it is there. */
+    private received(index: number, growing: boolean): Event | typeof NEED_BLOCK | undefined {
+        const shared = this.shared.get(index);
+        if (!shared) return NEED_BLOCK;
+        this.shared.delete(index);
+        this.awaited = undefined;
+        const { problem } = shared;
+        if (problem && (!this.wishes.tolerant || this.header!.gopFrames > 0)) throw errorLike(problem);
+        this.engine.add(shared);
+        if (problem) return { type: "loss", block: index, error: problem };
+        return growing ? this.changed(index) : undefined;
+    }
+}
+
+function withoutType({ type: _, ...attribute }: AttributeEvent): Attribute {
+    return attribute;
 }
 
 /** Decode a complete stream. */
 export function decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limits> = {}): Mesh {
     const decoder = new Decoder(kernels, limits);
     decoder.receiveData(data);
-    return decoder.finish();
+    const mesh = decoder.finish();
+    decoder.release();
+    return mesh;
 }
-
-export { END_OF_STREAM, NEED_DATA, type Metadata };

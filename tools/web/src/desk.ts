@@ -1,10 +1,11 @@
 /** What a thread does: it decodes streams, or helps others that do, as it is told by messages. */
-import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Event, type FrameEvent } from "./decoder";
+import type { Event, FrameEvent } from "./events";
 import { Drawing, type Picture } from "./drawing";
 import { BsmError, type Described } from "./errors";
 import type { Share, SharedBlock } from "./helper";
 import { Kernels } from "./kernels";
 import type { Limits } from "./limits";
+import { END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./signals";
 
 /** What a thread says of a stream; frames come in single precision, as they are drawn. */
 export type DrawnEvent = Exclude<Event, FrameEvent> | FrameEvent<Float32Array>;

@@ -1,8 +1,7 @@
 /** What is drawn of a stream, made in the thread that decodes: arrays that a page hands to its graphics as they are. */
 import { begun } from "./begun";
 import type { Attribute } from "./attributes";
-import type { Changes } from "./assembly";
-import type { ConnectivityEvent, EndEvent, Event, FrameEvent, HeaderEvent, LossEvent, MetadataEvent, RefinementEvent } from "./decoder";
+import type { Changes, ConnectivityEvent, EndEvent, Event, FrameEvent, HeaderEvent, LossEvent, MetadataEvent, RefinementEvent } from "./events";
 import { spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
 import { checkLimit, DEFAULT_LIMITS, type Limits } from "./limits";
 import { inverse } from "./numbering";

@@ -1,6 +1,6 @@
 /** The entropy coder as its kernels see it (specification, C 1 to C 3): a coder that reads, and banks that learn. */
 import { CorruptError, TruncatedError } from "./errors";
-import type { Bytes, Ints, Longs, Memory, Words } from "./kernels";
+import type { Bytes, Ints, Longs, Memory, Words } from "./memory";
 
 const ONE = 65536;
 const SUFFIX_NODES = 24;

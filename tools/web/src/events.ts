@@ -1,10 +1,18 @@
 /** What a decoder tells, and what it is asked for. */
 import type { Attribute } from "./attributes";
-import type { Changes } from "./assembly";
 import type { Described } from "./errors";
 import type { Header } from "./header";
 import type { Loose } from "./numbering";
-import type { Metadata } from "./reader";
+
+/** What the author says of a mesh, by names. */
+export type Metadata = Map<string, string | number | bigint | Uint8Array>;
+
+/** What a block changed: vertices, their positions in the unit of the mesh, and which of them are final. */
+export interface Changes {
+    vertices: Int32Array;
+    positions: Float64Array;
+    final: Uint8Array;
+}
 
 /** The header has arrived. */
 export interface HeaderEvent {

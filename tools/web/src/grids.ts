@@ -1,16 +1,20 @@
 /** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
 import { begun } from "./begun";
-import { Allowance } from "./chain";
+import { crc32 } from "./checksums";
+import { Allowance } from "./allowance";
 import { decodeConnectivity } from "./connectivity";
-import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./decoder";
-import { BsmError, UnsupportedError } from "./errors";
-import { Grid, lightKernel } from "./grid";
+import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./events";
+import { BsmError, CorruptError } from "./errors";
+import { Grid } from "./grid";
 import type { Header } from "./header";
-import type { Ints, Kernels, Memory } from "./kernels";
+import type { Kernels } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
+import { Memory, type Ints } from "./memory";
 import { Numbering } from "./numbering";
 import { decodeOrder } from "./order";
-import { END_OF_STREAM, NEED_DATA, Reader, type Packet, type Signal } from "./reader";
+import type { Packet } from "./packets";
+import { Reader } from "./reader";
+import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
 import { LIGHT_COST, meshCost, orderCost } from "./work";
 
 export type Event = HeaderEvent | MetadataEvent | ConnectivityEvent | BlockEvent | EndEvent;
@@ -34,7 +38,7 @@ export class Decoder {
         limits: Partial<Limits> = {},
     ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
-        this.memory = kernels.instantiate(this.limits.memory);
+        this.memory = new Memory(kernels.borrow(), this.limits.memory);
         this.allowance = new Allowance(this.limits);
         this.reader = new Reader(this.limits, this.allowance.spend.bind(this.allowance));
     }
@@ -63,7 +67,7 @@ export class Decoder {
             try {
                 const packet = this.reader.nextPacket();
                 if (typeof packet === "string") return packet;
-                this.accept(packet as Packet);
+                this.accept(packet);
             } catch (error) {
                 if (!(error instanceof BsmError)) throw error;
                 this.error = error.located({ offset: this.reader.position });
@@ -73,7 +77,7 @@ export class Decoder {
 
     /** Leave the memory to the next decoder; this one is not to be asked for anything more. */
     release(): void {
-        this.kernels.take(this.memory);
+        this.kernels.take(this.memory.exports);
     }
 
     /** Decode the rest of a complete stream. */
@@ -97,12 +101,19 @@ export class Decoder {
             case "grid":
                 return this.acceptGrid(packet.first, packet.count, packet.data);
             case "end":
+                this.check(packet.positions);
                 this.queue.push({ type: "end", missing: new Int32Array(0), degraded: new Int32Array(0) });
         }
     }
 
+    /** Compare the checksum of positions, if the stream has told it (F 5.10). */
+    private check(told?: number): void {
+        if (told === undefined) return;
+        const places = begun(this.grid).positions.map((place) => place + 0); // -0 counts as 0
+        if (crc32(new Uint8Array(places.buffer)) !== told) throw new CorruptError("the checksum of decoded positions is wrong: they are not those that the encoder saw");
+    }
+
     private acceptHeader(header: Header): void {
-        if (header.light !== 1 || header.attributes > 0) throw new UnsupportedError("this build decodes light grids alone, which this is not; small.js and bsm.js decode more");
         this.header = header;
         this.queue.push({ type: "header", header });
     }
@@ -117,7 +128,7 @@ export class Decoder {
     private acceptOrder(data: Uint8Array): void {
         const { vertices, faces } = begun(this.header);
         this.allowance.spend(orderCost(vertices, faces, data.length), data.length);
-        this.numbering = decodeOrder(this.memory, data, begun(this.faces), begun(this.header), this.limits);
+        this.numbering = decodeOrder(this.memory, data, begun(this.faces), begun(this.header));
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
@@ -133,7 +144,7 @@ export class Decoder {
         const { size, loose } = this.numbering;
         this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose });
         this.allowance.spend(LIGHT_COST.whole(vertices, faces));
-        return new Grid(this.memory, begun(this.faces), begun(this.header), lightKernel);
+        return new Grid(this.memory, begun(this.faces), begun(this.header));
     }
 }
 

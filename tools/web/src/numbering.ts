@@ -1,6 +1,5 @@
 /** How the user of a mesh numbers what was coded (specification, C 9, F 9). */
-import type { Changes } from "./assembly";
-import type { Arrangement } from "./connectivity";
+import type { Changes } from "./events";
 
 /** Positions of vertices that no face uses. */
 export interface Loose {
@@ -16,10 +15,6 @@ export class Numbering {
         readonly faces: Int32Array,
         private readonly coded: number,
         readonly source?: Int32Array,
-        /** The coded corner that each of the user's is; without it the same. */
-        readonly corners?: Int32Array,
-        /** Whether vertices that were coded as one are several of the user's. */
-        readonly isSplit = false,
         readonly loose: Loose = { vertices: new Int32Array(0), positions: new Float64Array(0) },
     ) {
         if (source) this.copies = inverse(source, coded);
@@ -45,6 +40,12 @@ export class Numbering {
         return { vertices: Int32Array.from(vertices), positions, final: Uint8Array.from(rows, (row) => changes.final[row]) };
     }
 
+    /** The user's vertices that coded ones are. */
+    copiesOf(coded: Int32Array): Int32Array {
+        const { copies } = this;
+        return copies ? Int32Array.from([...coded].flatMap((vertex) => [...copies.members.subarray(copies.starts[vertex], copies.starts[vertex + 1])])) : coded;
+    }
+
     /** Positions of all coded vertices, as the user numbers them. */
     arranged(positions: Float64Array): Float64Array {
         const { source } = this;
@@ -68,9 +69,4 @@ export function inverse(values: Int32Array, count: number): { starts: Int32Array
     const filled = starts.slice();
     values.forEach((value, place) => value >= 0 && (members[filled[value]++] = place));
     return { starts, members };
-}
-
-/** The numbering of an arrangement. */
-export function permuted({ faces, numbers, corners }: Arrangement): Numbering {
-    return new Numbering(faces, numbers.length, inverse(numbers, numbers.length).members, corners);
 }

@@ -1,25 +1,17 @@
 /** Packets, and how payloads become those that every decoder knows (specification, F 5). */
 import { CorruptError } from "./errors";
-import type { Declaration } from "./declaration";
+import type { Metadata } from "./events";
 import { parseHeader, type Header } from "./header";
 import { checkLimit, type Limits } from "./limits";
 import { parseMap } from "./maps";
 import { parseVarint } from "./varint";
 
-/** What the author says of a mesh, by names. */
-export type Metadata = Map<string, string | number | bigint | Uint8Array>;
-
 export type Packet =
     | { type: "header"; header: Header }
     | { type: "metadata"; entries: Metadata }
-    | { type: "connectivity" | "partition" | "order"; data: Uint8Array }
-    | { type: "block"; index: number; coefficients: number; data: Uint8Array }
-    | { type: "gop"; index: number; data: Uint8Array }
+    | { type: "connectivity" | "order"; data: Uint8Array }
     | { type: "grid"; first: number; count: number; data: Uint8Array }
-    | { type: "refinement"; first: number; count: number; data: Uint8Array }
-    | { type: "attribute"; index: number; declaration: Declaration; seams: Uint8Array }
-    | { type: "values"; attribute: number; first: number; count: number; data: Uint8Array }
-    | { type: "end"; frames: number; crc: number };
+    | { type: "end"; frames: number; crc: number; positions?: number };
 
 export type Kind = Packet["type"];
 
@@ -58,7 +50,7 @@ export class Cursor {
 /** What becomes of a payload of each kind. */
 export type Parsers = Partial<Record<Kind, (payload: Cursor, limits: Limits) => Packet>>;
 
-export const COMMON: Parsers = {
+export const PARSERS: Parsers = {
     header: (payload, limits) => ({ type: "header", header: parseHeader(payload.rest(), limits) }),
     metadata: (payload, limits) => {
         const data = payload.rest();
@@ -76,8 +68,9 @@ export const COMMON: Parsers = {
     end: (payload) => {
         const frames = payload.varint();
         const crc = payload.take(4);
-        if (![0, 4].includes(payload.rest().length)) throw new CorruptError("END has a wrong length");
-        return { type: "end", frames, crc: littleEndian(crc) };
+        const positions = payload.ended ? undefined : littleEndian(payload.take(4));
+        payload.finish();
+        return { type: "end", frames, crc: littleEndian(crc), positions };
     },
 };
 

@@ -2,12 +2,11 @@
 import { KINDS, PREAMBLE, SHORT } from "./constants";
 import { crc16, crc32 } from "./checksums";
 import { BsmError, CorruptError, FormatError, TruncatedError, UnsupportedError } from "./errors";
-import { Grammar, PARSERS } from "./grammar";
+import { Grammar } from "./grammar";
 import { checkLimit, type Limits } from "./limits";
-import { Cursor, littleEndian, type Kind, type Metadata, type Packet } from "./packets";
+import { Cursor, littleEndian, PARSERS, type Kind, type Packet } from "./packets";
+import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
 import { parseVarint } from "./varint";
-
-export type { Metadata, Packet };
 
 /** Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes (M 14.3). */
 const [FRAME, BYTE, TELLING, ENTRY] = [8e3, 8, 2e4, 8e3];
@@ -15,23 +14,10 @@ const [FRAME, BYTE, TELLING, ENTRY] = [8e3, 8, 2e4, 8e3];
 /** Is told of work, and of the bytes that ask for it, and may refuse it. */
 export type Spend = (work: number, received: number) => void;
 
-export const NEED_DATA = "need data";
-export const END_OF_STREAM = "end of stream";
-export type Signal = typeof NEED_DATA | typeof END_OF_STREAM;
-
-/** Bytes that a tolerant reader skipped: where, how many, what kind of frame they seem to be, and why. */
-export interface Damaged {
-    type: "damaged";
-    kind?: Kind;
-    offset: number;
-    length: number;
-    reason: string;
-}
-
 const MAGIC_SIZE = 4;
 const BLOCK_TAG = 6;
 
-export const kinds: Record<number, Kind> = KINDS;
+const kinds: Record<number, string> = KINDS;
 const preamble = Uint8Array.from(PREAMBLE);
 
 /** What a tag says, and where the frame's payload and the frame end. */
@@ -44,13 +30,11 @@ export function frameOf(tag: { value: number; end: number }): { type: number; le
 
 /** Strict: the first thing wrong is thrown, and thrown again by every later call. */
 export class Reader {
-    protected begin = 0;
-    protected end = 0;
-    protected eof = false;
-    protected readonly grammar: Grammar;
-    /** Whether anything was lost. */
-    protected damaged = false;
-    protected buffer = new Uint8Array(0);
+    private begin = 0;
+    private end = 0;
+    private eof = false;
+    private readonly grammar = new Grammar();
+    private buffer = new Uint8Array(0);
     private offset = 0;
     private frames = 0;
     private crc = 0;
@@ -61,11 +45,8 @@ export class Reader {
 
     constructor(
         private readonly limits: Limits,
-        protected readonly spend: Spend,
-        joining = false,
-    ) {
-        this.grammar = new Grammar(joining);
-    }
+        private readonly spend: Spend,
+    ) {}
 
     /** Take more bytes of the stream, any number of them. */
     receiveData(data: Uint8Array): void {
@@ -87,7 +68,7 @@ export class Reader {
     }
 
     /** The next packet, `NEED_DATA`, or `END_OF_STREAM` after END and `receiveEof`. */
-    nextPacket(): Packet | Damaged | Signal {
+    nextPacket(): Packet | Signal {
         if (this.error) throw this.error;
         try {
             return this.next();
@@ -109,14 +90,14 @@ export class Reader {
         this.end = size;
     }
 
-    protected next(): Packet | Damaged | Signal {
+    private next(): Packet | Signal {
         if (!this.started && !this.start()) return NEED_DATA;
         while (!this.grammar.ended) {
             const frame = this.frame();
             if (!frame) return this.incomplete();
-            this.pay(FRAME + BYTE * frame.size, frame.size);
+            this.spend(FRAME + BYTE * frame.size, frame.size);
             const packet = this.parse(frame.type, frame.payload);
-            if (packet?.type === "metadata") this.pay(TELLING + ENTRY * packet.entries.size, 0);
+            if (packet?.type === "metadata") this.spend(TELLING + ENTRY * packet.entries.size, 0);
             if (packet) this.grammar.advance(packet);
             if (packet?.type === "metadata") this.told += frame.payload.length;
             this.crc = crc32(this.buffer.subarray(this.begin, this.begin + frame.size), this.crc);
@@ -125,11 +106,6 @@ export class Reader {
         }
         if (this.end > this.begin) throw new CorruptError("bytes behind END");
         return this.eof ? END_OF_STREAM : NEED_DATA;
-    }
-
-    /** Spend; what there is no more work for is no damage. */
-    protected pay(work: number, received: number): void {
-        this.spend(work, received);
     }
 
     private start(): boolean {
@@ -156,9 +132,9 @@ export class Reader {
         });
     }
 
-    /** The frame `ahead` bytes from here; undefined if it is not complete. */
-    protected frame(ahead = 0): { type: number; payload: Uint8Array; size: number } | undefined {
-        const start = this.begin + ahead;
+    /** The frame that is next; undefined if it is not complete. */
+    private frame(): { type: number; payload: Uint8Array; size: number } | undefined {
+        const start = this.begin;
         const tag = parseVarint(this.buffer, start, this.end);
         if (!tag) return undefined;
         const { type, length, sum, end } = frameOf(tag);
@@ -173,18 +149,18 @@ export class Reader {
     }
 
     /** The packet in a frame, checked against everything before it; undefined for one to be skipped. */
-    protected parse(type: number, payload: Uint8Array): Packet | undefined {
+    private parse(type: number, payload: Uint8Array): Packet | undefined {
         if (type >= 8 && type <= 11) {
             if (!this.grammar.header) throw new CorruptError("the first frame must be HEADER");
             return undefined;
         }
-        const kind = kinds[type];
+        const kind = kinds[type] as Kind;
         const parse = PARSERS[kind];
-        if (!parse || !this.grammar.announces(kind)) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
+        if (!parse) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
         const packet = parse(new Cursor(payload), this.limits);
         this.grammar.check(packet);
         if (kind === "metadata") checkLimit(this.limits, "metadataBytes", this.told + payload.length);
-        if (packet.type === "end" && !this.damaged && !this.grammar.joined) {
+        if (packet.type === "end") {
             if (packet.frames !== this.frames) throw new CorruptError(`END counts ${packet.frames} frames before it`);
             if (packet.crc !== this.crc) throw new CorruptError("the CRC-32 of the whole stream is wrong");
         }
@@ -192,7 +168,7 @@ export class Reader {
     }
 
     /** Leave one frame, or bytes that cannot be read, behind. */
-    protected skip(count: number): void {
+    private skip(count: number): void {
         this.frames++;
         this.drop(count);
     }

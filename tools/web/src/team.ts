@@ -1,11 +1,10 @@
 /** Threads that help a decoder: each decodes some of the chains of the stream. */
 import { decode, Decoder, NEED_BLOCK, type Mesh } from "./decoder";
 import type { Header } from "./header";
-import type { SharedBlock } from "./helper";
+import { chainOf, type SharedBlock } from "./helper";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 import type { Answer, Endpoint, Order, Start } from "./desk";
-import { chainOf } from "./structure";
 import { processors } from "./threads";
 
 const MOST = 3;

@@ -51,5 +51,5 @@ for (const build of BUILDS) {
 test("memory is limited", async () => {
     const compiled = await compile(BUILDS[0]);
     const stream = readFileSync(join(VECTORS, "good-fine.bsm"));
-    assert.throws(() => decode(compiled, stream, { memory: 400_000 }), LimitError);
+    assert.throws(() => decode(compiled, stream, { memory: 200_000 }), LimitError);
 });

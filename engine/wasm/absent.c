@@ -1,0 +1,92 @@
+/* In the place of what a smaller build is without (tools/web/scripts/kernels.mjs): the linker takes these where there is nothing else. */
+#include "engine/decoder.h"
+
+#define ABSENT __attribute__((weak))
+
+static bool absent(Context *context) { return FAIL(context, UNSUPPORTED, "this build decodes less than all; bsm.js decodes the rest"); }
+
+ABSENT bool accept_in_sequence(bsmdec *decoder, const Packet *packet) {
+    (void)packet;
+    return absent(&decoder->context);
+}
+ABSENT bool accept_damage_in_sequence(bsmdec *decoder) { return absent(&decoder->context); }
+ABSENT bool end_sequence(bsmdec *decoder) { return absent(&decoder->context); }
+ABSENT bool show(bsmdec *decoder, int64_t index) {
+    (void)index;
+    return absent(&decoder->context);
+}
+ABSENT void close_sequence(bsmdec *decoder) { (void)decoder; }
+ABSENT void end_gops(Gops *gops) { (void)gops; }
+
+ABSENT bool parse_declaration(Context *context, Span payload, Arena *scratch, Declaration *declaration) {
+    (void)payload, (void)scratch, (void)declaration;
+    return absent(context);
+}
+ABSENT void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena) {
+    (void)attributes, (void)header, (void)faces, (void)arena;
+    absent(context);
+}
+ABSENT void end_attributes(Attributes *attributes) { (void)attributes; }
+ABSENT bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams, Arena *scratch) {
+    (void)attributes, (void)index, (void)declaration, (void)seams;
+    return absent(scratch->context);
+}
+ABSENT bool check_rows(const Attributes *attributes, const Numbering *numbering) {
+    (void)attributes, (void)numbering;
+    return false;
+}
+ABSENT bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch) {
+    (void)attributes, (void)numbering;
+    return absent(scratch->context);
+}
+ABSENT bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch) {
+    (void)attributes, (void)packet, (void)places;
+    return absent(scratch->context);
+}
+ABSENT bool recompute(Attributes *attributes, Attribute *one, ConstDoubles2 positions, Arena *scratch) {
+    (void)attributes, (void)one, (void)positions;
+    return absent(scratch->context);
+}
+ABSENT void beyond_one(const Attribute *one, Doubles2 beyond) { (void)one, (void)beyond; }
+ABSENT bool move_values(Context *context, Attribute *one, ConstDoubles2 change, void *moved) {
+    (void)one, (void)change, (void)moved;
+    return absent(context);
+}
+ABSENT Given given_shape(const Attribute *one, const Numbering *numbering) {
+    (void)one, (void)numbering;
+    return (Given){0};
+}
+ABSENT bool given_rows(const Attribute *one, const Numbering *numbering, Arena *scratch, Longs rows) {
+    (void)one, (void)numbering, (void)rows;
+    return absent(scratch->context);
+}
+ABSENT int32_t row_of_corner(const Attribute *one, const Numbering *numbering, int64_t corner) {
+    (void)one, (void)numbering, (void)corner;
+    return 0;
+}
+
+ABSENT bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena, Arena *scratch) {
+    (void)field, (void)header, (void)faces, (void)arena, (void)scratch;
+    return absent(context);
+}
+ABSENT bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch) {
+    (void)field, (void)first, (void)count, (void)payload;
+    return absent(scratch->context);
+}
+ABSENT bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch) {
+    (void)layer, (void)header, (void)faces, (void)base, (void)whole, (void)arena, (void)scratch;
+    return absent(context);
+}
+ABSENT bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch) {
+    (void)layer, (void)first, (void)count, (void)payload;
+    return absent(scratch->context);
+}
+ABSENT Bytes fit_vertices(const Layer *layer, Arena *scratch) {
+    (void)layer, (void)scratch;
+    return (Bytes){NULL, 0};
+}
+
+ABSENT bool unpack_zstd(Context *context, Span frame, uint8_t *content, int64_t size, Arena *scratch) {
+    (void)frame, (void)content, (void)size, (void)scratch;
+    return absent(context);
+}

@@ -1,0 +1,15 @@
+/* What a page asks of a decoder beside bsmdec.h; one decoder in one memory. */
+#ifndef BSMDEC_PAGE_H
+#define BSMDEC_PAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+void *page_take(size_t size);
+void page_give(void *memory, size_t size);
+/* Tables, and what coefficients start from (tools/web/scripts/kernels.mjs). */
+void make_tables(void);
+void make_value_tables(void);
+void make_priors(void);
+
+#endif

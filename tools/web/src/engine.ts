@@ -1,0 +1,248 @@
+/** The decoder in C: its calls, and what lies in its memory. */
+import { DOMAINS, KINDS, SEMANTICS, type Attribute } from "./attributes";
+import { BsmError, errorLike, LimitError } from "./errors";
+import type { Changes, Metadata } from "./events";
+import type { Header } from "./header";
+import type { Share, SharedBlock } from "./helper";
+import type { Exports, Kernels } from "./kernels";
+import { DEFAULT_LIMITS, type Limits } from "./limits";
+import { Numbering } from "./numbering";
+
+/** Events in the order of bsmdec.h, and one of decoders with helpers. */
+export const [NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, FAILED, AWAITED] = Array.from({ length: 13 }, (_, i) => i);
+
+const NAMES: Record<number, string> = { 3: "Format", 4: "Corrupt", 5: "Unsupported", 6: "Limit", 7: "Numeric", 8: "Limit", 12: "Truncated" };
+const VIEWS: Kind<ArrayLike<number> & { slice(): ArrayLike<number> }>[] = [Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array, Float64Array];
+const [WHOLE, NUMBER, TEXT] = [1, 2, 3];
+const TEXTS = new TextDecoder("utf-8", { ignoreBOM: true });
+const LAST_ATTRIBUTE = 255;
+const [ENTRY_BYTES, ATTRIBUTE_BYTES] = [48, 56];
+const FIRST_PAPER = 31;
+
+interface Kind<View> {
+    BYTES_PER_ELEMENT: number;
+    new (buffer: ArrayBuffer, at: number, length: number): View;
+}
+
+type Call = (...args: number[]) => number;
+
+/** An event as it is told: how many vertices and faces the user has, once that is known. */
+export interface Told {
+    type: number;
+    index: number;
+    count: number;
+    vertices: number;
+    faces: number;
+}
+
+/** One decoder, in a memory of its own. */
+export class Engine {
+    private readonly exports: Exports;
+
+    constructor(
+        private readonly kernels: Kernels,
+        limits: Partial<Limits>,
+        tolerant: boolean,
+        { number, among }: Share = { number: 0, among: 0 },
+    ) {
+        this.exports = kernels.borrow();
+        const l = { ...DEFAULT_LIMITS, ...limits };
+        const bounds = [
+            l.vertices, l.faces, l.blocks, l.blockSize, l.coefficients, l.frames, l.gopFrames, l.frameBytes, l.metadataBytes, l.attributes,
+            l.attributeValues, l.sequenceBytes, l.memory, l.work, l.workPerVertex, l.workPerByte, Infinity, l.blockMemory,
+            l.blockMemoryPerVertex, l.memoryPerByte, Infinity, l.memory,
+        ];
+        const opened = this.lent(8 * bounds.length, (at) => {
+            new Float64Array(this.buffer, at).set(bounds);
+            return this.call("page_open", at, tolerant ? 1 : 0, number, among);
+        });
+        if (!opened) throw new LimitError("this machine has no memory for a decoder");
+    }
+
+    push(data: Uint8Array): void {
+        if (data.length === 0) return;
+        this.lent(data.length, (at) => {
+            new Uint8Array(this.buffer, at).set(data);
+            this.call("page_push", at, data.length);
+        });
+    }
+
+    finish(): void {
+        this.call("page_finish");
+    }
+
+    /** Let helpers have the chains that are not the decoder's own. */
+    share(among: number): void {
+        this.call("page_share", among);
+    }
+
+    next(): Told {
+        const at = this.call("page_next");
+        const view = new DataView(this.buffer, at);
+        const [index, count, vertices, faces] = [8, 16, 24, 32].map((at) => Number(view.getBigInt64(at, true)));
+        return { type: view.getInt32(0, true), index, count, vertices, faces };
+    }
+
+    /** The first error of the stream; the loss that was told last. */
+    error(isLoss = false): BsmError {
+        const at = this.call("page_error", isLoss ? 1 : 0);
+        const view = new DataView(this.buffer, at);
+        const [offset, frame, block] = [8, 16, 24].map((place) => Number(view.getBigInt64(place, true))).map((value) => (value < 0 ? undefined : value));
+        return errorLike({ name: `${NAMES[view.getInt32(0, true)] ?? "Bsm"}Error`, problem: this.text(at + 32), place: { offset, frame, block } });
+    }
+
+    /** Bytes that were made use of, work that was charged, vertices that the faces so far have. */
+    get state(): readonly [position: number, work: number, vertices: number] {
+        const [position, work, vertices] = this.doubles(this.call("page_state"), 3);
+        return [position, work, vertices];
+    }
+
+    header(): Header {
+        const n = this.doubles(this.call("page_header"), FIRST_PAPER + 8);
+        const some = (isThere: number, from: number, to: number): number[] => (isThere > 0 ? [...n.subarray(from, to)] : []);
+        const [bits, coarser, exact, power, iterations, keyIterations, shift, springs] = n.subarray(FIRST_PAPER);
+        return {
+            vertices: n[0], faces: n[1], blocks: n[2], blockSize: n[3], coefficients: n[4], keyInterval: n[5], step: n[6], scale: n[7], smoothing: n[8],
+            attributes: n[9], light: n[10], frames: n[11], gopFrames: n[12], run: n[13], again: n[14] < 0 ? undefined : n[14], center: some(1, 15, 18),
+            refinement: some(n[18], 19, 21), grid: some(n[21], 22, 25), lattice: some(n[25], 25, 27), corner: some(n[27], 28, 31),
+            paper: { bits, coarser, exact, power, iterations, keyIterations, shift, springs },
+        };
+    }
+
+    /** Entries of metadata, from number `from` on. */
+    metadata(from: number, to: number): Metadata {
+        const entries: Metadata = new Map();
+        this.lent(ENTRY_BYTES, (at) => {
+            for (let index = from; index < to; index++) {
+                this.call("page_metadata", index, at);
+                const view = new DataView(this.buffer, at);
+                const type = view.getInt32(4, true);
+                const bytes = this.copied(view.getUint32(24, true), view.getUint32(28, true));
+                const whole = view.getBigInt64(8, true);
+                const integer = whole >= -(2n ** 31n) && whole < 2n ** 32n ? Number(whole) : whole;
+                const value = type === WHOLE ? integer : type === NUMBER ? view.getFloat64(16, true) : type === TEXT ? TEXTS.decode(bytes) : bytes;
+                entries.set(this.text(view.getUint32(0, true)), value);
+            }
+        });
+        return entries;
+    }
+
+    /** The user's faces, and how he numbers vertices. */
+    numbering(told: Told): Numbering {
+        const faces = this.filled(Int32Array, 3 * told.faces, (at, count) => this.call("page_faces", at, count));
+        const [size, vertices, positions, coded] = this.rows("page_numbering");
+        const source = size > 0 ? new Int32Array(this.buffer, vertices, size).slice() : undefined;
+        const loose = Int32Array.from([...(source ?? [])].flatMap((from, v) => (from < 0 ? [v] : [])));
+        return new Numbering(faces, this.doubles(coded, 1)[0], source, { vertices: loose, positions: this.doubles(positions, 3 * loose.length) });
+    }
+
+    positions(vertices: number): Float64Array {
+        return this.filled(Float64Array, 3 * vertices, (at, count) => this.call("page_positions", at, count));
+    }
+
+    /** What the event told last has changed, as vertices were coded. */
+    changes(): Changes {
+        const [count, vertices, positions, final] = this.rows("page_changes");
+        return {
+            vertices: new Int32Array(this.buffer, vertices, count).slice(),
+            positions: this.doubles(positions, 3 * count),
+            final: this.copied(final, count),
+        };
+    }
+
+    /** Coded vertices without a position, and those that are less good than they were encoded. */
+    losses(): { missing: Int32Array; degraded: Int32Array } {
+        const [count, missing, degraded] = this.rows("page_losses");
+        const ints = (at: number, length: number): Int32Array => new Int32Array(this.buffer, at, length).slice();
+        return { missing: ints(missing, count), degraded: degraded > 0 ? ints(degraded + 4, ints(degraded, 1)[0]) : new Int32Array(0) };
+    }
+
+    /** An attribute, if it is whole, and moves where that is asked for. */
+    attribute(index: number, moving = false): Attribute | undefined {
+        return this.lent(ATTRIBUTE_BYTES, (at) => {
+            if (this.call("page_attribute", index, at) !== 0) return undefined;
+            const view = new DataView(this.buffer, at);
+            const [domain, semantic, kind, components] = [4, 8, 12, 16].map((place) => view.getInt32(place, true));
+            const [rows, corners] = [24, 32].map((place) => Number(view.getBigInt64(place, true)));
+            if (moving && view.getInt32(40, true) === 0) return undefined;
+            const name = this.text(view.getUint32(0, true));
+            const values = this.filled(VIEWS[kind], rows * components, (to, count) => this.call("page_values", index, to, count * VIEWS[kind].BYTES_PER_ELEMENT));
+            const indices = corners > 0 ? this.filled(Int32Array, corners, (to, count) => this.call("page_indices", index, to, count)) : undefined;
+            return { name, semantic: SEMANTICS[semantic], domain: DOMAINS[domain], kind: KINDS[kind], components, values: Float64Array.from(values), indices };
+        });
+    }
+
+    /** All attributes that are whole, or those of them that move. */
+    attributes(moving = false): Attribute[] {
+        return Array.from({ length: LAST_ATTRIBUTE + 1 }, (_, index) => this.attribute(index, moving)).filter((one) => one !== undefined);
+    }
+
+    /** The block that this one, a helper, has decoded. */
+    handed(index: number): SharedBlock {
+        const [count, vertices, positions, weights] = this.rows("page_handed");
+        return { index, block: { vertices: new Int32Array(this.buffer, vertices, count).slice(), positions: this.doubles(positions, 3 * count), weights: this.doubles(weights, count) } };
+    }
+
+    /** Add a block that a helper has decoded. */
+    add({ index, block }: SharedBlock): void {
+        if (!block) return void this.call("page_lose", index);
+        const [, vertices, positions, weights] = this.rows("page_room", block.vertices.length);
+        new Int32Array(this.buffer, vertices).set(block.vertices);
+        new Float64Array(this.buffer, positions).set(block.positions);
+        new Float64Array(this.buffer, weights).set(block.weights);
+        if (!this.call("page_add", index)) throw new RangeError("a block that is none of this mesh");
+    }
+
+    /** Leave the memory to the next decoder. */
+    release(): void {
+        this.call("page_close");
+        this.kernels.take(this.exports);
+    }
+
+    private get buffer(): ArrayBuffer {
+        return this.exports.memory.buffer;
+    }
+
+    private call(name: string, ...args: number[]): number {
+        return (this.exports[name] as Call)(...args) >>> 0;
+    }
+
+    /** A count and three places; without them the error of the stream is thrown. */
+    private rows(name: string, ...args: number[]): Uint32Array {
+        const at = this.call(name, ...args);
+        if (at === 0) throw this.error();
+        return new Uint32Array(this.buffer, at, 4).slice();
+    }
+
+    private doubles(at: number, count: number): Float64Array {
+        return new Float64Array(this.buffer, count > 0 ? at : 0, count).slice();
+    }
+
+    private copied(at: number, count: number): Uint8Array {
+        return new Uint8Array(this.buffer, at, count).slice();
+    }
+
+    private text(at: number): string {
+        const bytes = new Uint8Array(this.buffer, at);
+        return TEXTS.decode(bytes.slice(0, bytes.indexOf(0)));
+    }
+
+    /** What `work` returns with so many bytes of memory for a while. */
+    private lent<Result>(size: number, work: (at: number) => Result): Result {
+        const at = this.call("page_take", size);
+        if (at === 0) throw new LimitError(`this machine has no ${size} bytes of memory for the decoder`);
+        try {
+            return work(at);
+        } finally {
+            this.call("page_give", at, size);
+        }
+    }
+
+    /** An array that a call fills. */
+    private filled<View>(kind: Kind<{ slice(): View }>, count: number, fill: (at: number, count: number) => number): View {
+        return this.lent(Math.max(1, count) * kind.BYTES_PER_ELEMENT, (at) => {
+            if (fill(at, count) !== 0) throw this.error();
+            return new kind(this.buffer, at, count).slice();
+        });
+    }
+}
