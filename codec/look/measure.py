@@ -22,7 +22,7 @@ from bsm.codec.look.pictures import (
     draw,
     draw_owned,
 )
-from bsm.codec.look.sides import FEW, cameras, pixels_for
+from bsm.codec.look.sides import FEW, MOST_PIXELS, cameras, pixels_for
 from bsm.codec.threads import ordered_map
 
 DISSIMILAR = 0.03  # 1 - SSIM at distance 1
@@ -72,7 +72,7 @@ class Look:
 class LookMetric:
     """Pictures of an original, to compare one decoded version after another with."""
 
-    def __init__(self, mesh: TriangleMesh, *, threads: int | None = None) -> None:
+    def __init__(self, mesh: TriangleMesh, *, threads: int | None = None, most_pixels: int = MOST_PIXELS) -> None:
         self._mesh, self._threads = mesh, threads
         used = mesh.positions[_used(mesh.faces, len(mesh.positions))]
         low, high = box_around(used)
@@ -85,7 +85,7 @@ class LookMetric:
         self._middle = low + (high - low) / 2
         positions = self._placed(mesh.positions)
         self._shape = Shape.of(positions, mesh.faces)
-        self.pixels = pixels_for(positions, mesh.faces)
+        self.pixels = min(pixels_for(positions, mesh.faces), most_pixels)
         self._cameras = cameras(self._placed(used), self.pixels)
         self._pictures = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
         if not any(picture.min() < BACKGROUND for picture in self._pictures):

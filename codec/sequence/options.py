@@ -50,7 +50,7 @@ class Promise:
     def first_step(self) -> float:
         """A step to try first."""
         farthest = 0.01 if self.absolute else self.farthest
-        return min(0.25 * farthest, 3.3e-3 * min(self.look, 1e3))
+        return min(0.33 * farthest, 3.3e-3 * min(self.look, 1e3))
 
     def __str__(self) -> str:
         bound = f"no vertex farther off than {self.farthest:.4g}{'' if self.absolute else ' diagonals'}"

@@ -26,7 +26,7 @@ LARGEST_LEVEL = (1 << 23) - 1
 
 
 WEIGHT = 0.1  # squared steps that a bit is worth: 0.06 and 0.15 cost 1 % at the same error, coarse steps and fine ones
-ROUNDS = 3
+ROUNDS = 1
 """How often levels are chosen before those that stay: prices depend on the neighbours, which depend on prices."""
 
 

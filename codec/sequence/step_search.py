@@ -14,18 +14,22 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
+from bsm.codec.look.sides import MOST_PIXELS
 from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.row_prediction import ROUNDS
 from bsm.codec.static.targets import COARSEST_STEP
 
-KNOTS = 10  # frames, evenly over a GOP, that pictures are drawn of at every attempt
-MORE = 6  # if all is well there, so many of those that may be the worst are drawn as well
-DEVIATIONS = 5.0
+KNOTS = 10  # frames, evenly over a GOP, that small pictures are drawn of at every attempt
+SMALL = 256  # pixels of the side of these
+COARSENESS = 0.03  # how far what is seen in them is off, in logarithms, if it is scaled by what is seen in large ones
+MORE = 1  # frames that seem the worst, drawn large at every attempt
+DEVIATIONS = 2.0
 """An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
-KEPT = 1 << 26  # bytes of pictures of originals that are kept from attempt to attempt
+KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
 SLACK, SLACK_OF_ONE = 0.04, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
-ROUGH = 1  # rounds over levels in a first attempt, which only tells what weights frames need: a third of the time
+ROUGH = 0  # rounds over levels in a first attempt, which only tells what weights frames need: less than half the time
+FINER = 0.1  # by how much a first attempt seems better than what follows, since none of its levels are chosen by their price
 SLOPE, SLOPES = 0.7, (0.4, 2.5)
 """What is seen grows with about this power of the step; and the range of what two attempts may say about it."""
 EVENING, SMOOTHNESS = 0.8, 2.0
@@ -83,7 +87,9 @@ class StepSearch:
     def __init__(self, frames: Positions, faces: Faces, promise: Promise, scale: float, threads: int | None) -> None:
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
         self._reach = promise.reach(scale)
-        self._metrics: dict[int, LookMetric | None] = {}
+        self._metrics: dict[tuple[int, int], LookMetric | None] = {}
+        self._scales: dict[int, float] = {}  # logarithms of what large pictures show over what small ones do
+        self._ratios: dict[int, float] = {}  # of what large pictures showed and what normals let expect
         self._room = KEPT
         self._knots: list[int] = []
         if promise.look < math.inf:
@@ -99,24 +105,25 @@ class StepSearch:
         if self._knots and many:
             measured = self._measure(encode(first, None, ROUGH).decoded)
             weights = _evening(measured.shares)
-            first = _finer(first, measured.excess, slack)
-        kept: tuple[float, Measured, Found] | None = None
+            first = _finer(first, measured.excess + FINER, slack)
+        kept: tuple[float, Measured, Positions, Found] | None = None
         least = math.inf
 
         def excess(step: float) -> float:
             nonlocal kept, least
             least = min(least, step)
             found = encode(step, weights, ROUNDS)
-            measured = self._measure(found.decoded)
+            decoded = found.decoded
+            measured = self._measure(decoded)
             if measured.excess <= 0.0 and (kept is None or step > kept[0]):
-                kept = step, measured, found
+                kept = step, measured, decoded, found
             return measured.excess
 
         secant(excess, first, finest, slack)
         for _ in range(TRIES if kept else 0):
             assert kept is not None
-            step, measured, found = kept
-            self._draw_doubtful(measured, found.decoded)
+            step, measured, decoded, found = kept
+            self._draw_doubtful(measured, decoded)
             if measured.excess <= 0.0:
                 return found
             least = step
@@ -124,44 +131,63 @@ class StepSearch:
                 break
             step = max(_finer(step, measured.excess, slack), finest)
             found = encode(step, weights, ROUNDS)
-            kept = step, self._measure(found.decoded), found
+            decoded = found.decoded
+            kept = step, self._measure(decoded), decoded, found
         raise TargetError(f"{self._promise} in every frame cannot be kept, not even with a step of {least:.2g}")
 
     def _measure(self, decoded: Positions) -> Measured:
-        """How the frames look, by those all over the GOP, and, if all is well there, a few that may be the worst."""
+        """How the frames look, by small pictures of those all over the GOP, and large ones of what seems the worst."""
         pairs = list(zip(self._frames, decoded, strict=True))
         farthest = math.sqrt(max(float(np.square(a - b).sum(axis=1).max()) for a, b in pairs)) / self._reach
         if not self._knots:
-            return Measured(farthest, np.zeros(0), {})
+            return Measured(farthest, np.zeros(0), {}, {})
         errors = np.array([self._shading.error(self._shading.normals(a), b) for a, b in pairs]).clip(1e-12)
-        measured = Measured(farthest, errors, {index: self._look(index, decoded) for index in self._knots})
+        small = {index: self._look(index, decoded, SMALL) for index in self._knots}
+        drawn: dict[int, float] = {}
+        if not self._scales:
+            worst = max(small, key=small.__getitem__)
+            drawn[worst] = self._look(worst, decoded)
+            self._scales[worst] = math.log(drawn[worst] / small[worst]) if small[worst] else 0.0
+        usual = sum(self._scales.values()) / len(self._scales)
+        glimpsed = {index: errors[index] * ratio for index, ratio in self._ratios.items()}
+        glimpsed |= {index: share * math.exp(self._scales.get(index, usual)) for index, share in small.items()}
+        measured = Measured(farthest, errors, glimpsed, drawn)
         for _ in range(MORE):
-            index = measured.doubtful
-            if index is None or measured.excess > 0.0 or measured.most[index] < 1.0 - 2.0 * SLACK:
+            index = int(measured.shares.argmax())
+            if index in drawn:
                 break
-            measured.drawn[index] = self._look(index, decoded)
+            drawn[index] = self._look(index, decoded)
+            if small.get(index):
+                self._scales[index] = math.log(drawn[index] / small[index])
+        self._note(measured)
         return measured
+
+    def _note(self, measured: Measured) -> None:
+        self._ratios |= {index: share / measured.errors[index] for index, share in measured.drawn.items()}
 
     def _draw_doubtful(self, measured: Measured, decoded: Positions) -> None:
         while measured.excess <= 0.0 and (index := measured.doubtful) is not None and measured.most[index] > 1.0:
             measured.drawn[index] = self._look(index, decoded)
+        self._note(measured)
 
-    def _look(self, index: int, decoded: Positions) -> float:
+    def _look(self, index: int, decoded: Positions, most_pixels: int = MOST_PIXELS) -> float:
         """Share of the bound; 0 for a frame of which nothing is seen."""
-        if index not in self._metrics:
-            metric = self._metric(index)
+        key = index, most_pixels
+        if key not in self._metrics:
+            metric = self._metric(*key)
             held = _PIXEL * metric.pixels**2 if metric else 0
             if held <= self._room:
                 self._room -= held
-                self._metrics[index] = metric
+                self._metrics[key] = metric
         else:
-            metric = self._metrics[index]
+            metric = self._metrics[key]
         return 0.0 if metric is None else metric.look(decoded[index]).moving / self._promise.look
 
-    def _metric(self, index: int) -> LookMetric | None:
+    def _metric(self, index: int, most_pixels: int) -> LookMetric | None:
         """None for a frame of which nothing is seen."""
+        mesh = TriangleMesh(self._frames[index], self._faces)
         try:
-            return LookMetric(TriangleMesh(self._frames[index], self._faces), threads=self._threads)
+            return LookMetric(mesh, threads=self._threads, most_pixels=most_pixels)
         except MeshError:
             return None
 
@@ -172,6 +198,7 @@ class Measured:
 
     farthest: float
     errors: Matrix
+    glimpsed: dict[int, float]
     drawn: dict[int, float]
 
     @property
@@ -199,9 +226,10 @@ class Measured:
     def _expected(self, deviations: float) -> Matrix:
         """Looks, so many standard deviations above what is expected."""
         shares = self.errors.copy()
-        seen = np.array(sorted(index for index, share in self.drawn.items() if share > 0.0), np.int64)
+        known = self.glimpsed | self.drawn
+        seen = np.array(sorted(index for index, share in known.items() if share > 0.0), np.int64)
         if len(seen):
-            ratios = np.log([self.drawn[index] for index in seen]) - np.log(self.errors[seen])
+            ratios = np.log([known[index] for index in seen]) - np.log(self.errors[seen])
             steps = np.diff(seen)
             rate = float(np.mean(np.diff(ratios) ** 2 / steps)) if len(steps) else 1.0
             frames = np.arange(len(shares))
@@ -209,7 +237,7 @@ class Measured:
             until = seen[np.minimum(np.searchsorted(seen, frames), len(seen) - 1)] - frames
             inside = np.minimum(since, until) >= 0
             spans = np.where(inside, since * until / np.maximum(since + until, 1), np.maximum(since, until))
-            shares *= np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans))
+            shares *= np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans + COARSENESS**2))
         else:
             shares[:] = 0.0
         for index, share in self.drawn.items():
