@@ -23,7 +23,7 @@ KNOTS = 10  # frames, evenly over a GOP, that small pictures are drawn of at eve
 SMALL = 256  # pixels of the side of these
 COARSENESS = 0.03  # how far what is seen in them is off, in logarithms, if it is scaled by what is seen in large ones
 MORE = 1  # frames that seem the worst, drawn large at every attempt
-DEVIATIONS = 2.0
+DEVIATIONS = 3.0
 """An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
 SLACK, SLACK_OF_ONE = 0.04, 0.15
@@ -32,10 +32,11 @@ ROUGH = 0  # rounds over levels in a first attempt, which only tells what weight
 FINER = 0.1  # by how much a first attempt seems better than what follows, since none of its levels are chosen by their price
 SLOPE, SLOPES = 0.7, (0.4, 2.5)
 """What is seen grows with about this power of the step; and the range of what two attempts may say about it."""
-EVENING, SMOOTHNESS = 0.8, 2.0
-"""Frames are weighed by this power of what would make all look alike, smoothly over so many frames: weights that
-change quickly are dear in the temporal basis."""
-WIDEST = 1.0  # logarithm of the largest weight, and of one over the smallest
+EVENING, SMOOTHNESS = 1.2, 2.0
+"""Frames are weighed by this power of what would make all look alike if their errors were as their weights say, smoothly
+over so many frames: weights that change quickly are dear in the temporal basis."""
+AGAIN, YIELD = 0.5, 0.3  # the power of weights from a second look, and that by which errors follow them
+WIDEST = 1.4  # logarithm of the largest weight, and of one over the smallest
 TRIES = 20
 _PIXEL = 4 * 14  # bytes of a `LookMetric` for each pixel of its pictures' side, squared
 
@@ -107,17 +108,21 @@ class StepSearch:
             weights = _evening(measured.shares)
             first = _finer(first, measured.excess + FINER, slack)
         kept: tuple[float, Measured, Positions, Found] | None = None
-        least = math.inf
+        least, evened = math.inf, False
 
         def excess(step: float) -> float:
-            nonlocal kept, least
+            nonlocal kept, least, weights, evened
             least = min(least, step)
             found = encode(step, weights, ROUNDS)
             decoded = found.decoded
             measured = self._measure(decoded)
             if measured.excess <= 0.0 and (kept is None or step > kept[0]):
                 kept = step, measured, decoded, found
-            return measured.excess
+            if weights is None or evened or -slack < measured.excess <= 0.0:
+                return measured.excess
+            evened, more = True, _evening(measured.shares) ** AGAIN
+            weights = weights * more
+            return math.log(max(measured.farthest, float((measured.shares * more**-YIELD).max())))
 
         secant(excess, first, finest, slack)
         for _ in range(TRIES if kept else 0):
