@@ -27,7 +27,8 @@ LARGEST_LEVEL = (1 << 23) - 1
 
 WEIGHT = 0.1  # squared steps that a bit is worth: 0.06 and 0.15 cost 1 % at the same error, coarse steps and fine ones
 ROUNDS = 1
-"""How often levels are chosen before those that stay: prices depend on the neighbours, which depend on prices."""
+"""How often levels are chosen before those that stay: prices depend on the neighbours, which depend on prices. 3 save
+0.7 % at coarse steps, nothing at fine ones, and take twice the time."""
 
 
 class Loop:

@@ -167,37 +167,37 @@ class RunEncoder:
         first_frame: FirstFrame | None = None
         coded_for = 0.0
 
-        def encode(trial: _Trial, progress: Progress) -> EncodedGops:
+        def encode(asked: _Pass, progress: Progress) -> EncodedGops:
             nonlocal first_frame, coded_for
-            if first_frame is None or not NEAR[0] <= trial.step / coded_for <= NEAR[1]:
-                coded_for = trial.step
-                fitting = replace(self._options, step=trial.step)
+            if first_frame is None or not NEAR[0] <= asked.step / coded_for <= NEAR[1]:
+                coded_for = asked.step
+                fitting = replace(self._options, step=asked.step)
                 first_frame = encode_first_frame(self._prepared, fitting, self._count, progress, before, moving)
-            return _encoded(first_frame, GopEncoder(first_frame.setting, self._options), trial, group, 0, progress)
+            return _encoded(first_frame, GopEncoder(first_frame.setting, self._options), asked, group, 0, progress)
 
         return self._kept(encode, group.positions, None)
 
     def next(self, group: Group, number: int, before: EncodedGops) -> EncodedGops:
         """The GOP behind another; its first frame has this number."""
 
-        def encode(trial: _Trial, progress: Progress) -> EncodedGops:
-            return _encoded(before.first_frame, before.encoder.copy(), trial, group, number, progress)
+        def encode(asked: _Pass, progress: Progress) -> EncodedGops:
+            return _encoded(before.first_frame, before.encoder.copy(), asked, group, number, progress)
 
         return self._kept(encode, group.positions, before.encoder.step)
 
     def _kept(
-        self, encode: Callable[[_Trial, Progress], EncodedGops], frames: Positions, step: float | None
+        self, encode: Callable[[_Pass, Progress], EncodedGops], frames: Positions, step: float | None
     ) -> EncodedGops:
         """What keeps the promise, near the `step` of the GOP before, if there is one."""
         prepared, options, promise = self._prepared, self._options, self._options.promise
         if promise is None:
-            return encode(_Trial(options.step if step is None else step), self._progress)
+            return encode(_Pass(options.step if step is None else step), self._progress)
         search = StepSearch(frames, prepared.mesh.faces, promise, prepared.units.scale, options.threads)
         cut: bool | None = None
 
         def attempt(step: float, weights: Matrix | None, rounds: int) -> EncodedGops:
             nonlocal cut
-            found = encode(_Trial(step, weights, cut, rounds), silent)
+            found = encode(_Pass(step, weights, cut, rounds), silent)
             cut = len(found.bodies) > 1  # as the first attempt was, so are the others
             return found
 
@@ -222,7 +222,7 @@ def finest_step(frames: Sequence[Matrix] | Positions, options: SequenceOptions) 
 
 
 @dataclass(frozen=True, eq=False)
-class _Trial:
+class _Pass:
     """How to encode frames; `cut`: whether as several GOPs, None: as costs less."""
 
     step: float
@@ -232,18 +232,18 @@ class _Trial:
 
 
 def _encoded(
-    first_frame: FirstFrame, encoder: GopEncoder, trial: _Trial, group: Group, number: int, progress: Progress
+    first_frame: FirstFrame, encoder: GopEncoder, asked: _Pass, group: Group, number: int, progress: Progress
 ) -> EncodedGops:
     """Encode the next frames, of which the first has this number."""
-    encoder.step, encoder.rounds = trial.step, trial.rounds
+    encoder.step, encoder.rounds = asked.step, asked.rounds
     frames = group.positions
     if encoder.low_delay:
         key = encoder.is_key(number, frames.shape[1])
         method = GopMethod.KEY_FRAME if key else GopMethod.NEXT_FRAME
         field = encoder.encode_next(frames, progress, key=key)
         return EncodedGops(first_frame, encoder, (GopBody(method, len(frames), (field,)),))
-    weights = np.ones(len(frames)) if trial.weights is None else trial.weights
-    learnt = _learnt(first_frame, encoder, frames, weights, group.same(encoder.step), trial.cut, progress)
+    weights = np.ones(len(frames)) if asked.weights is None else asked.weights
+    learnt = _learnt(first_frame, encoder, frames, weights, group.same(encoder.step), asked.cut, progress)
     return EncodedGops(first_frame, learnt.encoder, learnt.bodies, encoder.inherited)
 
 

@@ -23,19 +23,22 @@ KNOTS = 10  # frames, evenly over a GOP, that small pictures are drawn of at eve
 SMALL = 256  # pixels of the side of these
 COARSENESS = 0.03  # how far what is seen in them is off, in logarithms, if it is scaled by what is seen in large ones
 MORE = 1  # frames that seem the worst, drawn large at every attempt
-DEVIATIONS = 3.0
+DEVIATIONS = 2.5
 """An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
 SLACK, SLACK_OF_ONE = 0.04, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
 ROUGH = 0  # rounds over levels in a first attempt, which only tells what weights frames need: less than half the time
 FINER = 0.1  # by how much a first attempt seems better than what follows, since none of its levels are chosen by their price
+POWERS, PRIOR = (0.7, 2.0), 0.01
+"""What pictures show may grow with such powers of what normals let expect; and squares by which 1 is held for the one."""
 SLOPE, SLOPES = 0.7, (0.4, 2.5)
 """What is seen grows with about this power of the step; and the range of what two attempts may say about it."""
 EVENING, SMOOTHNESS = 1.2, 2.0
 """Frames are weighed by this power of what would make all look alike if their errors were as their weights say, smoothly
 over so many frames: weights that change quickly are dear in the temporal basis."""
-AGAIN, YIELD = 0.5, 0.3  # the power of weights from a second look, and that by which errors follow them
+AGAIN, ALONE, YIELD = 0.5, 6.0, 0.3
+"""Powers of weights from a second look, and for single frames at the end, and that by which errors follow weights."""
 WIDEST = 1.4  # logarithm of the largest weight, and of one over the smallest
 TRIES = 20
 _PIXEL = 4 * 14  # bytes of a `LookMetric` for each pixel of its pictures' side, squared
@@ -67,7 +70,7 @@ def secant(excess: Callable[[float], float], first: float, finest: float, slack:
             broken = at, value
         if kept is None and at <= low:
             return
-        if kept is not None and (kept[1] > -slack * (1 + tries / 4) or at >= high):
+        if kept is not None and (kept[1] > -slack * (1 + tries / 2) or at >= high):
             return
         slope = SLOPE
         if before is not None and before[0] != at:
@@ -89,6 +92,7 @@ class StepSearch:
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
         self._reach = promise.reach(scale)
         self._metrics: dict[tuple[int, int], LookMetric | None] = {}
+        self._power = 0.0  # of what normals let expect, that pictures show; unknown before the first attempt
         self._scales: dict[int, float] = {}  # logarithms of what large pictures show over what small ones do
         self._ratios: dict[int, float] = {}  # of what large pictures showed and what normals let expect
         self._room = KEPT
@@ -134,7 +138,10 @@ class StepSearch:
             least = step
             if step <= finest:
                 break
-            step = max(_finer(step, measured.excess, slack), finest)
+            over = measured.excess
+            if weights is not None:  # a few frames are worse than they seemed, and cost less by themselves
+                weights, over = weights * _evening(measured.shares.clip(1.0)) ** ALONE, 0.5 * over
+            step = max(_finer(step, over, slack), finest)
             found = encode(step, weights, ROUNDS)
             decoded = found.decoded
             kept = step, self._measure(decoded), decoded, found
@@ -148,6 +155,9 @@ class StepSearch:
             return Measured(farthest, np.zeros(0), {}, {})
         errors = np.array([self._shading.error(self._shading.normals(a), b) for a, b in pairs]).clip(1e-12)
         small = {index: self._look(index, decoded, SMALL) for index in self._knots}
+        if not self._power:
+            self._power = _power_of(errors[list(small)], np.array(list(small.values())))
+        errors **= self._power
         drawn: dict[int, float] = {}
         if not self._scales:
             worst = max(small, key=small.__getitem__)
@@ -253,6 +263,15 @@ class Measured:
 def _finer(step: float, excess: float, slack: float) -> float:
     """A step that is expected to take so much excess away."""
     return step * math.exp(-(min(excess, 3.0) + slack / 2.0) / SLOPE)
+
+
+def _power_of(errors: Matrix, shares: Matrix) -> float:
+    """The power of errors, shape (k,), that shares grow with."""
+    seen = shares > 0.0
+    if np.count_nonzero(seen) < 3:
+        return 1.0
+    one, other = (np.log(values[seen]) - np.log(values[seen]).mean() for values in (errors, shares))
+    return float(np.clip((one @ other + PRIOR) / (one @ one + PRIOR), *POWERS))
 
 
 def _evening(shares: Matrix) -> Matrix:
