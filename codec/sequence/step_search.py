@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -29,14 +29,14 @@ KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to a
 SLACK, SLACK_OF_ONE = 0.04, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
 ROUGH = 0  # rounds over levels in a first attempt, which only tells what weights frames need: less than half the time
-FINER = 0.1  # by how much a first attempt seems better than what follows, since none of its levels are chosen by their price
+FINER = 0.1  # by how much that seems better than it is, since its levels were chosen whatever they cost
 POWERS, PRIOR = (0.7, 2.0), 0.01
-"""What pictures show may grow with such powers of what normals let expect; and squares by which 1 is held for the one."""
+"""What pictures show grows with such powers of what normals let expect; and the squares that are for a power of 1."""
 SLOPE, SLOPES = 0.7, (0.4, 2.5)
 """What is seen grows with about this power of the step; and the range of what two attempts may say about it."""
 EVENING, SMOOTHNESS = 1.2, 2.0
-"""Frames are weighed by this power of what would make all look alike if their errors were as their weights say, smoothly
-over so many frames: weights that change quickly are dear in the temporal basis."""
+"""Frames are weighed by this power of what would make all look alike if errors were as weights ask, smoothly over so
+many frames: weights that change quickly are dear in the temporal basis."""
 AGAIN, ALONE, YIELD = 0.5, 6.0, 0.3
 """Powers of weights from a second look, and for single frames at the end, and that by which errors follow weights."""
 WIDEST = 1.4  # logarithm of the largest weight, and of one over the smallest
@@ -152,27 +152,26 @@ class StepSearch:
         pairs = list(zip(self._frames, decoded, strict=True))
         farthest = math.sqrt(max(float(np.square(a - b).sum(axis=1).max()) for a, b in pairs)) / self._reach
         if not self._knots:
-            return Measured(farthest, np.zeros(0), {}, {})
+            return Measured(farthest, np.zeros(0), {})
         errors = np.array([self._shading.error(self._shading.normals(a), b) for a, b in pairs]).clip(1e-12)
-        small = {index: self._look(index, decoded, SMALL) for index in self._knots}
-        if not self._power:
-            self._power = _power_of(errors[list(small)], np.array(list(small.values())))
+        small = {index: self._look(index, decoded, SMALL) for index in self._knots} if len(pairs) > 1 else {}
+        self._power = self._power or _power_of(errors[list(small)], np.array(list(small.values())))
         errors **= self._power
         drawn: dict[int, float] = {}
         if not self._scales:
-            worst = max(small, key=small.__getitem__)
+            worst = max(small, key=small.__getitem__, default=0)
             drawn[worst] = self._look(worst, decoded)
-            self._scales[worst] = math.log(drawn[worst] / small[worst]) if small[worst] else 0.0
+            self._scales[worst] = math.log(drawn[worst] / small[worst]) if drawn[worst] and small.get(worst) else 0.0
         usual = sum(self._scales.values()) / len(self._scales)
         glimpsed = {index: errors[index] * ratio for index, ratio in self._ratios.items()}
         glimpsed |= {index: share * math.exp(self._scales.get(index, usual)) for index, share in small.items()}
-        measured = Measured(farthest, errors, glimpsed, drawn)
+        measured = Measured(farthest, errors, drawn, glimpsed)
         for _ in range(MORE):
             index = int(measured.shares.argmax())
             if index in drawn:
                 break
             drawn[index] = self._look(index, decoded)
-            if small.get(index):
+            if drawn[index] and small.get(index):
                 self._scales[index] = math.log(drawn[index] / small[index])
         self._note(measured)
         return measured
@@ -213,8 +212,8 @@ class Measured:
 
     farthest: float
     errors: Matrix
-    glimpsed: dict[int, float]
     drawn: dict[int, float]
+    glimpsed: dict[int, float] = field(default_factory=dict)
 
     @property
     def excess(self) -> float:

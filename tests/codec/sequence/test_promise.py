@@ -86,9 +86,9 @@ def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.Mo
     drawn: list[int] = []
     make = StepSearch._metric
 
-    def noted(search: StepSearch, index: int) -> LookMetric | None:
+    def noted(search: StepSearch, index: int, most_pixels: int) -> LookMetric | None:
         drawn.append(index)
-        return make(search, index)
+        return make(search, index, most_pixels)
 
     monkeypatch.setattr(StepSearch, "_metric", noted)
     positions, faces = bending(60)
