@@ -27,7 +27,7 @@ from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.frames import Group, next_group, require_same
 from bsm.codec.sequence.gop import GopEncoder, silent
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.run_encoding import EncodedGops, RunEncoder, finest_step
+from bsm.codec.sequence.run_encoding import PARTS, EncodedGops, RunEncoder, finest_step
 from bsm.codec.sequence.runs import Cutter, Frame, JoinedRun, Run, Shelf, joined_runs
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
@@ -131,7 +131,7 @@ class SequenceEncoder:
         frames : iterable of array_like, shape (n, 3), or TriangleMesh
             With `options.runs`, a mesh of other faces begins a run.
         progress : callable, optional
-            Called with the number of blocks done and of all blocks of all GOPs, once for every attempt at a target.
+            Called with how much is done, and of how much in all; once more for every attempt at a target.
 
         Raises
         ------
@@ -184,7 +184,7 @@ class SequenceEncoder:
         for index, run in enumerate(runs):
             if not index:
                 gops = -(-self._count // options.together(len(run.joined.first)))
-                steps = _Rounds(progress if gops else None, 1 + gops)
+                steps = _Rounds(progress if gops else None, gops + (options.promise is None))
                 yield writer.start()
             for packet in self._run(run, index, shelf, options, steps):
                 yield writer.write(packet)
@@ -253,8 +253,8 @@ class SequenceEncoder:
 
     def _prepared(self, joined: JoinedMesh, options: SequenceOptions) -> Prepared:
         joined.mesh.require_sizes(*PROMISED_SIZES)
-        parts = Parts(options.block_size, options.overlap)
-        return prepare(joined.mesh, parts, keep_order=options.keep_order, splits=joined.splits)
+        sizes = Parts(options.block_size, options.overlap)
+        return prepare(joined.mesh, sizes, keep_order=options.keep_order, splits=joined.splits)
 
     def _carried(
         self, run: JoinedRun, prepared: Prepared, options: SequenceOptions, group: Group, *, more: bool
@@ -374,16 +374,15 @@ def _positions(frame: Frame) -> Matrix:
 
 
 class _Rounds:
-    """Tells of rounds over the same blocks, the first frame's and one for each GOP, as of one large piece of work."""
+    """Tells of rounds of blocks or passes, of the first frame and of each GOP, as of one large piece of work."""
 
     def __init__(self, progress: Progress | None, rounds: int) -> None:
-        self._progress = progress
-        self._rounds = rounds
-        self._done = 0
+        self._progress, self._rounds, self._done = progress, rounds, 0
 
     def __call__(self, done: int, blocks: int) -> None:
         if self._progress is not None:
-            self._progress(self._done * blocks + done, max(self._rounds, self._done + 1) * blocks)
+            rounds = max(self._rounds, self._done + 1)
+            self._progress(int(PARTS * (self._done + done / blocks)), PARTS * rounds)
         self._done += done == blocks
 
 

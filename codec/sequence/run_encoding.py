@@ -41,6 +41,8 @@ TOGETHER = 4
 
 FINEST_STEP = 2e-5  # below, a search does not look
 
+PASS, PARTS = 0.4, 1000  # of what is left of a search, the share of the next pass, as far as anybody knows; of a search
+
 NEAR = 0.8, 1.15  # a first frame will do for steps so many times that for which it was coded
 
 
@@ -172,7 +174,8 @@ class RunEncoder:
             if first_frame is None or not NEAR[0] <= asked.step / coded_for <= NEAR[1]:
                 coded_for = asked.step
                 fitting = replace(self._options, step=asked.step)
-                first_frame = encode_first_frame(self._prepared, fitting, self._count, progress, before, moving)
+                heard = silent if self._options.promise else progress
+                first_frame = encode_first_frame(self._prepared, fitting, self._count, heard, before, moving)
             return _encoded(first_frame, GopEncoder(first_frame.setting, self._options), asked, group, 0, progress)
 
         return self._kept(encode, group.positions, None)
@@ -193,18 +196,20 @@ class RunEncoder:
         if promise is None:
             return encode(_Pass(options.step if step is None else step), self._progress)
         search = StepSearch(frames, prepared.mesh.faces, promise, prepared.units.scale, options.threads)
-        cut: bool | None = None
+        cut, left = None, 1.0
+
+        def heard(done: int, blocks: int) -> None:
+            self._progress(int(PARTS * (1.0 - left * (1.0 - PASS * done / blocks))), PARTS)
 
         def attempt(step: float, weights: Matrix | None, rounds: int) -> EncodedGops:
-            nonlocal cut
-            found = encode(_Pass(step, weights, cut, rounds), silent)
+            nonlocal cut, left
+            found = encode(_Pass(step, weights, cut, rounds), heard)
+            left *= 1.0 - PASS
             cut = len(found.bodies) > 1  # as the first attempt was, so are the others
             return found
 
         found = search.run(attempt, step or promise.first_step, finest_step(frames, options))
-        blocks = len(found.first_frame.blocks)
-        for _ in range(2 if step is None else 1):
-            self._progress(blocks, blocks)
+        self._progress(PARTS, PARTS)
         return found
 
 

@@ -65,7 +65,9 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
     return given
 
 
-def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keywords: Any) -> SequenceOptions:
+def sequence_options(
+    *, preset: str | None = None, low_delay: int = 0, quick: bool | None = None, **keywords: Any
+) -> SequenceOptions:
     from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
     from bsm.codec.sequence.targets import SequenceTarget
 
@@ -74,13 +76,15 @@ def sequence_options(*, preset: str | None = None, low_delay: int = 0, **keyword
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, SequenceTarget)
     together = _checked("low_delay", low_delay, int)
     base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), low_delay=together)
+    if _checked("quick", bool(quick), bool) and (bounds or given.get("target") is not None):
+        raise OptionError("what is quick to encode looks for no step; it excludes bounds and targets")
     if bounds:
         if given.get("target") is not None or given.get("step") is not None:
             raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
         farthest, absolute = parse_length("max_error", bounds.get("max_error", PROMISES[name].farthest))
         look = _checked("look", bounds.get("look", math.inf if together else PROMISES[name].look), float)
         given["promise"] = Promise(farthest, look, absolute)
-    elif not together and not {"target", "step", "promise"} & {key for key in given if given[key] is not None}:
+    elif not (together or quick or {"target", "step", "promise"} & {key for key in given if given[key] is not None}):
         given["promise"] = PROMISES[name]
     return replace(base, **given)
 
