@@ -27,7 +27,7 @@ from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.frames import Group, next_group, require_same
 from bsm.codec.sequence.gop import GopEncoder, silent
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.run_encoding import PARTS, EncodedGops, RunEncoder, finest_step
+from bsm.codec.sequence.run_encoding import PARTS, EncodedGops, FirstFrame, RunEncoder, finest_step
 from bsm.codec.sequence.runs import Cutter, Frame, JoinedRun, Run, Shelf, joined_runs
 from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
@@ -38,7 +38,7 @@ from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
-from bsm.codec.static.ways.block_coder import CodedBlock, Progress, as_of_decoders
+from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
 from bsm.codec.static.work import Allowance, run_cost
 
 
@@ -221,7 +221,7 @@ class SequenceEncoder:
             more = len(group) == longest and run.first + longest != self._count
             carried, movers = self._carried(run, prepared, options, group, more=more)
             gops = encoder.first(group, shelf.allowance, [mover.start for mover in movers])
-            yield from self._opened(run, index, prepared, gops.first_frame.header, gops.first_frame.blocks, carried)
+            yield from self._opened(run, index, prepared, gops.first_frame, carried)
         else:
             movers, before = opened.movers, opened.gops
             fresh = GopEncoder(before.first_frame.setting, replace(options, step=before.encoder.step))
@@ -284,19 +284,13 @@ class SequenceEncoder:
         return carried, movers
 
     def _opened(
-        self,
-        run: JoinedRun,
-        index: int,
-        prepared: Prepared,
-        header: Header,
-        blocks: list[CodedBlock],
-        carried: tuple[PreparedAttribute, ...],
+        self, run: JoinedRun, index: int, prepared: Prepared, first: FirstFrame, carried: tuple[PreparedAttribute, ...]
     ) -> Iterator[packets.Packet]:
         """What comes before the GOPs of a run with a mesh of its own."""
         notes = (one.note for one in carried if not one.declaration.moves)
         self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *notes)))
-        body = (*prepared.before_blocks, *(block.packet for block in blocks))
-        draft = Draft(replace(header, run=(index,) if index else ()), body, run.given.positions)
+        body = (*prepared.before_blocks, *(block.packet for block in first.blocks))
+        draft = Draft(replace(first.header, run=(index,) if index else ()), body, run.given.positions)
         draft = with_attributes(draft, carried, {} if index else self._metadata)
         yield from (draft.header, *draft.body)
 

@@ -74,7 +74,7 @@ ENCODE_FLAGS = (
     Setting("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
     Setting("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
     Setting("grid_origin", point, "X,Y,Z", "a place of that grid (default 0,0,0)"),
-    Setting("quick", bool, "", "only what is quick: grids, by a small model, no blocks; of frames: no look is searched for"),
+    Setting("quick", bool, "", "only what is quick: grids, by a small model, no blocks; frames without a search"),
     Setting("keep_order", bool, "", "store the order of vertices and faces"),
     Setting("threads", int, "N", "threads to use (default: one per core)"),
 )

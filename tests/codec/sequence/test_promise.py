@@ -117,6 +117,16 @@ def test_what_a_frame_may_look_like_grows_with_the_way_to_those_that_were_drawn(
     assert Measured(0.9, errors[:1], {0: 0.2}).doubtful is None
 
 
+@pytest.mark.parametrize("promise", [None, Promise(0.01, 1.0)])
+def test_what_is_told_of_a_search_grows_to_the_whole(promise: Promise | None) -> None:
+    positions, faces = bending(6)
+    told: list[float] = []
+    options = SequenceOptions(block_size=100, promise=promise, threads=1, gop=3)
+    chunks = SequenceEncoder(faces, options, 6).chunks(positions, lambda done, count: told.append(done / count))
+    assert b"".join(chunks)
+    assert told == sorted(told) and told[0] < 0.2 and told[-1] == 1.0 and len(set(told)) > 8
+
+
 def test_a_moving_look_is_what_pictures_differ_by() -> None:
     positions, faces = bending(1)
     seen = LookMetric(TriangleMesh(positions[0], faces), threads=1).look(positions[0] * 1.01)
