@@ -142,3 +142,11 @@ def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
 def test_a_preset_that_is_a_grid_gives_way_to_a_target():
     options = encode_options(preset="grid14", theta=3)
     assert (options.grid, options.target) == (None, Target("theta_deg", 3.0))
+
+
+def test_quick_sequences_search_for_nothing() -> None:
+    assert sequence_options().promise is not None and sequence_options(quick=False).promise is not None
+    assert sequence_options(quick=True).promise is None and sequence_options(quick=True, preset="fine").step < 0.002
+    for keywords in ({"look": 1.0}, {"kg": 0.1}):
+        with pytest.raises(OptionError, match="looks for no step"):
+            sequence_options(quick=True, **keywords)
