@@ -247,6 +247,14 @@ def test_grids_that_cannot_be_told_exactly(mesh, tmp_path):
     tile(source, tmp_path / "out", "--grid-cell", power, "--finest")
 
 
+def test_what_is_left_out_is_said_and_the_files_of_others_stay(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n")
+    done = program("tile", tmp_path / "a.obj", "-o", tmp_path / "out", "--work", tmp_path, "--grid-cell", 1, text=True)
+    assert done.returncode == 2 and "holds other files" in done.stderr and (tmp_path / "a.obj").exists()
+    said = tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 1).stderr
+    assert "left out: texcoord; tiles have positions and faces" in said
+
+
 def test_the_grid_is_chosen_by_the_look(mesh, tmp_path):
     source = tmp_path / "mesh.ply"
     write_mesh(source, mesh)

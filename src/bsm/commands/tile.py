@@ -104,11 +104,15 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
                 f"{work} is of another mesh or of other options: leave out --resume, or name another --work"
             )
         return load_plan(work / "plan.json")
+    if work.is_dir() and any(work.iterdir()) and not note.is_file():
+        raise OptionError(f"{work} holds other files; name an empty folder, or a new one, with --work")
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
+    note.write_text(asked_for)
     raw = read_big(args.input, args.format, work, console)
+    if raw.left_out:
+        console.note(f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have positions and faces")
     with console.progress("cutting"):
         plan = cut(raw, chosen_lattice(raw, args.grid_cell, args.grid_origin), args.triangles, work)
-    note.write_text(asked_for)
     plan.save(work / "plan.json")
     return plan

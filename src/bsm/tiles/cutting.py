@@ -26,6 +26,14 @@ DEPTH = 10  # levels below the first that has to be cut
 COARSEST = 1 << 15  # triangles of the coarsest level, about
 _SAMPLE = 40_000
 _FARTHEST = 1 << 30  # from the origin, in cells
+_SPREAD = (
+    (32, 0x1F00000000FFFF),
+    (16, 0x1F0000FF0000FF),
+    (8, 0x100F00F00F00F00F),
+    (4, 0x10C30C30C30C30C3),
+    (2, 0x1249249249249249),
+)
+"""How 21 bits come to stand three apart."""
 
 
 @dataclass(frozen=True)
@@ -114,11 +122,9 @@ class Plan(Root):
     def codes(self, places: npt.NDArray[Any]) -> Ints:
         """The node of the deepest level that holds each place, in their order along the octree's curve."""
         shifted = (places.astype(np.int64) - np.array(self.low)) >> (self.bits - self.depth)
-        found = np.zeros(len(places), np.int64)
-        for level in range(self.depth):
-            bits = (shifted >> level) & 1
-            found |= (bits[:, 0] << 2 | bits[:, 1] << 1 | bits[:, 2]) << (3 * level)
-        return found
+        for step, mask in _SPREAD:
+            shifted = (shifted | shifted << step) & mask
+        return np.asarray(shifted[:, 0] << 2 | shifted[:, 1] << 1 | shifted[:, 2])
 
     def ends(self, name: str) -> tuple[int, int]:
         """The codes of a node: from the first on, before the second."""
@@ -189,6 +195,8 @@ def _sort_faces(plan: Plan, raw: Raw, folder: Path) -> None:
     """Faces by their leaves, in the order of the file inside each; and the places that tiles reach out to."""
     ends = np.array([plan.ends(name) for name in plan.leaves])
     following = np.array([begin for begin, _ in plan.leaves.values()])
+    corners = np.array([plan.cube(name)[0] for name in plan.leaves])
+    sides = np.array([plan.bits - len(name) + 1 for name in plan.leaves])
     outside: list[Ints] = []
     with (folder / "cut").open("wb") as file:
         for faces, places in _corners(raw, folder):
@@ -199,10 +207,9 @@ def _sort_faces(plan: Plan, raw: Raw, folder: Path) -> None:
                 file.seek(12 * int(following[number]))
                 faces[order[begin : begin + size]].tofile(file)
             following[numbers] += count
-            reached, user = places.reshape(-1, 3), np.repeat(leaf, 3)
-            homes = plan.codes(reached)
-            out = (homes < ends[user, 0]) | (homes >= ends[user, 1])
-            found = np.concatenate([homes[out, None], reached[out], ends[user[out], :1]], axis=1)
+            out = (((places - corners[leaf, None]) >> sides[leaf, None, None]) != 0).any(axis=2)
+            reached, user = places[out], ends[leaf, 0][np.nonzero(out)[0]]
+            found = np.column_stack([plan.codes(reached), reached, user])
             outside.append(np.unique(found, axis=0))
     np.save(folder / "outside.npy", np.unique(np.concatenate(outside), axis=0))
     raw.faces.unlink()

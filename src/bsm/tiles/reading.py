@@ -21,6 +21,8 @@ from bsm.files.pipes import Input
 
 Array: TypeAlias = npt.NDArray[Any]
 Pieces: TypeAlias = Iterator[tuple[Array, Array]]  # some positions, shape (k, 3), and some faces, from anywhere on
+LeftOut: TypeAlias = dict[str, None]  # names, in order
+_KNOWN = ("x", "y", "z", "length", "corners")
 ROWS = 1 << 18  # that are in memory at a time
 _HEAD = 1 << 16
 _TEXT = 1 << 23
@@ -39,6 +41,7 @@ class Raw:
     triangles: int = 0
     low: tuple[float, ...] = ()
     high: tuple[float, ...] = ()
+    left_out: tuple[str, ...] = ()
 
 
 def pieces_of(path: Path, kind: str) -> Iterator[Array]:
@@ -60,13 +63,14 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     raw = Raw(folder / "positions", folder / "faces", "<f8")
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     vertices = triangles = largest = 0
+    left_out: LeftOut = {}
     with (
         raw.positions.open("wb") as points,
         raw.faces.open("wb") as corners,
         closing(given),
         console.progress("reading"),
     ):
-        for positions, faces in _READERS[kind](given):
+        for positions, faces in _READERS[kind](given, left_out):
             if not vertices and len(positions) and positions.dtype.itemsize == 4 and positions.dtype.kind == "f":
                 raw = Raw(raw.positions, raw.faces, "<f4")
             if not np.isfinite(positions).all():
@@ -90,10 +94,10 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     if largest >= vertices:
         raise MeshError(f"a face refers to vertex {largest}, outside 0..{vertices - 1}")
     ends = tuple(map(float, low)), tuple(map(float, high))
-    return Raw(raw.positions, raw.faces, raw.kind, vertices, triangles, *ends)
+    return Raw(raw.positions, raw.faces, raw.kind, vertices, triangles, *ends, tuple(left_out))
 
 
-def _read_ply(given: Input) -> Pieces:
+def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
     header = parse_header(given.peek(_HEAD))
     if not header.order:
         raise FormatError("this PLY file is text; tiles are made of binary ones")
@@ -102,6 +106,7 @@ def _read_ply(given: Input) -> Pieces:
         raise FormatError("the PLY file has no vertices, or no faces")
     for element in header.elements:
         kind = _row_of(element, header.order)
+        left_out |= dict.fromkeys(name for name in kind.names or () if name not in _KNOWN)
         for first in range(0, element.count, ROWS):
             size = min(ROWS, element.count - first) * kind.itemsize
             data = given.read(size)
@@ -135,7 +140,7 @@ def _row_of(element: Element, order: str) -> np.dtype[Any]:
     return np.dtype(fields)
 
 
-def _read_stl(given: Input) -> Pieces:
+def _read_stl(given: Input, left_out: LeftOut) -> Pieces:
     head = given.peek(1024)
     if head.lstrip().startswith(b"solid") and b"facet" in head:
         raise FormatError("this STL file is text; tiles are made of binary ones")
@@ -155,10 +160,12 @@ def _read_stl(given: Input) -> Pieces:
         )
 
 
-def _read_npz(given: Input) -> Pieces:
+def _read_npz(given: Input, left_out: LeftOut) -> Pieces:
     if not given.is_file:
         raise FormatError("an npz is read from a file of this machine only")
     with opened_archive(given.name) as archive:
+        names = (name.removesuffix(".npy") for name in archive.namelist())
+        left_out |= dict.fromkeys(name for name in names if name not in ("positions", "faces"))
         for name in ("positions", "faces"):
             with NpzArray(archive, name) as array:
                 if len(array.shape) != 2 or array.shape[1] != 3:
@@ -167,7 +174,7 @@ def _read_npz(given: Input) -> Pieces:
                     yield (piece, NO_FACES) if name == "positions" else (NO_POSITIONS, piece)
 
 
-def _read_obj(given: Input) -> Pieces:
+def _read_obj(given: Input, left_out: LeftOut) -> Pieces:
     pieces, rest = ObjPieces(), b""
     while data := given.read(_TEXT):
         text, newline, rest = (rest + data).rpartition(b"\n")
@@ -175,6 +182,7 @@ def _read_obj(given: Input) -> Pieces:
             raise FormatError("this is not an OBJ file: it has no lines")
         yield _triangles(*pieces.take(text))
     yield _triangles(*pieces.take(rest))
+    left_out |= dict.fromkeys(sorted(pieces.left_out))
 
 
 def _triangles(positions: Array, sizes: Array, corners: Array) -> tuple[Array, Array]:

@@ -91,12 +91,14 @@ class ObjPieces:
 
     def __init__(self) -> None:
         self._seen = 0
+        self.left_out: set[str] = set()
 
     def take(self, text: bytes) -> tuple[Doubles, Ints, Ints]:
         """Points, shape (k, 3), and of faces how many corners they have, and these."""
         lines = _Lines(without_comments(text))
         polygons, are_points = lines.of(b"f"), lines.are(b"v")
         sizes = np.fromiter((len(line.split()) for line in polygons), np.int64, len(polygons))
+        self.left_out |= {name for keyword, name in _OF_CORNERS.items() if lines.are(keyword).any()}
         written = _References(polygons).of(0)[: int(sizes.sum())]
         if (written == 0).any():
             raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
