@@ -39,6 +39,7 @@ EVENING, SMOOTHNESS = 1.2, 2.0
 many frames: weights that change quickly are dear in the temporal basis."""
 AGAIN, ALONE, YIELD = 0.5, 6.0, 0.3
 """Powers of weights from a second look, and for single frames at the end, and that by which errors follow weights."""
+LEAST = 1e-3  # excess that is left of one, whatever other weights let expect
 WIDEST = 1.4  # logarithm of the largest weight, and of one over the smallest
 TRIES = 20
 _PIXEL = 4 * 14  # bytes of a `LookMetric` for each pixel of its pictures' side, squared
@@ -126,7 +127,8 @@ class StepSearch:
                 return measured.excess
             evened, more = True, _evening(measured.shares) ** AGAIN
             weights = weights * more
-            return math.log(max(measured.farthest, float((measured.shares * more**-YIELD).max())))
+            expected = math.log(max(measured.farthest, float((measured.shares * more**-YIELD).max())))
+            return max(expected, LEAST) if measured.excess > 0.0 else expected
 
         secant(excess, first, finest, slack)
         for _ in range(TRIES if kept else 0):
