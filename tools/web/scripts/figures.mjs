@@ -40,7 +40,7 @@ print("null")
 const ENTER = `
 import json, sys
 import bsm
-from bsm.evaluation.draco import decode_draco, encode_draco
+from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.viewer.content import DRACO_LEVEL
 meshes, folder = sys.argv[1:]
 mesh = bsm.load(f"{meshes}/static/bunny_34834.ply")

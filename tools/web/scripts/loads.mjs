@@ -14,7 +14,7 @@ const ROUNDS = 3;
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const PREPARE = `
 import sys, bsm
-from bsm.evaluation.draco import encode_draco
+from bsm.evaluation.curve import encode_draco
 meshes, folder = sys.argv[1:]
 for name in ("c3d_spot", "nicolo", "dragon_437645"):
     mesh = bsm.load(f"{meshes}/static/{name}.ply")
