@@ -198,6 +198,20 @@ def test_damage_is_told(folder, tmp_path, harm):
         bsm.open_tiles(str(tmp_path)).region((-9, -9, -9), (9, 9, 9))
 
 
+@pytest.mark.parametrize("ranges", [True, False])
+def test_tiles_behind_urls(mesh, folder, tmp_path, monkeypatch, ranges):
+    memory = pytest.importorskip("fsspec").filesystem("memory")
+    write_mesh(tmp_path / "mesh.ply", mesh)
+    tile(tmp_path / "mesh.ply", "memory://tiles/out", "--grid-cell", CELL, "--triangles", 700, "--work", tmp_path / "w")
+    assert {name: memory.cat(f"/tiles/out/{name}") for name in contents(folder)} == contents(folder)
+    if not ranges:
+        whole = type(memory).cat_file
+        monkeypatch.setattr(type(memory), "cat_file", lambda self, path, **_: whole(self, path))
+    assert same(bsm.open_tiles("memory://tiles/out").region((-9, -9, -9), (9, 9, 9)), mesh)
+    assert program("verify", "memory://tiles/out/").returncode == 0
+    memory.rm("/tiles", recursive=True)
+
+
 def test_info_and_verify_of_a_folder(folder):
     assert program("verify", folder).returncode == 0
     told = program("info", folder, text=True).stdout

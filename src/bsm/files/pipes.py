@@ -363,6 +363,8 @@ def read_range(name: str, first: int, size: int) -> bytes:
         with _errors_of(name):
             files, path = _system(name)
             data = bytes(files.cat_file(path, start=first, end=first + size))
+            if len(data) > size:  # of a server that knows no ranges
+                data = data[first : first + size]
     else:
         with open(name, "rb") as file:
             file.seek(first)

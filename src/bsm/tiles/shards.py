@@ -276,6 +276,7 @@ class Tiles:
         return data
 
     def decoded(self, shard: Facts, tile: Tile) -> tuple[Places, Faces]:
+        """Places on the grid, shape (n, 3), and faces, shape (m, 3)."""
         with about(f"{inside(self.path, shard['file'])}, tile {tile.name}"):
             mesh = decode_whole(iter([self.data(shard, tile)]), self.limits)
         return self.lattice.places(mesh.positions), mesh.faces
