@@ -23,6 +23,7 @@ UNITS = {
 COARSEST_STEP = 0.1
 SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
+RISES = {"kg": 0.78}  # the power of the step that errors grow with, where it is known before two are tried; 1 elsewhere
 STEEPEST = 2.0  # errors grow with this power of the step at most, and with its inverse at least
 STRIDE, NEAREST = 2.0, 0.1
 """Between two tries, in the logarithm; and where both sides of a bound are known, the part of what is between them that
@@ -99,11 +100,16 @@ class Target:
 
 
 def secant(
-    excess: Callable[[float], float | None], first: float, least: float, most: float, tries: int = TRIES
+    excess: Callable[[float], float | None],
+    first: float,
+    least: float,
+    most: float,
+    tries: int = TRIES,
+    rise: float = 1.0,
 ) -> None:
     """Try numbers, to come to about the largest one whose excess is at most 0; None says that no other is wanted."""
     low, high = math.log(least), math.log(most)
-    at, slope, before = min(max(math.log(first), low), high), 1.0, (math.nan, math.nan)
+    at, slope, before = min(max(math.log(first), low), high), rise, (math.nan, math.nan)
     tried: list[tuple[float, float]] = []
     for _ in range(tries):
         value = excess(math.exp(at))
@@ -145,7 +151,7 @@ def search_step(attempt: Callable[[float], Found], target: Target, first: float,
     if target.shrinks_with_step:
         secant(lambda fineness: tried(1.0 / fineness), 1.0 / first, 1.0 / COARSEST_STEP, 1.0 / finest, 2 * TRIES)
     else:
-        secant(tried, first, finest, COARSEST_STEP, 2 * TRIES)
+        secant(tried, first, finest, COARSEST_STEP, 2 * TRIES, RISES.get(target.kind, 1.0))
     met = [one for one in seen if one[0] <= 0.0]
     if met:
         return max(met, key=itemgetter(0))[1]

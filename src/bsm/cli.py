@@ -44,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _no_command(words)
         parser = command_parser(words[0])
         args = parser.parse_command(words[1:])
-        code: int | None = args.run(args, Console(quiet=args.quiet))
+        code: int | None = args.run(args, Console(quiet=args.quiet, json=getattr(args, "json", False)))
         if sys.stdout is not None:  # closed by the shell
             sys.stdout.flush()
         return code or 0

@@ -9,6 +9,7 @@ import math
 import os
 import sys
 import threading
+import time
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -24,6 +25,7 @@ _USUAL_SHAPE = (80, 24)
 class Console:
     quiet: bool = False
     kept: list[str] | None = None
+    json: bool = False
 
     def note(self, text: str) -> None:
         text = printable(text)
@@ -33,17 +35,20 @@ class Console:
             say(text)
 
     def progress(self, what: str, unit: str = "blocks") -> Progress:
-        return Progress(what, unit, shown=not self.quiet and self.kept is None and sys.stderr.isatty())
+        told = not self.quiet and self.kept is None
+        return Progress(what, unit, shown=told and sys.stderr.isatty() and not self.json, lines=told and self.json)
 
 
 class Progress:
     """A line on the terminal, from half a second on: what goes on and for how long, and where that is known how much is
-    done, with the time left."""
+    done, with the time left; or lines of JSON that say the same to programs."""
 
-    def __init__(self, what: str, unit: str, *, shown: bool) -> None:
+    def __init__(self, what: str, unit: str, *, shown: bool, lines: bool = False) -> None:
         self._what = what
         self._unit = unit
         self._shown = shown
+        self._lines = lines
+        self._begun = self._said = time.monotonic()
         self._bar: Any = None
         self._round = 0
         self._last = 0
@@ -72,6 +77,12 @@ class Progress:
             self._bar.set_description_str(name, refresh=True)
 
     def __call__(self, done: int, total: int) -> None:
+        now = time.monotonic()
+        if self._lines and now - self._said >= _SECOND:
+            self._said, share = now, done / max(total, 1)
+            left = (now - self._begun) * (1.0 - share) / share if share else None
+            line = {"stage": self._what, "share": share, "seconds": now - self._begun, "seconds_left": left}
+            print(json.dumps(line), file=sys.stderr, flush=True)
         if not self._shown or self._opened() is None:
             return
         self._bar.bar_format = None

@@ -1,5 +1,6 @@
 """What strangers have written into files does nothing to a terminal; what takes long is seen on any."""
 
+import json
 import os
 import subprocess
 import sys
@@ -44,3 +45,17 @@ def test_a_terminal_that_does_not_know_its_size_shows_what_goes_on():
     os.close(theirs)
     assert b"encoding: 00:0" in os.read(ours, 1 << 12)
     os.close(ours)
+
+
+def test_programs_are_told_in_lines_of_json(monkeypatch, capsys):
+    monkeypatch.setattr("bsm.console._SECOND", 0.0)
+    with Console(json=True).progress("encoding") as progress:
+        progress(0, 4)
+        progress(3, 4)
+    first, last = (json.loads(line) for line in capsys.readouterr().err.splitlines())
+    assert first["share"] == 0.0 and first["seconds_left"] is None
+    assert last["stage"] == "encoding" and last["share"] == 0.75
+    assert last["seconds_left"] == pytest.approx(last["seconds"] / 3)
+    with Console(quiet=True, json=True).progress("encoding") as progress:
+        progress(3, 4)
+    assert not capsys.readouterr().err
