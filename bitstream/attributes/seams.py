@@ -7,7 +7,6 @@ import numpy.typing as npt
 
 from bsm.bitstream import _kernels
 from bsm.bitstream.entropy.range_coder import (
-    Bank,
     Coder,
     finish_reading,
     finish_writing,
@@ -95,11 +94,9 @@ def decode_seams(payload: bytes, corners: Corners, earlier: tuple[Flags, ...] = 
 
 def _code(coder: Coder, corners: Corners, seams: Flags, earlier: tuple[Flags, ...]) -> None:
     ends = np.empty((len(corners.rank), 3), np.int32)
-    _kernels.code_edges(coder, _make_bank(), corners, seams, _others(earlier, len(seams)), ends)
-
-
-def _make_bank() -> Bank:
-    return make_bank(_SLOTS, _OTHERS, _INPUTS, limit=255)
+    _kernels.code_edges(
+        coder, make_bank(_SLOTS, _OTHERS, _INPUTS, limit=255), corners, seams, _others(earlier, len(seams)), ends
+    )
 
 
 def _others(earlier: tuple[Flags, ...], size: int) -> Flags:

@@ -28,32 +28,8 @@ Longs = npt.NDArray[np.int64]
 LARGEST_SIZE = (1 << 19) - 1  # levels are as large as those of other values may be, at most
 
 
-def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
-    """Directions as points on an octahedron, its lower half folded outwards (Meyer et al., EGSR 2010)."""
-    if not 1 <= size <= LARGEST_SIZE:
-        raise OptionError(f"the size of an octahedron must be from 1 to {LARGEST_SIZE}, not {size}")
-    given = np.asarray(normals, np.float64)
-    if given.ndim != 2 or given.shape[1] != 3:
-        raise MeshError(f"normals must have shape (n, 3), not {given.shape}")
-    largest = np.abs(given).max(axis=1, keepdims=True)
-    if not (np.isfinite(largest).all() and (largest > 0).all()):
-        raise MeshError("a normal without a direction has no place on an octahedron")
-    scaled = given / largest
-    scaled *= size / np.abs(scaled).sum(axis=1, keepdims=True)
-    points = np.rint(scaled).astype(np.int64)
-    rows = np.arange(len(points))
-    for _ in range(3):  # what rounding has added or taken, where that changes least
-        missing = size - np.abs(points).sum(axis=1)
-        change = np.sign(missing)
-        slack = (np.abs(scaled) - np.abs(points)) * change[:, None]
-        slack[(points == 0) & (change < 0)[:, None]] = -2
-        axis = slack.argmax(axis=1)
-        points[rows, axis] += np.where(scaled[rows, axis] < 0, -change, change)
-    return _folded(points, size)
-
-
 def octahedral_normals(levels: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
-    """The unit vectors, shape (n, 3), of levels, shape (n, 2): twin of `octahedral_levels`."""
+    """The unit vectors, shape (n, 3), of levels, shape (n, 2): points on an octahedron (Meyer et al., EGSR 2010)."""
     points = _unfolded(np.asarray(levels, np.int64), size).astype(np.float64)
     unit: npt.NDArray[np.float64] = points / np.sqrt((points * points).sum(axis=1, keepdims=True))
     return unit
@@ -123,13 +99,14 @@ def values_field(
     def start() -> State:
         corners = corners_of(faces, vertices)
         model = make_model()
+        given, gaps = np.zeros((2, vertices, components), np.int32)
         values = _Values(
             top,
             traverse(corners),
             ring_of_twins(places, vertices),
             _checked_geometry(geometry, vertices),
-            np.zeros((vertices, components), np.int32),
-            np.zeros((vertices, components), np.int32),
+            given,
+            gaps,
             np.zeros((vertices, components + 1), np.int64),
             np.zeros((components, int(top.max()) // 64 + 1), np.int64),
             make_learners(weights),
@@ -201,30 +178,19 @@ class _FaceValues(NamedTuple):
     memory: Ints
 
 
-def face_values_charge(faces: int, components: int) -> int:
-    """Bytes of memory that coding values of faces takes at most; its work is linear in `faces`."""
-    return (3 * BYTES_PER_VERTEX + BYTES_PER_FACE + 8 * components) * faces + MODEL_BYTES + (1 << 17)
-
-
 def face_values_field(faces: npt.ArrayLike, largest: npt.ArrayLike) -> Field:
     """Values of faces, in the order of the faces: materials, groups, colours."""
-    given, top = np.asarray(faces), checked_largest(largest, COLUMNS)
+    table, top = np.asarray(faces), checked_largest(largest, COLUMNS)
     components = len(top)
 
     def start() -> State:
-        corners = corners_of(given, int(given.max()) + 1 if given.size and given.dtype.kind in "iu" else 0)
+        corners = corners_of(table, int(table.max()) + 1 if table.size and table.dtype.kind in "iu" else 0)
         count = len(corners.faces)
         model = make_model()
-        values = _FaceValues(
-            top,
-            np.zeros((count, components), np.int32),
-            np.zeros((count, components), np.int32),
-            np.zeros((components, 257), np.int32),
-        )
-        return State(
-            lambda coder, *rows: _kernels.code_faces(coder, model, corners, values, *rows),
-            np.arange(count, dtype=np.int32),
-            values.values,
-        )
+        given, gaps = np.zeros((2, count, components), np.int32)
+        values = _FaceValues(top, given, gaps, np.zeros((components, 257), np.int32))
+        order, code = np.arange(count, dtype=np.int32), _kernels.code_faces
+        return State(lambda coder, *rows: code(coder, model, corners, values, *rows), order, given)
 
-    return Field(np.zeros_like(top), top, face_values_charge(len(given), components), start)
+    charge = (3 * BYTES_PER_VERTEX + BYTES_PER_FACE + 8 * components) * len(table) + MODEL_BYTES + (1 << 17)
+    return Field(np.zeros_like(top), top, charge, start)

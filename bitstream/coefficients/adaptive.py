@@ -12,7 +12,6 @@ import numpy.typing as npt
 from bsm.bitstream import _kernels
 from bsm.bitstream._kernels import priors
 from bsm.bitstream.entropy.range_coder import (
-    Bank,
     Coder,
     copy_bank,
     finish_reading,
@@ -49,20 +48,11 @@ def make_past(width: int) -> Past:
     return Past(np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(1, np.int64))
 
 
-def copy_past(past: Past) -> Past:
-    return Past(past.current.copy(), past.before.copy(), past.usual.copy(), past.blocks.copy())
-
-
 def look_at_block(past: Past, levels: Magnitudes) -> Magnitudes:
     """The inputs of the expectations of a block's coefficients, shape (c, 3); the block becomes a part of `past`."""
     inputs = np.empty((levels.size, NEIGHBOURS), np.int32)
     _kernels.look_at_block(past, levels, inputs)
     return inputs
-
-
-def expectation_bin(weights: Magnitudes, inputs: Magnitudes) -> int:
-    """Logarithm of an expectation, in thirds of an octave (each of them linear inside), 0 .. BINS - 1."""
-    return _kernels.bin_of_expectation(weights, inputs)
 
 
 Levels = npt.NDArray[np.int32]
@@ -116,7 +106,7 @@ class Experience:
         stored = self.slots.astype(np.int64)
         return (((stored >> 4) << 20) | (1 << 19) | ((stored & 15) << 2)).astype(np.uint32)
 
-    @cached_property
+    @property
     def first_weights(self) -> npt.NDArray[np.int32]:
         """Mixing weights of a fresh bank, shape (SELECTORS * NODES, EXPECTATIONS), 1.0 = 65536."""
         return self.mixing.astype(np.int32) << 4
@@ -138,9 +128,6 @@ class CoefficientModel:
 
     width: int
     experience: Experience = field(default_factory=shipped_experience)
-    bank: Bank = field(init=False)
-    past: Past = field(init=False)
-    expectations: npt.NDArray[np.int32] = field(init=False)
 
     def __post_init__(self) -> None:
         self.bank = make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
@@ -152,13 +139,15 @@ class CoefficientModel:
     def copy(self) -> CoefficientModel:
         twin = CoefficientModel(self.width, self.experience)
         twin.bank = copy_bank(self.bank)
-        twin.past = copy_past(self.past)
+        past = self.past
+        twin.past = Past(past.current.copy(), past.before.copy(), past.usual.copy(), past.blocks.copy())
         return twin
 
 
 def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
     """Code one block's quantized coefficients, shape (c_i, 3), each coordinate a column; updates `model`."""
-    _check_levels(model, levels)
+    if len(levels) > model.width or np.abs(levels.astype(np.int64)).max(initial=0) > MAX_LEVEL:
+        raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")
     coder = start_writing(_BYTES_PER_LEVEL * levels.size)
     _code_block(coder, model, np.array(levels, np.int32, order="C"))
     return finish_writing(coder)
@@ -177,8 +166,3 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
 
 def _code_block(coder: Coder, model: CoefficientModel, levels: Levels) -> None:
     _kernels.code_block(coder, model.bank, model.past, model.expectations, levels)
-
-
-def _check_levels(model: CoefficientModel, levels: Levels) -> None:
-    if len(levels) > model.width or np.abs(levels.astype(np.int64)).max(initial=0) > MAX_LEVEL:
-        raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")

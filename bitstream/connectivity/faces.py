@@ -38,8 +38,14 @@ def close_surface(faces: Ints, vertex_count: int) -> Surface:
     """Build the closed surface of faces without repeated corners, shape (m, 3), indices below `vertex_count`."""
     origin = np.ascontiguousarray(faces, np.int32).reshape(-1)
     twin = match_halfedges(origin, vertex_count)
-    corner, vertex = _find_fans(origin, twin)
-    return _fill_loops(twin, corner, vertex)
+    corner, vertex = np.empty_like(origin), np.empty_like(origin)
+    vertex = vertex[: _kernels.find_fans(origin, twin, corner, vertex)].copy()
+    # A dummy vertex for every boundary loop, and its faces (b, a, dummy) for each boundary half-edge (a, b).
+    size = twin.size + 3 * int(np.count_nonzero(twin < 0))
+    full_twin, full_corner = np.empty(size, np.int32), np.empty(size, np.int32)
+    dummies = _kernels.fill_loops(twin, corner, np.empty_like(vertex), full_twin, full_corner)
+    valence = np.bincount(full_corner, minlength=len(vertex) + dummies).astype(np.int32)
+    return Surface(full_twin, full_corner, valence, vertex)
 
 
 def match_halfedges(origin: Ints, vertex_count: int) -> Ints:
@@ -48,21 +54,6 @@ def match_halfedges(origin: Ints, vertex_count: int) -> Ints:
     by_high, order, twin = (np.empty(origin.size, np.int32) for _ in range(3))
     _kernels.match_halfedges(origin, starts, by_high, order, twin)
     return twin
-
-
-def _find_fans(origin: Ints, twin: Ints) -> tuple[Ints, Ints]:
-    corner, vertex = np.empty_like(origin), np.empty_like(origin)
-    count = _kernels.find_fans(origin, twin, corner, vertex)
-    return corner, vertex[:count].copy()
-
-
-def _fill_loops(twin: Ints, corner: Ints, vertex: Ints) -> Surface:
-    """Add a dummy vertex for every boundary loop, and its faces (b, a, dummy) for each boundary half-edge (a, b)."""
-    size = twin.size + 3 * int(np.count_nonzero(twin < 0))
-    full_twin, full_corner = np.empty(size, np.int32), np.empty(size, np.int32)
-    dummies = _kernels.fill_loops(twin, corner, np.empty_like(vertex), full_twin, full_corner)
-    valence = np.bincount(full_corner, minlength=len(vertex) + dummies).astype(np.int32)
-    return Surface(full_twin, full_corner, valence, vertex)
 
 
 _NODE_COLUMNS = 8
@@ -75,16 +66,6 @@ class Front(NamedTuple):
 
     nodes: Ints
     heads: Ints
-
-
-def make_front(capacity: int) -> Front:
-    heads = np.full(_TAILS + _BUCKETS, -1, np.int32)
-    heads[_MADE] = heads[_ALIVE] = 0
-    return Front(np.empty((capacity, _NODE_COLUMNS), np.int32), heads)
-
-
-def enlarge_front(front: Front) -> Front:
-    return Front(np.concatenate([front.nodes, np.empty_like(front.nodes)]), front.heads)
 
 
 _VALENCE_CONTEXTS = 14
@@ -121,9 +102,9 @@ def code_rare(coder: Coder, models: Models, kind: int, value: int) -> int:
     return code_unsigned(coder, models.rare, np.zeros(1, np.int64), 0, _RARE_UNARY, value, kind)
 
 
-DONE, NONSENSE, NO_ROOM = range(3)  # how a call of `conquer` ends; without room, make some and call again
+DONE, NONSENSE, NO_ROOM = range(3)  # how a call of the kernel ends; without room, make some and call again
 _DUMMIES, _TURNS, _STEPS, _TALLIES = 3, 4, 5, 8
-TURN_BYTES = 1024  # more than one triangle can take
+_TURN_BYTES = 1024  # more than one triangle can take
 
 
 class Guide(NamedTuple):
@@ -157,27 +138,15 @@ def make_guide(surface: Surface, face_count: int) -> Guide:
     )
 
 
-def no_guide() -> Guide:
-    nothing = np.empty(0, np.int32)
-    return make_guide(Surface(nothing, nothing, nothing, nothing), 0)
-
-
 def make_conquest(face_count: int, fans: int, dummies: int) -> Conquest:
     tallies = np.zeros(_TALLIES, np.int64)
     tallies[_DUMMIES] = dummies
     tallies[_TURNS] = 4 * face_count  # each real face has at most three dummy neighbours
     tallies[_STEPS] = 65536 + 16 * face_count
-    vertices = np.empty((fans + dummies, 2), np.int64)
-    return Conquest(make_front(fans + 16), vertices, np.empty((face_count, 3), np.int32), tallies)
-
-
-def enlarge_conquest(conquest: Conquest) -> Conquest:
-    return conquest._replace(front=enlarge_front(conquest.front))
-
-
-def conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest) -> int:
-    """Code the surface, from where the last call ran out of room."""
-    return _kernels.conquer(coder, models, guide, conquest)
+    heads = np.full(_TAILS + _BUCKETS, -1, np.int32)
+    heads[_MADE] = heads[_ALIVE] = 0
+    front = Front(np.empty((fans + 16, _NODE_COLUMNS), np.int32), heads)
+    return Conquest(front, np.empty((fans + dummies, 2), np.int64), np.empty((face_count, 3), np.int32), tallies)
 
 
 _SLOTS = 32
@@ -195,32 +164,15 @@ class Seams(NamedTuple):
 
 def code_seams(coder: Coder, faces: Ints, vertices: Ints) -> tuple[int, Ints]:
     """Code the vertex of every fan; return the number of vertices, or -1 for nonsense, and the vertices, shape (f,)."""
-    seams = _make_seams(_find_borders(faces, len(vertices)))
-    bank = make_bank(_SLOTS, 1, 1)
-    return _kernels.code_fans(coder, bank, vertices, seams), seams.vertex
-
-
-def _find_borders(faces: Ints, fans: int) -> Ints:
-    """The next fan along the boundary, -1 for a fan inside the surface."""
-    origin = faces.reshape(-1)
-    border = np.flatnonzero(match_halfedges(origin, fans) < 0)
-    after = np.full(fans, -1, np.int32)
+    size, origin = len(vertices), faces.reshape(-1)
+    border = np.flatnonzero(match_halfedges(origin, size) < 0)
+    after, before = np.full((2, size), -1, np.int32)  # fans along the boundary
     after[origin[border]] = np.roll(faces, -1, axis=1).reshape(-1)[border]
-    return after
-
-
-def _make_seams(after: Ints) -> Seams:
-    size = len(after)
-    before = np.full(size, -1, np.int32)
     at_border = np.flatnonzero(after >= 0)
     before[after[at_border]] = at_border
-    vertex, sibling, latest = (np.empty(size, np.int32) for _ in range(3))
-    return Seams(vertex, after, before, sibling, latest)
-
-
-def code_degenerate(coder: Coder, corners: Ints, count: int) -> int:
-    """Code the corners of degenerate faces, shape (3 * k,), each a vertex below `count` or the next new one."""
-    return _kernels.code_degenerate(coder, corners, count)
+    vertex, sibling, latest = np.empty((3, size), np.int32)
+    seams = Seams(vertex, after, before, sibling, latest)
+    return _kernels.code_fans(coder, make_bank(_SLOTS, 1, 1), vertices, seams), vertex
 
 
 _FIRST_CAPACITY = 1 << 16
@@ -238,7 +190,12 @@ class EncodedConnectivity:
 
 
 def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConnectivity:
-    given = _check_faces(faces, vertex_count)
+    given = np.asarray(faces)
+    if given.ndim != 2 or given.shape[1] != 3 or len(given) == 0 or given.dtype.kind not in "iu":
+        raise MeshError(f"faces must be integers of shape (m, 3), m > 0, not {given.dtype} of shape {given.shape}")
+    if given.min() < 0 or given.max() >= vertex_count:
+        raise MeshError(f"faces refer to vertices {given.min()} to {given.max()}, outside 0..{vertex_count - 1}")
+    given = np.ascontiguousarray(given, np.int32)
     degenerate = (given[:, 0] == given[:, 1]) | (given[:, 1] == given[:, 2]) | (given[:, 2] == given[:, 0])
     proper, improper = np.flatnonzero(~degenerate), np.flatnonzero(degenerate)
     surface = close_surface(given[proper] if len(improper) else given, vertex_count)
@@ -249,7 +206,7 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConne
     for count in (len(improper), vertex_count - regular, fans - regular, loops):
         code_rare(coder, models, RARE_HEADER, count)
     guide, conquest = make_guide(surface, len(proper)), make_conquest(len(proper), fans, loops)
-    coder, conquest = _conquer(coder, models, guide, conquest)
+    coder, conquest = conquer(coder, models, guide, conquest)
 
     coder = make_room(coder, _BYTES_PER_FAN * (fans + 3 * len(improper)))
     used = np.concatenate([surface.vertex[guide.fans], given[improper].reshape(-1)])
@@ -261,7 +218,7 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConne
     if fans > regular:
         code_seams(coder, conquest.faces, vertices)
     corners = number[used[fans:]]
-    code_degenerate(coder, corners, regular)
+    _kernels.code_degenerate(coder, corners, regular)
     return EncodedConnectivity(
         finish_writing(coder),
         order,
@@ -283,28 +240,28 @@ def decode_connectivity(payload: bytes, vertex_count: int, face_count: int, limi
     if proper < 0 or regular < 0 or lonely > 3 * degenerate or fans > 3 * proper or loops > 3 * proper:
         raise _nonsense(coder, "the counts at its start contradict each other")
     limits.check("vertices", fans + loops)
-    limits.check_memory(_memory(face_count, vertex_count, surplus + loops), vertex_count, len(coder.data))
-    coder, conquest = _conquer(coder, models, no_guide(), make_conquest(proper, fans, loops))
+    memory = _FACE_MEMORY * face_count + _VERTEX_MEMORY * vertex_count + _FAN_MEMORY * (surplus + loops)
+    limits.check_memory(memory, vertex_count, len(coder.data))
+    guide = make_guide(Surface(*np.empty((4, 0), np.int32)), 0)
+    coder, conquest = conquer(coder, models, guide, make_conquest(proper, fans, loops))
     faces = conquest.faces
     count = regular
     if surplus > 0:
         count, vertices = code_seams(coder, faces, np.full(fans, -1, np.int32))
         faces = vertices[faces]
     corners = np.empty(3 * degenerate, np.int32)
-    if count != regular or code_degenerate(coder, corners, regular) != vertex_count:
+    if count != regular or _kernels.code_degenerate(coder, corners, regular) != vertex_count:
         raise _nonsense(coder, f"it does not make {vertex_count} vertices")
     finish_reading(coder)
     return np.concatenate([faces, corners.reshape(-1, 3)]) if degenerate else faces
 
 
-def _memory(faces: int, vertices: int, sewn: int) -> int:
-    return _FACE_MEMORY * faces + _VERTEX_MEMORY * vertices + _FAN_MEMORY * sewn
-
-
-def _conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest) -> tuple[Coder, Conquest]:
-    """Run the conquest, with more memory each time it asks; so memory follows the progress, not a claim."""
-    while (end := conquer(coder, models, guide, conquest)) == NO_ROOM:
-        coder, conquest = make_room(coder, TURN_BYTES + len(coder.data)), enlarge_conquest(conquest)
+def conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest) -> tuple[Coder, Conquest]:
+    """Code the surface, with more memory each time that is asked for; so memory follows the progress, not a claim."""
+    while (end := _kernels.conquer(coder, models, guide, conquest)) == NO_ROOM:
+        nodes, heads = conquest.front
+        front = Front(np.concatenate([nodes, np.empty_like(nodes)]), heads)
+        coder, conquest = make_room(coder, _TURN_BYTES + len(coder.data)), conquest._replace(front=front)
     if end == NONSENSE:
         raise _nonsense(coder, f"it does not make {len(conquest.faces)} triangles")
     return coder, conquest
@@ -314,15 +271,6 @@ def _nonsense(coder: Coder, problem: str) -> CorruptError | TruncatedError:
     if overran(coder):
         return TruncatedError(f"a connectivity payload of {len(coder.data)} bytes ends too early")
     return CorruptError(f"a connectivity payload is damaged: {problem}")
-
-
-def _check_faces(faces: npt.ArrayLike, vertex_count: int) -> Ints:
-    given = np.asarray(faces)
-    if given.ndim != 2 or given.shape[1] != 3 or len(given) == 0 or given.dtype.kind not in "iu":
-        raise MeshError(f"faces must be integers of shape (m, 3), m > 0, not {given.dtype} of shape {given.shape}")
-    if given.min() < 0 or given.max() >= vertex_count:
-        raise MeshError(f"faces refer to vertices {given.min()} to {given.max()}, outside 0..{vertex_count - 1}")
-    return np.ascontiguousarray(given, np.int32)
 
 
 def _number_by_appearance(sequence: Ints, size: int) -> tuple[Ints, Ints]:

@@ -9,14 +9,11 @@ from bsm.bitstream import _kernels
 from bsm.bitstream.connectivity.faces import EncodedConnectivity
 from bsm.bitstream.entropy.range_coder import (
     Coder,
-    finish_reading,
-    finish_writing,
     is_reading,
     make_bank,
     make_room,
     overran,
     signed_span,
-    start_reading,
     start_writing,
 )
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
@@ -30,38 +27,11 @@ _CLASSES = 32
 _STEP_BYTES = 128  # more than one entry can take
 
 
-def encode_permutation(order: npt.ArrayLike) -> bytes:
-    """Encode a permutation of 0 .. n - 1, shape (n,), n below 2**24."""
-    values = np.array(order, np.int32)
-    coder = start_writing(0)
-    return finish_writing(code_permutation(coder, values))
-
-
-def decode_permutation(payload: bytes, size: int) -> Ints:
-    """Decode a permutation of `size` entries, shape (size,)."""
-    values = np.zeros(size, np.int32)
-    finish_reading(code_permutation(start_reading(payload), values))
-    return values
-
-
-def encode_rotations(rotations: npt.ArrayLike) -> bytes:
-    """Encode integers 0, 1 and 2, shape (m,); raises `OptionError` on others."""
-    values = np.array(rotations, np.int32)
-    return finish_writing(code_rotations(start_writing(0), values))
-
-
-def decode_rotations(payload: bytes, size: int) -> Ints:
-    """Twin of `encode_rotations`: shape (size,); raises `CorruptError` or `TruncatedError`."""
-    values = np.zeros(size, np.int32)
-    finish_reading(code_rotations(start_reading(payload), values))
-    return values
-
-
 def code_permutation(coder: Coder, values: Ints) -> Coder:
     """Write the permutation `values`, shape (n,), or read it into `values`; return the coder to go on with."""
     size = len(values)
     if not is_reading(coder):
-        if values.ndim != 1 or size >> 24 or not _is_permutation(values):
+        if values.ndim != 1 or size >> 24 or (np.sort(values) != np.arange(size)).any():
             raise OptionError("not a permutation of fewer than 2**24 entries, counted from 0")
         coder = make_room(coder, _STEP_BYTES * size)
     bank = make_bank((1 + _CLASSES + 2 * _CLASSES * _CLASSES) * _SPAN, _SPAN, _INPUTS)
@@ -86,13 +56,6 @@ def _checked(coder: Coder, legal: int, what: str) -> Coder:
     if not legal:
         raise CorruptError(f"the payload is not {what}")
     return coder
-
-
-def _is_permutation(values: Ints) -> bool:
-    size = len(values)
-    if size and (values.min() < 0 or values.max() >= size):
-        return False
-    return bool((np.bincount(values, minlength=size) == 1).all())
 
 
 @dataclass(frozen=True, eq=False)

@@ -51,19 +51,8 @@ def make_bank(
     if not (0 < probability < ONE and 0 <= trust <= limit):
         raise OptionError(f"the first probability must be in 1..{ONE - 1}, and trust in 0..limit")
     initial = ONE // inputs if inputs < 3 else ONE * 5 // (4 * inputs)
-    bank = Bank(
-        np.empty(slots, np.uint32),
-        np.empty((selectors, inputs), np.int32),
-        np.array([limit, rate, initial, probability << 16 | trust], np.int64),
-    )
-    reset_bank(bank)
-    return bank
-
-
-def reset_bank(bank: Bank) -> None:
-    """Forget everything that `bank` has learnt, in place."""
-    bank.slots.fill(bank.settings[3])
-    bank.weights.fill(bank.settings[2])
+    settings = np.array([limit, rate, initial, probability << 16 | trust], np.int64)
+    return Bank(np.full(slots, settings[3], np.uint32), np.full((selectors, inputs), initial, np.int32), settings)
 
 
 def copy_bank(bank: Bank) -> Bank:
@@ -78,7 +67,7 @@ def start_writing(capacity: int) -> Coder:
 
 def make_room(coder: Coder, capacity: int) -> Coder:
     """Return a coder that continues `coder` and reads, or can write at least `capacity` bytes more."""
-    if has_room(coder, capacity):
+    if is_reading(coder) or int(coder.state[_POSITION]) + capacity < coder.data.size:
         return coder
     written = int(coder.state[_POSITION])
     data = np.empty(written + capacity + 8, np.uint8)
@@ -89,11 +78,6 @@ def make_room(coder: Coder, capacity: int) -> Coder:
 def is_reading(coder: Coder) -> bool:
     """Whether the coder reads."""
     return bool(coder.state[_READING])
-
-
-def has_room(coder: Coder, capacity: int) -> bool:
-    """Whether the coder reads, or can write at least `capacity` bytes more."""
-    return is_reading(coder) or int(coder.state[_POSITION]) + capacity < coder.data.size
 
 
 def start_reading(payload: bytes) -> Coder:
@@ -134,23 +118,6 @@ def overran(coder: Coder) -> bool:
     return is_reading(coder) and int(coder.state[_POSITION]) > coder.data.size + _AHEAD
 
 
-def code_bit(coder: Coder, probability: int, bit: int) -> int:
-    """Code one decision."""
-    return _kernels.code_bit(coder, probability, bit)
-
-
-def code_uniform(coder: Coder, value: int, count: int) -> int:
-    """Code an integer in 0 .. count - 1, all equally likely; `count` in 1 .. 2**32."""
-    return _kernels.code_uniform(coder, value, count)
-
-
-def code_mixed_bit(
-    coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], node: int, selector: int, bit: int
-) -> int:
-    """Predict a decision from all contexts, code it, and learn from it."""
-    return _kernels.code_mixed_bit(coder, bank, contexts, node, selector, bit)
-
-
 def unsigned_span(unary: int) -> int:
     """Number of nodes (slots per context, and selectors) that `code_unsigned` uses."""
     return unary + _SUFFIX_NODES + 2
@@ -166,10 +133,3 @@ def code_unsigned(
 ) -> int:
     """Code an integer in 0 .. 2**24 - 2 + unary: a unary prefix, then an Exp-Golomb escape."""
     return _kernels.code_unsigned(coder, bank, contexts, selector, unary, value, node)
-
-
-def code_signed(
-    coder: Coder, bank: Bank, contexts: npt.NDArray[np.int64], selector: int, unary: int, value: int
-) -> int:
-    """Code a signed integer of magnitude below 2**24: zero, sign, then the rest."""
-    return _kernels.code_signed(coder, bank, contexts, selector, unary, value)

@@ -87,32 +87,28 @@ def grid_charge(vertices: int, faces: int) -> int:
 def grid_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
     """Positions on a grid, in as few bytes as can be."""
     top = checked_largest(largest, range(AXES, AXES + 1))
+    weights = np.zeros((4 * 2 * 6 + 4 * AXES, TERMS), np.int64)  # at the start (V 9)
+    weights[:48, 0] = 49152  # of the guesses
+    weights[48:, :2] = 49152, 8192  # of the sizes of their errors
 
     def start() -> State:
         corners = corners_of(faces, vertices)
         model = make_model()
+        given, gaps = np.zeros((2, vertices, AXES), np.int32)
         grid = _Grid(
             top,
             traverse(corners),
-            np.zeros((vertices, AXES), np.int32),
-            np.zeros((vertices, AXES), np.int32),
+            given,
+            gaps,
             np.zeros((vertices, 4), np.int64),
             np.zeros((AXES, int(top.max()) // 64 + 1), np.int64),
-            make_learners(_start_of_learners()),
+            make_learners(weights),
         )
         return State(
             lambda coder, *rows: _kernels.code_grid(coder, model, corners, grid, *rows), grid.order, grid.values
         )
 
     return Field(np.zeros_like(top), top, grid_charge(vertices, len(np.asarray(faces))), start)
-
-
-def _start_of_learners() -> npt.NDArray[np.int64]:
-    """Weights at the start: of the guesses, then of the sizes of their errors (V 9)."""
-    start = np.zeros((4 * 2 * 6 + 4 * AXES, TERMS), np.int64)
-    start[:48, 0] = 49152
-    start[48:, :2] = 49152, 8192
-    return start
 
 
 _SIZES = 24
@@ -132,12 +128,9 @@ def light_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> 
 
     def start() -> State:
         corners = corners_of(faces, vertices)
-        light = _Light(
-            full.high,
-            np.zeros((vertices, AXES), np.int32),
-            np.zeros((vertices, AXES), np.int32),
-            np.full(_SIZES * _SLOTS_OF_SIZE, 1 << 31, np.uint32),
-        )
+        slots = np.full(_SIZES * _SLOTS_OF_SIZE, 1 << 31, np.uint32)
+        given, gaps = np.zeros((2, vertices, AXES), np.int32)
+        light = _Light(full.high, given, gaps, slots)
         return State(lambda coder, *rows: _kernels.code_light(coder, corners, light, *rows), corners.rank, light.values)
 
     return replace(full, start=start)

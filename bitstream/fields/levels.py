@@ -45,22 +45,17 @@ def levels_charge(vertices: int, faces: int) -> int:
 def levels_field(faces: npt.ArrayLike, vertices: int) -> Field:
     """Levels, vertices in the order of their numbers."""
     top = np.full(AXES, MOST_LEVEL, np.int32)
+    weights = np.zeros((3, 4, TERMS), np.int64)  # at the start, for each axis by the number of flaps (V 11)
+    weights[:, :, 0] = 52000
+    weights[:, 1:, 1] = 28000
 
     def start() -> State:
         corners = corners_of(faces, vertices)
         model = make_bank(_SLOTS, _SORTS * _NODES, _INPUTS, rate=_RATE)
         given, gaps, means = np.zeros((3, vertices, AXES), np.int32)
-        levels = _Levels(given, gaps, means, make_learners(_start_of_learners()))
+        levels = _Levels(given, gaps, means, make_learners(weights.reshape(12, TERMS)))
         return State(
             lambda coder, *rows: _kernels.code_levels(coder, model, corners, levels, *rows), corners.rank, levels.levels
         )
 
     return Field(-top, top, levels_charge(vertices, len(np.asarray(faces))), start)
-
-
-def _start_of_learners() -> npt.NDArray[np.int64]:
-    """Weights at the start, for each axis by the number of flaps (V 11)."""
-    start = np.zeros((3, 4, TERMS), np.int64)
-    start[:, :, 0] = 52000
-    start[:, 1:, 1] = 28000
-    return start.reshape(12, TERMS)

@@ -13,15 +13,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bsm.bitstream._kernels import code_uniform
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.entropy.range_coder import (
-    code_uniform,
-    code_unsigned,
-    finish_writing,
-    make_bank,
-    start_writing,
-    unsigned_span,
-)
+from bsm.bitstream.entropy.range_coder import code_unsigned, finish_writing, make_bank, start_writing, unsigned_span
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.graph import graph_of_faces

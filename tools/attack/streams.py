@@ -14,9 +14,7 @@ from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, encode_seams
 from bsm.bitstream.coefficients.matrices import encode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import (
-    NO_ROOM,
     RARE_HEADER,
-    TURN_BYTES,
     EncodedConnectivity,
     _number_by_appearance,
     close_surface,
@@ -24,7 +22,6 @@ from bsm.bitstream.connectivity.faces import (
     code_seams,
     conquer,
     encode_connectivity,
-    enlarge_conquest,
     make_conquest,
     make_guide,
     make_models,
@@ -72,9 +69,8 @@ def _glued(rows: int, columns: int) -> EncodedConnectivity:
     coder, models = start_writing(1 << 20), make_models(3)
     for count in (0, 0, size - 3, 0):
         code_rare(coder, models, RARE_HEADER, count)
-    guide, conquest = make_guide(surface, faces), make_conquest(faces, size, 0)
-    while conquer(coder, models, guide, conquest) == NO_ROOM:
-        coder, conquest = make_room(coder, TURN_BYTES + len(coder.data)), enlarge_conquest(conquest)
+    guide = make_guide(surface, faces)
+    coder, conquest = conquer(coder, models, guide, make_conquest(faces, size, 0))
     coder = make_room(coder, 32 * size)
     place = surface.vertex[guide.fans]
     colours = ((place // columns + place % columns) % 3).astype(np.int32)

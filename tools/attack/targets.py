@@ -14,13 +14,14 @@ from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coeffic
 from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import unpack_coefficients
 from bsm.bitstream.connectivity.faces import decode_connectivity
-from bsm.bitstream.connectivity.order import decode_permutation, decode_rotations
+from bsm.bitstream.connectivity.order import code_permutation, code_rotations
 from bsm.bitstream.connectivity.partition import decode_labels
 from bsm.bitstream.container.gop import parse_gop_body
 from bsm.bitstream.container.layout import PARSERS
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, TolerantReader
 from bsm.bitstream.container.splits import decode_order
 from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.entropy.range_coder import finish_reading, start_reading
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.fields.corners import Field, FieldDecoder, FieldEncoder, corners_of
 from bsm.bitstream.fields.grid import grid_field, light_field
@@ -128,11 +129,12 @@ def arrangement(data: bytes) -> None:
 
 def permutation(data: bytes) -> None:
     """A permutation or rotations."""
-    size = data[1]
+    values = np.zeros(data[1], np.int32)
+    finish_reading((code_permutation if data[0] % 2 else code_rotations)(start_reading(data[2:]), values))
     if data[0] % 2:
-        _expect(bool((np.sort(decode_permutation(data[2:], size)) == np.arange(size)).all()), "no permutation")
+        _expect(bool((np.sort(values) == np.arange(len(values))).all()), "no permutation")
     else:
-        _expect(bool((decode_rotations(data[2:], size) <= 2).all()), "a rotation over 2")
+        _expect(bool((values <= 2).all()), "a rotation over 2")
 
 
 def labels(data: bytes) -> None:

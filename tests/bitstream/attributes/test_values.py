@@ -9,16 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.values import (
-    canonical_levels,
-    octahedral_levels,
-    octahedral_normals,
-    ring_of_twins,
-    values_field,
-)
-from bsm.bitstream.errors import MeshError, OptionError
+from bsm.bitstream.attributes.values import canonical_levels, octahedral_normals, ring_of_twins, values_field
 from bsm.bitstream.fields.corners import MOST_LARGEST
-from tests.bitstream.fields.fields import decode, encode, size_of
+from tests.bitstream.fields.fields import decode, encode, octahedral_levels, size_of
 from tools.measure.grids import rounded, welded
 
 OCTAHEDRA = st.sampled_from([1, 2, 127, MOST_LARGEST // 2])
@@ -34,15 +27,6 @@ def test_levels_of_normals(normals, size):
     unit = vectors / np.abs(vectors).max(axis=1, keepdims=True)
     unit /= np.linalg.norm(unit, axis=1, keepdims=True)
     assert (np.linalg.norm(np.cross(unit, octahedral_normals(levels, size)), axis=1) < 2.2 / size).all()
-
-
-def test_levels_of_no_normal():
-    with pytest.raises(MeshError):
-        octahedral_levels([[0.0, 0.0, 0.0]], 127)
-    with pytest.raises(MeshError):
-        octahedral_levels([[np.nan, 0.0, 1.0]], 127)
-    with pytest.raises(OptionError):
-        octahedral_levels([[0.0, 0.0, 1.0]], 0)
 
 
 def test_rings():

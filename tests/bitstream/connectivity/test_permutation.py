@@ -10,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.order import decode_permutation, decode_rotations, encode_permutation, encode_rotations
+from bsm.bitstream.connectivity.order import code_permutation, code_rotations
 from bsm.bitstream.container.splits import decode_order, encode_order
+from bsm.bitstream.entropy.range_coder import finish_reading, finish_writing, start_reading, start_writing
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.shapes import Faces, grid_faces
@@ -19,39 +20,49 @@ from tests.shapes import Faces, grid_faces
 quick = settings(max_examples=100)
 
 
+def encode(code, values) -> bytes:
+    return finish_writing(code(start_writing(0), np.array(values, np.int32)))
+
+
+def decode(code, payload: bytes, size: int) -> np.ndarray:
+    values = np.zeros(size, np.int32)
+    finish_reading(code(start_reading(payload), values))
+    return values
+
+
 @quick
 @given(st.integers(0, 300).flatmap(lambda n: st.permutations(range(n))))
 def test_permutations_round_trip(order: list[int]) -> None:
-    np.testing.assert_array_equal(decode_permutation(encode_permutation(order), len(order)), order)
+    np.testing.assert_array_equal(decode(code_permutation, encode(code_permutation, order), len(order)), order)
 
 
 @quick
 @given(st.lists(st.integers(0, 2), max_size=300))
 def test_rotations_round_trip(rotations: list[int]) -> None:
-    np.testing.assert_array_equal(decode_rotations(encode_rotations(rotations), len(rotations)), rotations)
+    np.testing.assert_array_equal(decode(code_rotations, encode(code_rotations, rotations), len(rotations)), rotations)
 
 
 def test_random_order_costs_about_its_entropy_and_runs_cost_little() -> None:
     size = 5000
     order = np.random.default_rng(0).permutation(size)
-    assert 8 * len(encode_permutation(order)) < 1.1 * lgamma(size + 1) / log(2)
-    assert len(encode_permutation(np.arange(size))) < 40
-    assert len(encode_permutation(np.arange(size)[::-1])) < 60
-    assert len(encode_permutation(np.roll(np.arange(size), 1234))) < 50
-    assert len(encode_permutation(np.arange(size).reshape(50, 100).T.ravel())) < 0.2 * size
+    assert 8 * len(encode(code_permutation, order)) < 1.1 * lgamma(size + 1) / log(2)
+    assert len(encode(code_permutation, np.arange(size))) < 40
+    assert len(encode(code_permutation, np.arange(size)[::-1])) < 60
+    assert len(encode(code_permutation, np.roll(np.arange(size), 1234))) < 50
+    assert len(encode(code_permutation, np.arange(size).reshape(50, 100).T.ravel())) < 0.2 * size
 
 
 @pytest.mark.parametrize("order", [[0, 0], [1, 2], [-1, 0], [[0, 1]]])
 def test_what_is_no_permutation_is_refused(order: list[int]) -> None:
     with pytest.raises(OptionError):
-        encode_permutation(order)
+        encode(code_permutation, order)
     with pytest.raises(OptionError):
-        encode_rotations([0, 1, 3])
+        encode(code_rotations, [0, 1, 3])
 
 
 def test_damage_to_a_permutation_is_noticed_or_gives_another() -> None:
     rng = np.random.default_rng(1)
-    payload = encode_permutation(rng.permutation(300))
+    payload = encode(code_permutation, rng.permutation(300))
     damaged = [payload[:size] for size in range(len(payload) - 4)]
     for _ in range(500):
         data = bytearray(payload)
@@ -60,7 +71,7 @@ def test_damage_to_a_permutation_is_noticed_or_gives_another() -> None:
     noticed = 0
     for data in damaged:
         try:
-            order = decode_permutation(data, 300)
+            order = decode(code_permutation, data, 300)
         except (CorruptError, TruncatedError):
             noticed += 1
             continue

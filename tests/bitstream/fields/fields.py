@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.values import canonical_levels, face_values_field, values_field
+from bsm.bitstream.attributes.values import _folded, canonical_levels, face_values_field, values_field
 from bsm.bitstream.fields.corners import Field, FieldDecoder, FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, light_field
 from bsm.bitstream.fields.levels import levels_field
@@ -29,6 +29,24 @@ def field_of(name: str, faces: Faces, vertices: int, largest, at=None, places=No
     if name in ("grid", "light"):
         return (grid_field if name == "grid" else light_field)(faces, vertices, largest)
     return values_field(faces, vertices, largest, name, at, places)
+
+
+def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
+    """Directions as points on an octahedron, its lower half folded outwards (Meyer et al., EGSR 2010)."""
+    given = np.asarray(normals, np.float64)
+    largest = np.abs(given).max(axis=1, keepdims=True)
+    scaled = given / largest
+    scaled *= size / np.abs(scaled).sum(axis=1, keepdims=True)
+    points = np.rint(scaled).astype(np.int64)
+    rows = np.arange(len(points))
+    for _ in range(3):  # what rounding has added or taken, where that changes least
+        missing = size - np.abs(points).sum(axis=1)
+        change = np.sign(missing)
+        slack = (np.abs(scaled) - np.abs(points)) * change[:, None]
+        slack[(points == 0) & (change < 0)[:, None]] = -2
+        axis = slack.argmax(axis=1)
+        points[rows, axis] += np.where(scaled[rows, axis] < 0, -change, change)
+    return _folded(points, size)
 
 
 def offered(name: str, rows: int, largest, kind: str, seed: int) -> Ints:

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.values import face_values_field, octahedral_levels, values_field
+from bsm.bitstream.attributes.values import face_values_field, values_field
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.fields.corners import MOST_LARGEST, Field, FieldDecoder, FieldEncoder, corners_of, traverse
@@ -27,6 +27,7 @@ from tests.bitstream.fields.fields import (
     decode,
     encode,
     field_of,
+    octahedral_levels,
     offered,
     size_of,
     values,
