@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, refuse_two_on_one_pipe, run_of
+from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
@@ -30,7 +30,7 @@ from bsm.files.stream import (
     peek_header,
     said_of_runs,
 )
-from bsm.jobs.report import Facts, Task
+from bsm.jobs.report import Facts, Run, Task
 from bsm.jobs.run import anywhere, came_to, plan, run_jobs
 
 
@@ -59,11 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
     add("--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement one more")
     add("--permutation", metavar="FILE.npy", help="what encode wrote with the same option: restore the input's order")
-    add(
-        "--tolerant",
-        action="store_true",
-        help="go on behind damage; what is lost, blocks or frames, is named and left out",
-    )
+    add("--tolerant", action="store_true", help="go on behind damage; what is lost is named and left out")
     add_limits_flag(parser)
     group = parser.add_argument_group("sequences")
     group.add_argument("--frames", metavar="A:B", help="frames A to B - 1 only; what they do not need is not decoded")
@@ -82,7 +78,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     refuse_two_on_one_pipe(args, jobs[0].output)
     given = args.output and (anywhere(args.output) if args.dask else args.output)
     job = asked(DecodeJob, args, output="", given=given, many=len(jobs) > 1)
-    return run_jobs(run_of(args), job, console, decode_one, jobs)
+    return run_jobs(asked(Run, args), job, console, decode_one, jobs)
 
 
 def decode_one(args: DecodeJob, console: Console) -> Facts:
@@ -111,21 +107,16 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
     if header is not None and header.attributes > len(mesh.attributes):
-        missing = header.attributes - len(mesh.attributes)
-        console.note(
-            f"{args.input}: left out: {missing} of {header.attributes} attributes, of which values have not come"
-        )
+        missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
+        console.note(f"{args.input}: left out: {missing}, of which values have not come")
     with console.progress("writing"):
         file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
         left_out = save_written(output, file, overwrite=args.may_replace(output), overwrite_beside=args.force)
     if left_out:
         console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
-    written = len(file.data)
-    vertices, faces = len(mesh.positions), len(mesh.faces)
-    taken = size_of(args.input)
-    console.note(
-        f"{args.input} -> {output}: {vertices} vertices, {faces} faces, {came_to(taken, written)}, {seconds:.2f} s"
-    )
+    written, taken, vertices, faces = len(file.data), size_of(args.input), len(mesh.positions), len(mesh.faces)
+    counts = f"{vertices} vertices, {faces} faces, {came_to(taken, written)}, {seconds:.2f} s"
+    console.note(f"{args.input} -> {output}: {counts}")
     facts = {"input": args.input, "output": output, "vertices": vertices, "faces": faces}
     return facts | {"input_bytes": taken, "output_bytes": written, "seconds": seconds, "left_out": list(left_out)}
 
@@ -134,7 +125,11 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     """Decode one sequence; every frame is written as soon as it is known."""
     if args.blocks is not None:
         raise OptionError("--blocks is for meshes, and this is a sequence")
-    output = _sequence_output(args)
+    # Where it goes: an npz, or a folder for frames of a format of meshes, if nothing else was said.
+    suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
+    output = default_output(args.input, suffix) if args.given is None else str(args.output)
+    if args.given is not None and args.many:
+        output = output_inside(args.given, args.input, suffix)
     kind = sequence_kind(output, args.format)
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
@@ -149,9 +144,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     if args.permutation:
         mesh = reorder(numbered(faces, int(faces.max()) + 1), read_permutation(args.permutation))
         order, faces = numbers_of(mesh.positions), mesh.faces
-    shared = Shared(
-        lambda: () if args.permutation else stream.attributes, lambda: {} if args.permutation else stream.metadata
-    )
+    shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: stream.metadata)
     count = vertices = 0
     with (
         sequence_writer(output, kind, faces, expected, overwrite=args.may_replace(output), shared=shared) as write,
@@ -161,13 +154,10 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
         for number, frame in chain(ahead, frames):
             if number >= last:
                 break
-            if stream.faces is present:
-                write(frame[order])
-            elif args.permutation:
+            if args.permutation and stream.faces is not present:
                 raise OptionError(f"--permutation is the order of one mesh, and the faces change at frame {number}")
-            else:
-                present = stream.faces
-                write(frame, present)
+            write(frame[order], None if stream.faces is present else stream.faces)
+            present = stream.faces
             vertices = vertices or len(frame)
             count += 1
             if expected:
@@ -182,19 +172,10 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     facts = {"frames": count, "vertices": vertices, "faces": header.faces}
     if stream.run_starts:
         console.note(f"{args.input}: {said_of_runs(stream.run_starts)}")
-    console.note(
-        f"{args.input} -> {output}: {count} frames of {vertices} vertices, {header.faces} faces, {seconds:.2f} s"
-    )
+    counts = f"{count} frames of {vertices} vertices, {header.faces} faces"
+    console.note(f"{args.input} -> {output}: {counts}, {seconds:.2f} s")
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
     return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}
-
-
-def _sequence_output(args: DecodeJob) -> str:
-    """Where a sequence goes: an npz, or a folder for frames of a format of meshes, if nothing else was said."""
-    suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
-    if args.given is None:
-        return default_output(args.input, suffix)
-    return output_inside(args.given, args.input, suffix) if args.many else str(args.output)
 
 
 def _range(text: str | None) -> tuple[int, int]:

@@ -13,8 +13,6 @@ from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.options import encode_options
 from bsm.pictures import bounds_of, colors_of, png, render
 
-_PLAIN_BYTES = (12, 12)  # bytes of a vertex and of a face as float32 and int32
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
@@ -37,7 +35,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     sample = knot(args.vertices)
     vertices, faces = len(sample.positions), len(sample.faces)
-    plain = _PLAIN_BYTES[0] * vertices + _PLAIN_BYTES[1] * faces
+    plain = 12 * (vertices + faces)  # as float32 and int32
     console.note(f"sample     a knotted rope: {vertices} vertices, {faces} faces, {plain} bytes as plain arrays")
 
     begin = time.perf_counter()
@@ -65,19 +63,14 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
     write_output(stream_path, stream, overwrite=args.force)
     with console.progress("drawing"):
-        _draw(picture_path, sample, decoded, overwrite=args.force)
+        bounds, far = bounds_of(sample.positions), np.linalg.norm(decoded.positions - sample.positions, axis=1)
+        heat = colors_of(far / (float(np.percentile(far, 99)) or 1.0))[sample.faces].mean(axis=1) / 255.0
+        looks = ((sample, None), (decoded, None), (sample, heat))
+        pictures = [render(mesh.positions, mesh.faces, bounds=bounds, colors=colors) for mesh, colors in looks]
+        write_output(picture_path, png(np.hstack(pictures)), overwrite=args.force)
     written = [str(stream_path), str(picture_path)]
     console.note(f"written    {', '.join(written)}")
     if args.json:
         sizes = {"vertices": vertices, "faces": faces, "bytes": len(stream), "bpv_total": 8 * len(stream) / vertices}
         errors = {name: getattr(error, name) for name in ("nmsve_db", "theta_deg", "max_error_relative")}
         print_json(sizes | {"encode_seconds": encoding, "decode_seconds": decoding} | errors | {"written": written})
-
-
-def _draw(path: Path, sample: TriangleMesh, decoded: TriangleMesh, *, overwrite: bool) -> None:
-    bounds = bounds_of(sample.positions)
-    distance = np.linalg.norm(decoded.positions - sample.positions, axis=1)
-    heat = colors_of(distance / (float(np.percentile(distance, 99)) or 1.0))[sample.faces].mean(axis=1) / 255.0
-    looks = ((sample, None), (decoded, None), (sample, heat))
-    picture = np.hstack([render(mesh.positions, mesh.faces, bounds=bounds, colors=colors) for mesh, colors in looks])
-    write_output(path, png(picture), overwrite=overwrite)

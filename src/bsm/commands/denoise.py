@@ -16,7 +16,7 @@ import numpy as np
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.metrics import mean_edge_length
-from bsm.commands.flags import add_inputs, add_reader_flag, asked, refuse_two_on_one_pipe, run_of
+from bsm.commands.flags import add_inputs, add_reader_flag, asked, refuse_two_on_one_pipe
 from bsm.console import Console, Progress
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
@@ -25,7 +25,7 @@ from bsm.files.motion.frames import Frames
 from bsm.files.output import output_inside, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
-from bsm.jobs.report import Facts, Task
+from bsm.jobs.report import Facts, Run, Task
 from bsm.jobs.run import plan, run_jobs
 from bsm.lengths import length, unit_of
 
@@ -104,7 +104,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     jobs = plan(inputs, args.output, lambda name: beside + _suffix(name), sole_folder=True)
     refuse_two_on_one_pipe(args, jobs[0].output)
     given = {name: getattr(args, name) for name in _OPTIONS if hasattr(args, name)}
-    return run_jobs(run_of(args), asked(DenoiseJob, args, output="", options=given), console, denoise_one, jobs)
+    return run_jobs(asked(Run, args), asked(DenoiseJob, args, output="", options=given), console, denoise_one, jobs)
 
 
 def denoise_one(args: DenoiseJob, console: Console) -> Facts:

@@ -4,20 +4,13 @@ import argparse
 from pathlib import Path
 
 from bsm.bitstream.errors import OptionError
-from bsm.commands.flags import (
-    add_encode_flags,
-    add_inputs,
-    add_reader_flag,
-    asked,
-    options_of,
-    refuse_two_on_one_pipe,
-    run_of,
-)
+from bsm.commands.flags import add_encode_flags, add_inputs, add_reader_flag, asked, options_of, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.sequence import SEQUENCES_READ
 from bsm.jobs.encode import EncodeJob, encode_one
+from bsm.jobs.report import Run
 from bsm.jobs.run import plan, plan_trees, refuse_collisions, run_jobs
 
 
@@ -30,23 +23,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe); many inputs to one .bsm are "
         "the frames of a sequence",
     )
-    add(
-        "-r", "--recursive", action="store_true", help="every mesh file in folders and below; OUT gets the same folders"
-    )
-    add(
-        "--format",
-        choices=tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ))),
-        metavar="FORMAT",
-        help="format of the input: its suffix without the dot (default: by its name or content)",
-    )
+    below = "every mesh file in folders and below; OUT gets the same folders"
+    add("-r", "--recursive", action="store_true", help=below)
+    formats = tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ)))
+    known = "format of the input: its suffix without the dot (default: by its name or content)"
+    add("--format", choices=formats, metavar="FORMAT", help=known)
     add("--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is")
-    add(
-        "--meta",
-        action="append",
-        default=[],
-        metavar="NAME=TEXT",
-        help="also say this of the mesh, for instance name=Bunny or unit=mm; any number of times",
-    )
+    said = "also say this of the mesh, for instance name=Bunny or unit=mm; any number of times"
+    add("--meta", action="append", default=[], metavar="NAME=TEXT", help=said)
     add_reader_flag(parser)
     add_encode_flags(parser)
 
@@ -72,17 +56,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
             raise OptionError("--permutation is for one input")
         refuse_collisions(args.inputs, [jobs[0].output, args.permutation])
     refuse_two_on_one_pipe(args, jobs[0].output)
-    many, options = run_of(args), options_of(args)
+    many, options = asked(Run, args), options_of(args)
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
-    more = {"output": "", "metadata": _metadata(args), "options": options, "threads": threads, "members": members}
+    metadata = {}
+    for name, sign, value in (text.partition("=") for text in args.meta):
+        if not name or not sign:
+            raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
+        metadata[name] = value
+    more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
     more["format"] = "npy" if args.piped_frames else args.format
     job = asked(EncodeJob, args, **more, compared=not args.quiet or args.json)
     return run_jobs(many, job, console, encode_one, jobs)
-
-
-def _metadata(args: argparse.Namespace) -> dict[str, str]:
-    pairs = [text.partition("=") for text in args.meta]
-    for name, sign, _ in pairs:
-        if not name or not sign:
-            raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")
-    return {name: value for name, _, value in pairs}

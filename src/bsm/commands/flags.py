@@ -10,7 +10,6 @@ from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.cli import suggestion
 from bsm.files.mesh import READERS
 from bsm.files.output import refuse_terminal
-from bsm.jobs.report import Run
 
 
 @dataclass(frozen=True)
@@ -24,12 +23,9 @@ class Setting:
 
     def add(self, group: argparse._ActionsContainer) -> None:
         """Add it as a flag; a namespace has no such name where it is not given: defaults stand elsewhere."""
-        how: dict[str, Any] = (
-            {"action": "store_true"} if self.type is bool else {"type": self.type, "metavar": self.metavar}
-        )
-        group.add_argument(
-            f"--{self.field.replace('_', '-')}", dest=self.field, default=argparse.SUPPRESS, help=self.help, **how
-        )
+        how = {"action": "store_true"} if self.type is bool else {"type": self.type, "metavar": self.metavar}
+        how |= {"dest": self.field, "default": argparse.SUPPRESS, "help": self.help}
+        group.add_argument(f"--{self.field.replace('_', '-')}", **how)
 
 
 class HelpAll(argparse.Action):
@@ -52,14 +48,11 @@ def named_setting(text: str) -> tuple[str, Any]:
     name, _, value = text.partition("=")
     known = {one.field: one for one in SETTINGS}
     name = name.strip().replace("-", "_")
-    if name not in known:
-        raise argparse.ArgumentTypeError(
-            f"there is no setting {name!r}{suggestion(name, known)}; --help-all lists them"
-        )
+    if (one := known.get(name)) is None:
+        raise argparse.ArgumentTypeError(f"there is no setting {name!r}{suggestion(name, known)}; see --help-all")
     try:
-        return name, known[name].type(value.strip())
+        return name, one.type(value.strip())
     except ValueError:
-        one = known[name]
         raise argparse.ArgumentTypeError(f"{name}={one.metavar} is expected, not {text!r}") from None
 
 
@@ -91,9 +84,7 @@ SETTINGS = (
     Setting("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 32)"),
     Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
-    Setting(
-        "doi", thresholds, "EPS_L,EPS_H", "as many coefficients per block as keep its residual between two thresholds"
-    ),
+    Setting("doi", thresholds, "EPS_L,EPS_H", "coefficients of a block until its residual is between two thresholds"),
 )
 """What few need, and the codec's inside for those who study it: `--set NAME=VALUE`."""
 
@@ -123,18 +114,8 @@ def named_quality(text: str) -> tuple[str, str]:
 
 
 BOUNDS = (
-    Setting(
-        "look",
-        number_or_length,
-        "D",
-        "distance from the original in pictures at most D: 1 looks the same, 3 is a preview",
-    ),
-    Setting(
-        "max_error",
-        number_or_length,
-        "REL",
-        "no vertex farther off than REL diagonals of the bounding box; with a unit (0.05mm), in the mesh's own",
-    ),
+    Setting("look", number_or_length, "D", "at most D from the original in pictures: 1 looks the same, 3 is a preview"),
+    Setting("max_error", number_or_length, "REL", "no vertex farther off than REL diagonals of the box, or 0.05mm"),
 )
 TARGETS = (
     Setting("nmsve_db", float, "X", "visual error, 10 log10 NMSVE, at most X"),
@@ -147,60 +128,13 @@ OF_SEQUENCES = (
     Setting("bpvf", float, "X", "at most X bits per vertex and frame, the whole file"),
     Setting("runs", bool, "", "let the faces change from frame to frame"),
     Setting("gop", int, "N", "frames that are coded together, at most (default 256 to 512)"),
-    Setting(
-        "low_delay",
-        int,
-        "N",
-        "send N frames at a time as they come (8: a quarter smaller than 1); --gop: from key frame to key frame",
-    ),
-    Setting(
-        "frame_rate",
-        float,
-        "FPS",
-        "frames per second, for the metadata; where an animation is sampled (glTF, USD) the rate of that",
-    ),
+    Setting("low_delay", int, "N", "send N frames as they come (8: a quarter smaller than 1), keys every --gop frames"),
+    Setting("frame_rate", float, "FPS", "frames per second, as metadata, and of samples of animations (glTF, USD)"),
 )
 
 
 def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     add_preset_flags(parser)
-    add_coding_flags(parser)
-    parser.add_argument("--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help="also list the settings")
-    group = parser.add_argument_group(
-        "sequences",
-        "a folder or pattern of meshes, several meshes with -o NAME.bsm, npz, PC2, MDD, USD, GLB with\n"
-        "--animation, or npy arrays on a pipe (the faces, then the positions of each frame)",
-    )
-    for setting in OF_SEQUENCES:
-        setting.add(group)
-    group.add_argument(
-        "--animation",
-        metavar="NAME",
-        help="of a GLB or glTF this animation, by name or number (0), and not the mesh alone",
-    )
-    group.add_argument(
-        "--mesh",
-        dest="cache_mesh",
-        metavar="FILE",
-        help="the mesh of a PC2 or MDD (default: of the same name beside it)",
-    )
-    group.add_argument(
-        "--frames", dest="piped_frames", action="store_true", help="a pipe holds frames, as --format npy"
-    )
-
-
-def add_preset_flags(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("what to reach", "checked on what the decoder will see; all that is given holds")
-    group.add_argument("--preset", choices=PRESETS, default=argparse.SUPPRESS, help=PROMISES)
-    for setting in BOUNDS:
-        setting.add(group)
-    targets = group.add_mutually_exclusive_group()
-    for setting in TARGETS:
-        setting.add(targets)
-
-
-def add_coding_flags(parser: argparse.ArgumentParser) -> None:
-    """Add all of `ENCODE_FLAGS`, what becomes of attributes, and the settings."""
     group = parser.add_argument_group("coding")
     for setting in ENCODE_FLAGS:
         setting.add(group)
@@ -222,20 +156,40 @@ def add_coding_flags(parser: argparse.ArgumentParser) -> None:
         default=argparse.SUPPRESS,
         help="one of the settings that few need; --help-all lists them",
     )
+    parser.add_argument("--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help="also list the settings")
+    group = parser.add_argument_group(
+        "sequences",
+        "a folder or pattern of meshes, several meshes with -o NAME.bsm, npz, PC2, MDD, USD, GLB with\n"
+        "--animation, or npy arrays on a pipe (the faces, then the positions of each frame)",
+    )
+    for setting in OF_SEQUENCES:
+        setting.add(group)
+    add, beside = group.add_argument, "the mesh of a PC2 or MDD (default: of the same name beside it)"
+    add(
+        "--animation", metavar="NAME", help="this animation of a GLB or glTF, by name or number (0), not the mesh alone"
+    )
+    add("--mesh", dest="cache_mesh", metavar="FILE", help=beside)
+    add("--frames", dest="piped_frames", action="store_true", help="a pipe holds frames, as --format npy")
+
+
+def add_preset_flags(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("what to reach", "checked on what the decoder will see; all that is given holds")
+    group.add_argument("--preset", choices=PRESETS, default=argparse.SUPPRESS, help=PROMISES)
+    for setting in BOUNDS:
+        setting.add(group)
+    targets = group.add_mutually_exclusive_group()
+    for setting in TARGETS:
+        setting.add(targets)
 
 
 _KEYWORDS = ("preset", *(setting.field for setting in (*BOUNDS, *TARGETS, *ENCODE_FLAGS, *OF_SEQUENCES)))
-
-
-def settings_of(args: argparse.Namespace) -> dict[str, Any]:
-    return dict(getattr(args, "set", ()))
 
 
 def options_of(args: argparse.Namespace) -> dict[str, Any]:
     given = {name: getattr(args, name) for name in _KEYWORDS if hasattr(args, name)}
     if hasattr(args, "attributes"):
         given["attributes"] = dict(args.attributes)
-    return {**given, **settings_of(args)}
+    return {**given, **dict(getattr(args, "set", ()))}
 
 
 _Asked = TypeVar("_Asked")
@@ -253,9 +207,8 @@ def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | N
     many.add_argument("--dask", metavar="ADDRESS", help="work on the Dask cluster of this scheduler")
     if output:
         many.add_argument("--report", metavar="FILE.json", help="write what came of each input, print a table")
-        many.add_argument(
-            "--resume", action="store_true", help="go on from --report: leave what is whole and as it would be made"
-        )
+        resumed = "go on from --report: leave what is whole and as it would be made"
+        many.add_argument("--resume", action="store_true", help=resumed)
     else:
         parser.set_defaults(output=None, report=None, resume=False)
 
@@ -265,10 +218,6 @@ def refuse_two_on_one_pipe(args: argparse.Namespace, output: str) -> None:
     if output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
     refuse_terminal(output)
-
-
-def run_of(args: argparse.Namespace) -> Run:
-    return asked(Run, args)
 
 
 def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:

@@ -7,12 +7,11 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from bsm.bitstream.container.wire import VERSION
-from bsm.bitstream.limits import Limits
-from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
+from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import MOST_SAID, Loops, SequenceStream, StreamInfo, inspect_stream, said_of_runs
-from bsm.jobs.report import Facts, Job, Task
+from bsm.jobs.report import Facts, Job, Run, Task
 from bsm.jobs.run import input_names, run_jobs
 from bsm.tiles.shards import is_tiles, open_tiles
 
@@ -31,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     jobs = [Job(name) for name in input_names(args.inputs)]
-    return run_jobs(run_of(args), asked(InfoJob, args), console, info_of_one, jobs, _worded)
+    return run_jobs(asked(Run, args), asked(InfoJob, args), console, info_of_one, jobs, _worded)
 
 
 def info_of_one(args: InfoJob, console: Console) -> Facts:
@@ -41,19 +40,14 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
     chunks = list(read_chunks(args.input)) if args.loops else read_chunks(args.input)
     summary = summarise(inspect_stream(iter(chunks), limits))
     if args.loops and summary["header"]["sequence"]:
-        summary["loops"] = list(_loops(iter(chunks), limits, console))
+        found, stream = Loops(), SequenceStream(iter(chunks), limits=limits)
+        with console.progress("looking for loops", "frames") as progress:
+            for number, frame in stream.changing_frames():
+                found.take(frame)
+                if stream.header.frames:
+                    progress(number + 1, stream.header.frames)
+        summary["loops"] = list(found.said())
     return {"input": args.input, **summary}
-
-
-def _loops(chunks: Iterator[bytes], limits: Limits, console: Console) -> tuple[str, ...]:
-    """What there is to say of frames that come again."""
-    found, stream = Loops(), SequenceStream(chunks, limits=limits)
-    with console.progress("looking for loops", "frames") as progress:
-        for number, frame in stream.changing_frames():
-            found.take(frame)
-            if stream.header.frames:
-                progress(number + 1, stream.header.frames)
-    return found.said()
 
 
 def summarise(info: StreamInfo) -> dict[str, Any]:
@@ -98,9 +92,15 @@ def _worded(summary: Facts) -> str:
     counts = summary["metadata_bytes"]
     texts = {name: f"{counts[name]} bytes" if name in counts else value for name, value in summary["metadata"].items()}
     said = [printable(f"  {name}: {value}") for name, value in texts.items()]
+    header, coefficients = summary["header"], summary["coefficients"] or [0]
+    positions = f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"
+    if not header["grid"]:
+        refined = ", and a layer of refinement" if header["refinement"] else ""
+        positions = f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
+        positions += f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
     lines = [
         f"version {summary['version']}: {summary['vertices']} vertices, {summary['faces']} faces",
-        *_position_lines(summary),
+        positions,
         *_sequence_lines(summary),
         *([f"checksum of decoded positions: {summary['checksum']}"] if summary["checksum"] else []),
         "bytes:",
@@ -121,17 +121,6 @@ def _tile_lines(summary: Facts) -> Iterator[str]:
         counts = f"{level['tiles']:>6} tiles {level['faces']:>12} faces {level['bytes']:>12} bytes"
         yield f"  level {level['level']}: {counts}, off by up to {level['error']:.3g}"
     yield f"{len(summary['shards'])} shards, {sum(shard['size'] for shard in summary['shards'])} bytes"
-
-
-def _position_lines(summary: dict[str, Any]) -> list[str]:
-    header, coefficients = summary["header"], summary["coefficients"] or [0]
-    if header["grid"]:
-        return [f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"]
-    refined = ", and a layer of refinement" if header["refinement"] else ""
-    return [
-        f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
-        f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
-    ]
 
 
 def _attribute_line(attribute: dict[str, Any]) -> str:

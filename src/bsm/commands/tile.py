@@ -3,17 +3,16 @@
 import argparse
 import os
 import shutil
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from bsm.bitstream.errors import FormatError, OptionError
-from bsm.commands.flags import asked, point, run_of
+from bsm.commands.flags import asked, point
 from bsm.console import Console, print_json
 from bsm.exits import tell
 from bsm.files.output import refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
-from bsm.jobs.report import Facts, Job, Outcome
+from bsm.jobs.report import Facts, Job, Outcome, Run
 from bsm.jobs.run import came_to, run_many
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
 from bsm.tiles.making import TileJob, simplifier, tile_one
@@ -68,7 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     for level in reversed(range(len(levels))):
         names = [name for name in levels[level] if name in plan.leaves or not args.finest]
         jobs = [Job(_input_of(work, plan, name), str(work / f"{name}.bsm")) for name in names]
-        many = replace(run_of(args), report=str(work / f"level-{level}.json"), resume=True)
+        many = asked(Run, args, report=str(work / f"level-{level}.json"), resume=True)
         found = run_many(many, asked_for, console, tile_one, jobs, ended) if jobs else []
         if failed := [facts for facts in found if "error" in facts]:
             console.note(

@@ -3,12 +3,12 @@
 import argparse
 from dataclasses import dataclass
 
-from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, run_of
+from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console
 from bsm.exits import worded
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_through, decode_whole, inspect_stream
-from bsm.jobs.report import Facts, Job, Task
+from bsm.jobs.report import Facts, Job, Run, Task
 from bsm.jobs.run import input_names, run_jobs
 from bsm.tiles.shards import is_tiles, open_tiles
 
@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     jobs = [Job(name) for name in input_names(args.inputs)]
-    return run_jobs(run_of(args), asked(VerifyJob, args), console, verify_one, jobs)
+    return run_jobs(asked(Run, args), asked(VerifyJob, args), console, verify_one, jobs)
 
 
 def verify_one(args: VerifyJob, console: Console) -> Facts:

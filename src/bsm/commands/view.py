@@ -16,6 +16,8 @@ from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.viewer.page import Content, Growing, PageServer, compared, page_with, written_to
 
+_NO_STREAM = "what came through the pipe is no BSM stream; encode it on the way: bsm encode - -o - | ..."
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
@@ -45,7 +47,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
         console.note(f"{args.save}: open it in a browser")
         return 0
     with reading:
-        served = _contents(args, console) if args.original else _served(args, console)
+        served: list[Content | Growing] = []
+        for name, path in {} if args.original else _named(args.inputs).items():
+            growing = args.follow or path == "-"
+            served.append(_growing(name, path) if growing else Content(name, _stream(path, args.reader, console)))
+        served += _contents(args, console) if args.original else []
     with PageServer(served, args.port) as server:
         address = f"http://{server.host}/"
         print(address, flush=True)
@@ -72,20 +78,13 @@ def _contents(args: argparse.Namespace, console: Console) -> list[Content]:
         return [compared(name, data, mesh, limits_of(args.limits)) for name, data in streams.items()]
 
 
-def _served(args: argparse.Namespace, console: Console) -> list[Content | Growing]:
-    return [
-        _growing(name, path) if args.follow or path == "-" else Content(name, _stream(path, args.reader, console))
-        for name, path in _named(args.inputs).items()
-    ]
-
-
 def _stream(path: str, reader: str | None, console: Console) -> bytes:
     """A stream as it is, a mesh file encoded as `bsm encode` does."""
     data = b"".join(read_chunks(path))
     if data.startswith(MAGIC[: len(data)]):
         return data
     if path == "-":
-        raise _no_stream(path)
+        raise FormatError(_NO_STREAM)
     with about(path):
         stream = encode(read_mesh(path, reader=reader).mesh)
     console.note(f"{path}: {len(stream)} bytes as a stream of the default preset")
@@ -96,15 +95,9 @@ def _growing(name: str, path: str) -> Growing:
     growing = Growing(name)
     chunks = read_chunks(path) if path == "-" else written_to(open(path, "rb"))  # noqa: SIM115
     Thread(target=growing.receive, args=(chunks,), daemon=True).start()
-    if growing.begins():
-        return growing
-    raise _no_stream(path)
-
-
-def _no_stream(path: str) -> FormatError:
-    if path == "-":
-        return FormatError("what came through the pipe is no BSM stream; encode it on the way: bsm encode - -o - | ...")
-    return FormatError(f"{path} is no BSM stream; only a stream can be followed")
+    if not growing.begins():
+        raise FormatError(_NO_STREAM if path == "-" else f"{path} is no BSM stream; only a stream can be followed")
+    return growing
 
 
 def _named(paths: list[str]) -> dict[str, str]:
