@@ -13,10 +13,11 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, OptionError
-from bsm.codec.arrays import Faces, Order, Positions
+from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import mnd, rms_over_edge
+from bsm.codec.geometry.surface_distance import surface_distance
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.comparison import compare_meshes, in_order_of, pair, read_permutation
@@ -55,17 +56,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("original", metavar="A", help="original: mesh file or stream, or a sequence of meshes")
     add("decoded", metavar="B", help="what became of it, in any of these forms")
     add("--permutation", metavar="FILE.npy", help="what encode wrote: vertex p[j] of A is j of B")
-    add(
-        "--surface",
-        action="store_true",
-        help="of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance",
-    )
-    add(
-        "--look",
-        action="store_true",
-        help="also how much alike they look in pictures: nobody can tell them apart at a distance of 1; faces of "
-        "meshes may differ; of a sequence every frame",
-    )
+    surface = "of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance"
+    add("--surface", action="store_true", help=surface)
+    alike = "also how much alike they look in pictures: nobody can tell them apart at a distance of 1; faces of "
+    add("--look", action="store_true", help=f"{alike}meshes may differ; of a sequence every frame")
     add(
         "--picture",
         metavar="FILE.png",
@@ -88,10 +82,17 @@ def run(args: argparse.Namespace, console: Console) -> None:
         return
     with console.progress("reading") as progress:
         original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
-        seen = None
+        seen: Look | None = None
         if args.look or args.picture:
             progress.stage("looking from all sides")
-            seen = _look(original, decoded, args)
+            from bsm.codec.look.measure import LookMetric
+
+            if args.picture:
+                refuse_to_overwrite(args.picture, args.force)
+            looker = LookMetric(original)
+            seen = looker.compare(decoded)
+            if args.picture:
+                write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
         progress.stage("comparing")
         try:
             compared = _compared(original, decoded, args, console)
@@ -129,8 +130,12 @@ def _compared(
         name: errors and {what: value for what, value in errors.items() if value is not None}
         for name, errors in result.pop("attributes").items()
     }
-    if args.surface:
-        result |= _surface(paired.original, paired.positions)
+    if args.surface:  # what the literature on denoising measures
+        before, after, faces = paired.original.positions, paired.positions, paired.original.faces
+        distance = surface_distance(before, faces, after, faces)
+        result |= {"mnd": mnd(before, after, faces), "rms_over_edge": rms_over_edge(before, after, faces)}
+        result |= {"hausdorff": distance.hausdorff, "surface_distance": distance.mean}
+        result["hausdorff_relative"] = distance.hausdorff / (paired.original.diagonal or 1.0)
     return {**{name: finite(value) for name, value in result.items()}, "attributes": attributes}
 
 
@@ -143,33 +148,6 @@ def sentence(compared: dict[str, Any], unit: str) -> str:
         f"the farthest vertex is {length(compared['max_error'], unit)} off, {share:.3g} % of the diagonal; root mean "
         f"square {length(rms, unit)}; faces are turned by {compared['angle_deg']:.3g} degrees, in the mean by area"
     )
-
-
-def _look(original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespace) -> Look:
-    from bsm.codec.look.measure import LookMetric
-
-    if args.picture:
-        refuse_to_overwrite(args.picture, args.force)
-    looker = LookMetric(original)
-    seen = looker.compare(decoded)
-    if args.picture:
-        write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
-    return seen
-
-
-def _surface(original: TriangleMesh, positions: Positions) -> dict[str, float]:
-    """What the literature on denoising measures."""
-    from bsm.codec.geometry.surface_distance import surface_distance
-
-    faces = original.faces
-    distance = surface_distance(original.positions, faces, positions, faces)
-    return {
-        "mnd": mnd(original.positions, positions, faces),
-        "rms_over_edge": rms_over_edge(original.positions, positions, faces),
-        "hausdorff": distance.hausdorff,
-        "hausdorff_relative": distance.hausdorff / (original.diagonal or 1.0),
-        "surface_distance": distance.mean,
-    }
 
 
 def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:
@@ -232,7 +210,12 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     if args.permutation and len(original) > 1:
         raise OptionError("--permutation is the order of one mesh, and the faces change")
     order = read_permutation(args.permutation) if args.permutation else None
-    runs = [_in_one_order(one, two, order) for one, two in zip(original, decoded, strict=True)]
+    runs = []
+    for (first, faces), (second, others) in zip(original, decoded, strict=True):
+        mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
+        other, other_kept = TriangleMesh(second[0], others).without_isolated_vertices()
+        rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
+        runs.append((first[:, kept], second[:, other_kept[rows]], mesh.faces))
     result = asdict(compare_runs(runs))
     if args.look:
         progress.stage("looking at all frames")
@@ -258,16 +241,6 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     lines = [f"{name:<19}{value:.6g}" for name, value in result.items()]
     lines.append(f"worst frame        {worst} ({of_frames[worst]['max_error_relative']:.6g})")
     return "\n".join([*lines, *repeats])
-
-
-def _in_one_order(
-    original: tuple[Positions, Faces], decoded: tuple[Positions, Faces], order: Order | None
-) -> tuple[Positions, Positions, Faces]:
-    (first, faces), (second, other_faces) = original, decoded
-    mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
-    other, other_kept = TriangleMesh(second[0], other_faces).without_isolated_vertices()
-    rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
-    return first[:, kept], second[:, other_kept[rows]], mesh.faces
 
 
 def _of_frames(one: Positions, two: Positions) -> list[dict[str, float]]:

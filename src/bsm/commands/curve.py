@@ -25,20 +25,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("meshes", metavar="MESH", nargs="*", help="mesh files or sequences; none: only draw what there is")
     add("-o", "--output", metavar="FOLDER", required=True, help="where JSON and pictures go")
-    add(
-        "--codecs",
-        metavar="LIST",
-        default=",".join(GROUPS),
-        help="which, with commas: ours, paper (SVD and orthogonal iterations of several kinds, 12 bits), draco, or "
-        "single lines such as svd,oi-r2 (default: all)",
-    )
+    which = "which, with commas: ours, paper (SVD and orthogonal iterations of several kinds, 12 bits), draco, or "
+    which += "single lines such as svd,oi-r2 (default: all)"
+    add("--codecs", metavar="LIST", default=",".join(GROUPS), help=which)
     add("--blocks", type=int, metavar="K", help="blocks of the paper's lines (default: 500 vertices each)")
     add("--repeat", type=int, default=1, metavar="N", help="runs per point, the fastest counts")
     add("--json", action="store_true", help="print the comparison with Draco as JSON")
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    from bsm.evaluation.curve import read_results, run_curve, write_result
+    from bsm.evaluation.curve import compare_curves, read_results, run_curve, write_result
     from bsm.evaluation.plots import draw_all
 
     folder = Path(args.output)
@@ -57,7 +53,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
     results = list(read_results(folder))
     if not results:
         raise OptionError(f"{folder} holds no results; name meshes to run")
-    comparisons = _comparisons(results)
+    draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
+    tested = [one for one in results if one["codec"] != "draco" and one["mesh"]["name"] in draco]
+    comparisons = [compare_curves(draco[one["mesh"]["name"]], one) for one in tested]
     if args.json:
         print_json({"comparisons": comparisons})
     else:
@@ -92,17 +90,6 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
     if unknown:
         raise OptionError(f"no codec is called {', '.join(unknown)}; there are {', '.join(groups)}")
     return [curve for name in names.split(",") for curve in groups[name]]
-
-
-def _comparisons(results: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    from bsm.evaluation.curve import compare_curves
-
-    draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
-    return [
-        compare_curves(draco[result["mesh"]["name"]], result)
-        for result in results
-        if result["codec"] != "draco" and result["mesh"]["name"] in draco
-    ]
 
 
 def _tables(results: Sequence[dict[str, Any]], comparisons: Sequence[dict[str, Any]]) -> str:

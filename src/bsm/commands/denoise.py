@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import time
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from pathlib import Path
@@ -14,10 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bsm.bitstream.errors import OptionError
-from bsm.codec.arrays import Positions
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.commands.flags import add_inputs, add_reader_flag, asked, refuse_two_on_one_pipe
-from bsm.console import Console, Progress
+from bsm.console import Console
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import separate_meshes
@@ -30,12 +28,13 @@ from bsm.jobs.run import plan, run_jobs
 from bsm.lengths import length, unit_of
 
 if TYPE_CHECKING:
-    from bsm.codec.denoise import AutomaticChoice, DenoiseOptions, Step
+    from bsm.codec.denoise import AutomaticChoice, DenoiseOptions
 
 FINE = ("guided", "bilateral-normal")
 HAND_OVERS = ("positions", "heights", "normals", "none")
 GOALS = ("shading", "shape")
 STREAM = "bsm"
+_GUIDES = {"patches": "guided", "own": "bilateral", "local": "local bilateral"}
 _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 
 
@@ -61,13 +60,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input, and of a piped output")
     add_reader_flag(parser)
-    add(
-        "--for",
-        dest="goal",
-        choices=GOALS,
-        default=GOALS[0],
-        help="what the automatic mode strives for: normals near the clean ones (shading), or vertices (shape)",
-    )
+    goal = "what the automatic mode strives for: normals near the clean ones (shading), or vertices (shape)"
+    add("--for", dest="goal", choices=GOALS, default=GOALS[0], help=goal)
     add("--strength", type=float, default=1.0, metavar="S", help="how much of every movement is made, 0 to 1 (1)")
     add("--look", action="store_true", help="say how far the result is from the input in pictures, see bsm compare")
     ways = parser.add_argument_group(
@@ -78,19 +72,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         argument_default=argparse.SUPPRESS,
     )
     ways.add_argument("--fine", choices=FINE, help="fine step (guided)")
-    ways.add_argument(
-        "--hand-over",
-        choices=HAND_OVERS,
-        help="what the fine step gets: coarse positions, noisy ones moved to it along its normals, noisy "
-        "ones smoothed along coarse normals, or no coarse step",
-    )
+    given = "what the fine step gets: coarse positions, noisy ones moved to it along its normals, noisy "
+    given += "ones smoothed along coarse normals, or no coarse step"
+    ways.add_argument("--hand-over", choices=HAND_OVERS, help=given)
     ways.add_argument("--iterations", type=int, metavar="N", help="of the fine step, 0: none (the method's own)")
-    ways.add_argument(
-        "--keep",
-        type=float,
-        metavar="FRACTION",
-        help="share of a block's frequencies that the coarse step keeps, c over n_d (0.1)",
-    )
+    share = "share of a block's frequencies that the coarse step keeps, c over n_d (0.1)"
+    ways.add_argument("--keep", type=float, metavar="FRACTION", help=share)
     ways.add_argument("--block-size", type=int, metavar="N", help="vertices of a block before overlap, about (500)")
 
 
@@ -147,12 +134,17 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
         denoiser = FrameDenoiser(mesh.positions, mesh.faces, options, **ways, progress=progress.stage)
         (positions,) = denoiser([mesh.positions])
     unit = unit_of(mesh.metadata)
-    _tell(console, denoiser.choice, args, mean_edge_length(mesh.positions, mesh.faces), unit)
-    far = _moved(mesh.positions, positions)
-    console.note(_moved_line(far, len(positions), unit))
+    for line in _found(denoiser.choice, args.goal, mean_edge_length(mesh.positions, mesh.faces), unit):
+        console.note(line)
+    moves = np.linalg.norm(positions - mesh.positions, axis=1)
+    touched, farthest = int((moves > 0.0).sum()), float(moves.max(initial=0.0))
+    mean = float(moves[moves > 0.0].mean()) if touched else 0.0
+    who = "all vertices" if touched == len(moves) else f"{touched} of {len(moves)} vertices"
+    how = f"by {length(mean, unit)} on average, {length(farthest, unit)} at most"
+    console.note(f"moved      {who}, {how}" if touched else "moved      no vertex")
     seconds = time.perf_counter() - begin
     moved, stale = mesh.moved(positions)
-    more: dict[str, Any] = {"moved": far}
+    more: dict[str, Any] = {"moved": {"vertices": touched, "mean": mean, "farthest": farthest}}
     if args.look:
         seen = look(mesh, moved)
         console.note(f"looks      {seen.distance:.2g} from the input (nobody can tell them apart at 1)")
@@ -180,29 +172,20 @@ def _denoise_sequence(
     count = 0
     writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=args.may_replace(args.output))
     with writer as write, console.progress("denoising", "frames") as progress:
-        for frame in denoiser(_counted(chain([first], source.frames), source.count, progress)):
+        for frame in denoiser(chain([first], source.frames)):
             write(frame)
             count += 1
+            if source.count:
+                progress(count, source.count)
             if count == 1:
-                _tell(console, denoiser.choice, args, mean_edge_length(first, source.faces))
+                for line in _found(denoiser.choice, args.goal, mean_edge_length(first, source.faces)):
+                    console.note(line)
     seconds = time.perf_counter() - begin
     console.note(
         f"{args.input}: {count} frames of {len(first)} vertices -> {args.output}, "
         f"{seconds:.2f} s, {1e3 * seconds / count:.0f} ms a frame"
     )
     return _result((len(first), len(source.faces), count), seconds, denoiser.choice, options)
-
-
-def _counted(frames: Iterator[Positions], total: int, progress: Progress) -> Iterator[Positions]:
-    for number, frame in enumerate(frames, start=1):
-        yield frame
-        if total:
-            progress(number, total)
-
-
-def _tell(console: Console, choice: AutomaticChoice | None, args: DenoiseJob, edge: float, unit: str = "") -> None:
-    for line in _found(choice, args.goal, edge, unit):
-        console.note(line)
 
 
 def _result(
@@ -212,7 +195,7 @@ def _result(
     return {**dict(zip(("vertices", "faces", "frames"), shape, strict=True)), "seconds": seconds, **chosen}
 
 
-def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str) -> list[str]:
+def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "") -> list[str]:
     """Lines on the noise, and on what was done about it; none where nothing was chosen."""
     if choice is None:
         return []
@@ -235,37 +218,16 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str) ->
     if goal == "shape":
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
     elif choice.kind != "unsteady":
-        line += (
-            f"; normals about {choice.untreated:.0f} -> {choice.expected:.0f} degrees off, more where there is detail"
-        )
+        line += f"; normals about {choice.untreated:.0f} -> {choice.expected:.0f} degrees off, more in detail"
     lines.append(line)
     for step, times in Counter(choice.steps).items():
         share = times / len(choice.steps) * (1.0 - choice.learnt)
         if share > 0.0:
-            lines.append(f"chosen     {100.0 * share:.0f} % {_described(step)}")
+            recipe = step.recipe
+            coarse = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
+            begun = coarse if recipe.needs_coarse else "no hand-over"
+            way = f"{step.iterations} iterations of the {_GUIDES[recipe.guide]} normal filter"
+            lines.append(f"chosen     {100.0 * share:.0f} % {begun}; {way}, sigma_r {recipe.sigma_r:g}")
     if choice.learnt > 0.0:
         lines.append(f"chosen     {100.0 * choice.learnt:.0f} % learnt normals")
     return lines
-
-
-def _moved(before: Positions, after: Positions) -> dict[str, float]:
-    """How many vertices moved, and how far: the mean over those, and the farthest."""
-    far = np.linalg.norm(after - before, axis=1)
-    touched = far > 0.0
-    mean = float(far[touched].mean()) if touched.any() else 0.0
-    return {"vertices": int(touched.sum()), "mean": mean, "farthest": float(far.max(initial=0.0))}
-
-
-def _moved_line(facts: dict[str, float], vertices: int, unit: str) -> str:
-    if not facts["vertices"]:
-        return "moved      no vertex"
-    who = "all vertices" if facts["vertices"] == vertices else f"{facts['vertices']:.0f} of {vertices} vertices"
-    return f"moved      {who}, by {length(facts['mean'], unit)} on average, {length(facts['farthest'], unit)} at most"
-
-
-def _described(step: Step) -> str:
-    recipe = step.recipe
-    guides = {"patches": "guided", "own": "bilateral", "local": "local bilateral"}
-    coarse = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
-    begun, guide = coarse if recipe.needs_coarse else "no hand-over", guides[recipe.guide]
-    return f"{begun}; {step.iterations} iterations of the {guide} normal filter, sigma_r {recipe.sigma_r:g}"

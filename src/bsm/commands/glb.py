@@ -1,11 +1,11 @@
 """bsm glb: a scene of glTF with its geometry coded, or one of a sequence."""
 
 import argparse
+from functools import partial
 from pathlib import Path
-from typing import Any
 
+from bsm.api import encode
 from bsm.bitstream.errors import OptionError
-from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
 from bsm.files.output import write_output
 from bsm.files.pipes import read_bytes
@@ -20,40 +20,21 @@ PRESETS = ("balanced", "fine", "near-lossless", "grid14")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add(
-        "input",
-        metavar="SCENE",
-        help=".glb, or .gltf with the files beside it; or the stream of a sequence, which becomes a scene as it is",
-    )
+    scene = ".glb, or .gltf with the files beside it; or the stream of a sequence, which becomes a scene as it is"
+    add("input", metavar="SCENE", help=scene)
     add("-o", "--output", metavar="OUT.glb", required=True, help="the smaller scene")
-    add(
-        "--preset",
-        choices=PRESETS,
-        default=PRESETS[-1],
-        help="what is promised of each mesh (default: grid14, positions as exact as Draco's of 14 bits)",
-    )
-    add(
-        "--quick",
-        action=argparse.BooleanOptionalAction,
-        help="grids alone, which pages decode with a small decoder, several times as fast "
-        f"(default: in scenes of {MANY} primitives and more)",
-    )
-    add(
-        "--fallback",
-        action="store_true",
-        help="write OUT.fallback.bin, too, with plain arrays: viewers that do not know the extension show these",
-    )
-    add(
-        "--images",
-        metavar="RULE",
-        help="write images smaller with Pillow: webp, webp:85 for a quality, webp:85@1024 for a largest side, too; "
-        "jpeg and png as well",
-    )
+    promised = "what is promised of each mesh (default: grid14, positions as exact as Draco's of 14 bits)"
+    add("--preset", choices=PRESETS, default=PRESETS[-1], help=promised)
+    quick = "grids alone, which pages decode with a small decoder, several times as fast "
+    quick += f"(default: in scenes of {MANY} primitives and more)"
+    add("--quick", action=argparse.BooleanOptionalAction, help=quick)
+    plain = "write OUT.fallback.bin, too, with plain arrays: viewers that do not know the extension show these"
+    add("--fallback", action="store_true", help=plain)
+    images = "write images smaller with Pillow: webp, jpeg, png, webp:85 for a quality, webp:85@1024 for a largest side"
+    add("--images", metavar="RULE", help=images)
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    import bsm
-
     rule = ImageRule.parse(args.images) if args.images else None
     if Path(args.output).suffix.lower() != ".glb":
         raise OptionError(f"the output is a .glb, not {args.output}")
@@ -67,11 +48,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         return
     document = read_document(args.input)
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
-    keywords: dict[str, Any] = {"preset": args.preset, "quick": quick}
-
-    def coder(mesh: TriangleMesh, *, attributes: dict[str, str]) -> bytes:
-        return bsm.encode(mesh, attributes=attributes, **keywords)
-
+    coder = partial(encode, preset=args.preset, quick=quick)
     beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
     with console.progress("encoding", "primitives") as progress:
         found = compress(document, coder, rule, beside.name if beside else None, progress)

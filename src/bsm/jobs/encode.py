@@ -56,18 +56,14 @@ class EncodeJob(Task):
 def encode_one(job: EncodeJob, console: Console) -> Facts:
     for path in filter(None, (job.output, job.permutation)):
         refuse_to_overwrite(path, job.may_replace(path))
-    sequence = _sequence_of(job)
-    return _encode_mesh(job, console) if sequence is None else _encode_sequence(job, console, sequence)
-
-
-def _sequence_of(job: EncodeJob) -> Frames | None:
-    """The sequence that a job's input is; None: it is perhaps a mesh."""
     runs = bool(job.options.get("runs"))
     if job.members:
-        return open_frames(job.members, job.format, job.reader, runs=runs)
+        return _encode_sequence(job, console, open_frames(job.members, job.format, job.reader, runs=runs))
     asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
-    return open_sequence(job.input, job.format, job.reader, None if all(one is None for one in asked) else wanted)
+    plain = all(one is None for one in asked)
+    sequence = open_sequence(job.input, job.format, job.reader, None if plain else wanted)
+    return _encode_sequence(job, console, sequence) if sequence else _encode_mesh(job, console)
 
 
 def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
@@ -110,11 +106,11 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         f"diagonal, normals {error.angle_deg:.2f} degrees, "
         f"{error.nmsve_db:.2f} dB; {seconds:.2f} s",
     )
-    counts = {"input": job.input, "output": job.output, "vertices": vertices, "faces": faces}
+    counts = {"vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpv_total": bpv}
     angles = {"theta_deg": error.theta_deg, "angle_deg": error.angle_deg, "nmsve_db": finite(error.nmsve_db)}
     ends = {"max_error_relative": error.max_error_relative, "seconds": seconds, "notes": notes}
-    return {**counts, **sizes, **angles, **ends}
+    return {"input": job.input, "output": job.output, **counts, **sizes, **angles, **ends}
 
 
 def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
