@@ -48,17 +48,14 @@ class Solver:
     whole: bool = False  # it finds all of them, however many are asked for
 
 
-def _arpack(laplacian: Matrix, width: int) -> Matrix:
-    start = hash_columns(len(laplacian), 1)[:, 0]
-    vectors: Matrix = eigsh(csc_matrix(laplacian), width, sigma=-SHIFT, which="LM", v0=start)[1]
-    return vectors
-
-
 EXACT = (
     Solver("numpy svd, full", lambda a, c: np.linalg.svd(a)[0][:, ::-1][:, :c], whole=True),
     Solver("numpy eigh", lambda a, c: np.linalg.eigh(a)[1][:, :c], whole=True),
     Solver("scipy eigh, evr, subset", lambda a, c: scipy.linalg.eigh(a, subset_by_index=[0, c - 1])[1]),
-    Solver("ARPACK, shift-invert", _arpack),
+    Solver(
+        "ARPACK, shift-invert",
+        lambda a, c: eigsh(csc_matrix(a), c, sigma=-SHIFT, which="LM", v0=hash_columns(len(a), 1)[:, 0])[1],
+    ),
 )
 
 

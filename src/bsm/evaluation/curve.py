@@ -66,7 +66,9 @@ def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits:
     points = np.asarray(numbered.points, dtype=np.float64)
     if len(np.unique(original)) != len(mesh.positions):
         raise MeshError("Draco dropped vertices; remove those that no face with area uses")
-    if not np.array_equal(_canonical(original[numbered.faces]), _canonical(_with_three_corners(mesh.faces))):
+    a, b, c = mesh.faces.T
+    cornered = mesh.faces[(a != b) & (b != c) & (c != a)]
+    if not np.array_equal(_canonical(original[numbered.faces]), _canonical(cornered)):
         raise MeshError("Draco's numbered faces are not those of the original")
     _, identity = np.unique(np.concatenate([points, decoded.positions]), axis=0, return_inverse=True)
     first, second = identity[: len(points)], identity[len(points) :]
@@ -75,12 +77,6 @@ def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits:
     positions = np.empty_like(mesh.positions)
     positions[original] = points
     return positions
-
-
-def _with_three_corners(faces: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
-    a, b, c = faces.T
-    kept: npt.NDArray[np.int32] = faces[(a != b) & (b != c) & (c != a)]
-    return kept
 
 
 def _canonical(faces: npt.NDArray[np.integer]) -> Triangles:
@@ -114,9 +110,7 @@ class Codec(Protocol):
     def encode(self, mesh: TriangleMesh) -> tuple[bytes, Align]:
         """A whole file of a mesh all of whose vertices are in faces."""
 
-    def decode(self, data: bytes) -> TriangleMesh:
-        """The mesh of a file, vertices in the file's order."""
-
+    def decode(self, data: bytes) -> TriangleMesh: ...
     def parts(self, data: bytes) -> dict[str, Any]:
         """Bytes of each of `PARTS`, and `bpv_paper`, as far as the format tells."""
 
@@ -270,11 +264,7 @@ def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int
 
 
 def run_curve(
-    curve: Curve,
-    mesh: TriangleMesh,
-    name: str,
-    repeats: int = 1,
-    progress: Callable[[int, int], None] = lambda done, count: None,
+    curve: Curve, mesh: TriangleMesh, name: str, repeats: int = 1, progress: Callable[[int, int], None] | None = None
 ) -> Result:
     mesh = mesh.without_isolated_vertices()[0]
     reference = Reference(mesh.positions, mesh.faces)
@@ -284,7 +274,8 @@ def run_curve(
     points = []
     for codec in curve.codecs:
         points.append(measure(codec, mesh, reference, repeats))
-        progress(len(points), len(curve.codecs))
+        if progress:
+            progress(len(points), len(curve.codecs))
     facts = {"name": name, "vertices": len(mesh.positions), "faces": len(mesh.faces)}
     return {"schema": SCHEMA, "codec": curve.name, "label": curve.label, "mesh": facts, "points": points}
 
@@ -293,9 +284,8 @@ def write_result(result: Result, folder: Path) -> Path:
     """Write ``<mesh>.<codec>.json``, or ``<name>-sequence.json``."""
     folder.mkdir(parents=True, exist_ok=True)
     mesh = result.get("mesh")
-    path = folder / (
-        f"{mesh['name']}.{result['codec']}.json" if mesh else f"{result['sequence']['name']}-sequence.json"
-    )
+    name = f"{mesh['name']}.{result['codec']}" if mesh else f"{result['sequence']['name']}-sequence"
+    path = folder / f"{name}.json"
     write_output(path, json.dumps(result, indent=1, allow_nan=False).encode(), overwrite=True)
     return path
 

@@ -88,13 +88,9 @@ def draw_all(results: Iterable[Result], folder: Path) -> list[Path]:
         # SVD in the paper's mode stands for the paper among whole files.
         shown = [*rest, *(r for r in paper if r["codec"] in ("svd", "oi-r2"))] if rest else []
         for measure, label in MEASURES.items() if shown else ():
-            lines = {
-                f"{r['label']}  (decoded in {time_range(r)})": [
-                    (p["bpv_total"], p[measure]) for p in points_of(r["points"], measure)
-                ]
-                for r in shown
-            }
-            stem = folder / f"{mesh}.{measure.split('_')[0]}"
+            labels = [f"{r['label']}  (decoded in {time_range(r)})" for r in shown]
+            points = [[(p["bpv_total"], p[measure]) for p in points_of(r["points"], measure)] for r in shown]
+            lines, stem = dict(zip(labels, points)), folder / f"{mesh}.{measure.split('_')[0]}"
             written += draw_rates(lines, "bits per vertex, whole file", label, title_of(shown[0]), stem)
     return written
 

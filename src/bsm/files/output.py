@@ -192,15 +192,11 @@ def termination_as_exception() -> Iterator[None]:
 def default_output(path: str, suffix: str) -> str:
     if path == "-":
         return "-"
-    if is_url(path):
-        url = beside(path, _with_suffix(path, suffix).name)
-        if url == path:
-            raise OptionError(f"the output would replace the input {path}; name another with -o")
-        return url
     output = _with_suffix(path, suffix)
-    if output == Path(path):
+    found = beside(path, output.name) if is_url(path) else str(output)
+    if found == path or (not is_url(path) and output == Path(path)):
         raise OptionError(f"the output would replace the input {path}; name another with -o")
-    return str(output)
+    return found
 
 
 def output_inside(folder: str, path: str, suffix: str) -> str:

@@ -12,9 +12,8 @@ import tempfile
 import urllib.parse
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO, TypeAlias, Union, cast
+from typing import Any, BinaryIO, NamedTuple, TypeAlias, Union, cast
 
 from bsm.bitstream.errors import (
     ArgumentError,
@@ -25,14 +24,14 @@ from bsm.bitstream.errors import (
     OptionError,
     TruncatedError,
 )
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.extras import imported
 
 _URL = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+)(?:::|://)")
 _PIECE, _IN_MEMORY = 1 << 20, 1 << 26
 """Bytes that are sent at a time, and those that wait in memory and not on the disk."""
 _LONGEST_NAME = 1024  # of a file beside another: resolving takes the square of it
 _WEB = ("http", "https")
-_VERSIONS = (
+_VERSIONS = [
     "ETag",
     "etag",
     "Last-Modified",
@@ -42,12 +41,11 @@ _VERSIONS = (
     "updated",
     "created",
     "checksum",
-)
+]
 """What file systems call what changes with a file."""
 
 
-@dataclass(frozen=True)
-class RemoteState:
+class RemoteState(NamedTuple):
     """What tells whether a file is still the same."""
 
     size: int | None
@@ -212,15 +210,11 @@ def _path(url: str) -> str:
 def _system(url: str) -> tuple[Any, str]:
     """The file system of fsspec behind a URL, and the path there."""
     scheme = _scheme(url)
-    try:
-        import fsspec
-        from fsspec.registry import known_implementations
-    except ImportError as error:
-        raise DependencyError(f"{scheme}:// needs fsspec: {how_to_install('remote')}") from error
+    fsspec = imported("fsspec", f"{scheme}:// needs fsspec", "remote")
     try:
         return cast("tuple[Any, str]", fsspec.url_to_fs(url))
     except ImportError as error:
-        known = known_implementations.get(scheme, {})
+        known = fsspec.registry.known_implementations.get(scheme, {})
         package = known.get("class", "fsspec.").partition(".")[0]
         if package == "fsspec":
             package = f"fsspec[{'http' if scheme in _WEB else scheme}]"
@@ -312,9 +306,13 @@ class Input:
         if self._file is None:
             if os.path.isdir(self.name):
                 raise FormatError("this is a folder, not a file")
-            self._opened = self.name != "-"
-            # Closed at its end, or where `chunks` ends.
-            self._file = _opened(self.name) if self._opened else standard_input()
+            self._opened = self.name != "-"  # closed at its end, or where `chunks` ends
+            if self._opened:
+                self._file = open_remote(self.name) if is_url(self.name) else open(self.name, "rb")  # noqa: SIM115
+            elif sys.stdin is None:
+                raise OSError(errno.EBADF, "standard input is closed")
+            else:
+                self._file = sys.stdin.buffer
         read = getattr(self._file, "read1", self._file.read)
         piece = read(_CHUNK)
         if isinstance(piece, str):
@@ -330,10 +328,6 @@ class Input:
         if self._opened and self._file is not None:
             self._file.close()
             self._file, self._opened = io.BytesIO(), False
-
-
-def _opened(name: str) -> BinaryIO:
-    return open_remote(name) if is_url(name) else open(name, "rb")
 
 
 def as_input(source: Source) -> Input:
@@ -372,12 +366,6 @@ def read_range(name: str, first: int, size: int) -> bytes:
     if len(data) != size:
         raise TruncatedError(f"{name}: there are {len(data)} bytes of {size} from byte {first} on")
     return data
-
-
-def standard_input() -> BinaryIO:
-    if sys.stdin is None:
-        raise OSError(errno.EBADF, "standard input is closed")
-    return sys.stdin.buffer
 
 
 def standard_output() -> BinaryIO:

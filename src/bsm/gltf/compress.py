@@ -39,7 +39,7 @@ from bsm.gltf.document import (
 )
 
 _TRIANGLES = 4
-_FLOAT, _UBYTE = COMPONENTS["float32"], COMPONENTS["uint8"]
+_FLOAT, _UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
 _SEMANTICS: dict[str, tuple[Semantic, int]] = {
     "NORMAL": ("normal", 3),
     "TEXCOORD_0": ("texcoord", 2),
@@ -48,13 +48,8 @@ _SEMANTICS: dict[str, tuple[Semantic, int]] = {
 _LARGEST = {np.dtype(np.uint8): 255, np.dtype(np.uint16): 65535}
 _PIECE = "material"  # the attribute of faces by which decoders sort them
 _GRID = 2.0**-15  # how far targets may move vertices wrongly, of the mesh's largest extent: as a grid of 14 bits
-_QUALITIES = {
-    "NORMAL": "10bits",
-    "TANGENT": "9bits",
-    "TEXCOORD_0": "12bits",
-    "TEXCOORD_1": "12bits",
-    "COLOR_0": "8bits",
-}
+_QUALITIES = {"NORMAL": "10bits", "TANGENT": "9bits", "COLOR_0": "8bits"}
+_QUALITIES |= dict.fromkeys(("TEXCOORD_0", "TEXCOORD_1"), "12bits")
 _TURN = "0.002"  # of what targets add to directions: a tenth of a degree
 
 
@@ -186,20 +181,14 @@ def _carried(name: str, array: npt.NDArray[Any], normalized: bool) -> tuple[Attr
         if is_float and (array.min() < 0 or array.max() > 1):
             return None
         return Attribute(name, array, "vertex", "color"), _FLOAT, False
-    if name == "WEIGHTS_0":
-        weights = _eighths(array / np.float64(1 if is_float else _LARGEST.get(array.dtype, 1)))
-        return Attribute(name, weights), _UBYTE, True
+    if name == "WEIGHTS_0":  # as bytes whose sum is 255, as that of the weights is 1
+        weights = array / np.float64(1 if is_float else _LARGEST.get(array.dtype, 1))
+        levels = np.floor(weights / np.maximum(weights.sum(axis=1, keepdims=True), 1e-9) * 255)
+        levels[np.arange(len(levels)), weights.argmax(axis=1)] += 255 - levels.sum(axis=1)
+        return Attribute(name, np.clip(levels, 0, 255).astype(np.uint8)), COMPONENTS["uint8"], True
     if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes
         return None
     return Attribute(name, array), COMPONENTS[array.dtype.name], normalized and not is_float
-
-
-def _eighths(weights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
-    """Weights as bytes whose sum is 255, as that of the weights is 1."""
-    levels = np.floor(weights / np.maximum(weights.sum(axis=1, keepdims=True), 1e-9) * 255)
-    levels[np.arange(len(levels)), weights.argmax(axis=1)] += 255 - levels.sum(axis=1)
-    rounded: npt.NDArray[np.uint8] = np.clip(levels, 0, 255).astype(np.uint8)
-    return rounded
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,14 +198,6 @@ class Drawn:
     index: npt.NDArray[np.uint32]
     arrays: dict[str, npt.NDArray[Any]]
     labels: npt.NDArray[np.integer[Any]]
-
-    @property
-    def vertices(self) -> int:
-        return len(self.arrays["POSITION"])
-
-    @property
-    def corners(self) -> int:
-        return len(self.index)
 
     @property
     def pieces(self) -> list[tuple[int, int]]:
@@ -331,7 +312,6 @@ def that_share(bundles: list[Bundle], users: dict[int, set[int]]) -> list[list[i
 
 
 _COMPRESSED = {EXTENSION, "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
-_UINT, _FLOAT = COMPONENTS["uint32"], COMPONENTS["float32"]
 _TYPES = {width: name for name, width in VECTORS.items()}
 _MOST, _WHOLE = float(np.finfo(np.float32).max), 2**24
 
@@ -346,6 +326,12 @@ class Compressed:
     fallback: bytes = b""
 
 
+@as_format_error()
+def count_primitives(document: Document) -> int:
+    return len(list(document.primitives()))
+
+
+@as_format_error()
 def compress(
     document: Document,
     coder: Coder,
@@ -354,30 +340,14 @@ def compress(
     progress: Callable[[int, int], None] | None = None,
 ) -> Compressed:
     """Code each primitive of triangles where that makes the scene smaller."""
-    with as_format_error():
-        for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
-            raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
-        return _compressed(document, coder, images, fallback, progress)
-
-
-def count_primitives(document: Document) -> int:
-    with as_format_error():
-        return len(_primitives(document.tree))
-
-
-def _compressed(
-    document: Document,
-    coder: Coder,
-    images: ImageRule | None,
-    fallback: str | None,
-    progress: Callable[[int, int], None] | None,
-) -> Compressed:
+    for name in _COMPRESSED & set(document.tree.get("extensionsUsed", [])):
+        raise FormatError(f"its geometry is compressed already, by {name}; start from the scene before that")
     scene = _Scene(document, fallback)
     left: Counter[str] = Counter()
     done = 0
     bundles = bundles_of(document, scene.tree)
     users = users_of(bundles, document.tree)
-    begun, total = 0, len(_primitives(document.tree))
+    begun, total = 0, count_primitives(document)
     for together in that_share(bundles, users):
         if progress:
             progress(begun, total)
@@ -400,10 +370,6 @@ def _compressed(
     if images:
         scene.rewrite_images(images)
     return Compressed(scene.finished(), done, dict(left), b"".join(scene.plain) if fallback else b"")
-
-
-def _primitives(tree: Tree) -> list[Tree]:
-    return [primitive for mesh in tree.get("meshes", []) for primitive in mesh["primitives"]]
 
 
 def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
@@ -487,13 +453,8 @@ class _Scene:
     @staticmethod
     def _accessor(view: int, name: str, array: npt.NDArray[Any], one: BundleStream) -> Tree:
         component, normalized = one.accessors[name]
-        accessor: Tree = {
-            "bufferView": view,
-            "componentType": component,
-            "count": len(array),
-            "type": _TYPES[array.shape[1]],
-        }
-        accessor |= {"normalized": True} if normalized else {}
+        accessor: Tree = {"bufferView": view, "componentType": component, "count": len(array)}
+        accessor |= {"type": _TYPES[array.shape[1]], **({"normalized": True} if normalized else {})}
         return accessor | (bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {})
 
     @staticmethod
@@ -544,9 +505,9 @@ class _Scene:
                 kind = "image/png" if data.startswith(b"\x89PNG") else "image/jpeg"
                 image.pop("uri")
                 image |= {"mimeType": image.get("mimeType", kind), "bufferView": self._add_bytes(data)}
-        _drop_unused(tree, "accessors", lambda node, key: key in _REFERENCES["accessors"])
+        _drop_unused(tree, "accessors")
         self._trim()
-        kept = _drop_unused(tree, "bufferViews", lambda node, key: key in _REFERENCES["bufferViews"])
+        kept = _drop_unused(tree, "bufferViews")
         parts: list[bytes] = []
         at = 0
         virtual = False
@@ -572,7 +533,7 @@ class _Scene:
         for accessor in self.tree.get("accessors", []):
             if is_plain(accessor):
                 readers.setdefault(accessor["bufferView"], []).append(accessor)
-        references = Counter(_references(self.tree))
+        references = Counter(node[key] for node, key in _references(self.tree, "bufferViews"))
         for number, accessors in readers.items():
             view = self.tree["bufferViews"][number]
             if number in self._fresh or view.get("extensions") or references[number] > len(accessors):
@@ -604,16 +565,25 @@ def _used(data: bytes, spans: list[tuple[int, int]]) -> tuple[bytes, list[int]] 
     return (bytes(kept), starts) if len(kept) < len(data) else None
 
 
-def _references(node: Any) -> Iterator[int]:
+_REFERENCES = {
+    "accessors": ("indices", "input", "output", "inverseBindMatrices"),
+    "bufferViews": ("bufferView", "stream"),
+}
+
+
+def _references(node: Any, kind: str, inside: str = "") -> Iterator[tuple[Any, Any]]:
+    """Where in a tree, or what is `inside` of it, entries of a kind are referred to."""
     if isinstance(node, list):
         for item in node:
-            yield from _references(item)
+            yield from _references(item, kind, inside)
     elif isinstance(node, dict):
         for key, value in node.items():
-            if key in _REFERENCES["bufferViews"] and isinstance(value, int):
-                yield value
-            else:
-                yield from _references(value)
+            if not isinstance(value, int) or isinstance(value, bool):
+                yield from _references(value, kind, key)
+                continue
+            named = key in _REFERENCES[kind] and not (kind == "accessors" and inside == "sparse")
+            if named or (kind == "accessors" and inside in ("attributes", "targets")):
+                yield node, key
 
 
 def _short(node: Any) -> Any:
@@ -627,30 +597,11 @@ def _short(node: Any) -> Any:
     return int(node) if node.is_integer() and abs(node) < _WHOLE else float(str(np.float32(node)))
 
 
-_REFERENCES = {
-    "accessors": ("indices", "input", "output", "inverseBindMatrices"),
-    "bufferViews": ("bufferView", "stream"),
-}
-
-
-def _drop_unused(tree: Tree, kind: str, refers: Any) -> list[int]:
+def _drop_unused(tree: Tree, kind: str) -> list[int]:
     """Drop the entries of a kind that nothing refers to, and number the others anew; which these were."""
-    places: list[tuple[Any, Any]] = []
-
-    def look(node: Any, inside: str) -> None:
-        if isinstance(node, list):
-            for item in node:
-                look(item, inside)
-        elif isinstance(node, dict):
-            for key, value in node.items():
-                if isinstance(value, int) and not isinstance(value, bool):
-                    named = refers(node, key) and not (kind == "accessors" and inside == "sparse")
-                    if named or (kind == "accessors" and inside in ("attributes", "targets")):
-                        places.append((node, key))
-                else:
-                    look(value, key)
-
-    look({name: value for name, value in tree.items() if kind != "accessors" or name != "accessors"}, "")
+    places = list(
+        _references({name: value for name, value in tree.items() if name != kind or kind != "accessors"}, kind)
+    )
     kept = sorted({node[key] for node, key in places})
     numbers = {old: new for new, old in enumerate(kept)}
     for node, key in places:

@@ -1,6 +1,5 @@
 """The scene of a glTF that moves: curves, nodes, skins and morph targets, at any time of an animation."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -8,7 +7,6 @@ import numpy as np
 
 from bsm.bitstream.errors import FormatError, LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.arrays import Positions
 from bsm.codec.geometry.welding import row_numbers
 from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.formats.polygons import (
@@ -50,37 +48,21 @@ class Curve:
         before, after = max(after - 1, 0), min(after, len(self.times) - 1)
         span = float(self.times[after] - self.times[before])
         part = min(max((time - float(self.times[before])) / span, 0.0), 1.0) if span > 0 else 0.0
-        if self.way == "CUBICSPLINE":
-            value = self._spline(before, after, part, span)
-            return value / (float(np.linalg.norm(value)) or 1.0) if self.turns else value
         one: Doubles = self.values[before]
         two: Doubles = self.values[after]
-        if self.way == "STEP" or part == 0.0:
+        if self.way == "CUBICSPLINE":
+            keys = self.values.reshape(len(self.times), 3, -1)
+            square, cube = part * part, part * part * part
+            mixed: Doubles = (2 * cube - 3 * square + 1) * keys[before, 1] + (3 * square - 2 * cube) * keys[after, 1]
+            mixed += span * ((cube - 2 * square + part) * keys[before, 2] + (cube - square) * keys[after, 0])
+        elif self.way == "STEP" or part == 0.0:
             return one
-        return _turned(one, two, part) if self.turns else one + part * (two - one)
-
-    def _spline(self, before: int, after: int, part: float, span: float) -> Doubles:
-        keys = self.values.reshape(len(self.times), 3, -1)
-        square, cube = part * part, part * part * part
-        found: Doubles = (
-            (2 * cube - 3 * square + 1) * keys[before, 1]
-            + (cube - 2 * square + part) * span * keys[before, 2]
-            + (3 * square - 2 * cube) * keys[after, 1]
-            + (cube - square) * span * keys[after, 0]
-        )
-        return found
-
-
-def _turned(one: Doubles, two: Doubles, part: float) -> Doubles:
-    """Between two quaternions, along the shorter arc."""
-    cosine = float(one @ two)
-    two, cosine = (-two, -cosine) if cosine < 0 else (two, cosine)
-    if cosine > 1 - 1e-9:
-        mixed: Doubles = one + part * (two - one)
-    else:
-        angle = float(np.arccos(min(cosine, 1.0)))
-        mixed = (np.sin((1 - part) * angle) * one + np.sin(part * angle) * two) / np.sin(angle)
-    return mixed / (float(np.linalg.norm(mixed)) or 1.0)
+        elif not self.turns or abs(cosine := float(one @ two)) > 1 - 1e-9:
+            mixed = one + part * ((-two if self.turns and cosine < 0 else two) - one)
+        else:  # between two quaternions, along the shorter arc
+            angle = float(np.arccos(abs(cosine)))
+            mixed = np.sin((1 - part) * angle) * one + np.sign(cosine) * np.sin(part * angle) * two
+        return mixed / (float(np.linalg.norm(mixed)) or 1.0) if self.turns else mixed
 
 
 def matrix_of(translation: Array, rotation: Array, scale: Array) -> Doubles:
@@ -424,19 +406,14 @@ def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Fr
     times = keys[0] + np.arange(count) / rate
     still = _still(scene, document, float(times[0]), limits)
 
-    def positions() -> Iterator[Positions]:
-        for time in times:
-            yield scene.at(float(time))
-
     others = len(document.items("animations")) - 1
     called = str(animation.get("name") or number)
     notes = [f"animation {called}, {count} frames at {rate:g} per second", *scene.notes, *still.notes]
     notes += [f"{others} other {'animation was' if others == 1 else 'animations were'} left out"] if others else []
-    notes += (
-        ["left out, for they move: normals"] if any("NORMAL" in p["attributes"] for p in document.primitives()) else []
-    )
+    moving = any("NORMAL" in primitive["attributes"] for primitive in document.primitives())
+    notes += ["left out, for they move: normals"] if moving else []
     mesh = still.mesh
-    frames = checked_frames(path, positions(), len(mesh.positions))
+    frames = checked_frames(path, map(scene.at, times.tolist()), len(mesh.positions))
     return Frames(mesh.faces, count, frames, mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata)
 
 

@@ -298,7 +298,7 @@ def moving_scene(stream: bytes) -> bytes:
     places: dict[str, int] = {}
     room = 0
     for name, (component, width) in kinds.items():
-        count = shape.corners if name == "indices" else shape.vertices
+        count = len(shape.index if name == "indices" else shape.arrays["POSITION"])
         room = max(room, size := 4 * width * count)
         view: Tree = {"buffer": 1, "byteLength": size, "extensions": {EXTENSION: {"stream": source, "attribute": name}}}
         accessor = {"bufferView": scene.add("bufferViews", view), "componentType": component, "count": count}

@@ -293,13 +293,11 @@ class _Handler(BaseHTTPRequestHandler):
             self.end_headers()
             with suppress(ConnectionError):  # the page is closed
                 for piece in [data] if isinstance(data, bytes) else data.chunks():
-                    if not piece and self._is_alone():
+                    # The page has gone; it says nothing more while it is there.
+                    gone = not piece and select.select([self.connection], [], [], 0)[0]
+                    if gone and not self.connection.recv(1, socket.MSG_PEEK):
                         return
                     self.wfile.write(piece)
-
-    def _is_alone(self) -> bool:
-        """Whether the page has gone; it says nothing more while it is there."""
-        return bool(select.select([self.connection], [], [], 0)[0]) and not self.connection.recv(1, socket.MSG_PEEK)
 
     def log_message(self, format: str, *args: object) -> None:
         """Say nothing of requests."""
