@@ -20,7 +20,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import mnd, theta
 from bsm.codec.threads import available_threads
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
-from bsm.files.formats.npz import npz_frames, npz_shape
+from bsm.files.formats.npz import npz_frames, shape_of
 from bsm.files.mesh import read_mesh, write_mesh
 from tests.bsm import program
 from tests.shapes import torus
@@ -175,20 +175,20 @@ def test_no_more_than_a_few_frames_are_held():
 
 def test_frames_of_an_npz_are_read_one_by_one(frames, tmp_path):
     np.savez(tmp_path / "a.npz", positions=frames, faces=CLEAN.faces)
-    assert npz_shape(tmp_path / "a.npz") == frames.shape
+    assert shape_of(tmp_path / "a.npz", "positions")[0] == frames.shape
     assert all((read == frame).all() for read, frame in zip(npz_frames(tmp_path / "a.npz"), frames, strict=True))
 
 
 def test_npz_files_that_are_none_are_refused(tmp_path):
     (tmp_path / "text.npz").write_bytes(b"PK\x03\x04 and no more")
     with pytest.raises(FormatError):
-        npz_shape(tmp_path / "text.npz")
+        shape_of(tmp_path / "text.npz", "positions")
     np.savez(tmp_path / "other.npz", points=np.zeros(3))
     with pytest.raises(FormatError, match="positions"):
-        npz_shape(tmp_path / "other.npz")
+        shape_of(tmp_path / "other.npz", "positions")
     np.savez(tmp_path / "words.npz", positions=np.array(["a"]))
     with pytest.raises(MeshError, match="numbers"):
-        npz_shape(tmp_path / "words.npz")
+        shape_of(tmp_path / "words.npz", "positions")
     np.savez(tmp_path / "short.npz", positions=np.zeros((2, 3, 3)))
     data = (tmp_path / "short.npz").read_bytes().replace(b"(2, 3, 3)", b"(9, 3, 3)")
     (tmp_path / "short.npz").write_bytes(data)

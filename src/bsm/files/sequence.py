@@ -48,11 +48,15 @@ def open_sequence(
         return read_files(frame_files(given.name), file_format, reader, limits, runs=runs)
     kind = file_format or Path(given.name).suffix[1:].lower()
     if kind == "abc":
-        raise UnsupportedError(
-            "Alembic is not read here: open it in Blender and export it as USD, or with the extension for BSM"
-        )
+        raise UnsupportedError("Alembic is not read here: export it from Blender as USD, or with the extension for BSM")
     if kind in (*CACHES, *USD_FORMATS) or (kind in GLTF and wanted is not None):
-        return _of_file(given.name, kind, reader, wanted or Wanted(), limits) if given.is_file else None
+        if not given.is_file:
+            return None
+        if kind in CACHES:
+            return read_cache(given.name, kind, reader, wanted or Wanted(), limits)
+        room = ("bsm.gltf.scene", "read_gltf") if kind in GLTF else ("bsm.files.motion.usd", "read_usd")
+        found: Frames | None = by_name(*room)(given.name, wanted or Wanted(), limits)
+        return found
     if file_format not in (None, "npz", "npy"):
         return None
     head = given.peek(len(NPY))
@@ -73,16 +77,6 @@ def open_frames(
 class FrameWriter(Protocol):
     def __call__(self, frame: Positions, faces: Faces | None = None) -> None:
         """Take a frame, shape (n, 3), and its faces, shape (m, 3), where they are others than before."""
-
-
-def _of_file(path: str, kind: str, reader: str | None, wanted: Wanted, limits: Limits) -> Frames | None:
-    if kind in CACHES:
-        return read_cache(path, kind, reader, wanted, limits)
-    if kind in GLTF:
-        found: Frames | None = by_name("bsm.gltf.scene", "read_gltf")(path, wanted, limits)
-    else:
-        found = by_name("bsm.files.motion.usd", "read_usd")(path, wanted, limits)
-    return found
 
 
 @contextmanager

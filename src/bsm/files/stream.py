@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +25,7 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.pipes import Source, as_input, is_pipe
 
 if TYPE_CHECKING:
+    from bsm.codec.sequence.decoder import SequenceDecoder
     from bsm.codec.static.decoder import Decoder
     from bsm.codec.static.events import AttributeEvent
 
@@ -241,15 +242,7 @@ def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[A
     return replace(part.mesh(), metadata=decoder.metadata)
 
 
-class _Receiver(Protocol):
-    """What the decoders of meshes and sequences have in common."""
-
-    def receive_data(self, data: bytes) -> None: ...
-    def receive_eof(self) -> None: ...
-    def next_event(self) -> Any: ...
-
-
-def events(decoder: _Receiver, chunks: Iterator[bytes]) -> Iterator[Any]:
+def events(decoder: Decoder | SequenceDecoder, chunks: Iterator[bytes]) -> Iterator[Any]:
     """What a decoder says while it is given bytes as it needs them, until the end of the stream."""
     while (event := decoder.next_event()) is not END_OF_STREAM:
         if event is not NEED_DATA:
@@ -328,16 +321,17 @@ class Loops:
     def found(self, tolerance: float = 1e-4) -> tuple[range, int] | None:
         """The frames that repeat, and how many frames before them those are that they repeat."""
         count = len(self._kept)
-        if not 4 <= count <= MOST_FRAMES:
-            return None
-        if len({len(kept) for kept in self._kept}) > 1:
-            return None  # frames of other numbers of vertices
+        if not 4 <= count <= MOST_FRAMES or len({len(kept) for kept in self._kept}) > 1:
+            return None  # or frames of other numbers of vertices
         table, near = np.array(self._kept), tolerance * self._diagonal
         if np.abs(table - table[0]).max() <= near:
             return None
         for period in range(2, count // 2 + 1):
             alike = np.abs(table[period:] - table[:-period]).max(axis=1) <= near
-            start, length = _longest(alike)
+            edges = np.flatnonzero(np.diff(np.concatenate([[0], alike.astype(np.int8), [0]])))
+            runs = [(end - start, -start) for start, end in zip(edges[::2].tolist(), edges[1::2].tolist())]
+            length, start = max(runs, default=(0, 0))  # of the longest ones the first
+            start = -start
             if length >= period and np.abs(table[start : start + period] - table[start]).max() > near:
                 return range(start + period, start + period + length), period
         return None
@@ -349,16 +343,6 @@ class Loops:
         frames, period = found
         first, last = frames.start, frames.stop - 1
         return (f"frames {first} to {last} repeat {first - period} to {first - 1}",)
-
-
-def _longest(alike: npt.NDArray[np.bool_]) -> tuple[int, int]:
-    """Where the longest run of truths begins, and how long it is."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], alike.astype(np.int8), [0]])))
-    starts, ends = edges[::2], edges[1::2]
-    if not len(starts):
-        return 0, 0
-    best = int(np.argmax(ends - starts))
-    return int(starts[best]), int(ends[best] - starts[best])
 
 
 # ------------------------------------------------------------------------------------------------------------ sequences
@@ -423,9 +407,7 @@ class SequenceStream:
         """Number and positions, shape (n, 3), of one frame after the other."""
         for index, positions in self.changing_frames():
             if self.run_starts:
-                raise MeshError(
-                    f"the faces change at frame {index}; only bsm decode and bsm compare take such sequences"
-                )
+                raise MeshError(f"the faces change at frame {index}; only bsm decode and bsm compare take that")
             yield index, positions
 
     def changing_frames(self) -> Iterator[tuple[int, Positions]]:
@@ -447,11 +429,8 @@ class SequenceStream:
                 case LossEvent(_, error, frames):
                     assert self._note is not None
                     first, last = frames.start, frames.stop - 1
-                    if not frames:
-                        what = f"what follows frame {first} is"
-                    else:
-                        what = f"frame {first} is" if first == last else f"frames {first} to {last} are"
-                    self._note(f"{what} lost: {error}")
+                    what = f"frame {first} is" if first == last else f"frames {first} to {last} are"
+                    self._note(f"{what if frames else f'what follows frame {first} is'} lost: {error}")
 
 
 def said_of_runs(starts: Sequence[int]) -> str:

@@ -32,20 +32,10 @@ _MTL_OPTIONS = re.compile(
     r"((?:-[a-z]+(?:\s+(?:on|off|[lrgbmz]|[-+]?[\d.]+(?:e[-+]?\d+)?))+\s+)*)(\S.*)", re.IGNORECASE
 )
 _NAMED_APART = 16  # names that have an entry each; there can be 256 in all
-_TO_GLTF = {
-    "map_Kd": "baseColorTexture",
-    "map_Ke": "emissiveTexture",
-    "Ke": "emissiveFactor",
-    "norm": "normalTexture",
-    "map_Bump": "normalTexture",
-    "Pm": "metallicFactor",
-    "Pr": "roughnessFactor",
-}
+_TO_GLTF = {"map_Kd": "baseColorTexture", "map_Ke": "emissiveTexture", "Ke": "emissiveFactor"}
+_TO_GLTF |= {"norm": "normalTexture", "map_Bump": "normalTexture", "Pm": "metallicFactor", "Pr": "roughnessFactor"}
 GLTF_TEXTURES = ("baseColorTexture", "normalTexture", "emissiveTexture", "occlusionTexture", "metallicRoughnessTexture")
-_GLTF_NUMBERS = {
-    **{"baseColorFactor": 4, "emissiveFactor": 3},
-    **dict.fromkeys(("metallicFactor", "roughnessFactor", "alphaCutoff"), 1),
-}
+_GLTF_NUMBERS = {"baseColorFactor": 4, "emissiveFactor": 3, "metallicFactor": 1, "roughnessFactor": 1, "alphaCutoff": 1}
 _ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
 _TO_MTL = {theirs: ours for ours, theirs in reversed(_TO_GLTF.items())}
 _SIGNATURES = {
@@ -310,23 +300,19 @@ def remarks(metadata: Metadata, written: Iterable[str] = ()) -> tuple[list[str],
     return lines, tuple(left_out)
 
 
-def parse_remarks(lines: Iterable[str]) -> dict[str, str | int | float | bytes]:
-    matches = filter(None, (_REMARK.fullmatch(line.strip()) for line in lines))
-    values = ((match[1], _value(match[2])) for match in matches)
-    return {name: value for name, value in values if value is not None}
-
-
-def _value(text: str) -> str | int | float | None:
-    """What JSON says, if it is a string or a number."""
-    try:
-        value = json.loads(text)
-        if isinstance(value, str):
-            value.encode()  # a half of a surrogate pair is no text
-            return value
-    except (ValueError, RecursionError):
-        return None
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    return value if number and abs(value) < 1 << 63 else None
+def parse_remarks(lines: Iterable[str]) -> dict[str, Value]:
+    found: dict[str, Value] = {}
+    for match in filter(None, (_REMARK.fullmatch(line.strip()) for line in lines)):
+        try:
+            value = json.loads(match[2])
+            if isinstance(value, str):
+                value.encode()  # a half of a surrogate pair is no text
+        except (ValueError, RecursionError):
+            continue
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if isinstance(value, str) or (number and abs(value) < 1 << 63):
+            found[match[1]] = value
+    return found
 
 
 def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, str | int | float | bytes], dict[str, str]]:

@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from tokenize import TokenError
-from typing import IO, Any, BinaryIO, Protocol, TypeAlias, cast, get_args
+from typing import IO, Any, BinaryIO, TypeAlias, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -45,14 +45,7 @@ Array = npt.NDArray[Any]
 Kind = np.dtype[Any]
 
 
-class Readable(Protocol):
-    """What arrays are read from."""
-
-    def read(self, size: int = ..., /) -> bytes:
-        """The next bytes, as many as asked for unless the end comes before."""
-
-
-def read_header(file: Readable | IO[bytes]) -> tuple[tuple[int, ...], bool, Kind]:
+def read_header(file: IO[bytes]) -> tuple[tuple[int, ...], bool, Kind]:
     """Shape, whether the order is Fortran's, and type of an array of numbers; nothing is unpickled."""
     try:
         version = np.lib.format.read_magic(file)
@@ -71,7 +64,7 @@ def size_of(shape: tuple[int, ...], kind: Kind) -> int:
     return int(np.prod([int(side) for side in shape], dtype=object)) * kind.itemsize
 
 
-def read_npy(file: Readable, bound: str = "vertices", limits: Limits = DEFAULT_LIMITS) -> Array | None:
+def read_npy(file: Input, bound: str = "vertices", limits: Limits = DEFAULT_LIMITS) -> Array | None:
     """The next table of three columns of a pipe, or None at its end; the limit called `bound` is that of its rows."""
     magic = file.read(len(NPY))
     if not magic:
@@ -153,7 +146,7 @@ class NpzArray:
 
     def whole(self) -> Array:
         """All numbers; `LimitError` beyond 4 GiB. Nothing is allocated for what is only claimed."""
-        size = size_of(self.shape, self._kind)
+        size = self.size
         if size > _MAX_BYTES:
             raise LimitError(f"the array {self._name} takes {size} bytes; the limit is {_MAX_BYTES}")
         data = self._read(size + 1)
@@ -190,12 +183,6 @@ class NpzArray:
             raise CorruptError(f"the array {self._name} cannot be read: {error}") from error
 
 
-def npz_shape(archive: Archive) -> tuple[int, ...]:
-    """Shape of the array `positions`, (T, n, 3) for a sequence; errors as those of `NpzArray`."""
-    with NpzArray(archive, "positions") as positions:
-        return positions.shape
-
-
 def npz_frames(archive: Archive) -> Iterator[Positions]:
     """The frames of a sequence, shape (n, 3), read as they are asked for; errors as those of `NpzArray`."""
     with NpzArray(archive, "positions") as positions:
@@ -215,21 +202,17 @@ def read_arrays(archive: Archive, *names: str) -> tuple[Array, ...]:
 def read_npz(data: bytes, limits: Limits) -> Polygons:
     """Read the npz of a mesh; shapes are looked at before numbers are read, and what is of no use is not read."""
     with opened_archive(io.BytesIO(data)) as archive:
-        return _read_npz(archive, len(data), limits)
-
-
-def _read_npz(archive: zipfile.ZipFile, compressed: int, limits: Limits) -> Polygons:
-    inflated = 0
-    for name, bound in (("positions", "vertices"), ("faces", "faces")):
-        shape, size = shape_of(archive, name)
-        if len(shape) == 3 and name == "positions":
-            raise MeshError(f"this npz file holds a sequence of {shape[0]} frames, not one mesh")
-        require_count(bound, math.prod(shape) // 3, limits)
-        inflated += max(size, AS_NUMBERS * math.prod(shape))
-        require_inflated(inflated, compressed, limits)
-    positions, faces = read_arrays(archive, "positions", "faces")
-    mesh = TriangleMesh(positions, faces)
-    found = _Beside.of(archive, mesh, compressed, limits, inflated)
+        inflated = 0
+        for name, bound in (("positions", "vertices"), ("faces", "faces")):
+            shape, size = shape_of(archive, name)
+            if len(shape) == 3 and name == "positions":
+                raise MeshError(f"this npz file holds a sequence of {shape[0]} frames, not one mesh")
+            require_count(bound, math.prod(shape) // 3, limits)
+            inflated += max(size, AS_NUMBERS * math.prod(shape))
+            require_inflated(inflated, len(data), limits)
+        positions, faces = read_arrays(archive, "positions", "faces")
+        mesh = TriangleMesh(positions, faces)
+        found = _Beside.of(archive, mesh, len(data), limits, inflated)
     sizes, corners = np.full(len(mesh.faces), 3), mesh.faces.astype(np.int64).reshape(-1)
     return Polygons(mesh.positions, sizes, corners, (), found.dropped, tuple(found.columns), found.metadata)
 
@@ -418,11 +401,8 @@ class _Waiting:
         for one in self._first:
             with archive.open(f"{one.domain}/{one.name}.npy", "w", force_zip64=True) as entry:
                 if one.name in self._moved:
-                    header = {
-                        "descr": one.values.dtype.str,
-                        "fortran_order": False,
-                        "shape": (count, *one.values.shape),
-                    }
+                    kind, shape = one.values.dtype.str, (count, *one.values.shape)
+                    header = {"descr": kind, "fortran_order": False, "shape": shape}
                     np.lib.format.write_array_header_1_0(entry, header)
                     self._moved[one.name].seek(0)
                     shutil.copyfileobj(self._moved[one.name], entry)
@@ -444,7 +424,7 @@ def read_archive(given: Input, limits: Limits) -> Frames | None:
     """The sequence of an npz; None if it holds a mesh. Shapes are looked at before numbers are read."""
     held = b"" if given.is_file else given.peek(1 << 32)
     archive = given.name if given.is_file else io.BytesIO(held)
-    shape = npz_shape(archive)
+    shape, _ = shape_of(archive, "positions")
     if len(shape) != 3:
         return None
     if 0 in shape or shape[2] != 3:

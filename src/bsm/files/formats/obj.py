@@ -1,7 +1,6 @@
 """OBJ: lines of text, each with a keyword."""
 
 import re
-from collections.abc import Iterator
 from itertools import chain
 from typing import Any, Literal
 
@@ -64,7 +63,9 @@ def read_obj(data: bytes, limits: Limits) -> Polygons:
 
     if (references.of(0) == 0).any():
         raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
-    columns = list(_vertex_columns(points))
+    numbers = points.counts.min(initial=100)
+    colored = 6 <= numbers <= 7 and points.counts.max() == numbers
+    columns = [color_column(points.columns(3, int(numbers) - 3), "vertex")] if colored else []
     notes: list[str] = []
     for which, (keyword, name) in enumerate(_OF_CORNERS.items(), 1):
         if rows := lines.of(keyword):
@@ -144,12 +145,6 @@ class _References:
         return np.where(there, numbers[np.where(there, self._starts + which, 0).clip(0, last)], 0)
 
 
-def _vertex_columns(points: Rows) -> Iterator[Column]:
-    numbers = points.counts.min(initial=100)
-    if 6 <= numbers <= 7 and points.counts.max() == numbers:
-        yield color_column(points.columns(3, int(numbers) - 3), "vertex")
-
-
 def _corner_column(
     rows: list[bytes], name: Literal["texcoord", "normal"], written: Ints, indices: Ints
 ) -> tuple[list[Column], list[str]]:
@@ -158,24 +153,19 @@ def _corner_column(
     if not present.any():
         return [], []
     table = Rows(rows, name)
-    values = _filled(table) if name == "texcoord" else table.columns(0, 3)
-    notes = []
+    values, notes = table.columns(0, 1 if name == "texcoord" else 3), []
+    if name == "texcoord":  # of one to three numbers, those that are not there zero; the third only if it is of use
+        values = np.zeros((len(table.counts), _MOST_NUMBERS))
+        for place in range(_MOST_NUMBERS):
+            there = table.counts > place
+            values[there, place] = table.values[table.starts[there] + place]
+        values = values if values[:, 2].any() else values[:, :2]
     if not present.all():
         # Corners without a value share one: zeros, behind all others.
         indices = np.where(present, indices, len(values))
         values = np.vstack([values, np.zeros((1, values.shape[1]))])
         notes = [f"corners without {PLURALS[name]} were given zeros: {int((~present).sum())}"]
     return [Column(name, compact(values), "corner", name, indices)], notes
-
-
-def _filled(table: Rows) -> Doubles:
-    """Texture coordinates of one to three numbers, those that are not there zero; the third only if it is of use."""
-    table.require(1)
-    values = np.zeros((len(table.counts), _MOST_NUMBERS))
-    for place in range(_MOST_NUMBERS):
-        there = table.counts > place
-        values[there, place] = table.values[table.starts[there] + place]
-    return values if values[:, 2].any() else values[:, :2]
 
 
 def _states(lines: _Lines, is_face: Mask) -> tuple[list[Column], dict[str, str]]:
@@ -215,10 +205,8 @@ def write_obj(mesh: TriangleMesh, stem: str) -> Written:
     library.said |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
     library.said |= {f"{what}.names" for what in STATES if names[what]}
     lines, unsaid = remarks(mesh.metadata, library.said | {"mtllib"})
-    parts = [
-        "".join(f"# {line}\n" for line in lines),
-        f"mtllib {one_line(str(library_name))}\n" if library_name else "",
-    ]
+    parts = [*(f"# {line}\n" for line in lines)]
+    parts += [f"mtllib {one_line(str(library_name))}\n"] if library_name else []
     parts.append(_points(mesh, color))
     indices = [mesh.faces]
     for keyword, attribute in (("vt", texcoord), ("vn", normal)):
@@ -259,18 +247,14 @@ def _grouped(states: list[npt.NDArray[Any]], faces: int) -> Ints:
 def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[int, str]:
     """What the materials (groups, ...) of the faces are called, by their numbers; nothing where none are known."""
     names = names_in(mesh.metadata, what)
-    known = {number: names.get(number) for number in _numbers(mesh, what, attribute)}
+    used = [0] if attribute is None else np.unique(attribute.values).tolist()
+    if what == "material":  # a library may hold some that no face has
+        used = list(dict.fromkeys([*used, *materials_in(mesh.metadata)]))
+    known = {number: names.get(number) for number in used}
     spoken_of = attribute is not None or any(known.values()) or (what == "material" and materials_in(mesh.metadata))
     if not spoken_of:
         return {}
     return {number: one_line(str(f"{what}_{number}" if name is None else name)) for number, name in known.items()}
-
-
-def _numbers(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> list[int]:
-    used = [0] if attribute is None else np.unique(attribute.values).tolist()
-    if what == "material":  # a library may hold some that no face has
-        used = list(dict.fromkeys([*used, *materials_in(mesh.metadata)]))
-    return used
 
 
 def _points(mesh: TriangleMesh, color: Attribute | None) -> str:

@@ -80,12 +80,8 @@ class Header:
             own = [line for line in lines if line and not line.startswith(f"{IMAGE} ") and not parse_remarks([line])]
             if own:
                 found.setdefault(keyword, "\n".join(own))
-        shown = {
-            value
-            for material in materials_in(found).values()
-            for name, value in material.items()
-            if refers_to_image(name)
-        }
+        told = [one for material in materials_in(found).values() for one in material.items()]
+        shown = {value for name, value in told if refers_to_image(name)}
         for number, name in enumerate(images):
             found[f"image.{number}.name"] = name
             if number not in shown:
@@ -104,7 +100,12 @@ def parse_header(data: bytes) -> Header:
     order: str | None = None
     elements: list[Element] = []
     comments: list[tuple[str, str]] = []
-    for line in re.split("[\r\n]+", _decoded(data[begin.end() : end.start()])):
+    head = data[begin.end() : end.start()]
+    try:
+        text = head.decode()
+    except UnicodeDecodeError:
+        text = head.decode("latin-1")
+    for line in re.split("[\r\n]+", text):
         words = line.split()
         try:
             match words:
@@ -114,8 +115,8 @@ def parse_header(data: bytes) -> Header:
                     comments.append((keyword, line.strip().removeprefix(keyword).strip()))
                 case ["format", name, *_]:
                     order = _ORDERS[name]
-                case ["element", name, count]:
-                    elements.append(Element(name, _count(count), ()))
+                case ["element", name, count] if re.fullmatch(r"\d{1,18}", count):
+                    elements.append(Element(name, int(count), ()))
                 case ["property", "list", length, kind, name]:
                     _extend(elements, Property(name, _TYPES[kind], _TYPES[length]))
                 case ["property", kind, name]:
@@ -127,19 +128,6 @@ def parse_header(data: bytes) -> Header:
     if order is None or len(elements) > _MAX_ELEMENTS:
         raise FormatError("the PLY header names no format, or too many elements")
     return Header(order, tuple(elements), end.end(), tuple(comments))
-
-
-def _decoded(text: bytes) -> str:
-    try:
-        return text.decode()
-    except UnicodeDecodeError:
-        return text.decode("latin-1")
-
-
-def _count(text: str) -> int:
-    if not re.fullmatch(r"\d{1,18}", text):
-        raise ValueError
-    return int(text)
 
 
 def _extend(elements: list[Element], column: Property) -> None:
@@ -163,13 +151,14 @@ class Table(Protocol):
 
 def tables_of(header: Header, body: bytes) -> dict[str, Table]:
     """The elements of a file by their names; of a text, vertices and faces alone."""
-    return _binary_tables(header, body) if header.order else _text_tables(header, body)
-
-
-# --------------------------------------------------------------------------------------------------------------- text
-
-
-def _text_tables(header: Header, body: bytes) -> dict[str, Table]:
+    if header.order:
+        tables: dict[str, Table] = {}
+        offset = 0
+        for element in header.elements:
+            table = _uniform_table(element, header.order, body, offset)
+            tables[element.name] = found = table or _ragged_table(element, header.order, body, offset)
+            offset = found.end
+        return tables
     lines = [line for line in body.splitlines() if line.strip()]
     require_lines(len(lines), sum(element.count for element in header.elements))
     ends = np.cumsum([element.count for element in header.elements]).tolist()
@@ -220,17 +209,6 @@ def _typed(values: Array, kind: str) -> Array:
 
 
 # ------------------------------------------------------------------------------------------------------------- binary
-
-
-def _binary_tables(header: Header, body: bytes) -> dict[str, Table]:
-    """Elements as bytes, one behind the other."""
-    tables: dict[str, Table] = {}
-    offset = 0
-    for element in header.elements:
-        table = _uniform_table(element, header.order, body, offset)
-        tables[element.name] = found = table or _ragged_table(element, header.order, body, offset)
-        offset = found.end
-    return tables
 
 
 @dataclass
@@ -310,7 +288,6 @@ class _RaggedTable:
 
     def walk(self, place: int) -> tuple[Ints, Ints, int]:
         """Where each row's property begins, how many items it has, and where the last row ends."""
-
         widths = np.array(_widths(self.element))
         starts, sizes = np.zeros((2, self.element.count), np.int64)
         end = _kernels.walk_rows(self.raw, self.begin, widths, place, self.order == ">", starts, sizes)
@@ -376,19 +353,15 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
     wedges, dropped = _wedges(face, corners, sizes)
     columns = (*_columns(vertex, "vertex", "xyz"), *_columns(face, "face", ()), *wedges)
     others = [element.name for element in header.elements if element.name not in ("vertex", "face") and element.count]
-    return Polygons(
-        positions, sizes, as_integers(items, "a vertex index"), (), (*dropped, *others), columns, header.metadata
-    )
+    flat = as_integers(items, "a vertex index")
+    return Polygons(positions, sizes, flat, (), (*dropped, *others), columns, header.metadata)
 
 
 def _columns(table: Table, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
     """The properties that are numbers, those together that are one value."""
     properties = table.element.properties
-    places = {
-        column.name: place
-        for place, column in enumerate(properties)
-        if column.length is None and column.name not in needed
-    }
+    plain = (place for place, one in enumerate(properties) if one.length is None and one.name not in needed)
+    places = {properties[place].name: place for place in plain}
     for semantic, names in _GROUPS:
         types = {properties[places[name]].type for name in names if name in places}
         if all(name in places for name in names) and len(types) == 1:

@@ -25,15 +25,8 @@ from bsm.files.formats.polygons import Array, Column, Polygons, named_column
 from bsm.files.room import AS_NUMBERS, require_count, require_inflated
 from bsm.files.rows import Ints, single_suffices
 
-_TYPES = {
-    **{
-        f"{sign}{bits}": f"{kind}{bits // 8}"
-        for sign, kind in (("Int", "i"), ("UInt", "u"))
-        for bits in (8, 16, 32, 64)
-    },
-    "Float32": "f4",
-    "Float64": "f8",
-}
+_WHOLE = [(sign, kind, bits) for sign, kind in (("Int", "i"), ("UInt", "u")) for bits in (8, 16, 32, 64)]
+_TYPES = {f"{sign}{bits}": f"{kind}{bits // 8}" for sign, kind, bits in _WHOLE} | {"Float32": "f4", "Float64": "f8"}
 _NAMES = {kind: name for name, kind in _TYPES.items()}
 _UNDERSCORE = re.compile(rb"\s*_")
 _TAGS = ("VTKFile", "Piece", "PointData", "CellData")  # elements whose attributes are of use
@@ -177,8 +170,7 @@ class _Numbers:
             at += length
 
     def _numbers(self, given: bytes, count: int, raw: bool) -> Array:
-        data = self._taken(given, 0, 0, count * self._head.itemsize, raw)
-        return np.frombuffer(data, self._head)
+        return np.frombuffer(self._taken(given, 0, 0, count * self._head.itemsize, raw), self._head)
 
     def _taken(self, given: bytes, header: int, skipped: int, size: int, raw: bool) -> bytes:
         """So many bytes behind a header that is coded by itself, and others; `TruncatedError` if they are not there."""
@@ -220,9 +212,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     if document.tags.get("VTKFile", {}).get("type") != "PolyData" or piece is None:
         raise FormatError("this VTK file holds no surface; extract one (ParaView's filter Extract Surface)")
     if _count(piece, "NumberOfStrips", 0):
-        raise MeshError(
-            "this VTP file holds triangle strips; convert them to triangles (ParaView's filter Triangulate)"
-        )
+        raise MeshError("this VTP file holds triangle strips; make triangles of them (ParaView's filter Triangulate)")
     points, polygons = _count(piece, "NumberOfPoints", 0), _count(piece, "NumberOfPolys", 0)
     require_count("vertices", points, limits)
     require_count("faces", polygons, limits)
@@ -339,8 +329,7 @@ def write_vtp(mesh: TriangleMesh, stem: str) -> Written:
         f"<Polys>{array('connectivity', mesh.faces.reshape(-1).astype(np.int64))}{array('offsets', ends)}</Polys>\n"
         '</Piece></PolyData>\n<AppendedData encoding="raw">_'
     )
-    data = b"".join((text.encode(), *blocks, b"</AppendedData></VTKFile>\n"))
-    return Written(data)
+    return Written(b"".join((text.encode(), *blocks, b"</AppendedData></VTKFile>\n")))
 
 
 def _quoted(name: str) -> str:

@@ -51,10 +51,8 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         raise FormatError(f".{kind} files hold files: unpack it, and read what is in it")
     trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")
     if kind not in trimesh.available_formats():
-        raise FormatError(
-            f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here (trimesh reads more of them, "
-            f"3MF and DAE among them, after: {how_to_install('formats')})"
-        )
+        more = f"trimesh reads more of them, 3MF and DAE among them, after: {how_to_install('formats')}"
+        raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here ({more})")
     try:
         tree, up = {}, re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
         if kind in ("glb", "gltf"):
@@ -258,7 +256,13 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
         if hasattr(value, "save"):
             if value.format is None and value.size == (1, 1):
                 continue  # that of the material that trimesh gives to what has none
-            data = _bytes_of_image(value)
+            file = getattr(value, "fp", None)  # the one that the image was, if it is still there, or else a PNG of it
+            data = file.getvalue() if isinstance(file, io.BytesIO) and not file.closed else b""
+            if kind_of_image(data):
+                data = re.sub(_PADDING, b"", data)
+            else:
+                value.save(buffer := io.BytesIO(), format="PNG")
+                data = buffer.getvalue()
             if data not in images:
                 images.append(data)
             found[name] = images.index(data)
@@ -274,13 +278,3 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
             found[name] = " ".join(f"{number:.6g}" for number in kept)
     said = {name: value for name, value in found.items() if not isinstance(value, float) or np.isfinite(value)}
     return {} if said == {"doubleSided": 0} else said  # that is what holds where nothing is said
-
-
-def _bytes_of_image(image: Any) -> bytes:
-    """The file that an image was, if it is still there, or else a PNG of it."""
-    behind = getattr(image, "fp", None)
-    if isinstance(behind, io.BytesIO) and not behind.closed and kind_of_image(data := behind.getvalue()):
-        return re.sub(_PADDING, b"", data)
-    buffer = io.BytesIO()
-    image.save(buffer, format="PNG")
-    return buffer.getvalue()

@@ -93,9 +93,7 @@ def _head_of_mdd(file: BinaryIO, size: int) -> Cache:
     frames, points = _MDD.unpack(head)
     start = _MDD.size + 4 * max(frames, 0)
     if size < start:
-        raise TruncatedError(
-            f"the MDD file claims {frames} frames, whose times alone take {start} bytes; it has {size}"
-        )
+        raise TruncatedError(f"the MDD file claims {frames} frames, whose times take {start} bytes; it has {size}")
     times = _doubles(file.read(start - _MDD.size), ">f4")
     return Cache(points, frames, start, ">f4", rate_of_times(times))
 
@@ -119,10 +117,8 @@ def _beside(path: str) -> str:
     candidates = [str(Path(path).with_suffix(f".{suffix}")) for suffix in MESHES_BESIDE]
     found = next((name for name in candidates if os.path.isfile(name)), None)
     if found is None:
-        raise MeshError(
-            f"a cache holds points and no faces: put the mesh beside it ({Path(path).with_suffix('.obj').name}), or "
-            "name it with --mesh"
-        )
+        wanted = Path(path).with_suffix(".obj").name
+        raise MeshError(f"a cache holds points and no faces: put the mesh beside it ({wanted}), or name it with --mesh")
     return found
 
 
@@ -132,9 +128,7 @@ def write_cache(
 ) -> Iterator[Callable[[Positions], None]]:
     """Write a cache; yields what takes frame after frame, as many as announced, and keeps none."""
     if count < 1:
-        raise OptionError(
-            f"a {kind.upper()} begins with its number of frames, and this stream does not tell it; write npz"
-        )
+        raise OptionError(f"a {kind.upper()} begins with its number of frames, which this stream lacks; write npz")
     single = "<f4" if kind == "pc2" else ">f4"
     taken = 0
 

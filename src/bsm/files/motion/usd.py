@@ -50,12 +50,8 @@ from bsm.lengths import metres
 
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
 _SINGLE = {"metallic": "metallicFactor", "roughness": "roughnessFactor", "opacityThreshold": "alphaCutoff"}
-_PAINTED = {
-    "diffuseColor": "baseColorTexture",
-    "emissiveColor": "emissiveTexture",
-    "normal": "normalTexture",
-    "occlusion": "occlusionTexture",
-}
+_PAINTED = {"diffuseColor": "baseColorTexture", "emissiveColor": "emissiveTexture"}
+_PAINTED |= {"normal": "normalTexture", "occlusion": "occlusionTexture"}
 _COORDINATES = "st"  # what texture coordinates are called
 
 
@@ -248,9 +244,8 @@ class _Surface:
             texture.CreateInput("bias", types.Float4).Set(self._pxr.Gf.Vec4f(-1.0, -1.0, -1.0, 0.0))
         if name in ("normal", "occlusion"):
             texture.CreateInput("sourceColorSpace", types.Token).Set("raw")
-        self._surface.CreateInput(name, kind).ConnectToSource(
-            texture.ConnectableAPI(), "r" if name == "occlusion" else "rgb"
-        )
+        given, channels = self._surface.CreateInput(name, kind), "r" if name == "occlusion" else "rgb"
+        given.ConnectToSource(texture.ConnectableAPI(), channels)
 
     def _set(self, name: str, kind: Any, value: Any) -> None:
         self._surface.CreateInput(name, kind).Set(value)
@@ -291,9 +286,8 @@ class _Part:
         self.corners: Ints = np.array(self.corners_attr.Get(self.time) or [], np.int64)
         self.vertices = len(self._points.Get(self.time) or [])
         if (self.counts < 0).any() or self.counts.sum() != len(self.corners):
-            raise FormatError(
-                f"the faces of {prim.GetPath()} have {len(self.corners)} corners, not {self.counts.sum()}"
-            )
+            corners = f"{len(self.corners)} corners, not {self.counts.sum()}"
+            raise FormatError(f"the faces of {prim.GetPath()} have {corners}")
         self.turned = mesh.GetOrientationAttr().Get() == pxr.UsdGeom.Tokens.leftHanded
 
     @property
@@ -308,19 +302,16 @@ class _Part:
     def at(self, time: float, cache: Any) -> Doubles:
         code = self._pxr.Usd.TimeCode(time)
         points = np.array(self._points.Get(code), np.float64).reshape(-1, 3)
-        for name, attr, known in (
-            ("counts", self.counts_attr, self.counts),
-            ("corners", self.corners_attr, self.corners),
-        ):
+        told = (("counts", self.counts_attr, self.counts), ("corners", self.corners_attr, self.corners))
+        for name, attr, known in told:
             if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(code), np.int64), known):
                 raise MeshError(
                     f"{self.prim.GetPath()} has other faces at time {time:g} than before (their {name}); if they may "
                     "change, --runs"
                 )
         if len(points) != self.vertices:
-            raise MeshError(
-                f"{self.prim.GetPath()} has {len(points)} points at time {time:g} and {self.vertices} before"
-            )
+            where = f"{self.prim.GetPath()} has {len(points)} points at time {time:g}"
+            raise MeshError(f"{where} and {self.vertices} before")
         matrix = np.array(cache.GetLocalToWorldTransform(self.prim), np.float64)
         with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused later
             return points @ matrix[:3, :3] + matrix[3, :3]
@@ -397,7 +388,7 @@ class _Stage:
         self.parts = [part for part in self.parts if len(part.counts)]
         if not self.parts:
             raise FormatError("this stage has no meshes")
-        self._require_counts()
+        self.require_counts()
 
     @property
     def times(self) -> list[float]:
@@ -410,11 +401,7 @@ class _Stage:
     def changes(self) -> bool:
         return any(one.GetNumTimeSamples() > 1 for part in self.parts for one in (part.counts_attr, part.corners_attr))
 
-    def turn_to(self, time: float) -> None:
-        self.parts = [_Part(self.pxr, part.prim, time) for part in self.parts]
-        self._require_counts()
-
-    def _require_counts(self) -> None:
+    def require_counts(self) -> None:
         require_count("vertices", sum(part.vertices for part in self.parts), self._limits)
         require_count("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts), self._limits)
 
@@ -445,9 +432,8 @@ class _Stage:
             paths = [str(part.prim.GetPath()) for part in parts]
             note, column, names = sorted_into_parts(paths, [len(part.counts) for part in parts])
             notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
-        return Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata).checked(
-            self._limits
-        )
+        polygons = Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata)
+        return polygons.checked(self._limits)
 
 
 def _turned(sizes: Ints, turned: Array) -> Ints:
@@ -482,7 +468,8 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
 
         def meshes() -> Iterator[TriangleMesh]:
             for time in every:
-                stage.turn_to(time)
+                stage.parts = [_Part(stage.pxr, part.prim, time) for part in stage.parts]
+                stage.require_counts()
                 yield stage.mesh(stage.at(time)).mesh
 
         return Frames(mesh.faces, count, iter(()), mesh.attributes, notes, rate, mesh.metadata, meshes())
@@ -495,9 +482,8 @@ def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> MeshFile:
     stage = _Stage(path, limits)
     times = stage.times
     found = stage.mesh(stage.at(times[0] if times else 0.0))
-    return MeshFile(
-        found.mesh, (*found.notes, "of the motion, the first time was taken") if len(times) > 1 else found.notes
-    )
+    note = ("of the motion, the first time was taken",) if len(times) > 1 else ()
+    return MeshFile(found.mesh, (*found.notes, *note))
 
 
 # ---------------------------------------------------------------------------------------------------------------- out
