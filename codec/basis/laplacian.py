@@ -52,21 +52,8 @@ def find_fronts(offsets: npt.NDArray[np.int32], neighbours: npt.NDArray[np.int32
     room, count = 16 * n + 64, _FULL
     while count == _FULL:
         borders = np.empty(room, np.uint32)
-        count = _kernels.find_fronts(
-            offsets,
-            neighbours,
-            LEAF,
-            float(WORK * n),
-            scratch,
-            rows,
-            steps,
-            owners,
-            firsts,
-            starts,
-            borders,
-            places,
-            sums,
-        )
+        made = scratch, rows, steps, owners, firsts, starts, borders, places, sums
+        count = _kernels.find_fronts(offsets, neighbours, LEAF, float(WORK * n), *made)
         room *= 4
     if count == _TOO_MUCH:
         raise LimitError(
@@ -117,10 +104,8 @@ def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
     block, fronts, n = laplacian.block, laplacian.fronts, laplacian.block.size
     values, inverse = factor_room(fronts), np.empty(n, np.float32)
     column, scratch = np.empty(n + 1, np.uint32), np.empty(2 * (n + 32) + PADDING, np.float32)
-    diagonal = laplacian.diagonal + shift
-    _kernels.factorize_fronts(
-        block.offsets, block.neighbours, laplacian.weights, diagonal, fronts, column, scratch, values, inverse
-    )
+    given = block.offsets, block.neighbours, laplacian.weights, laplacian.diagonal + shift, fronts
+    _kernels.factorize_fronts(*given, column, scratch, values, inverse)
     return Factor(fronts, values, inverse)
 
 

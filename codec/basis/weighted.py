@@ -67,20 +67,8 @@ def hold(graph: Graph, weights: Matrix, rank: Indices, block: Block) -> Held:
     room = int((graph.offsets[vertices + 1] - graph.offsets[vertices]).sum())
     inner, springs = np.empty(len(block.neighbours)), np.empty(block.size)
     starts, outer, stiffness = np.empty(block.size + 1, np.int32), np.empty(room, np.int32), np.empty(room)
-    count = _kernels.hold(
-        graph.offsets,
-        graph.neighbours,
-        weights,
-        rank,
-        vertices,
-        block.offsets,
-        block.neighbours,
-        inner,
-        springs,
-        starts,
-        outer,
-        stiffness,
-    )
+    given = graph.offsets, graph.neighbours, weights, rank, vertices, block.offsets, block.neighbours
+    count = _kernels.hold(*given, inner, springs, starts, outer, stiffness)
     around, ends = np.unique(outer[:count], return_inverse=True)
     laplacian = weighted_laplacian(block, inner)
     return Held(laplacian, springs, starts, around, ends.astype(np.int32), stiffness[:count].copy())

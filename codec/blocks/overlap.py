@@ -86,22 +86,8 @@ def grow_blocks(graph: Graph, partition: Partition, size: int) -> Blocks:
     members, seen = np.empty(parts * min(size, graph.size), np.int32), np.empty(graph.size, np.int32)
     pairs = min(ends, parts * (parts - 1))
     links, shares, scratch = np.empty(pairs, np.int32), np.empty(pairs, np.int64), np.empty(7 * parts, np.int64)
-    count = _kernels.chain_blocks(
-        graph.offsets,
-        graph.neighbours,
-        partition.order,
-        partition.bounds,
-        partition.labels,
-        size,
-        links,
-        shares,
-        scratch,
-        seen,
-        chain,
-        starts,
-        edges,
-        members,
-    )
+    given = graph.offsets, graph.neighbours, partition.order, partition.bounds, partition.labels, size
+    count = _kernels.chain_blocks(*given, links, shares, scratch, seen, chain, starts, edges, members)
     cores = np.diff(partition.bounds)[chain]
     return Blocks(graph, chain, cores, starts, edges, members[:count])
 

@@ -10,7 +10,7 @@ except ImportError:
 
 from bsm.codec.denoise.automatic import AutomaticChoice, denoise_automatically
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.frames import FrameDenoiser, denoise, denoise_frames
+from bsm.codec.denoise.frames import FrameDenoiser, denoise
 from bsm.codec.denoise.normals import FINE_STEPS
 from bsm.codec.denoise.recipe import HAND_OVERS, DenoiseOptions, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS
@@ -27,5 +27,4 @@ __all__ = [
     "Step",
     "denoise",
     "denoise_automatically",
-    "denoise_frames",
 ]

@@ -95,10 +95,9 @@ class AutomaticChoice:
         choice = replace(self, outliers=count, ripples=lengths)
         if self.steps or not (count or lengths):
             return choice
-        alone = f"{count} vertices that stood out by themselves"
-        return replace(
-            choice, kind="ripples" if lengths else "outliers", reason=ripples.description if lengths else alone
-        )
+        if lengths:
+            return replace(choice, kind="ripples", reason=ripples.description)
+        return replace(choice, kind="outliers", reason=f"{count} vertices that stood out by themselves")
 
 
 def denoise_automatically(

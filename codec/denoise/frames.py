@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import islice
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -186,34 +187,7 @@ def filter_frames(coarse: CoarseFilter, frames: Frames, keep: float) -> Frames:
     return np.ascontiguousarray(coarse(columns, keep).reshape(n, count, 3).transpose(1, 0, 2))
 
 
-def denoise(
-    mesh: TriangleMesh,
-    options: DenoiseOptions | None = None,
-    *,
-    goal: str = "shading",
-    strength: float = 1.0,
-    force: bool = False,
-    progress: Progress = silent,
-) -> TriangleMesh:
-    denoiser = FrameDenoiser(
-        mesh.positions, mesh.faces, options, goal=goal, strength=strength, force=force, progress=progress
-    )
-    (positions,) = denoiser([mesh.positions])
+def denoise(mesh: TriangleMesh, options: DenoiseOptions | None = None, **ways: Any) -> TriangleMesh:
+    """Remove noise from a mesh; `ways` are keywords of `FrameDenoiser`."""
+    (positions,) = FrameDenoiser(mesh.positions, mesh.faces, options, **ways)([mesh.positions])
     return mesh.moved(positions)[0]
-
-
-def denoise_frames(
-    frames: Frames,
-    faces: Faces,
-    options: DenoiseOptions | None = None,
-    *,
-    goal: str = "shading",
-    strength: float = 1.0,
-    force: bool = False,
-) -> Frames:
-    """Remove noise from every frame of a sequence that shares its faces (section 7.3 of the paper)."""
-    frames = np.ascontiguousarray(frames, dtype=np.float64)
-    if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
-        raise MeshError(f"frames must have shape (T, n, 3) with at least one frame, not {frames.shape}")
-    denoiser = FrameDenoiser(frames[0], faces, options, goal=goal, strength=strength, force=force)
-    return np.stack(list(denoiser(frames)))

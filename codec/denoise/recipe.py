@@ -94,9 +94,8 @@ class DenoiseOptions:
         if self.iterations is not None and self.iterations < 0:
             raise OptionError(f"iterations must not be negative, not {self.iterations}")
         if not 0.0 < self.keep <= 1.0 or self.block_size < 1:
-            raise OptionError(
-                f"keep must be above 0 and at most 1, block_size positive; not {self.keep}, {self.block_size}"
-            )
+            given = f"{self.keep}, {self.block_size}"
+            raise OptionError(f"keep must be above 0 and at most 1, block_size positive; not {given}")
 
 
 @dataclass(frozen=True)

@@ -53,10 +53,8 @@ class TemporalFilter:
         deviations = list(ordered_map(lambda index: noise_deviation(trajectories(index)), indices, None))
         deviation = float(np.median(deviations))
         sums, kept = np.zeros((n, 3 * count)), np.zeros(n)
-        for index, (filtered, rank) in enumerate(
-            ordered_map(lambda index: shrunk(trajectories(index), deviation), indices, None)
-        ):
-            vertices = self._blocks[index]
+        smaller = ordered_map(lambda index: shrunk(trajectories(index), deviation), indices, None)
+        for vertices, (filtered, rank) in zip(self._blocks, smaller, strict=True):
             sums[vertices] += filtered
             kept[vertices] += rank / len(vertices) + rank / (3 * count)
         held = np.maximum(self._copies, 1)

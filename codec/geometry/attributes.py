@@ -103,10 +103,8 @@ class Attribute:
         rows = len(self.values) if self.indices is None else len(self.indices)
         expected = vertices if self.domain == "vertex" else faces
         if rows != expected:
-            raise MeshError(
-                f"the attribute {self.name!r} has {rows} rows, where the mesh has {expected} "
-                f"{'vertices' if self.domain == 'vertex' else 'faces'}"
-            )
+            what = f"{expected} {'vertices' if self.domain == 'vertex' else 'faces'}"
+            raise MeshError(f"the attribute {self.name!r} has {rows} rows, where the mesh has {what}")
 
     def taken(self, vertices: Order, faces: Order) -> Attribute:
         """The attribute of a mesh whose vertex j was vertex `vertices[j]` and whose face i was face `faces[i]` here.
@@ -146,13 +144,9 @@ def has(attributes: Iterable[Attribute], one: Attribute) -> bool:
         (one.name, one.domain, one.semantic, one.values.dtype)
         == (other.name, other.domain, other.semantic, other.values.dtype)
         and np.array_equal(one.values, other.values)
-        and (one.indices is other.indices or np.array_equal(_rows(one), _rows(other)))
+        and (one.indices is other.indices or np.array_equal(one.indices, other.indices))  # type: ignore[arg-type]
         for other in attributes
     )
-
-
-def _rows(attribute: Attribute) -> Indices:
-    return np.empty(0, np.int32) if attribute.indices is None else attribute.indices
 
 
 @dataclass(frozen=True)
@@ -182,10 +176,8 @@ def compare_values(original: npt.NDArray[Any], decoded: npt.NDArray[Any], *, nor
     if not normals:
         return AttributeComparison(float(error.max()), float(error.mean()), spread)
     angles = _angles(before, after)
-    mean_angle = float(angles.mean()) if len(angles) else 0.0
-    return AttributeComparison(
-        float(error.max()), float(error.mean()), spread, float(angles.max(initial=0.0)), mean_angle
-    )
+    turned = float(angles.max(initial=0.0)), float(angles.mean()) if len(angles) else 0.0
+    return AttributeComparison(float(error.max()), float(error.mean()), spread, *turned)
 
 
 def _angles(before: Matrix, after: Matrix) -> Matrix:

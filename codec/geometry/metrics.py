@@ -66,7 +66,7 @@ class Reference:
     def __init__(self, positions: Positions, faces: Faces) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, dtype=np.float64)
         self.faces = np.ascontiguousarray(faces, dtype=np.int32)
-        self.scale = _scale(self.positions)
+        self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
         self._neighbours = vertex_neighbours(self.faces, len(self.positions))
         self._laplacian = geometric_laplacian(self.positions, self._neighbours)
         areas, centroids = np.empty(len(self.faces)), np.empty((len(self.faces), 3))
@@ -96,7 +96,10 @@ class Reference:
 
     def mnd(self, decoded: Positions) -> float:
         """The function `mnd` of `decoded`, shape (n, 3), against this original."""
-        return _mean_difference(self._normals, face_normals(self._checked(decoded), self.faces))
+        normals, counted = face_normals(self._checked(decoded), self.faces), self._normals.any(axis=1)
+        lengths = np.sqrt(np.square(self._normals - normals).sum(axis=1))
+        lengths[~normals.any(axis=1)] = math.sqrt(2.0)
+        return float(lengths[counted].mean()) if counted.any() else 0.0
 
     def compare(self, decoded: Positions) -> Comparison:
         visual = self.nmsve(decoded)
@@ -188,17 +191,6 @@ def geometric_laplacian(positions: Positions, neighbours: Rows) -> Floats:
 
 def _length(values: Floats) -> float:
     return math.sqrt(np.square(values).sum())
-
-
-def _scale(positions: Positions) -> float:
-    return float(np.linalg.norm(extent_of(positions))) or 1.0
-
-
-def _mean_difference(original: Floats, decoded: Floats) -> float:
-    lengths = np.sqrt(np.square(original - decoded).sum(axis=1))
-    lengths[~decoded.any(axis=1)] = math.sqrt(2.0)
-    counted = original.any(axis=1)
-    return float(lengths[counted].mean()) if counted.any() else 0.0
 
 
 LOST = math.pi  # angle of a face without area; no rounding of its vertices can give it a normal that is farther off

@@ -23,7 +23,13 @@ def group_rows(values: npt.NDArray[Any]) -> Indices:
     """The number, shape (n,), of what each row of `values`, shape (n, k), is equal to, in order of first appearance."""
     if values.dtype == np.float64:
         values = values + 0.0  # -0.0 + 0.0 is 0.0
-    if _all_differ(values):
+    # No two rows can be equal where one number made of each is not: one sort, where all of them need one each.
+    bits = values.view(np.uint64)
+    mixed = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
+    for axis in range(1, values.shape[1]):
+        mixed = (mixed ^ (mixed >> np.uint64(29)) ^ bits[:, axis]) * np.uint64(0xBF58476D1CE4E5B9)
+    mixed.sort()
+    if (mixed[1:] != mixed[:-1]).all():
         return np.arange(len(values), dtype=np.int32)
     order = np.lexsort(values.T)
     ordered = values[order]
@@ -41,16 +47,6 @@ def group_rows(values: npt.NDArray[Any]) -> Indices:
 def first_of(index: Indices) -> Order:
     """The first place of each number, shape (k,), in `index`, shape (n,), whose numbers appear in ascending order."""
     return np.flatnonzero(np.diff(np.maximum.accumulate(index), prepend=-1)).astype(np.int64)
-
-
-def _all_differ(values: npt.NDArray[Any]) -> bool:
-    """Whether no two rows can be equal: one sort of one number of each, where `group_rows` needs one of all."""
-    bits = values.view(np.uint64)
-    mixed = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
-    for axis in range(1, values.shape[1]):
-        mixed = (mixed ^ (mixed >> np.uint64(29)) ^ bits[:, axis]) * np.uint64(0xBF58476D1CE4E5B9)
-    mixed.sort()
-    return bool((mixed[1:] != mixed[:-1]).all())
 
 
 def row_numbers(rows: npt.NDArray[Any]) -> Indices:
@@ -92,9 +88,5 @@ def split_by_attributes(mesh: TriangleMesh) -> TriangleMesh:
             return replace(attribute, values=values, domain="vertex", indices=None)
         return replace(attribute, values=attribute.values[vertices]) if attribute.domain == "vertex" else attribute
 
-    return replace(
-        mesh,
-        positions=mesh.positions[vertices],
-        faces=corners.reshape(-1, 3),
-        attributes=tuple(map(split, mesh.attributes)),
-    )
+    attributes = tuple(map(split, mesh.attributes))
+    return replace(mesh, positions=mesh.positions[vertices], faces=corners.reshape(-1, 3), attributes=attributes)

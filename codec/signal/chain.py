@@ -140,9 +140,8 @@ class Chain:
     def _tried(self, own: Dictionary, around: Surroundings, width: int) -> Steps:
         """A dictionary of somebody's own, whose price nobody knows."""
         yield from ()
-        return np.ascontiguousarray(
-            own(around, width, lambda width: unpaid(self._specified(around, width))), np.float32
-        )
+        columns = own(around, width, lambda width: unpaid(self._specified(around, width)))
+        return np.ascontiguousarray(columns, np.float32)
 
     def commit(self, block: Block, subspace: Basis, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""

@@ -53,22 +53,9 @@ class Surroundings(Suspended):
     def _ground(self) -> tuple[Factor, Matrix]:
         block, fronts, rows = self.laplacian.block, self.laplacian.fronts, len(self.springs)
         values, inverse, continued = factor_room(fronts), np.empty(rows, np.float32), np.empty((rows, 3))
-        _kernels.suspend(
-            block.offsets,
-            block.neighbours,
-            self.laplacian.weights,
-            self.laplacian.diagonal,
-            fronts,
-            self.springs,
-            self.pulls,
-            self.shift,
-            np.empty(rows),
-            np.empty(rows + 1, np.uint32),
-            solving_room(rows, 3),
-            values,
-            inverse,
-            continued,
-        )
+        given = block.offsets, block.neighbours, self.laplacian.weights, self.laplacian.diagonal, fronts
+        scratch = np.empty(rows), np.empty(rows + 1, np.uint32), solving_room(rows, 3)
+        _kernels.suspend(*given, self.springs, self.pulls, self.shift, *scratch, values, inverse, continued)
         return Factor(fronts, values, inverse), continued
 
 
@@ -89,17 +76,8 @@ class Known:
         """What holds a block."""
         graph, blend, block = self._graph, self._blend, laplacian.block
         found = Surroundings(laplacian, np.empty(block.size), shift, np.empty((block.size, 3)))
-        _kernels.look_around(
-            graph.offsets,
-            graph.neighbours,
-            block.vertices,
-            self._inside,
-            blend.sums,
-            blend.weights,
-            self._stiffness,
-            found.springs,
-            found.pulls,
-        )
+        given = graph.offsets, graph.neighbours, block.vertices, self._inside, blend.sums, blend.weights
+        _kernels.look_around(*given, self._stiffness, found.springs, found.pulls)
         return found
 
 
@@ -114,13 +92,6 @@ def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
     rows, columns = pulls.shape
     check_rows(factor, rows)
     values = np.empty((rows, columns))
-    _kernels.continue_known(
-        factor.fronts,
-        factor.values,
-        factor.inverse,
-        springs,
-        np.ascontiguousarray(pulls),
-        solving_room(rows, columns),
-        values,
-    )
+    given = factor.fronts, factor.values, factor.inverse, springs, np.ascontiguousarray(pulls)
+    _kernels.continue_known(*given, solving_room(rows, columns), values)
     return values

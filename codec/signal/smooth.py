@@ -101,12 +101,11 @@ class LocalFilter:
     def around(self, vertices: Indices, rings: int) -> Rings:
         """`vertices`, shape (k,), all different, and all others at most `rings` edges away."""
         starts = np.empty(rings + 1, np.int64)
-        count = _kernels.find_rings(
-            self._graph.offsets, self._graph.neighbours, self._number, vertices, self._rows, starts
-        )
+        graph = self._graph
+        count = _kernels.find_rings(graph.offsets, graph.neighbours, self._number, vertices, self._rows, starts)
         rows = self._rows[:count].copy()
         self._number[rows] = -1
-        edges = int((self._graph.offsets[rows + 1] - self._graph.offsets[rows]).sum())
+        edges = int((graph.offsets[rows + 1] - graph.offsets[rows]).sum())
         return Rings(len(vertices), rows, starts, CALL + LOOK * edges)
 
     def smoothed(self, positions: Matrix, rings: Rings) -> Matrix:
@@ -114,17 +113,8 @@ class LocalFilter:
         rows, starts = rings.rows, rings.starts
         self._number[rows] = np.arange(len(rows), dtype=np.int32)
         smoothed = np.empty((rings.inner, 3))
-        _kernels.filter_rows(
-            self._graph.offsets,
-            self._graph.neighbours,
-            self._number,
-            positions,
-            filter_polynomial(self._amount),
-            rows,
-            starts,
-            np.empty((len(rows), 3)),
-            np.empty((int(starts[DEGREE - 1]), 3)),
-            smoothed,
-        )
+        given = self._graph.offsets, self._graph.neighbours, self._number, positions, filter_polynomial(self._amount)
+        scratch = np.empty((len(rows), 3)), np.empty((int(starts[DEGREE - 1]), 3))
+        _kernels.filter_rows(*given, rows, starts, *scratch, smoothed)
         self._number[rows] = -1
         return smoothed

@@ -26,7 +26,8 @@ class Network:
     def __call__(self, numbers: Singles) -> Singles:
         values = self.standardised(numbers)
         for matrix, shift in self.layers[:-1]:
-            values = silu(values @ matrix + shift)
+            values = values @ matrix + shift
+            values = np.asarray(values * sigmoid(values))
         matrix, shift = self.layers[-1]
         normals = numbers[:, BASE] + values @ matrix + shift
         return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.float32(1e-6)))
@@ -34,10 +35,6 @@ class Network:
 
 def sigmoid(values: Singles) -> Singles:
     return np.asarray(np.float32(1.0) / (np.float32(1.0) + np.exp(np.minimum(-values, MOST_NEGATIVE))))
-
-
-def silu(values: Singles) -> Singles:
-    return np.asarray(values * sigmoid(values))
 
 
 @cache

@@ -62,7 +62,9 @@ def find_outliers(positions: Positions, probe: Probe) -> Outliers:
     for share in (CLEAR, *LESS_CLEAR):
         calm = np.zeros(len(positions))
         if share < CLEAR:
-            if not _believed(amounts):
+            off = amounts[amounts != 0.0]
+            one_sided = len(off) and abs(float(np.sign(off).mean())) >= ONE_SIDED
+            if len(off) < max(FEWEST, FEWEST_SHARE * len(amounts)) or one_sided or _usual(amounts) <= WORTH:
                 return Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
             if share == LESS_CLEAR[-1] and _usual(amounts) < STRONG:
                 break
@@ -91,13 +93,6 @@ def find_outliers(positions: Positions, probe: Probe) -> Outliers:
     change = linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]
     amounts[vertices] += change
     return Outliers(vertices, edge * amounts[vertices, None] * normals[vertices])
-
-
-def _believed(amounts: Floats) -> bool:
-    off = amounts[amounts != 0.0]
-    if len(off) < max(FEWEST, FEWEST_SHARE * len(amounts)):
-        return False
-    return abs(float(np.sign(off).mean())) < ONE_SIDED and _usual(amounts) > WORTH
 
 
 def _usual(amounts: Floats) -> float:

@@ -75,7 +75,8 @@ def find_ripples(positions: Positions, probe: Probe) -> Ripples:
     if fit.count == 0:
         return none
     for _ in range(POLISHING):
-        fit.look_again()
+        # The surface as it is without the waves: its normals, and where the vertices were.
+        fit.look(fit.given - fit.amounts[:, None] * fit.normals, passes=1)
         fit.step()
     lengths = 2.0 * np.pi / np.linalg.norm(fit.vectors, axis=1)
     level = float(fit.amounts.std())
@@ -91,10 +92,10 @@ class _Fit:
     """Waves along the normals, and what the fine filter sees with and without them; in mean edges."""
 
     def __init__(self, places: Positions, probe: Probe) -> None:
-        self._probe, self._given = probe, places - places.mean(axis=0)
+        self._probe, self.given = probe, places - places.mean(axis=0)
         self.vectors = np.zeros((0, 3))
         self.amounts = np.zeros(len(places))
-        self._look(self._given, passes=2)
+        self.look(self.given, passes=2)
 
     @property
     def count(self) -> int:
@@ -107,18 +108,14 @@ class _Fit:
         other.vectors = np.vstack([self.vectors, vector])
         return other
 
-    def look_again(self) -> None:
-        """See the surface as it is without the waves: its normals, and where the vertices were."""
-        self._look(self._given - self.amounts[:, None] * self.normals, passes=1)
-
-    def _look(self, places: Positions, passes: int) -> None:
+    def look(self, places: Positions, passes: int) -> None:
         self.normals = self._probe.smooth_normals(places, passes)
         # Where a plane lies across a wave, the phases of noisy heights would be a picture of the noise.
         smooth = places
         for _ in range(SMOOTHING):
             smooth = self._probe.average @ smooth
         self._places = places - np.einsum("ij,ij->i", places - smooth, self.normals)[:, None] * self.normals
-        self.seen = np.einsum("ij,ij->i", self._probe.fine(self._given), self.normals)
+        self.seen = np.einsum("ij,ij->i", self._probe.fine(self.given), self.normals)
         self._weigh(self._probe.fine(self.amounts[:, None])[:, 0])
 
     def _weigh(self, explained: Floats) -> None:
@@ -144,7 +141,7 @@ class _Fit:
             np.concatenate([filtered, self._probe.fine(slopes)], axis=1), self.seen - filtered @ heights
         )
         turned = change[len(heights) :].reshape(-1, 3)
-        most = 2.0 * np.pi / float(np.ptp(self._given, axis=0).max())
+        most = 2.0 * np.pi / float(np.ptp(self.given, axis=0).max())
         turned *= np.minimum(1.0, most / np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-12))
         self.vectors = self.vectors + turned
         phases = self._places @ self.vectors.T

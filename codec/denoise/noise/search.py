@@ -190,7 +190,10 @@ def one_axis(positions: Positions, evidence: Evidence) -> Finding | None:
     """Noise of `positions`, shape (n, 3), as strong as the direction of the surface says."""
     chosen = evidence.probe.counted
     normals, along = evidence.normals[chosen], np.abs(evidence.along[chosen])
-    folded = normals @ _hemisphere().T
+    place = np.arange(48) + 0.5  # directions spread evenly over half a sphere (a Fibonacci lattice)
+    height, turn = 1.0 - place / 48, np.pi * (1.0 + np.sqrt(5.0)) * place
+    radius = np.sqrt(1.0 - height**2)
+    folded = normals @ np.stack([radius * np.cos(turn), radius * np.sin(turn), height])
     facing = np.abs(folded).argmax(axis=1)
     order = np.argsort(facing, kind="stable")
     groups = np.split(order, np.flatnonzero(np.diff(facing[order])) + 1)
@@ -262,14 +265,6 @@ def _rate(depth: Floats, logarithms: Floats) -> float:
         above = np.maximum(logarithms - np.polyval(line, depth), 0.0)
         weights = 1.0 / (1.0 + np.square(above / 0.2))
     return float(line[0])
-
-
-def _hemisphere(count: int = 48) -> Floats:
-    """Directions spread evenly over half a sphere (a Fibonacci lattice)."""
-    place = np.arange(count) + 0.5
-    height, angle = 1.0 - place / count, np.pi * (1.0 + np.sqrt(5.0)) * place
-    radius = np.sqrt(1.0 - height**2)
-    return np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=1)
 
 
 def _covariance(moments: Floats, measured: Floats, trust: Floats) -> Floats:

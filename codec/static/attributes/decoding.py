@@ -207,13 +207,8 @@ class AttributeDecoder:
         elif not self.complete:
             return None
         arrangement = self.arrangement
-        return Attribute(
-            declaration.name,
-            values[arrangement.rows],
-            arrangement.domain,
-            SEMANTICS[declaration.semantic],
-            arrangement.indices,
-        )
+        semantic = SEMANTICS[declaration.semantic]
+        return Attribute(declaration.name, values[arrangement.rows], arrangement.domain, semantic, arrangement.indices)
 
     @property
     def first(self) -> Values | None:

@@ -142,7 +142,9 @@ def _rounded(values: Values, semantic: str, quality: Quality, name: str) -> Quan
         raise OptionError(f"{name!r}: a bound of {bound:g} is too fine for its range; keep it exact")
     levels = np.rint((wide - low) / step).astype(np.int64)
     fields = _affine(LEVELS, levels, low, step)
-    back = restored(_sample(values, fields), levels).astype(np.float64)
+    kind = KINDS.index(values.dtype.name)
+    sample = Declaration(name="x", kind=kind, components=values.shape[1], rows=1, **fields)
+    back = restored(sample, levels).astype(np.float64)
     error = float(np.abs(back - wide).max())
     last = float(np.spacing(np.abs(values).max()))
     if error > (bound if quality.way != "bits" else bound * (1 + 1e-6) + last):
@@ -161,7 +163,9 @@ def _octahedral(values: Values, quality: Quality, name: str) -> QuantizedValues:
     for bits in tried:
         largest = 2**bits - 2
         levels = _places(units, largest)
-        off = float(_angles(octahedral_normals(levels, largest // 2).astype(values.dtype), units).max())
+        back = octahedral_normals(levels, largest // 2).astype(values.dtype).astype(np.float64)
+        across = np.linalg.norm(np.cross(back, units), axis=1)
+        off = float(np.degrees(np.arctan2(across, (back * units).sum(axis=1))).max())
         if quality.way == "bits" or off <= quality.amount:
             break
     else:
@@ -185,11 +189,6 @@ def _affine(coding: int, levels: Words, offset: Reals, step: float) -> dict[str,
     }
 
 
-def _sample(values: Values, fields: dict[str, Any]) -> Declaration:
-    kind = KINDS.index(values.dtype.name)
-    return Declaration(name="x", kind=kind, components=values.shape[1], rows=1, **fields)
-
-
 def _places(units: Reals, largest: int) -> Words:
     """The places nearest to unit vectors, on a square of 0 to `largest`."""
     middle = largest // 2
@@ -207,12 +206,6 @@ def _places(units: Reals, largest: int) -> Words:
             better = close > closeness
             best[better], closeness[better] = place[better], close[better]
     return canonical_levels(best, middle).astype(np.int64)
-
-
-def _angles(vectors: Values, units: Reals) -> Reals:
-    wide = vectors.astype(np.float64)
-    across = np.linalg.norm(np.cross(wide, units), axis=1)
-    return np.asarray(np.degrees(np.arctan2(across, (wide * units).sum(axis=1))))
 
 
 def _bits_of(values: Values) -> Words:

@@ -98,7 +98,10 @@ def qualities(
             return Quality("recompute")
         if "*" in asked:
             return parse_quality(asked["*"])
-        return Quality("rms", MOVING[one.semantic]) if one.name in moving else default_quality(one, grade)
+        if one.name in moving:
+            return Quality("rms", MOVING[one.semantic])
+        bits = {"normal": NORMAL_BITS, "color": COLOR_BITS, "texcoord": TEXCOORD_BITS, "generic": GENERIC_BITS}
+        return Quality("bits", bits[one.semantic][grade]) if one.values.dtype.kind == "f" else Quality("exact")
 
     def meant(one: Attribute) -> Quality:
         asked_for = quality(one)
@@ -106,11 +109,3 @@ def qualities(
         return Quality("share", asked_for.amount) if still else asked_for
 
     return [(one, wanted) for one in attributes if (wanted := meant(one)).way != "none"]
-
-
-def default_quality(attribute: Attribute, grade: Grade) -> Quality:
-    """What is kept of an attribute of which nothing is asked."""
-    if attribute.values.dtype.kind != "f":
-        return Quality("exact")
-    bits = {"normal": NORMAL_BITS, "color": COLOR_BITS, "texcoord": TEXCOORD_BITS, "generic": GENERIC_BITS}
-    return Quality("bits", bits[attribute.semantic][grade])

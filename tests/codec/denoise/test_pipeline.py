@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
-from bsm.codec.denoise import DenoiseOptions, denoise, denoise_frames
+from bsm.codec.denoise import DenoiseOptions, FrameDenoiser, denoise
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -29,7 +29,7 @@ def test_either_step_may_stand_alone() -> None:
 )
 def test_every_frame_of_a_sequence_is_denoised(options: DenoiseOptions | None) -> None:
     frames = np.stack([gaussian_along_normals(CLEAN * scale, FACES, 0.25, seed=2) for scale in (1.0, 1.2, 1.5)])
-    denoised = denoise_frames(frames, FACES, options)
+    denoised = np.stack(list(FrameDenoiser(frames[0], FACES, options)(frames)))
     assert denoised.shape == frames.shape
     for scale, before, after in zip((1.0, 1.2, 1.5), frames, denoised):
         assert theta(CLEAN * scale, after, FACES) < 0.6 * theta(CLEAN * scale, before, FACES)
@@ -54,7 +54,7 @@ def test_illegal_options_are_refused(options: dict[str, object]) -> None:
         DenoiseOptions(**options)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("shape", [(0, 5, 3), (5, 3), (2, 5, 2)])
+@pytest.mark.parametrize("shape", [(4,), (4, 2), (2, 4, 3)])
 def test_frames_of_another_shape_are_refused(shape: tuple[int, ...]) -> None:
     with pytest.raises(MeshError, match="shape"):
-        denoise_frames(np.zeros(shape), FACES, DenoiseOptions())
+        FrameDenoiser(np.zeros(shape), FACES, DenoiseOptions())
