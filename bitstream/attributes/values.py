@@ -9,19 +9,7 @@ import numpy.typing as npt
 
 from bsm.bitstream import _kernels
 from bsm.bitstream.errors import MeshError, OptionError
-from bsm.bitstream.fields.corners import (
-    BYTES_PER_FACE,
-    BYTES_PER_VERTEX,
-    MODEL_BYTES,
-    TERMS,
-    Field,
-    State,
-    checked_largest,
-    corners_of,
-    make_learners,
-    make_model,
-    traverse,
-)
+from bsm.bitstream.fields import corners as shared
 
 Ints = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]
@@ -79,8 +67,8 @@ class _Values(NamedTuple):
 
 def values_charge(vertices: int, faces: int, components: int, kind: Kind) -> int:
     """Bytes of memory that coding values of vertices takes at most; its work is linear in `vertices` + `faces`."""
-    per_vertex = BYTES_PER_VERTEX + 60 + 16 * components + (48 if kind == "normal" else 0)
-    return per_vertex * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (components << 17) + (1 << 17)
+    per_vertex = shared.BYTES_PER_VERTEX + 60 + 16 * components + (48 if kind == "normal" else 0)
+    return per_vertex * vertices + shared.BYTES_PER_FACE * faces + shared.MODEL_BYTES + (components << 17) + (1 << 17)
 
 
 def values_field(
@@ -90,36 +78,38 @@ def values_field(
     kind: Kind = "plain",
     geometry: npt.ArrayLike | None = None,
     places: npt.ArrayLike | None = None,
-) -> Field:
+) -> shared.Field:
     """Values of vertices; `geometry`, shape (n, 3), foretells some kinds, and so do vertices of the same `places`."""
-    top = checked_largest(largest, COLUMNS)
+    top = shared.checked_largest(largest, COLUMNS)
     kernel, weights = _coder_of(kind, top)
     components = len(top)
 
-    def start() -> State:
-        corners = corners_of(faces, vertices)
-        model = make_model()
+    def start() -> shared.State:
+        corners = shared.corners_of(faces, vertices)
+        model = shared.make_model()
         given, gaps = np.zeros((2, vertices, components), np.int32)
         values = _Values(
             top,
-            traverse(corners),
+            shared.traverse(corners),
             ring_of_twins(places, vertices),
             _checked_geometry(geometry, vertices),
             given,
             gaps,
             np.zeros((vertices, components + 1), np.int64),
             np.zeros((components, int(top.max()) // 64 + 1), np.int64),
-            make_learners(weights),
+            shared.make_learners(weights),
             np.zeros((vertices if kind == "normal" else 0, 12), np.int32),
             np.array([0, 16 * int(top[0])], np.int64),
         )
         if kind == "normal":
             _kernels.expect_normals(corners, values)
-        return State(lambda coder, *rows: kernel(coder, model, corners, values, *rows), values.order, values.values)
+        return shared.State(
+            lambda coder, *rows: kernel(coder, model, corners, values, *rows), values.order, values.values
+        )
 
     charge = values_charge(vertices, len(np.asarray(faces)), components, kind)
     canonical = partial(canonical_levels, size=int(top[0]) // 2) if kind == "normal" else None
-    return Field(np.zeros_like(top), top, charge, start, canonical)
+    return shared.Field(np.zeros_like(top), top, charge, start, canonical)
 
 
 def ring_of_twins(places: npt.ArrayLike | None, vertices: int) -> Ints:
@@ -158,7 +148,7 @@ def _coder_of(kind: Kind, largest: Ints) -> tuple[Callable[..., int], Longs]:
     if kind == "normal" and (largest[0] != largest[1] or largest[0] < 2 or largest[0] % 2):
         raise OptionError(f"the largest levels of normals must be equal, even, and at least 2: {largest.tolist()}")
     guesses = components * _BASES * _VALENCES
-    start = np.zeros((guesses + components * _BASES, TERMS), np.int64)
+    start = np.zeros((guesses + components * _BASES, shared.TERMS), np.int64)
     start[guesses:, :2] = 40000, 8192
     if plain:
         start[:guesses, :2] = 16384
@@ -178,19 +168,23 @@ class _FaceValues(NamedTuple):
     memory: Ints
 
 
-def face_values_field(faces: npt.ArrayLike, largest: npt.ArrayLike) -> Field:
+def face_values_field(faces: npt.ArrayLike, largest: npt.ArrayLike) -> shared.Field:
     """Values of faces, in the order of the faces: materials, groups, colours."""
-    table, top = np.asarray(faces), checked_largest(largest, COLUMNS)
+    table, top = np.asarray(faces), shared.checked_largest(largest, COLUMNS)
     components = len(top)
 
-    def start() -> State:
-        corners = corners_of(table, int(table.max()) + 1 if table.size and table.dtype.kind in "iu" else 0)
+    def start() -> shared.State:
+        corners = shared.corners_of(table, int(table.max()) + 1 if table.size and table.dtype.kind in "iu" else 0)
         count = len(corners.faces)
-        model = make_model()
+        model = shared.make_model()
         given, gaps = np.zeros((2, count, components), np.int32)
         values = _FaceValues(top, given, gaps, np.zeros((components, 257), np.int32))
         order, code = np.arange(count, dtype=np.int32), _kernels.code_faces
-        return State(lambda coder, *rows: code(coder, model, corners, values, *rows), order, given)
+        return shared.State(lambda coder, *rows: code(coder, model, corners, values, *rows), order, given)
 
-    charge = (3 * BYTES_PER_VERTEX + BYTES_PER_FACE + 8 * components) * len(table) + MODEL_BYTES + (1 << 17)
-    return Field(np.zeros_like(top), top, charge, start)
+    charge = (
+        (3 * shared.BYTES_PER_VERTEX + shared.BYTES_PER_FACE + 8 * components) * len(table)
+        + shared.MODEL_BYTES
+        + (1 << 17)
+    )
+    return shared.Field(np.zeros_like(top), top, charge, start)

@@ -11,15 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream import _kernels
 from bsm.bitstream._kernels import priors
-from bsm.bitstream.entropy.range_coder import (
-    Coder,
-    copy_bank,
-    finish_reading,
-    finish_writing,
-    make_bank,
-    start_reading,
-    start_writing,
-)
+from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.bitstream.once import cached_property
 
@@ -130,7 +122,7 @@ class CoefficientModel:
     experience: Experience = field(default_factory=shipped_experience)
 
     def __post_init__(self) -> None:
-        self.bank = make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
+        self.bank = entropy.make_bank(EXPECTATIONS * BINS * NODES, SELECTORS * NODES, EXPECTATIONS, limit=400, rate=4)
         self.bank.slots[:] = self.experience.first_slots
         self.bank.weights[:] = self.experience.first_weights
         self.past = make_past(self.width)
@@ -138,7 +130,7 @@ class CoefficientModel:
 
     def copy(self) -> CoefficientModel:
         twin = CoefficientModel(self.width, self.experience)
-        twin.bank = copy_bank(self.bank)
+        twin.bank = entropy.copy_bank(self.bank)
         past = self.past
         twin.past = Past(past.current.copy(), past.before.copy(), past.usual.copy(), past.blocks.copy())
         return twin
@@ -148,9 +140,9 @@ def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
     """Code one block's quantized coefficients, shape (c_i, 3), each coordinate a column; updates `model`."""
     if len(levels) > model.width or np.abs(levels.astype(np.int64)).max(initial=0) > MAX_LEVEL:
         raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")
-    coder = start_writing(_BYTES_PER_LEVEL * levels.size)
+    coder = entropy.start_writing(_BYTES_PER_LEVEL * levels.size)
     _code_block(coder, model, np.array(levels, np.int32, order="C"))
-    return finish_writing(coder)
+    return entropy.finish_writing(coder)
 
 
 def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> Levels:
@@ -158,11 +150,11 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
     if count > model.width:
         raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
     levels = np.zeros((count, 3), np.int32)
-    coder = start_reading(payload)
+    coder = entropy.start_reading(payload)
     _code_block(coder, model, levels)
-    finish_reading(coder)
+    entropy.finish_reading(coder)
     return levels
 
 
-def _code_block(coder: Coder, model: CoefficientModel, levels: Levels) -> None:
+def _code_block(coder: entropy.Coder, model: CoefficientModel, levels: Levels) -> None:
     _kernels.code_block(coder, model.bank, model.past, model.expectations, levels)

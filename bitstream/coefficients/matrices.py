@@ -8,20 +8,7 @@ import numpy.typing as npt
 
 from bsm.bitstream import _kernels
 from bsm.bitstream.coefficients.rate_distortion import COSTS
-from bsm.bitstream.entropy.range_coder import (
-    Bank,
-    Coder,
-    copy_bank,
-    finish_reading,
-    finish_writing,
-    is_reading,
-    make_bank,
-    make_room,
-    overran,
-    signed_span,
-    start_reading,
-    start_writing,
-)
+from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.errors import TruncatedError
 
 Levels = npt.NDArray[np.int32]
@@ -33,7 +20,7 @@ _Extent: TypeAlias = tuple[int, int, int, int]  # a lead, the row from which on 
 
 _INPUTS = 6
 _UNARY = 14
-_SPAN = signed_span(_UNARY) + 3  # of the second grid, whether a level is zero, and whether one; more
+_SPAN = entropy.signed_span(_UNARY) + 3  # of the second grid, whether a level is zero, and whether one; more
 _CLASSES = 12
 _ROWS = 40
 _SLOTS = ((_INPUTS - 1) * _CLASSES * _CLASSES + _CLASSES * _ROWS) * _SPAN
@@ -42,19 +29,22 @@ _NEVER = np.iinfo(np.int16).max
 PRICED = 6  # magnitudes, from 0 on, that `price_levels` tells the prices of
 
 
-def make_level_bank() -> Bank:
+def make_level_bank() -> entropy.Bank:
     """The adaptive state of a level coder, neutral; one for each sequence of payloads that learn from each other."""
-    return make_bank(_SLOTS, _SELECTORS, _INPUTS, limit=400, rate=10)
+    return entropy.make_bank(_SLOTS, _SELECTORS, _INPUTS, limit=400, rate=10)
 
 
 def encode_levels(
-    bank: Bank, matrices: Sequence[Levels], references: Sequence[Levels], leads: Sequence[Lead | None] | None = None
+    bank: entropy.Bank,
+    matrices: Sequence[Levels],
+    references: Sequence[Levels],
+    leads: Sequence[Lead | None] | None = None,
 ) -> bytes:
     """Code matrices one behind the other."""
-    coder = start_writing(16 * sum(m.size for m in matrices) + 8 * len(matrices) + 64)
+    coder = entropy.start_writing(16 * sum(m.size for m in matrices) + 8 * len(matrices) + 64)
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
         _code_matrix(coder, bank, matrix, reference, _occupied(matrix), _extent_of(matrix, lead))
-    return finish_writing(coder)
+    return entropy.finish_writing(coder)
 
 
 def first_prices(rows: int, columns: int, lead: Lead | None = None) -> Prices:
@@ -66,41 +56,41 @@ def first_prices(rows: int, columns: int, lead: Lead | None = None) -> Prices:
     return prices
 
 
-def price_levels(bank: Bank, matrix: Levels, reference: Levels, lead: Lead | None = None) -> Prices:
+def price_levels(bank: entropy.Bank, matrix: Levels, reference: Levels, lead: Lead | None = None) -> Prices:
     """What each place of a matrix would cost if it were coded next, and its neighbours as they are."""
     rows, columns = matrix.shape
     prices = first_prices(rows, columns, lead)
-    coder, slow = start_writing(16 * matrix.size + 64), np.empty(columns, np.int64)
-    twin, occupied, extent = copy_bank(bank), _occupied(matrix), _extent_of(matrix, lead)
+    coder, slow = entropy.start_writing(16 * matrix.size + 64), np.empty(columns, np.int64)
+    twin, occupied, extent = entropy.copy_bank(bank), _occupied(matrix), _extent_of(matrix, lead)
     _kernels.price_matrix(coder, twin, matrix, reference, occupied, *extent, slow, COSTS, prices.reshape(-1))
     return prices
 
 
 def decode_levels(
-    bank: Bank,
+    bank: entropy.Bank,
     payload: bytes,
     matrices: Sequence[Levels],
     references: Sequence[Levels],
     leads: Sequence[Lead | None] | None = None,
 ) -> None:
     """Twin of `encode_levels`: fill `matrices`, shapes (rows_k, columns), which hold zeros."""
-    coder = start_reading(payload)
+    coder = entropy.start_reading(payload)
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
         _code_matrix(coder, bank, matrix, reference, 0, _extent_of(matrix, lead))
-        if overran(coder):
+        if entropy.overran(coder):
             break
-    finish_reading(coder)
+    entropy.finish_reading(coder)
 
 
-def code_column(coder: Coder, values: Levels) -> Coder:
+def code_column(coder: entropy.Coder, values: Levels) -> entropy.Coder:
     """Write whole numbers, shape (n,), or read them into `values`, by a model of their own."""
     column = values.reshape(-1, 1)
-    if not is_reading(coder):
-        coder = make_room(coder, 16 * len(values) + 8)
+    if not entropy.is_reading(coder):
+        coder = entropy.make_room(coder, 16 * len(values) + 8)
     used = np.flatnonzero(values)
     rows = int(used[-1]) + 1 if len(used) else 0
     _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, _extent_of(column, (1, 0)))
-    if overran(coder):
+    if entropy.overran(coder):
         raise TruncatedError(f"the payload of {len(values)} numbers ends too early")
     return coder
 
@@ -121,5 +111,7 @@ def _extent_of(matrix: Levels, lead: Lead | None) -> _Extent:
     return columns, 0, turn, int(used[-1]) + 1 if len(used) else 0
 
 
-def _code_matrix(coder: Coder, bank: Bank, levels: Levels, reference: Levels, rows: int, extent: _Extent) -> None:
+def _code_matrix(
+    coder: entropy.Coder, bank: entropy.Bank, levels: Levels, reference: Levels, rows: int, extent: _Extent
+) -> None:
     _kernels.code_matrix(coder, bank, levels, reference, rows, *extent, np.empty(levels.shape[1], np.int64))

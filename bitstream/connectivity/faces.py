@@ -7,20 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import (
-    ONE,
-    Bank,
-    Coder,
-    code_unsigned,
-    finish_reading,
-    finish_writing,
-    make_bank,
-    make_room,
-    overran,
-    start_reading,
-    start_writing,
-    unsigned_span,
-)
+from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.errors import CorruptError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
@@ -73,7 +60,7 @@ _VALENCE_NODES = 16
 _EVENT_CONTEXTS = 3
 _EVENT_SIZE = 4096
 _RARE_UNARY = 2
-_RARE_SPAN = unsigned_span(_RARE_UNARY)
+_RARE_SPAN = entropy.unsigned_span(_RARE_UNARY)
 _RARE_KINDS = 6
 RARE_HEADER = 5 * _RARE_SPAN  # first node of the model of the counts at the start of the payload
 
@@ -81,9 +68,9 @@ RARE_HEADER = 5 * _RARE_SPAN  # first node of the model of the counts at the sta
 class Models(NamedTuple):
     """Adaptive state of one payload."""
 
-    valence: Bank
-    event: Bank
-    rare: Bank
+    valence: entropy.Bank
+    event: entropy.Bank
+    rare: entropy.Bank
     bits: int
 
 
@@ -91,15 +78,17 @@ def make_models(vertex_count: int) -> Models:
     """Neutral models; the tables grow with the number of vertices, which both sides know."""
     bits = min(max(int(vertex_count).bit_length() - 2, 6), 12)
     return Models(
-        make_bank((_VALENCE_CONTEXTS << bits) * _VALENCE_NODES, _VALENCE_NODES, _VALENCE_CONTEXTS, 1023, 16),
-        make_bank(_EVENT_CONTEXTS * _EVENT_SIZE, 1, _EVENT_CONTEXTS, 1023, 16, ONE - ONE // 500, 30),
-        make_bank(_RARE_KINDS * _RARE_SPAN, _RARE_KINDS * _RARE_SPAN, 1),
+        entropy.make_bank((_VALENCE_CONTEXTS << bits) * _VALENCE_NODES, _VALENCE_NODES, _VALENCE_CONTEXTS, 1023, 16),
+        entropy.make_bank(
+            _EVENT_CONTEXTS * _EVENT_SIZE, 1, _EVENT_CONTEXTS, 1023, 16, entropy.ONE - entropy.ONE // 500, 30
+        ),
+        entropy.make_bank(_RARE_KINDS * _RARE_SPAN, _RARE_KINDS * _RARE_SPAN, 1),
         bits,
     )
 
 
-def code_rare(coder: Coder, models: Models, kind: int, value: int) -> int:
-    return code_unsigned(coder, models.rare, np.zeros(1, np.int64), 0, _RARE_UNARY, value, kind)
+def code_rare(coder: entropy.Coder, models: Models, kind: int, value: int) -> int:
+    return entropy.code_unsigned(coder, models.rare, np.zeros(1, np.int64), 0, _RARE_UNARY, value, kind)
 
 
 DONE, NONSENSE, NO_ROOM = range(3)  # how a call of the kernel ends; without room, make some and call again
@@ -162,7 +151,7 @@ class Seams(NamedTuple):
     latest: Ints
 
 
-def code_seams(coder: Coder, faces: Ints, vertices: Ints) -> tuple[int, Ints]:
+def code_seams(coder: entropy.Coder, faces: Ints, vertices: Ints) -> tuple[int, Ints]:
     """Code the vertex of every fan; return the number of vertices, or -1 for nonsense, and the vertices, shape (f,)."""
     size, origin = len(vertices), faces.reshape(-1)
     border = np.flatnonzero(match_halfedges(origin, size) < 0)
@@ -172,7 +161,7 @@ def code_seams(coder: Coder, faces: Ints, vertices: Ints) -> tuple[int, Ints]:
     before[after[at_border]] = at_border
     vertex, sibling, latest = np.empty((3, size), np.int32)
     seams = Seams(vertex, after, before, sibling, latest)
-    return _kernels.code_fans(coder, make_bank(_SLOTS, 1, 1), vertices, seams), vertex
+    return _kernels.code_fans(coder, entropy.make_bank(_SLOTS, 1, 1), vertices, seams), vertex
 
 
 _FIRST_CAPACITY = 1 << 16
@@ -202,13 +191,13 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConne
     fans, loops = len(surface.vertex), len(surface.valence) - len(surface.vertex)
     regular = int(np.count_nonzero(np.bincount(surface.vertex, minlength=vertex_count)))
 
-    coder, models = start_writing(_FIRST_CAPACITY), make_models(vertex_count)
+    coder, models = entropy.start_writing(_FIRST_CAPACITY), make_models(vertex_count)
     for count in (len(improper), vertex_count - regular, fans - regular, loops):
         code_rare(coder, models, RARE_HEADER, count)
     guide, conquest = make_guide(surface, len(proper)), make_conquest(len(proper), fans, loops)
     coder, conquest = conquer(coder, models, guide, conquest)
 
-    coder = make_room(coder, _BYTES_PER_FAN * (fans + 3 * len(improper)))
+    coder = entropy.make_room(coder, _BYTES_PER_FAN * (fans + 3 * len(improper)))
     used = np.concatenate([surface.vertex[guide.fans], given[improper].reshape(-1)])
     order, number = _number_by_appearance(used, vertex_count)
     if len(order) < vertex_count:
@@ -220,7 +209,7 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConne
     corners = number[used[fans:]]
     _kernels.code_degenerate(coder, corners, regular)
     return EncodedConnectivity(
-        finish_writing(coder),
+        entropy.finish_writing(coder),
         order,
         np.concatenate([proper[guide.faces], improper]).astype(np.int32),
         np.concatenate([vertices[conquest.faces], corners.reshape(-1, 3)]),
@@ -233,7 +222,7 @@ def decode_connectivity(payload: bytes, vertex_count: int, face_count: int, limi
     limits.check("faces", face_count)
     if not 0 < vertex_count <= 3 * face_count:
         raise CorruptError(f"{face_count} triangles cannot have {vertex_count} vertices")
-    coder, models = start_reading(payload), make_models(vertex_count)
+    coder, models = entropy.start_reading(payload), make_models(vertex_count)
     degenerate, lonely, surplus, loops = (code_rare(coder, models, RARE_HEADER, 0) for _ in range(4))
     proper, regular = face_count - degenerate, vertex_count - lonely
     fans = regular + surplus
@@ -252,23 +241,23 @@ def decode_connectivity(payload: bytes, vertex_count: int, face_count: int, limi
     corners = np.empty(3 * degenerate, np.int32)
     if count != regular or _kernels.code_degenerate(coder, corners, regular) != vertex_count:
         raise _nonsense(coder, f"it does not make {vertex_count} vertices")
-    finish_reading(coder)
+    entropy.finish_reading(coder)
     return np.concatenate([faces, corners.reshape(-1, 3)]) if degenerate else faces
 
 
-def conquer(coder: Coder, models: Models, guide: Guide, conquest: Conquest) -> tuple[Coder, Conquest]:
+def conquer(coder: entropy.Coder, models: Models, guide: Guide, conquest: Conquest) -> tuple[entropy.Coder, Conquest]:
     """Code the surface, with more memory each time that is asked for; so memory follows the progress, not a claim."""
     while (end := _kernels.conquer(coder, models, guide, conquest)) == NO_ROOM:
         nodes, heads = conquest.front
         front = Front(np.concatenate([nodes, np.empty_like(nodes)]), heads)
-        coder, conquest = make_room(coder, _TURN_BYTES + len(coder.data)), conquest._replace(front=front)
+        coder, conquest = entropy.make_room(coder, _TURN_BYTES + len(coder.data)), conquest._replace(front=front)
     if end == NONSENSE:
         raise _nonsense(coder, f"it does not make {len(conquest.faces)} triangles")
     return coder, conquest
 
 
-def _nonsense(coder: Coder, problem: str) -> CorruptError | TruncatedError:
-    if overran(coder):
+def _nonsense(coder: entropy.Coder, problem: str) -> CorruptError | TruncatedError:
+    if entropy.overran(coder):
         return TruncatedError(f"a connectivity payload of {len(coder.data)} bytes ends too early")
     return CorruptError(f"a connectivity payload is damaged: {problem}")
 

@@ -8,15 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import (
-    Coder,
-    finish_reading,
-    finish_writing,
-    make_room,
-    overran,
-    start_reading,
-    start_writing,
-)
+from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.errors import CorruptError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
@@ -64,7 +56,7 @@ def traverse(corners: Corners) -> Ints:
     return order
 
 
-Kernel = Callable[[Coder, int, int], int]
+Kernel = Callable[[entropy.Coder, int, int], int]
 """Codes rows from a number in their order on, so many, as far as it can; returns how many."""
 MOST_LARGEST = (1 << 20) - 1  # values from 0 on are at most this
 _ROOM = 1024
@@ -154,21 +146,21 @@ class FieldDecoder(_FieldCoder):
 
 def write_rows(code: Kernel, first: int, count: int, row_bytes: int = 4) -> bytes:
     """Code rows of usually so many bytes."""
-    coder, end = start_writing(_ROOM + row_bytes * count), first + count
+    coder, end = entropy.start_writing(_ROOM + row_bytes * count), first + count
     while first < end:
-        coder = make_room(coder, _ROOM + row_bytes * (end - first))
+        coder = entropy.make_room(coder, _ROOM + row_bytes * (end - first))
         first += code(coder, first, end - first)
-    return finish_writing(coder)
+    return entropy.finish_writing(coder)
 
 
 def read_rows(code: Kernel, payload: bytes, first: int, count: int) -> None:
-    coder = start_reading(payload)
+    coder = entropy.start_reading(payload)
     done = code(coder, first, count)
-    if overran(coder):
+    if entropy.overran(coder):
         raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {count} values")
     if done < count:
         raise CorruptError(f"number {done} of a payload of {count} has a value out of range")
-    finish_reading(coder)
+    entropy.finish_reading(coder)
 
 
 def checked_largest(largest: npt.ArrayLike, columns: range) -> Ints:

@@ -8,22 +8,7 @@ import numpy.typing as npt
 
 from bsm.bitstream import _kernels
 from bsm.bitstream.errors import OptionError
-from bsm.bitstream.fields.corners import (
-    BYTES_PER_FACE,
-    BYTES_PER_VERTEX,
-    MODEL_BYTES,
-    TERMS,
-    Field,
-    Kernel,
-    State,
-    checked_largest,
-    corners_of,
-    make_learners,
-    make_model,
-    read_rows,
-    traverse,
-    write_rows,
-)
+from bsm.bitstream.fields import corners as shared
 
 _SAMPLES = (4, 32)
 _AT_ONCE = 1 << 20
@@ -81,34 +66,34 @@ class _Grid(NamedTuple):
 
 def grid_charge(vertices: int, faces: int) -> int:
     """Bytes of memory that coding a grid takes at most; its work is linear in `vertices` + `faces`, 3 µs per vertex."""
-    return (BYTES_PER_VERTEX + 60) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 20)
+    return (shared.BYTES_PER_VERTEX + 60) * vertices + shared.BYTES_PER_FACE * faces + shared.MODEL_BYTES + (1 << 20)
 
 
-def grid_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
+def grid_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> shared.Field:
     """Positions on a grid, in as few bytes as can be."""
-    top = checked_largest(largest, range(AXES, AXES + 1))
-    weights = np.zeros((4 * 2 * 6 + 4 * AXES, TERMS), np.int64)  # at the start (V 9)
+    top = shared.checked_largest(largest, range(AXES, AXES + 1))
+    weights = np.zeros((4 * 2 * 6 + 4 * AXES, shared.TERMS), np.int64)  # at the start (V 9)
     weights[:48, 0] = 49152  # of the guesses
     weights[48:, :2] = 49152, 8192  # of the sizes of their errors
 
-    def start() -> State:
-        corners = corners_of(faces, vertices)
-        model = make_model()
+    def start() -> shared.State:
+        corners = shared.corners_of(faces, vertices)
+        model = shared.make_model()
         given, gaps = np.zeros((2, vertices, AXES), np.int32)
         grid = _Grid(
             top,
-            traverse(corners),
+            shared.traverse(corners),
             given,
             gaps,
             np.zeros((vertices, 4), np.int64),
             np.zeros((AXES, int(top.max()) // 64 + 1), np.int64),
-            make_learners(weights),
+            shared.make_learners(weights),
         )
-        return State(
+        return shared.State(
             lambda coder, *rows: _kernels.code_grid(coder, model, corners, grid, *rows), grid.order, grid.values
         )
 
-    return Field(np.zeros_like(top), top, grid_charge(vertices, len(np.asarray(faces))), start)
+    return shared.Field(np.zeros_like(top), top, grid_charge(vertices, len(np.asarray(faces))), start)
 
 
 _SIZES = 24
@@ -122,16 +107,18 @@ class _Light(NamedTuple):
     slots: npt.NDArray[np.uint32]
 
 
-def light_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> Field:
+def light_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> shared.Field:
     """Positions on a grid that are quick to decode (V 15), which takes less than `grid_charge`."""
     full = grid_field(faces, vertices, largest)
 
-    def start() -> State:
-        corners = corners_of(faces, vertices)
+    def start() -> shared.State:
+        corners = shared.corners_of(faces, vertices)
         slots = np.full(_SIZES * _SLOTS_OF_SIZE, 1 << 31, np.uint32)
         given, gaps = np.zeros((2, vertices, AXES), np.int32)
         light = _Light(full.high, given, gaps, slots)
-        return State(lambda coder, *rows: _kernels.code_light(coder, corners, light, *rows), corners.rank, light.values)
+        return shared.State(
+            lambda coder, *rows: _kernels.code_light(coder, corners, light, *rows), corners.rank, light.values
+        )
 
     return replace(full, start=start)
 
@@ -189,15 +176,15 @@ class Floats:
         """Code the numbers of floats, shape (k, 3), each in its cell, of values of a grid, shape (k, 3)."""
         if ((floats < cells.low) | (floats >= cells.high)).any():
             raise OptionError("a float is not in the cell of its value")
-        return write_rows(self._kernel(values, cells, floats), 0, len(values), _BYTES_PER_ROW)
+        return shared.write_rows(self._kernel(values, cells, floats), 0, len(values), _BYTES_PER_ROW)
 
     def decode(self, payload: bytes, values: Ints, cells: Cells) -> Numbers:
         """Twin of `encode`: returns the numbers of the floats, shape (k, 3)."""
         floats = np.zeros(values.shape, np.int64)
-        read_rows(self._kernel(values, cells, floats), payload, 0, len(values))
+        shared.read_rows(self._kernel(values, cells, floats), payload, 0, len(values))
         return floats
 
-    def _kernel(self, values: Ints, cells: Cells, floats: Numbers) -> Kernel:
+    def _kernel(self, values: Ints, cells: Cells, floats: Numbers) -> shared.Kernel:
         given, numbers = np.ascontiguousarray(values), (*cells, floats)
         return lambda coder, first, _: _kernels.code_floats(
             coder, self._state, given[first:], *(each[first:] for each in numbers)

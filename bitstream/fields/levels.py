@@ -7,15 +7,7 @@ import numpy.typing as npt
 
 from bsm.bitstream import _kernels
 from bsm.bitstream.entropy.range_coder import make_bank
-from bsm.bitstream.fields.corners import (
-    BYTES_PER_FACE,
-    BYTES_PER_VERTEX,
-    TERMS,
-    Field,
-    State,
-    corners_of,
-    make_learners,
-)
+from bsm.bitstream.fields import corners as shared
 
 Ints = npt.NDArray[np.int32]
 
@@ -39,23 +31,23 @@ class _Levels(NamedTuple):
 
 def levels_charge(vertices: int, faces: int) -> int:
     """Bytes of memory that coding levels takes at most; its work is linear in `vertices` + `faces`, 1 µs per level."""
-    return (BYTES_PER_VERTEX + 12 * AXES) * vertices + BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 17)
+    return (shared.BYTES_PER_VERTEX + 12 * AXES) * vertices + shared.BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 17)
 
 
-def levels_field(faces: npt.ArrayLike, vertices: int) -> Field:
+def levels_field(faces: npt.ArrayLike, vertices: int) -> shared.Field:
     """Levels, vertices in the order of their numbers."""
     top = np.full(AXES, MOST_LEVEL, np.int32)
-    weights = np.zeros((3, 4, TERMS), np.int64)  # at the start, for each axis by the number of flaps (V 11)
+    weights = np.zeros((3, 4, shared.TERMS), np.int64)  # at the start, for each axis by the number of flaps (V 11)
     weights[:, :, 0] = 52000
     weights[:, 1:, 1] = 28000
 
-    def start() -> State:
-        corners = corners_of(faces, vertices)
+    def start() -> shared.State:
+        corners = shared.corners_of(faces, vertices)
         model = make_bank(_SLOTS, _SORTS * _NODES, _INPUTS, rate=_RATE)
         given, gaps, means = np.zeros((3, vertices, AXES), np.int32)
-        levels = _Levels(given, gaps, means, make_learners(weights.reshape(12, TERMS)))
-        return State(
+        levels = _Levels(given, gaps, means, shared.make_learners(weights.reshape(12, shared.TERMS)))
+        return shared.State(
             lambda coder, *rows: _kernels.code_levels(coder, model, corners, levels, *rows), corners.rank, levels.levels
         )
 
-    return Field(-top, top, levels_charge(vertices, len(np.asarray(faces))), start)
+    return shared.Field(-top, top, levels_charge(vertices, len(np.asarray(faces))), start)

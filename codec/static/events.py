@@ -70,9 +70,8 @@ class ConnectivityEvent:
     >>> with bsm.Decoder() as decoder:
     ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
     ...     decoder.receive_eof()
-    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-    ...         if isinstance(event, bsm.ConnectivityEvent):
-    ...             print(event)
+    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.ConnectivityEvent)]
+    >>> found[0]
     ConnectivityEvent(... faces, ... vertices)
     """
 
@@ -103,9 +102,7 @@ class BlockEvent:
     >>> with bsm.Decoder() as decoder:
     ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
     ...     decoder.receive_eof()
-    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-    ...         if isinstance(event, bsm.BlockEvent):
-    ...             known = len(event.positions)
+    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.BlockEvent)]
     """
 
     layer: ClassVar[int] = 0
@@ -147,9 +144,7 @@ class RefinementEvent:
     >>> with bsm.Decoder() as decoder:
     ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
     ...     decoder.receive_eof()
-    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-    ...         if isinstance(event, bsm.RefinementEvent):
-    ...             known = event.positions
+    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.RefinementEvent)]
     """
 
     layer: ClassVar[int] = 1
@@ -183,10 +178,9 @@ class AttributeEvent:
     >>> with bsm.Decoder() as decoder:
     ...     decoder.receive_data(bsm.encode("spot.obj", step=0.002))
     ...     decoder.receive_eof()
-    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-    ...         if isinstance(event, bsm.AttributeEvent):
-    ...             print(event.name, event.domain)
-    texcoord corner
+    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.AttributeEvent)]
+    >>> found[0].name, found[0].domain
+    ('texcoord', 'corner')
     """
 
     name: str
@@ -216,14 +210,11 @@ class LossEvent:
     >>> import bsm
     >>> damaged = bytearray(bsm.encode("bunny.ply", step=0.002))
     >>> damaged[-60] ^= 1
-    >>> lost = []
     >>> with bsm.Decoder(tolerant=True) as decoder:
     ...     decoder.receive_data(damaged)
     ...     decoder.receive_eof()
-    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-    ...         if isinstance(event, bsm.LossEvent):
-    ...             lost.append(event.error)
-    >>> isinstance(lost[0], bsm.CorruptError)
+    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.LossEvent)]
+    >>> isinstance(found[0].error, bsm.CorruptError)
     True
     """
 
@@ -264,9 +255,8 @@ class EndEvent:
     >>> with bsm.Decoder() as decoder:
     ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
     ...     decoder.receive_eof()
-    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-    ...         if isinstance(event, bsm.EndEvent):
-    ...             print(event.losses)
+    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.EndEvent)]
+    >>> found[0].losses
     Losses(0 vertices missing, 0 degraded)
     """
 

@@ -65,7 +65,9 @@ def _add(made: Any, attribute: Attribute) -> None:
         split(values.astype(np.float64).tolist())
         return
     if attribute.semantic == "texcoord" and width == 2 and domain != "FACE":
-        at_corners = values if domain == "CORNER" else values[_corners(made)]
+        corners = np.empty(len(made.loops), np.int32)
+        made.loops.foreach_get("vertex_index", corners)
+        at_corners = values if domain == "CORNER" else values[corners]
         layer = made.uv_layers.new(name=attribute.name)
         layer.uv.foreach_set("vector", np.ascontiguousarray(at_corners, np.float32).reshape(-1))
         return
@@ -90,12 +92,6 @@ def _add_color(made: Any, name: str, values: Array, domain: str) -> None:
         made.color_attributes.render_color_index = made.color_attributes.find(layer.name)
 
 
-def _corners(made: Any) -> Array:
-    found = np.empty(len(made.loops), np.int32)
-    made.loops.foreach_get("vertex_index", found)
-    return found
-
-
 def _material(words: dict[str, Any], metadata: Metadata, number: int) -> Any:
     made = bpy.data.materials.new(str(words.get("name") or f"material {number}"))
     made.use_nodes = True
@@ -109,20 +105,15 @@ def _material(words: dict[str, Any], metadata: Metadata, number: int) -> Any:
     data = images_in(metadata).get(words.get("baseColorTexture", -1), ("", b""))[1]
     if kind := kind_of_image(data):
         node = made.node_tree.nodes.new("ShaderNodeTexImage")
-        node.image = _image(data, f"{made.name}.{kind}")
+        name = f"{made.name}.{kind}"
+        with tempfile.TemporaryDirectory() as folder:  # packed into the project, from the bytes of its file
+            path = Path(folder, name.replace(os.sep, "_"))
+            path.write_bytes(data)
+            node.image = bpy.data.images.load(str(path))
+            node.image.pack()
+        node.image.filepath = f"//{name}"
         made.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
     return made
-
-
-def _image(data: bytes, name: str) -> Any:
-    """An image that is packed into the project, from the bytes of its file."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, name.replace(os.sep, "_"))
-        path.write_bytes(data)
-        image = bpy.data.images.load(str(path))
-        image.pack()
-    image.filepath = f"//{name}"
-    return image
 
 
 def triangles_of(data: Any) -> tuple[Faces, Array]:
@@ -329,7 +320,12 @@ def export_object(
     if scene.unit_settings.system != "NONE" and abs(scene.unit_settings.scale_length - 1.0) < 1e-6:
         metadata["unit"] = "meters"
     try:
-        faces, attributes, first = _first(scene, moving, numbers[0])
+        scene.frame_set(numbers[0])
+        with _Evaluated(moving) as (data, place):
+            faces, corners = triangles_of(data)
+            if not len(faces):
+                raise MeshError(f"{moving.name} has no faces")
+            attributes, first = attributes_of(data, corners), _points(data, place)
         if not animation:
             written = [encode(TriangleMesh(first, faces, attributes), metadata=metadata, **keywords)]
         else:
@@ -344,15 +340,6 @@ def export_object(
     finally:
         scene.frame_set(before)
     return {"frames": len(numbers), "vertices": len(first), "faces": len(faces), "bytes": size}
-
-
-def _first(scene: Any, moving: Any, number: int) -> tuple[Faces, tuple[Attribute, ...], Positions]:
-    scene.frame_set(number)
-    with _Evaluated(moving) as (data, place):
-        faces, corners = triangles_of(data)
-        if not len(faces):
-            raise MeshError(f"{moving.name} has no faces")
-        return faces, attributes_of(data, corners), _points(data, place)
 
 
 def _frames(scene: Any, moving: Any, numbers: range, progress: Progress | None) -> Iterator[Positions]:

@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass, field, replace
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Positions
@@ -72,13 +72,13 @@ def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None
     if np.array_equal(original.faces, other.faces):
         return other.positions
     if order is None:
-        by_decoder = _encode(original)
+        by_decoder = encode_connectivity(original.faces, len(original.positions))
         if np.array_equal(by_decoder.faces, other.faces):
             return other.positions[np.argsort(by_decoder.vertex_order)]
     if np.array_equal(_canonical(original.faces), _canonical(other.faces)):
         return other.positions
     if order is None:
-        again = _encode(other)
+        again = encode_connectivity(other.faces, len(other.positions))
         if np.array_equal(by_decoder.faces, again.faces):
             return other.positions[again.vertex_order[np.argsort(by_decoder.vertex_order)]]
     raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation")
@@ -98,7 +98,7 @@ def paired_corners(original: TriangleMesh, other: TriangleMesh, order: Order | N
 
 def unsplit(original: TriangleMesh, other: TriangleMesh) -> TriangleMesh | None:
     """The decoded mesh of which `other` is what became after vertices were split; faces and corners stay."""
-    faces = _encode(original).faces
+    faces = encode_connectivity(original.faces, len(original.positions)).faces
     if len(faces) != len(other.faces):
         return None
     some = np.zeros(len(original.positions), np.int64)
@@ -119,10 +119,6 @@ def _canonical_order(faces: Faces) -> tuple[Order, Order]:
     corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3
     turned = np.take_along_axis(faces, corners, axis=1)
     return np.lexsort(turned.T[::-1]), corners
-
-
-def _encode(mesh: TriangleMesh) -> EncodedConnectivity:
-    return encode_connectivity(mesh.faces, len(mesh.positions))
 
 
 @public
@@ -159,7 +155,11 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
     """Find which vertices of meshes, all of whose vertices are in faces, are the same."""
     attributed = bool(original.attributes)
     kept = [np.arange(len(mesh.faces)) for mesh in (original, decoded)]
-    joined = order is None and not _comparable(original, decoded)
+    joined = order is None
+    with suppress(MeshError):  # they may have the same vertices, in an order that is known
+        if joined and len(original.positions) == len(decoded.positions):
+            in_order_of(original, decoded)
+            joined = False
     if joined:
         # An encoder makes vertices at one position one, and a file may need them split.
         whole = join(original, keep=False)
@@ -175,15 +175,6 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
     pairs = paired_corners(original, decoded, order) if attributed else (none, none)
     corners, others = (3 * given[found // 3] + found % 3 for given, found in zip(kept, pairs, strict=True))
     return Pair(original, positions, corners, others, joined)
-
-
-def _comparable(original: TriangleMesh, decoded: TriangleMesh) -> bool:
-    """Whether they have the same vertices, in an order that is known."""
-    with suppress(MeshError):
-        if len(original.positions) == len(decoded.positions):
-            in_order_of(original, decoded)
-            return True
-    return False
 
 
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:

@@ -4,21 +4,7 @@ import os
 import sys
 from dataclasses import dataclass
 
-from bsm.bitstream.errors import (
-    ArgumentError,
-    BsmError,
-    CorruptError,
-    DependencyError,
-    FormatError,
-    HarmError,
-    LimitError,
-    MeshError,
-    NumericError,
-    OptionError,
-    TargetError,
-    TruncatedError,
-    UnsupportedError,
-)
+from bsm.bitstream import errors as failures
 from bsm.console import say
 from bsm.files.output import Terminated
 
@@ -33,21 +19,23 @@ class Exit:
 
 
 UNEXPECTED = Exit(1, "unexpected error: please report it")
-USAGE = Exit(2, "wrong usage or option", (OptionError, ArgumentError))
+USAGE = Exit(2, "wrong usage or option", (failures.OptionError, failures.ArgumentError))
 # The first row that fits an error counts.
 EXITS = (
     Exit(0, "done"),
     UNEXPECTED,
     USAGE,
-    Exit(3, "the input is not the kind of file expected, or no triangle mesh", (FormatError, MeshError)),
-    Exit(4, "the input is damaged", (CorruptError,)),
-    Exit(5, "the input is of a version or method that this program does not know", (UnsupportedError,)),
-    Exit(6, "the input asks for more memory or work than allowed", (LimitError, MemoryError)),
-    Exit(7, "the mathematics broke down", (NumericError,)),
-    Exit(8, "an optional package is missing", (DependencyError,)),
-    Exit(10, "the quality or size asked for cannot be reached", (TargetError,)),
-    Exit(11, "the result would be worse than the input; --force writes it nevertheless", (HarmError,)),
-    Exit(12, "the input ends too early", (TruncatedError,)),
+    Exit(
+        3, "the input is not the kind of file expected, or no triangle mesh", (failures.FormatError, failures.MeshError)
+    ),
+    Exit(4, "the input is damaged", (failures.CorruptError,)),
+    Exit(5, "the input is of a version or method that this program does not know", (failures.UnsupportedError,)),
+    Exit(6, "the input asks for more memory or work than allowed", (failures.LimitError, MemoryError)),
+    Exit(7, "the mathematics broke down", (failures.NumericError,)),
+    Exit(8, "an optional package is missing", (failures.DependencyError,)),
+    Exit(10, "the quality or size asked for cannot be reached", (failures.TargetError,)),
+    Exit(11, "the result would be worse than the input; --force writes it nevertheless", (failures.HarmError,)),
+    Exit(12, "the input ends too early", (failures.TruncatedError,)),
     Exit(130, "interrupted", (KeyboardInterrupt,)),
     Exit(141, "the reader of a pipe went away", (BrokenPipeError,)),
     Exit(9, "a file cannot be read or written", (OSError,)),
@@ -63,7 +51,7 @@ def exit_of(error: BaseException) -> Exit:
 
 def is_expected(error: BaseException) -> bool:
     """Whether an error is the user's business and not a fault of the program."""
-    return isinstance(error, BsmError) or exit_of(error) is not UNEXPECTED
+    return isinstance(error, failures.BsmError) or exit_of(error) is not UNEXPECTED
 
 
 def exit_table() -> str:

@@ -30,6 +30,7 @@ _POINTS = ("vertices", "points", "positions")
 _FACES = ("faces", "triangles")
 _SURFACES = ("triangle", "quad", "polygon")
 _NO_SURFACES = ("vertex", "line")
+_NOTHING: Metadata = MappingProxyType({})
 
 
 def as_mesh(mesh: Any) -> TriangleMesh:
@@ -77,7 +78,7 @@ def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:
 
 
 def _mesh_of_arrays(
-    positions: Any, faces: Any, columns: Sequence[Column] = (), metadata: Metadata = MappingProxyType({})
+    positions: Any, faces: Any, columns: Sequence[Column] = (), metadata: Metadata = _NOTHING
 ) -> TriangleMesh:
     more = (columns, metadata)
     try:
@@ -105,11 +106,7 @@ def _mesh_of_cells(points: Any, cells: dict[str, npt.NDArray[Any]], columns: Seq
 
 
 def _mesh_of_polygons(
-    positions: Any,
-    sizes: Ints,
-    corners: npt.NDArray[Any],
-    columns: Sequence[Column] = (),
-    metadata: Metadata = MappingProxyType({}),
+    positions: Any, sizes: Ints, corners: Array, columns: Sequence[Column] = (), metadata: Metadata = _NOTHING
 ) -> TriangleMesh:
     try:
         points = np.asarray(positions, np.float64)
@@ -145,7 +142,12 @@ def _split(flat: Ints) -> tuple[Ints, Ints]:
 def columns_of(mesh: Any, surfaces: tuple[str, ...]) -> list[Column]:
     """The values of vertices, corners and polygons; `surfaces` are the kinds of meshio's cells that are polygons."""
     if hasattr(mesh, "cells_dict") and hasattr(mesh, "cell_data_dict"):
-        return [*_of_points(mesh.point_data, ""), *_of_meshio_cells(mesh.cell_data_dict, surfaces)]
+        found = list(_of_points(mesh.point_data, ""))
+        for name, by_kind in mesh.cell_data_dict.items():
+            tables = [np.asarray(by_kind[kind]) for kind in surfaces if kind in by_kind]
+            if tables and all(table.shape[1:] == tables[0].shape[1:] for table in tables):
+                found += _columns({name: np.concatenate(tables)}, "face")
+        return found
     if hasattr(mesh, "point_data") and hasattr(mesh, "cell_data") and hasattr(mesh, "n_lines"):
         first, last = mesh.n_verts + mesh.n_lines, mesh.n_cells - mesh.n_strips  # cells are points and lines, too
         cells = {name: values[first:last] for name, values in mesh.cell_data.items()}
@@ -182,13 +184,6 @@ def _columns(data: Mapping[str, Any], domain: Domain) -> Iterator[Column]:
         if values.ndim != 2 or values.dtype.kind not in "biuf":
             continue
         yield named_column(name, values, domain)
-
-
-def _of_meshio_cells(data: Mapping[str, Mapping[str, Any]], surfaces: tuple[str, ...]) -> Iterator[Column]:
-    for name, by_kind in data.items():
-        tables = [np.asarray(by_kind[kind]) for kind in surfaces if kind in by_kind]
-        if tables and all(table.shape[1:] == tables[0].shape[1:] for table in tables):
-            yield from _columns({name: np.concatenate(tables)}, "face")
 
 
 def _of_open3d(mesh: Any) -> Iterator[Column]:

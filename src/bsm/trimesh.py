@@ -21,19 +21,7 @@ from bsm.api import decode, encode
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.metadata import (
-    GLTF_TEXTURES,
-    Material,
-    described,
-    face_numbers,
-    first,
-    gltf_values,
-    images_in,
-    materials_in,
-    names_in,
-    rgba,
-    shown_at_vertices,
-)
+from bsm.files.formats import metadata as formats
 from bsm.files.formats.polygons import Array
 from bsm.files.formats.with_trimesh import import_trimesh, joined, polygons_of
 from bsm.libraries import as_mesh
@@ -73,14 +61,14 @@ def from_trimesh(mesh: Any) -> TriangleMesh:
 def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
     """The arguments of `trimesh.Trimesh` that make it of a mesh; vertices are split where corners differ."""
     mesh = split_by_attributes(mesh)
-    normal, color, texcoord = shown_at_vertices(mesh)
-    of_faces = first(mesh, "color", (3, 4), "face")
-    known = materials_in(mesh.metadata)
+    normal, color, texcoord = formats.shown_at_vertices(mesh)
+    of_faces = formats.first(mesh, "color", (3, 4), "face")
+    known = formats.materials_in(mesh.metadata)
     materials = [_material(words, mesh.metadata) for words in known.values()]
     visual = None
     if texcoord is not None or materials:
         uv = None if texcoord is None else texcoord.values[:, :2]
-        numbers = face_numbers(mesh, "material")
+        numbers = formats.face_numbers(mesh, "material")
         place = {number: place for place, number in enumerate(known)}
         if not materials or (numbers is not None and not np.isin(numbers.values, list(known)).all()):
             # Of faces of whose material nothing is said: trimesh would give them a grey one, and an image.
@@ -92,19 +80,16 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
             of_each = np.array([place.get(number, len(known)) for number in numbers.values[:, 0].tolist()])
         visual = _library.visual.TextureVisuals(uv=uv, material=material, face_materials=of_each)
         if color is not None:
-            visual.vertex_attributes["color"] = rgba(color)
+            visual.vertex_attributes["color"] = formats.rgba(color)
         of_faces = None
     elif color is not None:
-        visual, of_faces = _library.visual.ColorVisuals(vertex_colors=rgba(color)), None
+        visual, of_faces = _library.visual.ColorVisuals(vertex_colors=formats.rgba(color)), None
     elif of_faces is not None:
-        visual = _library.visual.ColorVisuals(face_colors=rgba(of_faces))
+        visual = _library.visual.ColorVisuals(face_colors=formats.rgba(of_faces))
     shown = {attribute.name for attribute in (normal, color, texcoord, of_faces) if attribute is not None}
     others = [attribute for attribute in mesh.attributes if attribute.name not in shown]
-    metadata = {
-        "units" if name == "unit" else name: value
-        for name, value in mesh.metadata.items()
-        if not name.startswith(("material.", "image."))
-    }
+    plain = [(name, value) for name, value in mesh.metadata.items() if not name.startswith(("material.", "image."))]
+    metadata = {"units" if name == "unit" else name: value for name, value in plain}
     arguments: dict[str, Any] = {
         "vertices": mesh.positions,
         "faces": mesh.faces,
@@ -120,16 +105,16 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
 
 def parts_of(mesh: TriangleMesh) -> Iterator[tuple[str, TriangleMesh]]:
     """The parts that a mesh was made of, and their names; each has the materials of its faces, and no other metadata"""
-    part, material = face_numbers(mesh, "part"), face_numbers(mesh, "material")
+    part, material = formats.face_numbers(mesh, "part"), formats.face_numbers(mesh, "material")
     numbers = np.zeros(len(mesh.faces), np.int64) if part is None else part.values[:, 0]
     attributes = [attribute for attribute in mesh.attributes if attribute is not part]
-    words, names = materials_in(mesh.metadata), names_in(mesh.metadata, "part")
+    words, names = formats.materials_in(mesh.metadata), formats.names_in(mesh.metadata, "part")
     images = {name: value for name, value in mesh.metadata.items() if name.startswith("image.")}
     every_vertex = np.arange(len(mesh.positions))
     for number in np.unique(numbers).tolist():
         faces = np.flatnonzero(numbers == number)
         used = {0} if material is None else set(material.values[faces, 0].tolist())
-        known = described({which: known for which, known in words.items() if which in used})
+        known = formats.described({which: known for which, known in words.items() if which in used})
         piece = TriangleMesh(
             mesh.positions,
             mesh.faces[faces],
@@ -144,9 +129,9 @@ def _flat(values: Array) -> Array:
     return values[:, 0] if values.shape[1] == 1 else values
 
 
-def _material(words: Material, metadata: Metadata) -> Any:
-    images, known = images_in(metadata), gltf_values(words)
-    for name in set(GLTF_TEXTURES) & known.keys():
+def _material(words: formats.Material, metadata: Metadata) -> Any:
+    images, known = formats.images_in(metadata), formats.gltf_values(words)
+    for name in set(formats.GLTF_TEXTURES) & known.keys():
         known[name] = _opened(images.get(known[name], ("", b""))[1])
     return _library.visual.material.PBRMaterial(**{name: value for name, value in known.items() if value is not None})
 
@@ -166,16 +151,12 @@ def _load(file_obj: IO[bytes], file_type: str | None = None, **keywords: Any) ->
     return arguments_of(decode(file_obj.read())) | {name: keywords[name] for name in ("process",) if name in keywords}
 
 
-def _export(mesh: Any, **keywords: Any) -> bytes:
-    return encode(from_trimesh(mesh), **keywords)
-
-
 def register() -> None:
     """Tell trimesh of .bsm; importing this module does it."""
     from trimesh.exchange import export, load
 
     load.mesh_loaders["bsm"] = _load
-    export._mesh_exporters["bsm"] = _export
+    export._mesh_exporters["bsm"] = lambda mesh, **keywords: encode(from_trimesh(mesh), **keywords)
 
 
 register()

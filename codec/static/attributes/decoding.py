@@ -19,32 +19,12 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Levels, Order
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static import work
+from bsm.codec.static.attributes import surface
 from bsm.codec.static.attributes.levels import KINDS, PieceDecoder, Values, from_pieces, restored
-from bsm.codec.static.attributes.surface import (
-    Arrangement,
-    Solid,
-    Surface,
-    arrangement_of,
-    loose_of,
-    recomputed,
-    surface_of,
-)
 from bsm.codec.static.events import AttributeEvent, Losses, LossEvent, unreadable
 from bsm.codec.static.numbering import Numbering
 from bsm.codec.static.stages import Arrival, Ended, Stage, misplaced
-from bsm.codec.static.work import (
-    DECLARED,
-    Allowance,
-    chunk_cost,
-    coding_memory,
-    layer_cost,
-    recomputing_memory,
-    seams_cost,
-    seams_kept,
-    seams_memory,
-    values_cost,
-    values_memory,
-)
 
 SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
@@ -66,9 +46,9 @@ class Declarations:
     vertices: int
     known: tuple[DeclaredAttribute, ...] = ()
 
-    def add(self, packet: packets.Attribute, allowance: Allowance) -> Declarations:
+    def add(self, packet: packets.Attribute, allowance: work.Allowance) -> Declarations:
         """With one more; its seams are paid for."""
-        allowance.spend(DECLARED)
+        allowance.spend(work.DECLARED)
         every = [*(one.declaration for one in self.known), packet.declaration]
         allowance.limits.check("attribute_values", sum(numbers_of(one, len(self.faces)) for one in every))
         one = DeclaredAttribute(packet.index, packet.declaration, self._joins(packet, allowance))
@@ -81,12 +61,12 @@ class Declarations:
             expected = len(self.faces)
         else:
             places = self.vertices if one.joins is None else one.joins.count
-            expected = places + loose_of(declaration, numbering)
+            expected = places + surface.loose_of(declaration, numbering)
         if declaration.coding != RECOMPUTED and declaration.rows != expected:
             raise CorruptError(f"attribute {declaration.name!r} has {declaration.rows} values where {expected} belong")
         return expected
 
-    def _joins(self, packet: packets.Attribute, allowance: Allowance) -> Joins | None:
+    def _joins(self, packet: packets.Attribute, allowance: work.Allowance) -> Joins | None:
         declaration = packet.declaration
         if declaration.domain != CORNER:
             return None
@@ -98,9 +78,9 @@ class Declarations:
         if len(self.known) < packet.index:
             raise CorruptError(f"the seams of {declaration.name!r} depend on those of an attribute that is missing")
         faces, received = len(self.faces), len(packet.seams)
-        allowance.keep(seams_kept(self.vertices, faces, first=not self._with_seams), received)
-        allowance.afford(seams_memory(self.vertices, faces))
-        allowance.spend(seams_cost(self.vertices, faces, received), received)
+        allowance.keep(work.seams_kept(self.vertices, faces, first=not self._with_seams), received)
+        allowance.afford(work.seams_memory(self.vertices, faces))
+        allowance.spend(work.seams_cost(self.vertices, faces, received), received)
         earlier = tuple(one.joins.seams for one in self._with_seams[-2:])
         return Joins(self._corners, decode_seams(packet.seams, self._corners, earlier))
 
@@ -128,7 +108,7 @@ class Whole(Protocol):
     def losses(self) -> Losses:
         """What of it is missing or less good."""
 
-    def solid(self) -> Solid | None:
+    def solid(self) -> surface.Solid | None:
         """Decoded positions, in the order of coding; None where some are missing or not as the encoder had them."""
 
 
@@ -140,7 +120,7 @@ class MeshContext(Protocol):
     @property
     def numbering(self) -> Numbering: ...
     @property
-    def allowance(self) -> Allowance: ...
+    def allowance(self) -> work.Allowance: ...
 
 
 class AttributeDecoder:
@@ -152,15 +132,15 @@ class AttributeDecoder:
         self.complete = declaration.coding == RECOMPUTED
         self._declared = declared
         self._structure = structure
-        self._loose = loose_of(declaration, structure.numbering)
-        self._surface: Surface = surface_of(
+        self._loose = surface.loose_of(declaration, structure.numbering)
+        self._surface: surface.Surface = surface.surface_of(
             declaration.domain, declarations.faces, declarations.vertices, self._loose, declared.joins
         )
         expected = self._rows = declarations.rows_of(declared, structure.numbering)
-        structure.allowance.keep(values_memory(expected, len(declarations.faces), declaration.components))
+        structure.allowance.keep(work.values_memory(expected, len(declarations.faces), declaration.components))
         if self.complete:
-            structure.allowance.afford(recomputing_memory(expected, len(declarations.faces)))
-        structure.allowance.spend(values_cost(expected, len(declarations.faces)))
+            structure.allowance.afford(work.recomputing_memory(expected, len(declarations.faces)))
+        structure.allowance.spend(work.values_cost(expected, len(declarations.faces)))
         self._coder: PieceDecoder | None = None
 
     def decode(self, packet: packets.Values, places: Levels | None) -> AttributeEvent:
@@ -168,13 +148,13 @@ class AttributeDecoder:
         if self.complete:
             raise CorruptError("it has all its values already")
         allowance, faces = self._structure.allowance, len(self._surface.faces)
-        coding = coding_memory(self._rows, faces, self.declaration.components)
+        coding = work.coding_memory(self._rows, faces, self.declaration.components)
         if self._coder is None:
             allowance.keep(coding)
-            allowance.spend(layer_cost(self._rows, faces, self.declaration.components))
+            allowance.spend(work.layer_cost(self._rows, faces, self.declaration.components))
             self._coder = PieceDecoder(self.declaration, self._surface, places, allowance.limits)
         allowance.keep(0.0, len(packet.data))
-        allowance.spend(chunk_cost(len(packet.data), self._rows), len(packet.data))
+        allowance.spend(work.chunk_cost(len(packet.data), self._rows), len(packet.data))
         coder = self._coder
         if packet.first != coder.coded:
             raise CorruptError(f"the values before number {packet.first} are missing; others depend on them")
@@ -196,14 +176,14 @@ class AttributeDecoder:
             self._values[self.arrangement.rows[shown]],
         )
 
-    def attribute(self, solid: Solid | None) -> Attribute | None:
+    def attribute(self, solid: surface.Solid | None) -> Attribute | None:
         """As the user knows it; None where it is not whole."""
         declaration = self.declaration
         values = self._values
         if declaration.coding == RECOMPUTED:
             if solid is None:
                 return None
-            values = recomputed(self._surface, solid.positions).astype(KINDS[declaration.kind])
+            values = surface.recomputed(self._surface, solid.positions).astype(KINDS[declaration.kind])
         elif not self.complete:
             return None
         arrangement = self.arrangement
@@ -216,9 +196,9 @@ class AttributeDecoder:
         return self._values if self.complete else None
 
     @cached_property
-    def arrangement(self) -> Arrangement:
+    def arrangement(self) -> surface.Arrangement:
         """How it is given to the user."""
-        return arrangement_of(self.declaration, self._surface, self._structure.numbering, self._rows)
+        return surface.arrangement_of(self.declaration, self._surface, self._structure.numbering, self._rows)
 
     @cached_property
     def _values(self) -> Any:
@@ -256,7 +236,7 @@ class AttributeDecoders:
         """One that is not recomputed; None where it is not whole."""
         return self._valued[index].attribute(None)
 
-    def attributes(self, solid: Solid | None) -> tuple[Attribute, ...]:
+    def attributes(self, solid: surface.Solid | None) -> tuple[Attribute, ...]:
         """Attributes that are whole; `solid` for those that are recomputed."""
         found = [one.attribute(solid) for one in self._valued.values()]
         return tuple(one for one in found if one is not None)

@@ -6,14 +6,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.attributes.values import (
-    MOST_COMPONENTS,
-    Kind,
-    canonical_levels,
-    face_values_field,
-    octahedral_normals,
-    values_field,
-)
+from bsm.bitstream.attributes import values as coders
 from bsm.bitstream.container.declaration import BITS, COLOR, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import CorruptError, OptionError, TargetError
@@ -47,7 +40,7 @@ def restored(declaration: Declaration, levels: Words) -> Values:
     """Values of levels, shape (k, words) (A 5)."""
     kind = np.dtype(KINDS[declaration.kind])
     if declaration.coding == OCTAHEDRAL:
-        return octahedral_normals(levels, declaration.largest[0] // 2).astype(kind)
+        return coders.octahedral_normals(levels, declaration.largest[0] // 2).astype(kind)
     offset = np.array(declaration.offsets)
     if declaration.coding == BITS:
         return _of_bits(levels + offset.astype(np.int64), kind)
@@ -163,7 +156,7 @@ def _octahedral(values: Values, quality: Quality, name: str) -> QuantizedValues:
     for bits in tried:
         largest = 2**bits - 2
         levels = _places(units, largest)
-        back = octahedral_normals(levels, largest // 2).astype(values.dtype).astype(np.float64)
+        back = coders.octahedral_normals(levels, largest // 2).astype(values.dtype).astype(np.float64)
         across = np.linalg.norm(np.cross(back, units), axis=1)
         off = float(np.degrees(np.arctan2(across, (back * units).sum(axis=1))).max())
         if quality.way == "bits" or off <= quality.amount:
@@ -198,14 +191,14 @@ def _places(units: Reals, largest: int) -> Words:
     u = np.where(below, np.copysign(1.0 - np.abs(y), x), x) * middle + middle
     v = np.where(below, np.copysign(1.0 - np.abs(x), y), y) * middle + middle
     best = np.stack([np.floor(u), np.floor(v)], axis=1).clip(0, largest).astype(np.int64)
-    closeness = (octahedral_normals(best, middle) * units).sum(axis=1)
+    closeness = (coders.octahedral_normals(best, middle) * units).sum(axis=1)
     for right in range(2):
         for up in range(2):
             place = np.stack([np.floor(u) + right, np.floor(v) + up], axis=1).clip(0, largest).astype(np.int64)
-            close = (octahedral_normals(place, middle) * units).sum(axis=1)
+            close = (coders.octahedral_normals(place, middle) * units).sum(axis=1)
             better = close > closeness
             best[better], closeness[better] = place[better], close[better]
-    return canonical_levels(best, middle).astype(np.int64)
+    return coders.canonical_levels(best, middle).astype(np.int64)
 
 
 def _bits_of(values: Values) -> Words:
@@ -269,7 +262,7 @@ def from_pieces(declaration: Declaration, pieces: Levels) -> Words:
     return np.stack(columns, axis=1)
 
 
-def kind_of(declaration: Declaration) -> Kind:
+def kind_of(declaration: Declaration) -> coders.Kind:
     """How numbers are predicted."""
     if declaration.coding == OCTAHEDRAL:
         return "normal"
@@ -291,9 +284,9 @@ def _fields(declaration: Declaration, surface: Surface, places: Levels | None) -
     faces, kind = surface.faces, kind_of(declaration)
     of_groups = [largest_pieces(declaration)[some] for some in _groups(declaration)]
     if declaration.domain == FACE:
-        return [face_values_field(faces, largest) for largest in of_groups]
+        return [coders.face_values_field(faces, largest) for largest in of_groups]
     geometry, size = None if places is None else surface.geometry(places), len(surface.vertices)
-    return [values_field(faces, size, largest, kind, geometry, surface.places) for largest in of_groups]
+    return [coders.values_field(faces, size, largest, kind, geometry, surface.places) for largest in of_groups]
 
 
 class PieceEncoder:
@@ -332,5 +325,5 @@ class PieceDecoder:
 
 
 def _groups(declaration: Declaration) -> list[slice]:
-    starts = range(0, len(largest_pieces(declaration)), MOST_COMPONENTS)
-    return [slice(start, start + MOST_COMPONENTS) for start in starts]
+    starts = range(0, len(largest_pieces(declaration)), coders.MOST_COMPONENTS)
+    return [slice(start, start + coders.MOST_COMPONENTS) for start in starts]

@@ -22,24 +22,13 @@ from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.comparison import compare_meshes, in_order_of, pair, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
+from bsm.files import stream as streams
 from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
 from bsm.files.motion.frames import Wanted
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
-from bsm.files.stream import (
-    Loops,
-    Pieces,
-    SequenceStream,
-    all_frames,
-    decode_whole,
-    is_stream,
-    numbered,
-    numbers_of,
-    peek_header,
-    pieces_of,
-)
 from bsm.lengths import length, unit_of
 from bsm.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 
@@ -153,8 +142,8 @@ def sentence(compared: dict[str, Any], unit: str) -> str:
 def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:
     """A mesh file or a stream, without the vertices that no face uses."""
     with about(path):
-        if is_stream(path):
-            return decode_whole(read_chunks(path), limits_of(args.limits))
+        if streams.is_stream(path):
+            return streams.decode_whole(read_chunks(path), limits_of(args.limits))
         source = read_mesh(path, reader=args.reader)
     for note in source.notes:
         console.note(f"{path}: {note}")
@@ -181,23 +170,25 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
     return True
 
 
-def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> Pieces | None:
+def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> streams.Pieces | None:
     """The frames and faces of a file, folder or stream; None if it is a mesh."""
     with about(path):
-        if Path(path).is_file() and is_stream(path):
-            header, chunks = peek_header(read_chunks(path))
+        if Path(path).is_file() and streams.is_stream(path):
+            header, chunks = streams.peek_header(read_chunks(path))
             if header is None or not header.gop_frames:
                 return None
-            return all_frames(SequenceStream(chunks, limits=limits_of(args.limits)))
+            return streams.all_frames(streams.SequenceStream(chunks, limits=limits_of(args.limits)))
         source = open_sequence(path, reader=args.reader, wanted=wanted)
         if source is None:
             return None
         if source.meshes is None:
             return [(np.array(list(source.frames)), source.faces)]
-        return pieces_of((mesh.positions, mesh.faces) for mesh in source.meshes)
+        return streams.pieces_of((mesh.positions, mesh.faces) for mesh in source.meshes)
 
 
-def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pieces, progress: Progress) -> str:
+def _compared_sequences(
+    args: argparse.Namespace, original: streams.Pieces, decoded: streams.Pieces, progress: Progress
+) -> str:
     """How far one sequence is from the other, as it is printed."""
     counts = [[len(frames) for frames, _ in side] for side in (original, decoded)]
     if sum(counts[0]) != sum(counts[1]):
@@ -214,14 +205,14 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     for (first, faces), (second, others) in zip(original, decoded, strict=True):
         mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
         other, other_kept = TriangleMesh(second[0], others).without_isolated_vertices()
-        rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
+        rows = streams.numbers_of(in_order_of(mesh, streams.numbered(other.faces, len(other_kept)), order))
         runs.append((first[:, kept], second[:, other_kept[rows]], mesh.faces))
     result = asdict(compare_runs(runs))
     if args.look:
         progress.stage("looking at all frames")
         result.update(_looks(runs, progress))
         progress.stage("comparing")
-    if Path(args.decoded).is_file() and is_stream(args.decoded):
+    if Path(args.decoded).is_file() and streams.is_stream(args.decoded):
         samples = sum(frames[..., 0].size for frames, _ in decoded)
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
     of_frames = [found for one, two, _ in runs for found in _of_frames(one, two)]
@@ -230,7 +221,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
 
         refuse_to_overwrite(args.picture, args.force)
         write_output(args.picture, frame_errors(of_frames, Path(args.decoded).name), overwrite=args.force)
-    loops = Loops()
+    loops = streams.Loops()
     for frame in runs[0][0] if len(runs) == 1 else ():
         loops.take(frame)
     repeats = loops.said()

@@ -1,7 +1,7 @@
 """Tables of numbers in text files."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import chain
 from typing import Any
 
@@ -27,7 +27,9 @@ class Rows:
         try:
             self.values: Doubles = np.array(list(chain.from_iterable(fields)), dtype=np.float64)
         except ValueError:
-            raise MeshError(f"a {what} is not made of numbers: {_strange(chain.from_iterable(fields))!r}") from None
+            word = next(filter(_is_no_number, chain.from_iterable(fields)), b"")
+            shown = word[:40].decode(errors="replace")
+            raise MeshError(f"a {what} is not made of numbers: {shown!r}") from None
 
     def require(self, needed: int | Ints) -> None:
         short = self.counts < needed
@@ -50,14 +52,12 @@ class Rows:
         return sizes, as_integers(self.values[ranges(self.starts + before + 1, sizes)], "a vertex index")
 
 
-def _strange(words: Iterable[bytes]) -> str:
-    """The first that is no number."""
-    for word in words:
-        try:
-            float(word)
-        except ValueError:
-            return word[:40].decode(errors="replace")
-    return ""
+def _is_no_number(word: bytes) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return True
+    return False
 
 
 def ranges(starts: Ints, sizes: Ints) -> Ints:

@@ -22,24 +22,10 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.decoder import decode
-from bsm.gltf.document import (
-    COMPONENTS,
-    EXTENSION,
-    KINDS,
-    PER_NUMBER,
-    VECTORS,
-    WEBP,
-    Document,
-    Tree,
-    as_format_error,
-    bounds_of,
-    glb,
-    is_plain,
-    span_of,
-)
+from bsm.gltf import document as gltf
 
 _TRIANGLES = 4
-_FLOAT, _UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
+_FLOAT, _UINT = gltf.COMPONENTS["float32"], gltf.COMPONENTS["uint32"]
 _SEMANTICS: dict[str, tuple[Semantic, int]] = {
     "NORMAL": ("normal", 3),
     "TEXCOORD_0": ("texcoord", 2),
@@ -62,28 +48,28 @@ class Carried:
     qualities: dict[str, str]
 
 
-def arrays_of(primitive: Tree) -> dict[str, int]:
+def arrays_of(primitive: gltf.Tree) -> dict[str, int]:
     """Accessors of what each vertex of a primitive has; those of morph targets are called "0/POSITION" and so on."""
     targets = enumerate(primitive.get("targets", []))
     added = {f"{number}/{name}": index for number, target in targets for name, index in target.items()}
     return dict(primitive["attributes"]) | added
 
 
-def like(document: Document, primitive: Tree) -> str:
+def like(document: gltf.Document, primitive: gltf.Tree) -> str:
     """A key that is equal for primitives which one stream can hold."""
     told = [(name, document.tree["accessors"][index]) for name, index in sorted(arrays_of(primitive).items())]
     kinds = [(name, one["componentType"], one["type"], one.get("normalized", False)) for name, one in told]
     return str((kinds, primitive.get("mode", _TRIANGLES)))
 
 
-def as_mesh(document: Document, primitives: Sequence[Tree]) -> Carried | str:
+def as_mesh(document: gltf.Document, primitives: Sequence[gltf.Tree]) -> Carried | str:
     """Primitives that are alike as one mesh, or why they stay as they are."""
     if primitives[0].get("mode", _TRIANGLES) != _TRIANGLES:
         return "no triangles"
     indexes = [*{index for primitive in primitives for index in arrays_of(primitive).values()}]
     indexes += [primitive["indices"] for primitive in primitives if "indices" in primitive]
     # Accessors may share bytes.
-    DEFAULT_LIMITS.check_memory(PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
+    DEFAULT_LIMITS.check_memory(gltf.PER_NUMBER * sum(map(document.claimed, indexes)), 0, document.received)
     tables: dict[str, int] = {}  # where the vertices of which accessors begin
     parts: list[dict[str, npt.NDArray[Any]]] = []
     faces: list[npt.NDArray[np.int64]] = []
@@ -128,7 +114,7 @@ def as_mesh(document: Document, primitives: Sequence[Tree]) -> Carried | str:
     return Carried(mesh, accessors, qualities)
 
 
-def _vertices(document: Document, primitive: Tree) -> dict[str, npt.NDArray[Any]] | str:
+def _vertices(document: gltf.Document, primitive: gltf.Tree) -> dict[str, npt.NDArray[Any]] | str:
     """What each vertex of a primitive has, or why that cannot be coded."""
     arrays: dict[str, npt.NDArray[Any]] = {}
     for name, index in arrays_of(primitive).items():
@@ -145,7 +131,7 @@ def _vertices(document: Document, primitive: Tree) -> dict[str, npt.NDArray[Any]
     return arrays
 
 
-def _is_normalized(document: Document, index: int) -> bool:
+def _is_normalized(document: gltf.Document, index: int) -> bool:
     return bool(document.tree["accessors"][index].get("normalized"))
 
 
@@ -185,10 +171,10 @@ def _carried(name: str, array: npt.NDArray[Any], normalized: bool) -> tuple[Attr
         weights = array / np.float64(1 if is_float else _LARGEST.get(array.dtype, 1))
         levels = np.floor(weights / np.maximum(weights.sum(axis=1, keepdims=True), 1e-9) * 255)
         levels[np.arange(len(levels)), weights.argmax(axis=1)] += 255 - levels.sum(axis=1)
-        return Attribute(name, np.clip(levels, 0, 255).astype(np.uint8)), COMPONENTS["uint8"], True
+        return Attribute(name, np.clip(levels, 0, 255).astype(np.uint8)), gltf.COMPONENTS["uint8"], True
     if array[0].nbytes % 4:  # accessors keep their elements at multiples of four bytes
         return None
-    return Attribute(name, array), COMPONENTS[array.dtype.name], normalized and not is_float
+    return Attribute(name, array), gltf.COMPONENTS[array.dtype.name], normalized and not is_float
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,7 +218,7 @@ class Coder(Protocol):
         """Its bytes; `attributes` is what is asked of some of its attributes."""
 
 
-Bundle = list[list[Tree]]
+Bundle = list[list[gltf.Tree]]
 """Primitives of one mesh that one stream can hold, each with all others that are drawn of the same accessors."""
 
 
@@ -245,7 +231,7 @@ class BundleStream:
     accessors: dict[str, tuple[int, bool]]
 
 
-def code_bundle(document: Document, bundle: Bundle, coder: Coder) -> BundleStream | str:
+def code_bundle(document: gltf.Document, bundle: Bundle, coder: Coder) -> BundleStream | str:
     found = as_mesh(document, [same[0] for same in bundle])
     if isinstance(found, str):
         return found
@@ -259,13 +245,13 @@ def code_bundle(document: Document, bundle: Bundle, coder: Coder) -> BundleStrea
     return BundleStream(stream, shape, found.accessors)
 
 
-def _accessors_of(primitive: Tree) -> dict[str, int]:
+def _accessors_of(primitive: gltf.Tree) -> dict[str, int]:
     return arrays_of(primitive) | ({"": primitive["indices"]} if "indices" in primitive else {})
 
 
-def bundles_of(document: Document, tree: Tree) -> list[Bundle]:
+def bundles_of(document: gltf.Document, tree: gltf.Tree) -> list[Bundle]:
     """The primitives of a tree, each in one bundle; `document` has the same accessors."""
-    known: dict[str, list[Tree]] = {}
+    known: dict[str, list[gltf.Tree]] = {}
     bundles: list[Bundle] = []
     for mesh in tree.get("meshes", []):
         alike: dict[str, Bundle] = {}
@@ -283,7 +269,7 @@ def size_of(bundle: Bundle) -> int:
     return sum(len(same) for same in bundle)
 
 
-def users_of(bundles: list[Bundle], tree: Tree) -> dict[int, set[int]]:
+def users_of(bundles: list[Bundle], tree: gltf.Tree) -> dict[int, set[int]]:
     """Which bundles use each accessor; -1: an animation or a skin."""
     users: dict[int, set[int]] = {}
     for number, bundle in enumerate(bundles):
@@ -311,8 +297,8 @@ def that_share(bundles: list[Bundle], users: dict[int, set[int]]) -> list[list[i
 # -------------------------------------------------------------------------------------------------------------- a scene
 
 
-_COMPRESSED = {EXTENSION, "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
-_TYPES = {width: name for name, width in VECTORS.items()}
+_COMPRESSED = {gltf.EXTENSION, "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}
+_TYPES = {width: name for name, width in gltf.VECTORS.items()}
 _MOST, _WHOLE = float(np.finfo(np.float32).max), 2**24
 
 
@@ -326,14 +312,14 @@ class Compressed:
     fallback: bytes = b""
 
 
-@as_format_error()
-def count_primitives(document: Document) -> int:
+@gltf.as_format_error()
+def count_primitives(document: gltf.Document) -> int:
     return len(list(document.primitives()))
 
 
-@as_format_error()
+@gltf.as_format_error()
 def compress(
-    document: Document,
+    document: gltf.Document,
     coder: Coder,
     images: ImageRule | None = None,
     fallback: str | None = None,
@@ -375,18 +361,18 @@ def compress(
 def _stored(values: npt.NDArray[Any], component: int) -> npt.NDArray[Any]:
     if component == _FLOAT and values.dtype.kind == "u":
         return (values / np.float64(np.iinfo(values.dtype).max)).astype(np.float32)
-    return values.astype(KINDS[component])
+    return values.astype(gltf.KINDS[component])
 
 
-def _length(entry: Tree) -> int:
+def _length(entry: gltf.Tree) -> int:
     return len(json.dumps(_short(entry), separators=(",", ":"))) + 1
 
 
 class _Scene:
     """A tree that is changed, and the parts of its new buffers."""
 
-    def __init__(self, document: Document, fallback: str | None) -> None:
-        self.tree: Tree = copy.deepcopy(document.tree)
+    def __init__(self, document: gltf.Document, fallback: str | None) -> None:
+        self.tree: gltf.Tree = copy.deepcopy(document.tree)
         self._document = document
         self._images = {
             number: document.image(number)[1]
@@ -443,28 +429,28 @@ class _Scene:
         return [*found, ("indices", one.shape.index)]
 
     @staticmethod
-    def _view(stream: int, name: str, array: npt.NDArray[Any], one: BundleStream) -> Tree:
+    def _view(stream: int, name: str, array: npt.NDArray[Any], one: BundleStream) -> gltf.Tree:
         usual = _UINT if name == "indices" else _FLOAT
         component, _ = one.accessors.get(name, (_UINT, False))
-        told: Tree = {"stream": stream, "attribute": name}
+        told: gltf.Tree = {"stream": stream, "attribute": name}
         told |= {"componentType": component} if component != usual else {}
-        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {EXTENSION: told}}
+        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {gltf.EXTENSION: told}}
 
     @staticmethod
-    def _accessor(view: int, name: str, array: npt.NDArray[Any], one: BundleStream) -> Tree:
+    def _accessor(view: int, name: str, array: npt.NDArray[Any], one: BundleStream) -> gltf.Tree:
         component, normalized = one.accessors[name]
-        accessor: Tree = {"bufferView": view, "componentType": component, "count": len(array)}
+        accessor: gltf.Tree = {"bufferView": view, "componentType": component, "count": len(array)}
         accessor |= {"type": _TYPES[array.shape[1]], **({"normalized": True} if normalized else {})}
-        return accessor | (bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {})
+        return accessor | (gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {})
 
     @staticmethod
-    def _corners(view: int, piece: tuple[int, int]) -> Tree:
+    def _corners(view: int, piece: tuple[int, int]) -> gltf.Tree:
         start, count = piece
-        told: Tree = {"bufferView": view, "componentType": _UINT, "count": count, "type": "SCALAR"}
+        told: gltf.Tree = {"bufferView": view, "componentType": _UINT, "count": count, "type": "SCALAR"}
         return told | ({"byteOffset": 4 * start} if start else {})
 
-    def _add(self, kind: str, entry: Tree) -> int:
-        entries: list[Tree] = self.tree.setdefault(kind, [])
+    def _add(self, kind: str, entry: gltf.Tree) -> int:
+        entries: list[gltf.Tree] = self.tree.setdefault(kind, [])
         entries.append(entry)
         return len(entries) - 1
 
@@ -487,8 +473,8 @@ class _Scene:
             for texture in self.tree.get("textures", []) if rule.kind == "webp" else ():
                 if texture.get("source") == number:
                     del texture["source"]
-                    texture.setdefault("extensions", {})[WEBP] = {"source": number}
-                    self._use(WEBP, required=True)
+                    texture.setdefault("extensions", {})[gltf.WEBP] = {"source": number}
+                    self._use(gltf.WEBP, required=True)
 
     def _use(self, extension: str, *, required: bool) -> None:
         for key in ("extensionsUsed", "extensionsRequired") if required else ("extensionsUsed",):
@@ -513,7 +499,7 @@ class _Scene:
         virtual = False
         for new, old in enumerate(kept):
             view = tree["bufferViews"][new]
-            if EXTENSION in view.get("extensions", {}):
+            if gltf.EXTENSION in view.get("extensions", {}):
                 view["buffer"], virtual = 1, True
                 continue
             data = self._fresh[old] if old in self._fresh else self._document.view(old)
@@ -522,23 +508,23 @@ class _Scene:
             at += len(parts[-1])
         tree["buffers"] = [{"byteLength": at}] if at else []
         if virtual:
-            filled: Tree = {"byteLength": self._virtual, "extensions": {EXTENSION: {"fallback": True}}}
+            filled: gltf.Tree = {"byteLength": self._virtual, "extensions": {gltf.EXTENSION: {"fallback": True}}}
             tree["buffers"].append(filled | ({"uri": quote(self._fallback)} if self._fallback else {}))
-            self._use(EXTENSION, required=not self._fallback)
-        return glb(_short(tree), b"".join(parts))
+            self._use(gltf.EXTENSION, required=not self._fallback)
+        return gltf.glb(_short(tree), b"".join(parts))
 
     def _trim(self) -> None:
         """Leave out of bufferViews that accessors share what none of them uses any more."""
-        readers: dict[int, list[Tree]] = {}
+        readers: dict[int, list[gltf.Tree]] = {}
         for accessor in self.tree.get("accessors", []):
-            if is_plain(accessor):
+            if gltf.is_plain(accessor):
                 readers.setdefault(accessor["bufferView"], []).append(accessor)
         references = Counter(node[key] for node, key in _references(self.tree, "bufferViews"))
         for number, accessors in readers.items():
             view = self.tree["bufferViews"][number]
             if number in self._fresh or view.get("extensions") or references[number] > len(accessors):
                 continue
-            kept = _used(self._document.view(number), [span_of(accessor, view) for accessor in accessors])
+            kept = _used(self._document.view(number), [gltf.span_of(accessor, view) for accessor in accessors])
             if kept is None:
                 continue
             for accessor, start in zip(accessors, kept[1], strict=True):
@@ -597,7 +583,7 @@ def _short(node: Any) -> Any:
     return int(node) if node.is_integer() and abs(node) < _WHOLE else float(str(np.float32(node)))
 
 
-def _drop_unused(tree: Tree, kind: str) -> list[int]:
+def _drop_unused(tree: gltf.Tree, kind: str) -> list[int]:
     """Drop the entries of a kind that nothing refers to, and number the others anew; which these were."""
     places = list(
         _references({name: value for name, value in tree.items() if name != kind or kind != "accessors"}, kind)

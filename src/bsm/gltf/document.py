@@ -63,10 +63,8 @@ class Document:
         """Raise `UnsupportedError` if its meshes are compressed."""
         required = [name for name in _COMPRESSED if name in self.tree.get("extensionsRequired", [])]
         if required:
-            raise UnsupportedError(
-                f"the meshes are compressed with {required[0]}, which is not read here; "
-                "take that out first, for instance with gltf-transform copy"
-            )
+            how = "take that out first, for instance with gltf-transform copy"
+            raise UnsupportedError(f"the meshes are compressed with {required[0]}, which is not read here; {how}")
 
     @property
     def received(self) -> int:
@@ -95,9 +93,8 @@ class Document:
         buffer = self.item("buffers", index)
         data = self._behind(str(buffer["uri"])) if "uri" in buffer else self._binary if index == 0 else b""
         if len(data) < _count(buffer, "byteLength"):
-            raise TruncatedError(
-                f"buffer {index} of this glTF should have {buffer['byteLength']} bytes, not {len(data)}"
-            )
+            claimed = buffer["byteLength"]
+            raise TruncatedError(f"buffer {index} of this glTF should have {claimed} bytes, not {len(data)}")
         return data
 
     def view(self, index: object) -> bytes:
@@ -165,9 +162,7 @@ class Document:
         offset, item = _count(where, "byteOffset"), np.dtype(kind).itemsize * width
         stride = _count(self.item("bufferViews", where["bufferView"]), "byteStride") or item
         if stride < item or (count and offset + stride * (count - 1) + item > size):
-            raise TruncatedError(
-                f"{count} values of {item} bytes do not fit into the {size} bytes of their buffer view"
-            )
+            raise TruncatedError(f"{count} values of {item} bytes do not fit into {size} bytes of their buffer view")
         return np.array(np.ndarray((count, width), kind, data, start + offset, (stride, np.dtype(kind).itemsize)))
 
     def _replace(self, found: Array, sparse: Tree, kind: str, width: int) -> None:
@@ -178,21 +173,19 @@ class Document:
         found[places] = self._strided(sparse["values"], kind, count, width)
 
     def _behind(self, uri: str) -> bytes:
-        if uri not in self._resources:
-            self._resources[uri] = _resource(uri, self._folder)
-        return self._resources[uri]
-
-
-def _resource(uri: str, folder: Path | None) -> bytes:
-    """The bytes of a data URI, or of a file beside the document."""
-    if uri.startswith("data:"):
-        try:
-            return base64.b64decode(uri.partition(",")[2], validate=True)
-        except ValueError as error:
-            raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
-    if folder is None:
-        raise FormatError(f"this glTF needs the file {uri[:80]} beside it, and did not come from a folder")
-    return Input(str(_file(uri, folder))).read_all()
+        """The bytes of a data URI, or of a file beside the document."""
+        if uri in self._resources:
+            return self._resources[uri]
+        if uri.startswith("data:"):
+            try:
+                data = base64.b64decode(uri.partition(",")[2], validate=True)
+            except ValueError as error:
+                raise FormatError(f"a data URI of this glTF makes no sense: {error}") from error
+        elif self._folder is None:
+            raise FormatError(f"this glTF needs the file {uri[:80]} beside it, and did not come from a folder")
+        else:
+            data = Input(str(_file(uri, self._folder))).read_all()
+        return self._resources.setdefault(uri, data)
 
 
 def _file(uri: str, folder: Path) -> Path:

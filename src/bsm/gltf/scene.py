@@ -8,16 +8,8 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.welding import row_numbers
+from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
-from bsm.files.formats.polygons import (
-    Column,
-    MeshFile,
-    Polygons,
-    color_column,
-    joined_columns,
-    meaning_of,
-    sorted_into_parts,
-)
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, rate_of_times
 from bsm.files.room import require_count
 from bsm.files.rows import Doubles, Ints
@@ -96,7 +88,7 @@ class Part:
     skin: Skin | None
     joints: Ints
     weights: Doubles
-    columns: tuple[Column, ...]
+    columns: tuple[shapes.Column, ...]
     material: int
     name: str
 
@@ -339,8 +331,8 @@ class Scene:
             raise FormatError(f"{what} of {found.shape} numbers for {count} vertices")
         return found
 
-    def _columns(self, given: Tree, count: int, corners: Ints) -> tuple[Column, ...]:
-        found: list[Column] = []
+    def _columns(self, given: Tree, count: int, corners: Ints) -> tuple[shapes.Column, ...]:
+        found: list[shapes.Column] = []
         for name, index in given.items():
             kind, _, number = name.partition("_")
             if kind not in ("TEXCOORD", "COLOR", ""):
@@ -350,14 +342,14 @@ class Scene:
                 raise FormatError(f"{name} has {values.shape} numbers for {count} vertices")
             later = number if number not in ("", "0") else ""
             if kind == "COLOR":
-                one = color_column(values, "corner")
+                one = shapes.color_column(values, "corner")
                 found.append(replace(one, name=f"color{later}", indices=corners))
             elif kind == "TEXCOORD":
                 upright = values.astype(np.float32)
                 upright[:, 1] = 1 - upright[:, 1]  # glTF counts from the top, we from the bottom
-                found.append(Column(f"texcoord{later}", upright, "corner", "texcoord", corners))
+                found.append(shapes.Column(f"texcoord{later}", upright, "corner", "texcoord", corners))
             else:
-                found.append(Column(number.lower(), values, "corner", meaning_of(number), corners))
+                found.append(shapes.Column(number.lower(), values, "corner", shapes.meaning_of(number), corners))
         return tuple(found)
 
 
@@ -441,7 +433,7 @@ def _rate(keys: Doubles) -> float:
     return float(fits[0]) if fits else USUAL_RATE
 
 
-def _still(scene: Scene, document: Document, time: float, limits: Limits) -> MeshFile:
+def _still(scene: Scene, document: Document, time: float, limits: Limits) -> shapes.MeshFile:
     parts = scene.parts
     begin = np.cumsum([0, *(len(part.base) for part in parts)])
     triangles = sum(len(part.faces) for part in parts)
@@ -449,7 +441,7 @@ def _still(scene: Scene, document: Document, time: float, limits: Limits) -> Mes
     tables = sum(1 + len(part.columns) for part in parts) * triangles // len(parts)
     limits.check_memory(PER_TRIANGLE * tables + PER_PART * len(parts), scene.vertices, document.received)
     faces = np.concatenate([part.faces + first for part, first in zip(parts, begin)])
-    columns, lacking = joined_columns(
+    columns, lacking = shapes.joined_columns(
         (part.columns for part in parts), [{"corner": 3 * len(part.faces)} for part in parts]
     )
     metadata: dict[str, Value] = {"up": "y", "unit": "meters"}
@@ -459,15 +451,17 @@ def _still(scene: Scene, document: Document, time: float, limits: Limits) -> Mes
         words, images = _materials(document, used)
         metadata |= described(words) | images
         if len(used) > 1:
-            columns.append(Column("material", np.maximum(numbers, 0)[:, None].astype(np.int32), "face"))
+            columns.append(shapes.Column("material", np.maximum(numbers, 0)[:, None].astype(np.int32), "face"))
     notes = lacking
     if len(parts) > 1:
-        note, column, names = sorted_into_parts([part.name for part in parts], [len(part.faces) for part in parts])
+        note, column, names = shapes.sorted_into_parts(
+            [part.name for part in parts], [len(part.faces) for part in parts]
+        )
         notes, columns, metadata = [*note, *lacking], [*columns, *column], {**metadata, **names}
     elif parts[0].name:
         metadata["name"] = parts[0].name
     shape = (scene.at(time), np.full(len(faces), 3), faces.reshape(-1))
-    return Polygons(*shape, tuple(notes), (), tuple(columns), metadata).checked(limits)
+    return shapes.Polygons(*shape, tuple(notes), (), tuple(columns), metadata).checked(limits)
 
 
 def _materials(document: Document, used: list[int]) -> tuple[dict[int, Material], dict[str, Value]]:

@@ -17,20 +17,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.files.formats.metadata import (
-    GLTF_TEXTURES,
-    Material,
-    Written,
-    face_numbers,
-    gltf_values,
-    images_in,
-    kind_of_image,
-    left_out,
-    materials_in,
-    names_in,
-    rgba,
-    shown_at_vertices,
-)
+from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import Shared
 from bsm.files.rows import Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream, numbered, numbers_of
@@ -96,9 +83,9 @@ class _Scene:
 # ------------------------------------------------------------------------------------------------------------ one mesh
 
 
-def write_glb(mesh: TriangleMesh, stem: str) -> Written:
+def write_glb(mesh: TriangleMesh, stem: str) -> formats.Written:
     scene = _Still(io.BytesIO(), mesh, stem)
-    return Written(scene.whole(), scene.left_out)
+    return formats.Written(scene.whole(), scene.left_out)
 
 
 class _Still(_Scene):
@@ -111,13 +98,15 @@ class _Still(_Scene):
         split = split_by_attributes(replace(mesh, positions=numbered(mesh.faces, len(mesh.positions)).positions))
         origin = numbers_of(split.positions)
         split = replace(split, positions=mesh.positions[origin])
-        material, part = face_numbers(split, "material"), face_numbers(split, "part")
+        material, part = formats.face_numbers(split, "material"), formats.face_numbers(split, "part")
         sorting = [np.zeros(len(split.faces), np.int64) if one is None else one.values for one in (part, material)]
         kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, held = _at_vertices(split)
-        names, taken, said = names_in(mesh.metadata, "part"), set[str](), {"part.names"}
-        images = images_in(mesh.metadata)
-        materials = {n: self._material(n, words, images, said) for n, words in materials_in(mesh.metadata).items()}
+        names, taken, said = formats.names_in(mesh.metadata, "part"), set[str](), {"part.names"}
+        images = formats.images_in(mesh.metadata)
+        materials = {
+            n: self._material(n, words, images, said) for n, words in formats.materials_in(mesh.metadata).items()
+        }
         if "TEXCOORD_0" in arrays and any(materials.get(n) is None for n in kinds[:, 1].tolist()):
             bare = self.add("materials", {})  # readers pass over texture coordinates without any
             materials |= {n: bare for n in kinds[:, 1].tolist() if materials.get(n) is None}
@@ -140,27 +129,27 @@ class _Still(_Scene):
         rest = {name: value for name, value in mesh.metadata.items() if name not in said}
         extras = {name: value for name, value in rest.items() if not isinstance(value, bytes)}
         self.tree["scenes"][0] |= {"extras": extras} if extras else {}
-        self.left_out = left_out(mesh, [*held, material, part], [name for name in rest if name not in extras])
+        self.left_out = formats.left_out(mesh, [*held, material, part], [name for name in rest if name not in extras])
 
     def _material(
-        self, number: int, words: Material, images: Mapping[int, tuple[str, bytes]], said: set[str]
+        self, number: int, words: formats.Material, images: Mapping[int, tuple[str, bytes]], said: set[str]
     ) -> int | None:
         """Add a material; None if nothing of it can be said in glTF. Names of metadata that are said go to `said`."""
         found: Tree = {}
         surface: Tree = {}
-        for name, value in gltf_values(words).items():
-            if name in GLTF_TEXTURES:
+        for name, value in formats.gltf_values(words).items():
+            if name in formats.GLTF_TEXTURES:
                 if (texture := self._texture(images.get(value, ("", b""))[1])) is None:
                     continue
                 said.add(f"image.{value}.data")
                 value = {"index": texture}
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
         found |= {"pbrMetallicRoughness": surface} if surface else {}
-        said |= {f"material.{number}.{name}" for name in words if gltf_values({name: words[name]})}
+        said |= {f"material.{number}.{name}" for name in words if formats.gltf_values({name: words[name]})}
         return self.add("materials", found) if found else None
 
     def _texture(self, data: bytes) -> int | None:
-        kind = {"jpg": "jpeg"}.get(found := kind_of_image(data) or "", found)
+        kind = {"jpg": "jpeg"}.get(found := formats.kind_of_image(data) or "", found)
         if kind not in ("png", "jpeg", "webp"):
             return None
         known = self._images.get(data)
@@ -175,7 +164,7 @@ class _Still(_Scene):
 
 def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]:
     """What glTF has of each vertex, by its names, and the attributes that these are."""
-    normal, color, texcoord = shown = shown_at_vertices(mesh)
+    normal, color, texcoord = shown = formats.shown_at_vertices(mesh)
     arrays: dict[str, Array] = {"POSITION": mesh.positions.astype(np.float32)}
     if normal is not None:
         arrays["NORMAL"] = _unit(normal.values.astype(np.float64)).astype(np.float32)
@@ -183,7 +172,7 @@ def _at_vertices(mesh: TriangleMesh) -> tuple[dict[str, Array], list[Attribute]]
         arrays["TEXCOORD_0"] = texcoord.values[:, :2].astype(np.float32)
         arrays["TEXCOORD_0"][:, 1] = 1 - arrays["TEXCOORD_0"][:, 1]  # glTF counts from the top, we from the bottom
     if color is not None:
-        arrays["COLOR_0"] = rgba(color)
+        arrays["COLOR_0"] = formats.rgba(color)
     held = [attribute for attribute in shown if attribute is not None]
     for attribute in mesh.attributes:
         values = attribute.values.astype(np.float32)

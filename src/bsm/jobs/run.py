@@ -13,25 +13,7 @@ from bsm.console import Console, print_json
 from bsm.exits import exit_of, tell, worded
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.pipes import about, expanded, files_behind, is_url, state_of_remote, without_scheme_of_files
-from bsm.jobs.report import (
-    NOTHING,
-    Earlier,
-    Facts,
-    Job,
-    Outcome,
-    Outcomes,
-    Report,
-    Run,
-    Task,
-    Tasks,
-    Work,
-    digest_of,
-    options_of,
-    outcome_of,
-    read_report,
-    recorded,
-    table,
-)
+from bsm.jobs import report as records
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae")
 """Of files that are taken for meshes where a folder is searched."""
@@ -40,7 +22,7 @@ _STANDARD = {"/dev/stdin": "-", "/dev/fd/0": "-", "/dev/stdout": "-", "/dev/fd/1
 
 def plan(
     inputs: Sequence[str], output: str | None, suffix: Callable[[str], str], *, sole_folder: bool = False
-) -> list[Job]:
+) -> list[records.Job]:
     """What is written where."""
     names = input_names(inputs)
     output = without_scheme_of_files(_STANDARD.get(output, output)) if output else None
@@ -51,18 +33,18 @@ def plan(
         if output and not folder:
             raise OptionError(f"{len(names)} inputs are written to a folder: -o {output}/")
     if output is None:
-        jobs = [Job(name, default_output(name, suffix(name))) for name in names]
+        jobs = [records.Job(name, default_output(name, suffix(name))) for name in names]
     elif folder and not (sole_folder and len(names) == 1):
-        jobs = [Job(name, output_inside(output, name, suffix(name))) for name in names]
+        jobs = [records.Job(name, output_inside(output, name, suffix(name))) for name in names]
     else:
-        jobs = [Job(name, output) for name in names]
+        jobs = [records.Job(name, output) for name in names]
     refuse_collisions(names, [job.output for job in jobs])
     if output and folder and not is_url(output):
         Path(output).mkdir(parents=True, exist_ok=True)
     return jobs
 
 
-def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[Job]:
+def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[records.Job]:
     """What is written where, for all mesh files in folders and below: the same folders again in `output`."""
     jobs = []
     for folder in folders:
@@ -71,7 +53,7 @@ def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[
         for path in sorted(Path(folder).rglob("*")):
             if path.suffix.lower() in MESH_SUFFIXES and path.is_file():
                 place = path if output is None else Path(output, path.relative_to(folder))
-                jobs.append(Job(str(path), str(place.with_suffix(suffix))))
+                jobs.append(records.Job(str(path), str(place.with_suffix(suffix))))
     if not jobs:
         raise OptionError(f"there are no mesh files in {' or '.join(folders)}, or below ({', '.join(MESH_SUFFIXES)})")
     refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
@@ -113,7 +95,12 @@ def _identity(path: str) -> tuple[int, int] | str | None:
 
 
 def run_jobs(
-    run: Run, asked: Task, console: Console, work: Work, jobs: Sequence[Job], show: Callable[[Facts], str] | None = None
+    run: records.Run,
+    asked: records.Task,
+    console: Console,
+    work: records.Work,
+    jobs: Sequence[records.Job],
+    show: Callable[[records.Facts], str] | None = None,
 ) -> int:
     """Do all jobs of a command and say what came of them; returns the exit code."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
@@ -126,7 +113,7 @@ def run_jobs(
         return 0
     begin = time.perf_counter()
 
-    def ended(job: Job, outcome: Outcome) -> None:
+    def ended(job: records.Job, outcome: records.Outcome) -> None:
         for line in outcome.notes:
             console.note(line)
         if outcome.error is not None:
@@ -138,7 +125,7 @@ def run_jobs(
     good = [facts for facts in done if "error" not in facts]
     taken, given = (sum(facts.get(key) or 0 for facts in good) for key in ("input_bytes", "output_bytes"))
     sizes = f", {came_to(taken, given)}" if taken and given else ""
-    for line in table(done) if run.report is not None else ():
+    for line in records.table(done) if run.report is not None else ():
         console.note(line)
     console.note(f"{len(good)} of {len(done)} files{sizes}, {time.perf_counter() - begin:.2f} s")
     if run.json:
@@ -147,29 +134,29 @@ def run_jobs(
 
 
 def run_many(
-    run: Run,
-    asked: Task,
+    run: records.Run,
+    asked: records.Task,
     console: Console,
-    work: Work,
-    jobs: Sequence[Job],
-    ended: Callable[[Job, Outcome], None] = lambda job, outcome: None,
-) -> list[Facts]:
+    work: records.Work,
+    jobs: Sequence[records.Job],
+    ended: Callable[[records.Job, records.Outcome], None] = lambda job, outcome: None,
+) -> list[records.Facts]:
     """Do all jobs; one that fails stops no other. They are told of in their order."""
     if run.dask is not None:
         if any("-" in (job.input, job.output) for job in jobs):
             raise OptionError("a pipe does not reach a cluster: name files")
-        jobs = [Job(anywhere(job.input), anywhere(job.output)) for job in jobs]
-    earlier, report = NOTHING, None
+        jobs = [records.Job(anywhere(job.input), anywhere(job.output)) for job in jobs]
+    earlier, report = records.NOTHING, None
     if run.report is not None:
         refuse_to_overwrite(run.report, asked.force or run.resume)
-        command, options = work.__name__, options_of(asked)
-        earlier = read_report(run.report, command, options) if run.resume else NOTHING
-        report = Report(run.report, command, options, jobs, earlier.files)
-        work = partial(recorded, work)
+        command, options = work.__name__, records.options_of(asked)
+        earlier = records.read_report(run.report, command, options) if run.resume else records.NOTHING
+        report = records.Report(run.report, command, options, jobs, earlier.files)
+        work = partial(records.recorded, work)
     elif run.resume:
         raise OptionError("--resume goes on from what --report FILE.json says: name it")
-    done: list[Facts] = [{} for _ in jobs]
-    waiting: dict[int, Outcome] = {}
+    done: list[records.Facts] = [{} for _ in jobs]
+    waiting: dict[int, records.Outcome] = {}
     following = 0
     given = ((number, task_of(asked, job, earlier)) for number, job in enumerate(jobs))
     # A cluster may do a job once more whose worker died, and does not say so.
@@ -194,12 +181,12 @@ def run_many(
     return done
 
 
-def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
+def task_of(asked: records.Task, job: records.Job, earlier: records.Earlier = records.NOTHING) -> records.Task:
     before = earlier.files.get(job.output)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
     there = {n for n in replaceable if (state_of_remote(n) is not None if is_url(n) else os.path.lexists(n))}
     named = replaceable & earlier.outputs.keys()
-    mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == digest_of(name))
+    mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == records.digest_of(name))
     return replace(
         asked,
         input=job.input,
@@ -211,14 +198,14 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     )
 
 
-def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks) -> Outcomes:
+def _outcomes(run: records.Run, console: Console, work: records.Work, tasks: records.Tasks) -> records.Outcomes:
     if run.jobs < 0:
         raise OptionError(f"-j {run.jobs}: at least one input at a time, or 0")
     from bsm.codec.threads import available_threads
 
     processes = run.jobs or available_threads()
     if run.dask is None and processes == 1:
-        return ((number, outcome_of(work, task, console)) for number, task in tasks)
+        return ((number, records.outcome_of(work, task, console)) for number, task in tasks)
     # Where there is one process there is no need to load this.
     from bsm.jobs.workers import in_processes, on_cluster
 

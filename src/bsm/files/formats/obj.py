@@ -12,22 +12,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Mask
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import (
-    Library,
-    Value,
-    Written,
-    face_numbers,
-    first,
-    left_out,
-    materials_in,
-    named,
-    names_in,
-    one_line,
-    parse_remarks,
-    remarks,
-    said_in_mtl,
-    write_mtl,
-)
+from bsm.files.formats import metadata as materials
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact
 from bsm.files.rows import Doubles, Ints, Rows, as_integers, point_row, text_table, without_comments
 
@@ -73,9 +58,11 @@ def read_obj(data: bytes, limits: Limits) -> Polygons:
             columns += column
             notes += note
     states, names = _states(lines, is_face)
-    metadata: dict[str, Value] = {**names}
+    metadata: dict[str, materials.Value] = {**names}
     metadata |= {"mtllib": library[0].strip().decode(errors="replace")} if (library := lines.of(b"mtllib")) else {}
-    metadata |= parse_remarks(comment.decode(errors="replace") for comment in re.findall(rb"^#([^\r\n]*)", data, re.M))
+    metadata |= materials.parse_remarks(
+        comment.decode(errors="replace") for comment in re.findall(rb"^#([^\r\n]*)", data, re.M)
+    )
     return Polygons(
         points.columns(0, 3),
         sizes,
@@ -181,32 +168,36 @@ def _states(lines: _Lines, is_face: Mask) -> tuple[list[Column], dict[str, str]]
             of_change = np.array([numbers[name] for name in used], np.int32)
             columns.append(Column(what, of_change[of_face], "face"))
         if any(numbers):
-            metadata |= named(list(numbers), what)
+            metadata |= materials.named(list(numbers), what)
     return columns, metadata
 
 
 # ------------------------------------------------------------------------------------------------------------ writing
 
 
-def write_obj(mesh: TriangleMesh, stem: str) -> Written:
+def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     """The OBJ of a mesh; beside it lie a library of its materials, and their images."""
-    color = first(mesh, "color", (3, 4), "vertex")
-    texcoord = first(mesh, "texcoord", (1, 2, 3), "vertex", "corner")
-    normal = first(mesh, "normal", (3,), "vertex", "corner")
-    numbers = {what: face_numbers(mesh, what) for what in STATES}
+    color = materials.first(mesh, "color", (3, 4), "vertex")
+    texcoord = materials.first(mesh, "texcoord", (1, 2, 3), "vertex", "corner")
+    normal = materials.first(mesh, "normal", (3,), "vertex", "corner")
+    numbers = {what: materials.face_numbers(mesh, what) for what in STATES}
     names = {what: _names(mesh, what, attribute) for what, attribute in numbers.items()}
-    library = Library(mesh, stem)
-    mtl = write_mtl({n: m for n, m in library.materials.items() if len(m) > 1}, names["material"], library.images)
+    library = materials.Library(mesh, stem)
+    mtl = materials.write_mtl(
+        {n: m for n, m in library.materials.items() if len(m) > 1}, names["material"], library.images
+    )
     library_name = mesh.metadata.get("mtllib")
     if mtl:
         library.beside[f"{stem}.mtl"] = mtl
         library_name = f"{stem}.mtl"
-        library.said |= {f"material.{n}.{key}" for n, m in library.materials.items() for key in said_in_mtl(m)}
+        library.said |= {
+            f"material.{n}.{key}" for n, m in library.materials.items() for key in materials.said_in_mtl(m)
+        }
     library.said |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
     library.said |= {f"{what}.names" for what in STATES if names[what]}
-    lines, unsaid = remarks(mesh.metadata, library.said | {"mtllib"})
+    lines, unsaid = materials.remarks(mesh.metadata, library.said | {"mtllib"})
     parts = [*(f"# {line}\n" for line in lines)]
-    parts += [f"mtllib {one_line(str(library_name))}\n"] if library_name else []
+    parts += [f"mtllib {materials.one_line(str(library_name))}\n"] if library_name else []
     parts.append(_points(mesh, color))
     indices = [mesh.faces]
     for keyword, attribute in (("vt", texcoord), ("vn", normal)):
@@ -225,10 +216,10 @@ def write_obj(mesh: TriangleMesh, stem: str) -> Written:
         before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in values[order[changes]].tolist()]
     parts += chain.from_iterable(zip(before.tolist(), faces))
     held = (color, texcoord, normal, *numbers.values())
-    lost = left_out(mesh, held, unsaid)
+    lost = materials.left_out(mesh, held, unsaid)
     if color is not None and color.components > _COLORS:
         lost = (f"alpha of {color.name}", *lost)
-    return Written("".join(parts).encode(), lost, library.beside)
+    return materials.Written("".join(parts).encode(), lost, library.beside)
 
 
 def _grouped(states: list[npt.NDArray[Any]], faces: int) -> Ints:
@@ -246,15 +237,19 @@ def _grouped(states: list[npt.NDArray[Any]], faces: int) -> Ints:
 
 def _names(mesh: TriangleMesh, what: str, attribute: Attribute | None) -> dict[int, str]:
     """What the materials (groups, ...) of the faces are called, by their numbers; nothing where none are known."""
-    names = names_in(mesh.metadata, what)
+    names = materials.names_in(mesh.metadata, what)
     used = [0] if attribute is None else np.unique(attribute.values).tolist()
     if what == "material":  # a library may hold some that no face has
-        used = list(dict.fromkeys([*used, *materials_in(mesh.metadata)]))
+        used = list(dict.fromkeys([*used, *materials.materials_in(mesh.metadata)]))
     known = {number: names.get(number) for number in used}
-    spoken_of = attribute is not None or any(known.values()) or (what == "material" and materials_in(mesh.metadata))
+    spoken_of = (
+        attribute is not None or any(known.values()) or (what == "material" and materials.materials_in(mesh.metadata))
+    )
     if not spoken_of:
         return {}
-    return {number: one_line(str(f"{what}_{number}" if name is None else name)) for number, name in known.items()}
+    return {
+        number: materials.one_line(str(f"{what}_{number}" if name is None else name)) for number, name in known.items()
+    }
 
 
 def _points(mesh: TriangleMesh, color: Attribute | None) -> str:

@@ -21,28 +21,8 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import (
-    Material,
-    Value,
-    as_gltf,
-    described,
-    face_numbers,
-    fetched,
-    gltf_values,
-    images_in,
-    kind_of_image,
-    materials_in,
-    without_materials,
-)
-from bsm.files.formats.polygons import (
-    Array,
-    Column,
-    MeshFile,
-    Polygons,
-    color_column,
-    joined_columns,
-    sorted_into_parts,
-)
+from bsm.files.formats import metadata as formats
+from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import Frames, Shared, Wanted, checked_frames
 from bsm.files.room import require_count
 from bsm.files.rows import Doubles, Ints, single_suffices
@@ -77,19 +57,19 @@ class Materials:
             numbers[numbers < 0] = self._number(prim)
         return numbers
 
-    def metadata(self, most: int) -> tuple[dict[str, Value], list[str]]:
+    def metadata(self, most: int) -> tuple[dict[str, formats.Value], list[str]]:
         """What is said of all that were met, with images of at most so many bytes, and notes on those not there."""
-        said = described({number: dict(words) for words, number in self._known.items()})
+        said = formats.described({number: dict(words) for words, number in self._known.items()})
         names = {f"image.{number}.name": name for name, number in self._images.items()}
         if not zipfile.is_zipfile(self._path):
-            return fetched({**said, **names}, Path(self._path).parent, most)
-        packed: dict[str, Value] = {}
+            return formats.fetched({**said, **names}, Path(self._path).parent, most)
+        packed: dict[str, formats.Value] = {}
         with zipfile.ZipFile(self._path) as package, suppress(zipfile.BadZipFile, NotImplementedError, RuntimeError):
             for key, name in names.items():
                 image = next((one for one in package.infolist() if one.filename == name.removeprefix("./")), None)
                 if image is not None and image.compress_type == zipfile.ZIP_STORED and image.file_size <= most:
                     data = package.read(image)
-                    packed |= {key.replace(".name", ".data"): data} if kind_of_image(data) else {}
+                    packed |= {key.replace(".name", ".data"): data} if formats.kind_of_image(data) else {}
         lacking = [name for key, name in names.items() if key.replace(".name", ".data") not in packed]
         notes = [f"the image {name} was left out, its name was kept: it is not in the package" for name in lacking]
         return {**said, **names, **packed}, notes
@@ -102,8 +82,8 @@ class Materials:
         words = self._words(material) if material else {}
         return self._known.setdefault(tuple(words.items()), len(self._known))
 
-    def _words(self, material: Any) -> Material:
-        words: Material = {"name": str(material.GetPrim().GetName())}
+    def _words(self, material: Any) -> formats.Material:
+        words: formats.Material = {"name": str(material.GetPrim().GetName())}
         surface = material.ComputeSurfaceSource()[0]
         if not surface or surface.GetIdAttr().Get() != _SURFACE:
             return words
@@ -153,10 +133,10 @@ def _text(numbers: Iterable[float]) -> str:
 def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | None) -> tuple[dict[int, Any], set[str]]:
     """Write the materials of a mesh beneath it; returns them by their numbers, and the metadata that are said so."""
     stage, shade = mesh.GetPrim().GetStage(), pxr.UsdShade
-    words, images = materials_in(shown.metadata), images_in(shown.metadata)
+    words, images = formats.materials_in(shown.metadata), formats.images_in(shown.metadata)
     files: dict[int, str] = {}
     for number, (_, data) in images.items() if folder else ():
-        if (kind := kind_of_image(data)) in ("png", "jpg", "exr"):  # those that USD knows
+        if (kind := formats.kind_of_image(data)) in ("png", "jpg", "exr"):  # those that USD knows
             files[number] = f"image_{number}.{kind}"
             Path(str(folder), files[number]).write_bytes(data)
     said = {f"image.{number}.{what}" for number in files for what in ("name", "data")}
@@ -166,8 +146,12 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
         place = mesh.GetPath().AppendChild(name)
         place = mesh.GetPath().AppendChild(f"{name}_{number}") if stage.GetPrimAtPath(place) else place
         bound[number] = shade.Material.Define(stage, place)
-        told = _Surface(pxr, bound[number], files).write(gltf_values(known))
-        said |= {f"material.{number}.{one}" for one in known if one == "name" or set(as_gltf({one: known[one]})) & told}
+        told = _Surface(pxr, bound[number], files).write(formats.gltf_values(known))
+        said |= {
+            f"material.{number}.{one}"
+            for one in known
+            if one == "name" or set(formats.as_gltf({one: known[one]})) & told
+        }
         if {"Kd", "d"} & known.keys() and "baseColorFactor" in told:
             said |= {f"material.{number}.{one}" for one in ("Kd", "d")}
     bind_materials(pxr, mesh, shown, bound)
@@ -176,7 +160,7 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
 
 def bind_materials(pxr: Any, mesh: Any, shown: TriangleMesh, bound: Mapping[int, Any], time: int | None = None) -> None:
     """Say which faces have which material, from a time on if one is given."""
-    numbers = face_numbers(shown, "material")
+    numbers = formats.face_numbers(shown, "material")
     api = pxr.UsdShade.MaterialBindingAPI
     if numbers is None:
         if 0 in bound:
@@ -320,7 +304,7 @@ class _Part:
     def rows(self) -> dict[Domain, int]:
         return {"vertex": self.vertices, "face": len(self.counts), "corner": len(self.corners)}
 
-    def columns(self) -> list[Column]:
+    def columns(self) -> list[shapes.Column]:
         found = []
         for primvar in self._pxr.UsdGeom.PrimvarsAPI(self.prim).GetPrimvars():
             name, kind = str(primvar.GetPrimvarName()), str(primvar.GetTypeName())
@@ -337,17 +321,17 @@ class _Part:
                 named_as, values, semantic = _meant(name, kind, values)
                 at_corners = domain == "corner"
                 table = values if at_corners else values[places]
-                found.append(Column(named_as, table, domain, semantic, places if at_corners else None))
+                found.append(shapes.Column(named_as, table, domain, semantic, places if at_corners else None))
         return found
 
 
 _DOMAINS: dict[str, Domain] = {"vertex": "vertex", "varying": "vertex", "uniform": "face", "faceVarying": "corner"}
 
 
-def _meant(name: str, kind: str, values: Array) -> tuple[str, Array, Semantic]:
+def _meant(name: str, kind: str, values: shapes.Array) -> tuple[str, shapes.Array, Semantic]:
     """What a primvar is called here, its values, and what they mean."""
     if kind.startswith(("color3", "color4")):
-        model = color_column(values.astype(np.float64), "vertex")
+        model = shapes.color_column(values.astype(np.float64), "vertex")
         return "color" if name == "displayColor" else name, model.values, model.semantic
     if kind.startswith("texCoord2") or (name in ("st", "uv", "UVMap") and values.shape[1] == 2):
         return "texcoord" if name in ("st", "UVMap") else name, values, "texcoord"
@@ -405,7 +389,7 @@ class _Stage:
         require_count("vertices", sum(part.vertices for part in self.parts), self._limits)
         require_count("faces", sum(int(part.counts.sum()) - 2 * len(part.counts) for part in self.parts), self._limits)
 
-    def mesh(self, positions: Doubles) -> MeshFile:
+    def mesh(self, positions: Doubles) -> shapes.MeshFile:
         """The mesh of a frame, with everything; polygons are cut into triangles."""
         parts, geom = self.parts, self.pxr.UsdGeom
         begin = np.cumsum([0, *(part.vertices for part in parts)])
@@ -416,13 +400,13 @@ class _Stage:
         up = str(geom.GetStageUpAxis(self.stage)).lower()
         unit = float(geom.GetStageMetersPerUnit(self.stage))
         metadata: dict[str, str | int | float | bytes] = {"up": up, "unit": _UNITS.get(round(unit, 9), f"{unit:g} m")}
-        columns, lacking = joined_columns((part.columns() for part in parts), [part.rows for part in parts])
+        columns, lacking = shapes.joined_columns((part.columns() for part in parts), [part.rows for part in parts])
         places = [None if column.indices is None else column.indices[order] for column in columns]
         columns = [replace(column, indices=where) for column, where in zip(columns, places)]
         materials = Materials(self.pxr, self._path)
         numbers = np.concatenate([materials.of_faces(part.prim, len(part.counts), part.time) for part in parts])
         if len(np.unique(numbers)) > 1:
-            columns.append(Column("material", numbers[:, None], "face"))
+            columns.append(shapes.Column("material", numbers[:, None], "face"))
         of_materials, absent = materials.metadata(self._limits.metadata_bytes)
         metadata |= of_materials
         notes = [*lacking, *absent]
@@ -430,13 +414,13 @@ class _Stage:
             metadata["name"] = parts[0].prim.GetName()
         else:
             paths = [str(part.prim.GetPath()) for part in parts]
-            note, column, names = sorted_into_parts(paths, [len(part.counts) for part in parts])
+            note, column, names = shapes.sorted_into_parts(paths, [len(part.counts) for part in parts])
             notes, columns, metadata = [*note, *notes], [*columns, *column], {**metadata, **names}
-        polygons = Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata)
+        polygons = shapes.Polygons(positions, sizes, corners[order], tuple(notes), (), tuple(columns), metadata)
         return polygons.checked(self._limits)
 
 
-def _turned(sizes: Ints, turned: Array) -> Ints:
+def _turned(sizes: Ints, turned: shapes.Array) -> Ints:
     """The order of corners in which the polygons that are turned run the other way round, from the same corner."""
     first = np.repeat(np.cumsum(sizes) - sizes, sizes)
     step = np.arange(len(first)) - first
@@ -477,13 +461,13 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
     return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, mesh.metadata)
 
 
-def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> MeshFile:
+def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile:
     """The mesh of a stage at its first time; errors as of `read_usd`."""
     stage = _Stage(path, limits)
     times = stage.times
     found = stage.mesh(stage.at(times[0] if times else 0.0))
     note = ("of the motion, the first time was taken",) if len(times) > 1 else ()
-    return MeshFile(found.mesh, (*found.notes, *note))
+    return shapes.MeshFile(found.mesh, (*found.notes, *note))
 
 
 # ---------------------------------------------------------------------------------------------------------------- out
@@ -544,7 +528,7 @@ def _begun(
 ) -> tuple[Any, dict[int, Any]]:
     """A stage with everything of a mesh but its points, and its materials by their numbers; images go to a folder."""
     geom, rate = pxr.UsdGeom, shared.frame_rate or USUAL_RATE
-    metadata = without_materials(first.metadata)
+    metadata = formats.without_materials(first.metadata)
     geom.SetStageUpAxis(stage, geom.Tokens.z if str(metadata.get("up", "y")).lower() == "z" else geom.Tokens.y)
     unit = metadata.get("unit")
     size = metres(unit) if isinstance(unit, str) else None
@@ -569,7 +553,7 @@ def _begun(
 
 
 def _others(frame: TriangleMesh, materials: dict[int, Any]) -> list[Attribute]:
-    shown = face_numbers(frame, "material") if materials else None
+    shown = formats.face_numbers(frame, "material") if materials else None
     return [one for one in frame.attributes if one is not shown]
 
 
