@@ -157,11 +157,11 @@ def test_accessors_say_what_the_stream_holds(source):
     shape = drawn(mesh)
     kinds = {told["attribute"]: (a["count"], a["componentType"], a["type"]) for told, a in coded.values()}
     assert kinds == {
-        "POSITION": (shape.vertices, 5126, "VEC3"),
-        "TEXCOORD_0": (shape.vertices, 5126, "VEC2"),
-        "JOINTS_0": (shape.vertices, 5121, "VEC4"),
-        "WEIGHTS_0": (shape.vertices, 5121, "VEC4"),
-        "indices": (shape.corners, 5125, "SCALAR"),
+        "POSITION": (len(shape.arrays["POSITION"]), 5126, "VEC3"),
+        "TEXCOORD_0": (len(shape.arrays["POSITION"]), 5126, "VEC2"),
+        "JOINTS_0": (len(shape.arrays["POSITION"]), 5121, "VEC4"),
+        "WEIGHTS_0": (len(shape.arrays["POSITION"]), 5121, "VEC4"),
+        "indices": (len(shape.index), 5125, "SCALAR"),
     }
     assert {told.get("componentType") for told, _ in coded.values()} == {None, 5121}
     primitive = after.tree["meshes"][0]["primitives"][0]
