@@ -115,7 +115,7 @@ def named_quality(text: str) -> tuple[str, str]:
 
 BOUNDS = (
     Setting("look", number_or_length, "D", "at most D from the original in pictures: 1 looks the same, 3 is a preview"),
-    Setting("max_error", number_or_length, "REL", "no vertex farther off than REL diagonals of the box, or 0.05mm"),
+    Setting("max_error", number_or_length, "REL", "no vertex farther off than REL diagonals, or a length (0.05mm)"),
 )
 TARGETS = (
     Setting("nmsve_db", float, "X", "visual error, 10 log10 NMSVE, at most X"),
