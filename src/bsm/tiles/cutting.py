@@ -17,7 +17,7 @@ from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
-from bsm.files.output import open_output
+from bsm.files.output import write_output
 from bsm.tiles.reading import Raw, pieces_of
 
 Ints: TypeAlias = npt.NDArray[np.int64]
@@ -138,8 +138,7 @@ class Plan(Root):
         return [sorted(name for name in nodes if len(name) == size) for size in range(1, 1 + max(map(len, nodes)))]
 
     def save(self, path: Path) -> None:
-        with open_output(path, overwrite=True) as file:
-            file.write(json.dumps(asdict(self)).encode())
+        write_output(path, json.dumps(asdict(self)).encode(), overwrite=True)
 
 
 def load_plan(path: Path) -> Plan:

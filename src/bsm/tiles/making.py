@@ -10,15 +10,15 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import DependencyError, NumericError, TargetError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import NumericError, TargetError
+from bsm.bitstream.extras import imported
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.surface_distance import distances_to_surface
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.console import Console
-from bsm.files.output import open_output
+from bsm.files.output import open_output, write_output
 from bsm.jobs.report import Facts, Task
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, load_plan
 
@@ -47,8 +47,7 @@ def tile_one(job: TileJob, console: Console) -> Facts:
     data = b"".join(Encoder(mesh, options).result().frames)
     with open_output(folder / f"{name}.npz", overwrite=True) as file:
         np.savez(file, places=places, faces=faces, error=error)
-    with open_output(job.output, overwrite=True) as file:
-        file.write(data)
+    write_output(job.output, data, overwrite=True)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
     counts = {"vertices": len(places), "faces": len(faces), "apart": error}
     return {"input": job.input, "output": job.output, "output_bytes": len(data), **counts, **ends}
@@ -113,13 +112,8 @@ def solid(faces: Faces) -> Faces:
 
 
 def simplifier() -> Any:
-    try:
-        import fast_simplification
-    except ImportError as error:
-        raise DependencyError(
-            f"coarser levels need fast-simplification: {how_to_install('tiles')}; --finest goes without"
-        ) from error
-    return fast_simplification.simplify
+    why = "coarser levels need fast-simplification, and --finest goes without"
+    return imported("fast_simplification", why, "tiles").simplify
 
 
 def simplified(places: Places, faces: Faces, locked: Ints, target: int) -> tuple[Places, Faces]:

@@ -16,7 +16,7 @@ from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatEr
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.bitstream.public import public
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.output import open_output
+from bsm.files.output import open_output, write_output
 from bsm.files.pipes import about, inside, is_url, read_bytes, read_range
 from bsm.files.stream import decode_whole
 from bsm.jobs.report import Facts
@@ -88,8 +88,7 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
         "levels": [{"level": level, **sums[level]} for level in sorted(sums)],
         "shards": shards,
     }
-    with open_output(inside(folder, MANIFEST), overwrite=overwrite) as file:
-        file.write(json.dumps(manifest, indent=1).encode() + b"\n")
+    write_output(inside(folder, MANIFEST), json.dumps(manifest, indent=1).encode() + b"\n", overwrite=overwrite)
     return manifest
 
 
