@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.decoder import Decoder
+from tests.streams import events_of
 from tools.vectors.meshes import torus
 
 TWICE = pytest.mark.parametrize("twice", [lambda one: pickle.loads(pickle.dumps(one)), copy.deepcopy])
@@ -44,11 +43,7 @@ def test_a_decoded_mesh(twice):
 
 @TWICE
 def test_events(twice):
-    with Decoder() as decoder:
-        decoder.receive_data(stream())
-        decoder.receive_eof()
-        while (event := decoder.next_event()) is not END_OF_STREAM:
-            assert type(twice(event)) is type(event)
+    assert all(type(twice(event)) is type(event) for event in events_of(stream()))
 
 
 @TWICE

@@ -10,6 +10,7 @@ import bsm
 from bsm.cli import main
 from bsm.lengths import parse_bytes
 from tests.shapes import torus
+from tests.streams import events_of
 
 MESH = torus()
 
@@ -21,12 +22,9 @@ def test_what_is_printed_fits_a_line():
     assert repr(bsm.Limits()) == "Limits()" and repr(bsm.Limits(work=3.0)) == "Limits(work=3.0)"
     for name in ("decode", "load", "decode_sequence", "read_mesh"):
         assert len(str(inspect.signature(getattr(bsm, name)))) < 400, name
-    with bsm.Decoder() as decoder:
-        decoder.receive_data(bsm.encode(MESH, step=0.01))
-        decoder.receive_eof()
-        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-            if not isinstance(event, bsm.HeaderEvent):
-                assert len(repr(event)) < 120 and "array" not in repr(event)
+    for event in events_of(bsm.encode(MESH, step=0.01)):
+        if not isinstance(event, bsm.HeaderEvent):
+            assert len(repr(event)) < 120 and "array" not in repr(event)
 
 
 @pytest.mark.parametrize(

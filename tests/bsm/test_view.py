@@ -27,6 +27,7 @@ from bsm.evaluation.curve import encode_draco
 from bsm.viewer.page import DRACO_LEVEL, Growing, PageServer, compared, written_to
 from tests.bitstream.streams import frame_ends
 from tests.shapes import torus
+from tests.streams import moving_events_of
 
 needs_packages = pytest.mark.skipif(
     shutil.which("node") is None or not (Path(__file__).parents[2] / "tools/web/node_modules").is_dir(),
@@ -53,16 +54,9 @@ def sent_to(growing: Growing) -> bytes:
 
 def frames_sent(data: bytes) -> tuple[list[np.ndarray], list[int]]:
     """Frames of a stream that may begin late, and how many are missing where."""
-    frames, lost = [], []
-    with bsm.SequenceDecoder(tolerant=True) as decoder:
-        decoder.receive_data(data)
-        decoder.receive_eof()
-        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-            if isinstance(event, bsm.FrameEvent):
-                frames.append(event.positions)
-            if isinstance(event, bsm.LossEvent):
-                lost.append(len(event.frames))
-    return frames, lost
+    events = moving_events_of(data, tolerant=True)
+    lost = [len(event.frames) for event in events if isinstance(event, bsm.LossEvent)]
+    return [event.positions for event in events if isinstance(event, bsm.FrameEvent)], lost
 
 
 def listed(page: str) -> list[dict[str, str]]:

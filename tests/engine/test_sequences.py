@@ -11,6 +11,7 @@ import pytest
 
 import bsm
 from tests.engine.decoding import build, decode
+from tests.streams import frames_in, moving_events_of
 from tools.surgery import frames_of, stream_of
 
 ROOT = Path(__file__).parents[2]
@@ -45,15 +46,9 @@ def test_a_lost_gop_costs_what_it_costs_in_python(library: ctypes.CDLL, name: st
     parts[gops[1]] = (GOP, parts[gops[1]][1][: len(parts[gops[1]][1]) // 2])
     broken = stream_of(parts)
     found = decode(library, broken, tolerant=True)
-    with bsm.SequenceDecoder(tolerant=True) as decoder:
-        decoder.receive_data(broken)
-        decoder.receive_eof()
-        lost, kept = [], []
-        while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-            if isinstance(event, bsm.LossEvent):
-                lost.append((event.frames.start, len(event.frames)))
-            if isinstance(event, bsm.FrameEvent):
-                kept.append(event.index)
+    events = moving_events_of(broken, tolerant=True)
+    lost = [(event.frames.start, len(event.frames)) for event in events if isinstance(event, bsm.LossEvent)]
+    kept = list(frames_in(events))
     assert found.status == 0
     assert found.lost == lost
     assert [index for index, _ in found.frames] == kept

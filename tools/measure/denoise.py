@@ -1,12 +1,11 @@
 """Denoising measured: answers first, then times; rivals are stopped at their best iteration by an oracle.
 
-    python -m tools.measure denoise MESHES [TABLE ...] [--full] [--json FILE]
+    python -m tools.measure denoise MESHES [TABLE ...] [--json FILE]
     python -m tools.measure tables
 
 MESHES is the folder of real meshes, with `static/`, `assets/`, `noisy/` and `dynamic/`. Without further words every
-table is printed, on a few small meshes; `--full` takes more of them. A table whose answers are outside their
-tolerances ends the program with exit code 1. `--json` writes the figures that docs/measured.md shows, and `tables`
-writes them there between the two marks.
+table is printed, on a few small meshes. A table whose answers are outside their tolerances ends the program with exit
+code 1. `--json` writes the figures that docs/measured.md shows, and `tables` writes them there between the two marks.
 """
 
 from __future__ import annotations
@@ -16,7 +15,6 @@ import json
 import sys
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from pathlib import Path
@@ -84,24 +82,14 @@ HARD = (
     ("armadillo_12502", 0.05, 1.0),
 )
 """Name, level, and share of the vertices that move."""
-QUICK = ("fandisk_6475", "gargoyle_10002", "trim_star")
-FULL = (*QUICK, "twelve_dodecahedron", "block", "fr_casting", "nicolo", "sharpsphere", "armadillo_12502", "c3d_spot")
-LEVELS_QUICK, LEVELS_FULL = (0.05, 0.2), (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
+NAMES, LEVELS = ("fandisk_6475", "gargoyle_10002", "trim_star"), (0.05, 0.2)
 
 
-@dataclass(frozen=True)
-class Figures:
-    """Summary of one table: what is compared with a goal, by name."""
-
-    table: str
-    values: dict[str, float]
-
-
-def clean_trials(folder: Path, full: bool) -> Figures:
+def clean_trials(folder: Path) -> dict[str, float]:
     """Meshes without noise that was put there: how far their normals are turned, and how many come back untouched."""
     print("clean inputs                     vertices   turned by   untouched        s   said")
     turned, untouched = [], 0
-    for name, positions, faces in clean_meshes(folder, full):
+    for name, positions, faces in clean_meshes(folder):
         start = time.perf_counter()
         result, choice = denoise_automatically(positions, faces)
         seconds = time.perf_counter() - start
@@ -118,13 +106,13 @@ def clean_trials(folder: Path, full: bool) -> Figures:
         f"{untouched} of {len(turned)} untouched, {far} turned by more than {FAR} degrees, "
         f"by {max(turned):.2f} degrees at most"
     )
-    return Figures("clean", {"untouched": untouched, "of": len(turned), "far": far, "largest": max(turned)})
+    return {"untouched": untouched, "of": len(turned), "far": far, "largest": max(turned)}
 
 
-def clean_meshes(folder: Path, full: bool) -> Iterator[tuple[str, Positions, Faces]]:
-    """What can be read of static/, assets/ and hostile/, small files unless `full`, and shapes that are made here."""
+def clean_meshes(folder: Path) -> Iterator[tuple[str, Positions, Faces]]:
+    """What can be read of static/, assets/ and hostile/, small files, and shapes that are made here."""
     for path in (path for name in CLEAN_FOLDERS for path in sorted((folder / name).iterdir())):
-        if not full and path.stat().st_size > 1_000_000:
+        if path.stat().st_size > 1_000_000:
             continue
         try:
             mesh = read_mesh(path).mesh
@@ -135,16 +123,16 @@ def clean_meshes(folder: Path, full: bool) -> Iterator[tuple[str, Positions, Fac
         yield f"made shape {seed}", *made_shape(seed, CLEAN_CELLS)
 
 
-def kind_trials(folder: Path, full: bool) -> Figures:
+def kind_trials(folder: Path) -> dict[str, float]:
     """Kinds and levels of noise: against the input, and against the best of the fixed recipes."""
     print("kind           mesh               edges       in      out   best fixed   ratio       s   found")
     worse, count = 0, 0
     ratios: dict[str, list[float]] = {kind: [] for kind in KINDS}
-    for name in FULL if full else QUICK:
+    for name in NAMES:
         clean, faces = _static(folder, name)
         reference = Reference(clean, faces)
         for kind, make in KINDS.items():
-            for level in LEVELS_FULL if full else LEVELS_QUICK:
+            for level in LEVELS:
                 noisy = make(clean, faces, level)
                 before = reference.theta(noisy)
                 start = time.perf_counter()
@@ -163,82 +151,75 @@ def kind_trials(folder: Path, full: bool) -> Figures:
     print(f"{worse} of {count} worse than their input")
     means = {kind: float(np.exp(np.mean(np.log(found)))) for kind, found in ratios.items() if found}
     print("mean ratio, 0.1 to 0.5 edges: " + ", ".join(f"{kind} {value:.2f}" for kind, value in means.items()))
-    return Figures("kinds", {"worse": worse, "of": count, **means})
+    return {"worse": worse, "of": count, **means}
 
 
-def gaussian_trials(folder: Path, full: bool) -> Figures:
-    """White noise of 0.1 to 0.3 edges against three rivals with an oracle each."""
-    print("mesh               edges       in   guided   bilateral   paper      out   ratio       s")
+def gaussian_trials(folder: Path) -> dict[str, float]:
+    """White noise of 0.2 edges against three rivals with an oracle each."""
+    print("mesh                     in   guided   bilateral   paper      out   ratio       s")
     ratios = []
-    for name in FULL if full else QUICK:
+    for name in NAMES:
         clean, faces = _static(folder, name)
         reference = Reference(clean, faces)
-        for level in (0.1, 0.2, 0.3) if full else (0.2,):
-            noisy = gaussian_along_normals(clean, faces, level, SEED)
-            rivals = oracle(noisy, faces, reference)
-            start = time.perf_counter()
-            result, _ = denoise_automatically(noisy, faces)
-            seconds = time.perf_counter() - start
-            after = reference.theta(result)
-            ratios.append(after / min(rivals.values()))
-            cells = "".join(f"{value:{width}.2f}" for value, width in zip(rivals.values(), (9, 12, 8), strict=True))
-            print(
-                f"{name:18s} {level:5.2f} {reference.theta(noisy):8.2f}{cells} {after:8.2f} {ratios[-1]:7.2f} "
-                f"{seconds:7.1f}",
-                flush=True,
-            )
+        noisy = gaussian_along_normals(clean, faces, 0.2, SEED)
+        rivals = oracle(noisy, faces, reference)
+        start = time.perf_counter()
+        result, _ = denoise_automatically(noisy, faces)
+        seconds = time.perf_counter() - start
+        after = reference.theta(result)
+        ratios.append(after / min(rivals.values()))
+        cells = "".join(f"{value:{width}.2f}" for value, width in zip(rivals.values(), (9, 12, 8), strict=True))
+        print(
+            f"{name:18s} {reference.theta(noisy):8.2f}{cells} {after:8.2f} {ratios[-1]:7.2f} {seconds:7.1f}", flush=True
+        )
     mean = float(np.mean(ratios))
     print(f"mean {mean:.3f}, worst {max(ratios):.3f}")
-    return Figures("gaussian", {"mean": mean, "worst": max(ratios)})
+    return {"mean": mean, "worst": max(ratios)}
 
 
-def hard_trials(folder: Path, full: bool) -> Figures:
+def hard_trials(folder: Path) -> dict[str, float]:
     """Cases with published rivals, and one with hardly any noise; those of meshes that are there."""
-    values: dict[str, list[float]] = {}
+    values: dict[str, float] = {}
     print("case                          in      out       s")
     for name, level, share in HARD:
         if not (folder / "static" / f"{name}.ply").exists():
             continue
         clean, faces = _static(folder, name)
-        for seed in (SEED, SEED + 1, SEED + 2) if full else (SEED,):
-            noisy = gaussian_along_normals(clean, faces, level, seed)
-            if share < 1.0:
-                noisy = impulsive(clean, faces, level, share, seed)
-            start = time.perf_counter()
-            result, _ = denoise_automatically(noisy, faces)
-            seconds = time.perf_counter() - start
-            after = theta(clean, result, faces)
-            values.setdefault(f"{name} {level}", []).append(after)
-            print(f"{name:16s} {level:5.2f} {theta(clean, noisy, faces):8.2f} {after:8.2f} {seconds:7.1f}", flush=True)
-    return Figures("hard", {case: float(np.mean(found)) for case, found in values.items()})
+        noisy = gaussian_along_normals(clean, faces, level, SEED)
+        if share < 1.0:
+            noisy = impulsive(clean, faces, level, share, SEED)
+        start = time.perf_counter()
+        result, _ = denoise_automatically(noisy, faces)
+        seconds = time.perf_counter() - start
+        after = theta(clean, result, faces)
+        values[f"{name} {level}"] = after
+        print(f"{name:16s} {level:5.2f} {theta(clean, noisy, faces):8.2f} {after:8.2f} {seconds:7.1f}", flush=True)
+    return values
 
 
-def sequence_trials(folder: Path, full: bool) -> Figures:
-    """Noisy sequences against their frames one by one: theta, vertex error, flicker."""
+def sequence_trials(folder: Path) -> dict[str, float]:
+    """A noisy sequence against its frames one by one: theta, vertex error, flicker."""
     print("sequence         frames    way               theta   vertex error   flicker")
-    values: dict[str, list[float]] = {"theta": [], "vertex error": [], "flicker": []}
-    for name in ("samba", "dance", "horse_gallop") if full else ("dance",):
-        positions, faces = read_arrays(folder / "dynamic" / f"{name}.npz", "positions", "faces")
-        faces = faces.astype(np.int32)
-        clean = positions[: 48 if full else 24].astype(np.float64)
-        noisy = np.stack([gaussian_along_normals(frame, faces, 0.2, seed) for seed, frame in enumerate(clean)])
-        alone = np.stack([denoise_automatically(frame, faces)[0] for frame in noisy])
-        together = np.stack(list(FrameDenoiser(noisy[0], faces)(noisy)))
-        rows = {
-            way: (
-                float(np.mean([theta(a, b, faces) for a, b in zip(clean, frames, strict=True)])),
-                vertex_error(clean, frames, faces),
-                flicker(clean, frames, faces),
-            )
-            for way, frames in (("noisy", noisy), ("frame by frame", alone), ("sequence", together))
-        }
-        for way, row in rows.items():
-            print(f"{name:16s} {len(clean):6d}    {way:14s} {row[0]:8.2f} {row[1]:14.3f} {row[2]:9.3f}", flush=True)
-        for measure, ours, theirs in zip(values, rows["sequence"], rows["frame by frame"], strict=True):
-            values[measure].append(ours / theirs)
-    means = {measure: float(np.mean(found)) for measure, found in values.items()}
+    positions, faces = read_arrays(folder / "dynamic" / "dance.npz", "positions", "faces")
+    faces = faces.astype(np.int32)
+    clean = positions[:24].astype(np.float64)
+    noisy = np.stack([gaussian_along_normals(frame, faces, 0.2, seed) for seed, frame in enumerate(clean)])
+    alone = np.stack([denoise_automatically(frame, faces)[0] for frame in noisy])
+    together = np.stack(list(FrameDenoiser(noisy[0], faces)(noisy)))
+    rows = {
+        way: (
+            float(np.mean([theta(a, b, faces) for a, b in zip(clean, frames, strict=True)])),
+            vertex_error(clean, frames, faces),
+            flicker(clean, frames, faces),
+        )
+        for way, frames in (("noisy", noisy), ("frame by frame", alone), ("sequence", together))
+    }
+    for way, row in rows.items():
+        print(f"dance {len(clean):16d}    {way:14s} {row[0]:8.2f} {row[1]:14.3f} {row[2]:9.3f}", flush=True)
+    over = [ours / theirs for ours, theirs in zip(rows["sequence"], rows["frame by frame"], strict=True)]
+    means = dict(zip(("theta", "vertex error", "flicker"), over, strict=True))
     print("over frame by frame: " + ", ".join(f"{measure} {value:.2f}" for measure, value in means.items()))
-    return Figures("flicker", means)
+    return means
 
 
 def vertex_error(clean: np.ndarray, frames: np.ndarray, faces: Faces) -> float:
@@ -294,15 +275,6 @@ def _best(run: Iterator[Positions], reference: Reference) -> float:
 def _static(folder: Path, name: str) -> tuple[Positions, Faces]:
     mesh = read_mesh(folder / "static" / f"{name}.ply").mesh
     return mesh.positions, mesh.faces
-
-
-TRIALS: dict[str, Callable[[Path, bool], Figures]] = {
-    "clean": clean_trials,
-    "kinds": kind_trials,
-    "gaussian": gaussian_trials,
-    "hard": hard_trials,
-    "flicker": sequence_trials,
-}
 
 
 ROOT = Path(__file__).parents[2]
@@ -410,32 +382,34 @@ def automatic_table(folder: Path) -> dict[str, list[float]]:
     return rows
 
 
-TABLES: dict[str, Callable[[Path], object]] = {"automatic": automatic_table}
+TABLES: dict[str, Callable[[Path], object]] = {
+    "automatic": automatic_table,
+    "clean": clean_trials,
+    "kinds": kind_trials,
+    "gaussian": gaussian_trials,
+    "hard": hard_trials,
+    "flicker": sequence_trials,
+}
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Print the tables that were asked for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("meshes", type=Path, help="folder with static/, assets/, noisy/ and dynamic/")
-    parser.add_argument("tables", nargs="*", metavar="TABLE", help=", ".join((*TABLES, *TRIALS)))
-    parser.add_argument("--full", action="store_true", help="more meshes and levels (an hour)")
+    parser.add_argument("tables", nargs="*", metavar="TABLE", help=", ".join(TABLES))
     parser.add_argument("--json", type=Path, metavar="FILE", help="write figures of the tables here")
     chosen = parser.parse_args(arguments)
-    unknown = sorted(set(chosen.tables) - {*TABLES, *TRIALS})
+    unknown = sorted(set(chosen.tables) - set(TABLES))
     if unknown:
-        parser.error(f"there is no table {', '.join(unknown)}; choose among {', '.join((*TABLES, *TRIALS))}")
+        parser.error(f"there is no table {', '.join(unknown)}; choose among {', '.join(TABLES)}")
     figures: dict[str, object] = {}
     try:
-        for name in chosen.tables or (*TABLES, *TRIALS):
-            if name in TRIALS:
-                figures[name] = TRIALS[name](chosen.meshes, chosen.full).values
-            else:
-                figures[name] = TABLES[name](chosen.meshes)
+        for name in chosen.tables or TABLES:
+            figures[name] = TABLES[name](chosen.meshes)
             print()
     except WrongAnswerError as error:
         print(f"wrong answer: {error}", file=sys.stderr)
         return 1
     if chosen.json:
-        known = {name: value for name, value in figures.items() if value is not None}
-        chosen.json.write_text(json.dumps(known, indent=1) + "\n", encoding="utf-8")
+        chosen.json.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
     return 0

@@ -9,7 +9,7 @@ from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.events import AttributeEvent, HeaderEvent
-from tests.codec.sequence.test_runs import events_of, frames_in
+from tests.streams import frames_in, moving_events_of
 from tools.vectors.meshes import torus
 
 FACES = torus(8, 6).faces
@@ -35,7 +35,7 @@ def encoded(frames, faces, **options):
 
 
 def runs_of(data):
-    return [event.header.run_number for event in events_of(data) if isinstance(event, HeaderEvent)]
+    return [event.header.run_number for event in moving_events_of(data) if isinstance(event, HeaderEvent)]
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -80,7 +80,7 @@ def test_where_vertices_part_later_another_run_begins(way):
     positions, faces = decode_sequence(data)
     assert np.array_equal(faces, OWN) and np.abs(positions - frames).max() < 0.05
     _, data = encoded(frames, OWN, runs=True, **way)
-    found = frames_in(events_of(data))
+    found = frames_in(moving_events_of(data))
     assert [len(found[t].positions) for t in (4, 5)] == [48, 51]
 
 
@@ -115,5 +115,5 @@ def test_colours_of_copies_differ():
     carried = [Attribute("colors", colours, semantic="color")]
     encoder = SequenceEncoder(OWN, chosen, 2, attributes=carried)
     data = b"".join(encoder.chunks(frames))
-    (event,) = [event for event in events_of(data) if isinstance(event, AttributeEvent)]
+    (event,) = [event for event in moving_events_of(data) if isinstance(event, AttributeEvent)]
     assert np.array_equal(event.values, colours)

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.reader import END_OF_STREAM, Reader, read_packets
+from bsm.bitstream.container.reader import Reader, read_packets
 from bsm.bitstream.errors import CorruptError, MeshError, OptionError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.decoder import SequenceDecoder
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.options import SequenceOptions
 from tests.shapes import torus
+from tests.streams import frames_in, moving_events_of
 
 MESH = torus(24, 12)
 
@@ -51,13 +51,7 @@ def encoded(frames: Sequence[TriangleMesh], **options: object) -> tuple[bytes, S
 
 
 def decoded(data: bytes, **options: object) -> list[FrameEvent]:
-    found = []
-    with SequenceDecoder(threads=1, **options) as decoder:
-        decoder.receive_data(data)
-        decoder.receive_eof()
-        while (event := decoder.next_event()) is not END_OF_STREAM:
-            found += [event] if isinstance(event, FrameEvent) else []
-    return found
+    return list(frames_in(moving_events_of(data, **options)).values())
 
 
 def errors(frames: Sequence[TriangleMesh], encoder: SequenceEncoder, found: Sequence[FrameEvent]) -> dict[str, float]:

@@ -7,7 +7,7 @@ import pytest
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Gop
-from bsm.bitstream.container.reader import NEED_DATA, Reader, Signal
+from bsm.bitstream.container.reader import Reader, Signal
 from bsm.bitstream.container.wire import FrameType, write_preamble
 from bsm.bitstream.errors import CorruptError, MeshError, OptionError
 from bsm.codec.geometry.attributes import Attribute
@@ -19,6 +19,7 @@ from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.runs import KEPT_MESHES
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, HeaderEvent, LossEvent
+from tests.streams import frames_in, moving_events_of, packets_of
 from tools.surgery import frames_of
 from tools.vectors.meshes import torus
 
@@ -40,29 +41,6 @@ def encoded(frames, **options):
     chosen = SequenceOptions(**{"step": 0.003, "block_size": 30, "threads": 1, "runs": True, **options})
     encoder = SequenceEncoder(frames[0].faces, chosen, len(frames))
     return encoder, list(encoder.chunks(frames))
-
-
-def events_of(data, **options):
-    found = []
-    with SequenceDecoder(threads=1, **options) as decoder:
-        decoder.receive_data(data)
-        decoder.receive_eof()
-        while not isinstance(event := decoder.next_event(), Signal):
-            found.append(event)
-    return found
-
-
-def frames_in(events):
-    return {event.index: event for event in events if isinstance(event, FrameEvent)}
-
-
-def packets_of(data):
-    reader = Reader()
-    reader.receive_data(data)
-    found = []
-    while (packet := reader.next_packet()) is not NEED_DATA:
-        found.append(packet)
-    return found
 
 
 def restored(frames, **options):
@@ -97,7 +75,7 @@ def test_faces_change_and_return(way):
 @pytest.mark.parametrize("way", WAYS)
 def test_a_mesh_that_returns_is_not_sent_again(way):
     data = b"".join(encoded(meshes(*PIECES), **way)[1])
-    headers = [packet for packet in packets_of(data) if isinstance(packet, Header)]
+    headers = [packet for packet, *_ in packets_of(data) if isinstance(packet, Header)]
     assert [(header.run_number, header.again) for header in headers] == [
         (0, None),
         (1, None),
@@ -105,9 +83,9 @@ def test_a_mesh_that_returns_is_not_sent_again(way):
         (3, None),
         (4, 1),
     ]
-    assert sum(isinstance(packet, Connectivity) for packet in packets_of(data)) == 3
+    assert sum(isinstance(packet, Connectivity) for packet, *_ in packets_of(data)) == 3
     assert all(header.frames == 15 for header in headers)
-    gops = [packet.index for packet in packets_of(data) if isinstance(packet, Gop)]
+    gops = [packet.index for packet, *_ in packets_of(data) if isinstance(packet, Gop)]
     assert gops[0] == 0 and sorted(gops) == gops and {5, 8, 12, 13} <= set(gops)
 
 
@@ -121,9 +99,9 @@ def test_a_promise_holds_in_every_run():
 
 def test_decoding_begins_at_any_frame():
     data = b"".join(encoded(meshes(*PIECES), gop=4)[1])
-    whole = frames_in(events_of(data))
+    whole = frames_in(moving_events_of(data))
     for start in (3, 5, 9, 14):
-        some = frames_in(events_of(data, start=start))
+        some = frames_in(moving_events_of(data, start=start))
         assert list(some) == list(range(start, 15))
         assert all(np.array_equal(some[k].positions, whole[k].positions) for k in some)
 
@@ -143,7 +121,7 @@ def test_a_target_is_for_frames_that_share_their_faces():
     with pytest.raises(OptionError, match="the faces change at frame 3"):
         encoded(meshes((10, 3), (7, 2)), target=SequenceTarget("kg", 0.5))
     same = meshes((10, 3))
-    assert frames_in(events_of(b"".join(encoded(same, target=SequenceTarget("kg", 5.0))[1])))
+    assert frames_in(moving_events_of(b"".join(encoded(same, target=SequenceTarget("kg", 5.0))[1])))
 
 
 def test_an_array_with_another_shape_is_refused():
@@ -179,7 +157,7 @@ def test_a_mesh_with_other_colours_is_another():
     chosen = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
     given = [replace(frames[0], attributes=red), frames[1], replace(frames[2], attributes=blue)]
     data = b"".join(SequenceEncoder(frames[0].faces, chosen, 3, attributes=red).chunks(given))
-    told = [int(event.values[0, 0]) for event in events_of(data) if isinstance(event, AttributeEvent)]
+    told = [int(event.values[0, 0]) for event in moving_events_of(data) if isinstance(event, AttributeEvent)]
     assert told == [200, 3]
 
 
@@ -199,7 +177,7 @@ def damaged(data, number):
 @pytest.mark.parametrize("way", WAYS)
 def test_loss_of_any_frame_stays_within_the_runs_of_one_mesh(way):
     data = b"".join(encoded(meshes(*PIECES), **way)[1])
-    whole = frames_in(events_of(data))
+    whole = frames_in(moving_events_of(data))
     mesh_of = [size for size, count in PIECES for _ in range(count)]
     frames = frames_of(data)
     mesh = -1
@@ -209,7 +187,7 @@ def test_loss_of_any_frame_stays_within_the_runs_of_one_mesh(way):
         mesh = next(sizes) if kind == FrameType.HEADER else mesh
         order.append(mesh)
     for number in range(1, len(frames)):
-        events = events_of(damaged(data, number), tolerant=True)
+        events = moving_events_of(damaged(data, number), tolerant=True)
         found = frames_in(events)
         lost = {k for event in events if isinstance(event, LossEvent) and event.frames for k in event.frames}
         assert found.keys() | lost == set(range(15)) and not found.keys() & lost
@@ -223,26 +201,21 @@ def test_loss_of_any_frame_stays_within_the_runs_of_one_mesh(way):
 def test_a_first_run_that_is_lost_is_an_error_only_if_it_is_all():
     frames = meshes((10, 3), (7, 2))
     data = b"".join(encoded(frames)[1])
-    found = frames_in(events_of(damaged(data, 1), tolerant=True))
+    found = frames_in(moving_events_of(damaged(data, 1), tolerant=True))
     assert list(found) == [3, 4]
     alone = b"".join(encoded(frames[:3])[1])
     with pytest.raises(CorruptError):
-        events_of(damaged(alone, 1), tolerant=True)
+        moving_events_of(damaged(alone, 1), tolerant=True)
 
 
 def test_late_joiners_begin_at_a_run_with_a_mesh():
     data = b"".join(encoded(meshes(*PIECES), gop=4)[1])
-    whole = frames_in(events_of(data))
-    headers = []
-    reader = Reader()
-    reader.receive_data(data)
-    while (packet := reader.next_packet()) is not NEED_DATA:
-        if isinstance(packet, Header):
-            headers.append(reader.last_frame.offset)
+    whole = frames_in(moving_events_of(data))
+    headers = [offset for packet, offset, _ in packets_of(data) if isinstance(packet, Header)]
     later = write_preamble() + data[headers[1] :]
     with pytest.raises(CorruptError, match="begins within a sequence"):
-        events_of(later)
-    events = events_of(later, tolerant=True)
+        moving_events_of(later)
+    events = moving_events_of(later, tolerant=True)
     found = frames_in(events)
     assert list(found) == [5, 6, 7, 12, 13, 14]  # frames 8 to 11 have the mesh of run 0
     assert all(np.array_equal(found[k].positions, whole[k].positions) for k in found)
@@ -257,9 +230,9 @@ def test_so_many_meshes_are_kept():
     sizes = [*range(3, 3 + KEPT_MESHES + 2), 3, 6, 12]
     frames = meshes(*((size, 1) for size in sizes))
     data = b"".join(encoded(frames)[1])
-    again = [packet.again for packet in packets_of(data) if isinstance(packet, Header)]
+    again = [packet.again for packet, *_ in packets_of(data) if isinstance(packet, Header)]
     assert again[:-2] == [None] * (KEPT_MESHES + 3) and again[-2:] == [3, 9]
-    assert len(frames_in(events_of(data))) == len(frames)
+    assert len(frames_in(moving_events_of(data))) == len(frames)
 
 
 def test_what_meshes_take_does_not_grow_with_their_number():

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.container.packets import Gop
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, Signal
+from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.errors import (
     BsmError,
@@ -27,7 +27,6 @@ from bsm.codec.sequence import tracks
 from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.dictionaries import Dictionaries
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
-from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.history import FrameHistory
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
@@ -36,6 +35,7 @@ from bsm.codec.static.encoder import encode
 from bsm.codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
+from tests.streams import frames_in, moving_events_of, packets_of, without
 from tools.surgery import with_header
 
 SMALL = {"block_size": 100, "step": 0.002, "gop": 8}
@@ -53,33 +53,9 @@ def encoded(positions, faces, **changes):
     return data, positions[:, encoder.vertex_order]
 
 
-def events_of(data, pieces=None, **settings):
-    decoder = SequenceDecoder(**settings)
-    found = []
-    for piece in pieces or [data]:
-        decoder.receive_data(piece)
-        while not isinstance(event := decoder.next_event(), Signal):
-            found.append(event)
-    decoder.receive_eof()
-    while (event := decoder.next_event()) is not END_OF_STREAM:
-        assert event is not NEED_DATA
-        found.append(event)
-    return found
-
-
-def frames_in(events):
-    return {event.index: event.positions for event in events if isinstance(event, FrameEvent)}
-
-
-def gop_spans(data):
-    """First frame, offset and length of each GOP's stream frame."""
-    reader = Reader()
-    reader.receive_data(data)
-    found = []
-    while not isinstance(packet := reader.next_packet(), Signal):
-        if isinstance(packet, Gop):
-            found.append((packet.index, reader.last_frame.offset, reader.last_frame.length))
-    return found
+def gops_of(data):
+    """GOPs, and offset and length of the frame of each."""
+    return [one for one in packets_of(data) if isinstance(one[0], Gop)]
 
 
 def diagonal(frame):
@@ -130,11 +106,11 @@ def test_prediction_from_the_first_frame_pays():
 def test_events_do_not_depend_on_how_bytes_are_cut(way, pieces):
     positions, faces = bending(11)
     data, _ = encoded(positions, faces, step=0.01, **way)
-    whole = events_of(data)
+    whole = moving_events_of(data)
     assert [type(event) for event in whole[:2]] == [HeaderEvent, ConnectivityEvent]
     assert isinstance(whole[-1], EndEvent)
     assert [event.index for event in whole[2:-1]] == list(range(11))
-    cut = events_of(data, [data[i : i + pieces] for i in range(0, len(data), pieces)])
+    cut = moving_events_of(data, [data[i : i + pieces] for i in range(0, len(data), pieces)])
     assert [type(event) for event in cut] == [type(event) for event in whole]
     for a, b in zip(whole[2:-1], cut[2:-1], strict=True):
         assert np.array_equal(a.positions, b.positions)
@@ -205,7 +181,7 @@ def test_short_sequences(way, frames):
 def test_frames_that_return_cost_next_to_nothing(together):
     positions, faces = bending(12)
     data, original = encoded(np.concatenate([positions, positions]), faces, low_delay=together, gop=24)
-    sizes = np.array([size for _, _, size in gop_spans(data)])
+    sizes = np.array([size for _, _, size in gops_of(data)])
     half = len(sizes) // 2
     assert sizes[half + 1 :].sum() < 0.3 * sizes[1:half].sum()
     assert np.abs(decode_sequence(data)[0] - original).max() < 0.02
@@ -280,22 +256,22 @@ def test_the_order_can_be_kept(way):
 def test_a_lost_gop_costs_what_refers_to_it(how, index, behind):
     positions, faces = bending(45)
     data, _ = encoded(positions, faces)
-    assert methods_of(data) == [0, 3, 3, 3, 0, 3]
-    events = events_of(damaged(data, index, how), tolerant=True)
+    assert [gop.data[0] for gop, *_ in gops_of(data)] == [0, 3, 3, 3, 0, 3]
+    events = moving_events_of(without(data, Gop, index, how), tolerant=True)
     lost = [event for event in events if isinstance(event, LossEvent)]
     missing = range(8 * index, min(8 * behind, 45))
     assert [frame for event in lost for frame in event.frames] == list(missing) and lost[0].error.message
     assert_same(frames_in(events), decode_sequence(data)[0], set(range(45)) - set(missing))
     assert isinstance(events[-1], EndEvent)
     with pytest.raises(CorruptError):
-        decode_sequence(damaged(data, index, how))
+        decode_sequence(without(data, Gop, index, how))
 
 
 @pytest.mark.parametrize("how", ["removed", "changed"])
 def test_a_lost_frame_costs_what_refers_to_it(how):
     positions, faces = bending(20)
     data, _ = encoded(positions, faces, low_delay=1)
-    events = events_of(damaged(data, 5, how), tolerant=True)
+    events = moving_events_of(without(data, Gop, 5, how), tolerant=True)
     assert sum(len(event.frames) for event in events if isinstance(event, LossEvent)) == 3  # frames 5, 6 and 7 of 8
     assert_same(frames_in(events), decode_sequence(data)[0], set(range(20)) - {5, 6, 7})
 
@@ -303,18 +279,18 @@ def test_a_lost_frame_costs_what_refers_to_it(how):
 def test_losses_at_the_end_of_a_sequence_of_unknown_length():
     positions, faces = bending(16)
     data = b"".join(SequenceEncoder(faces, options()).chunks(positions))
-    events = events_of(damaged(data, 1, "changed"), tolerant=True)
+    events = moving_events_of(without(data, Gop, 1, "changed"), tolerant=True)
     assert [(e.frames.start, len(e.frames)) for e in events if isinstance(e, LossEvent)] == [(8, 0)]
 
 
 def test_the_beginning_must_be_whole():
     positions, faces = bending(4)
     data, _ = encoded(positions, faces)
-    for offset in (40, 700, gop_spans(data)[0][1] - 30):
+    for offset in (40, 700, gops_of(data)[0][1] - 30):
         broken = bytearray(data)
         broken[offset] ^= 0xFF
         with pytest.raises(BsmError):
-            events_of(bytes(broken), tolerant=True)
+            moving_events_of(bytes(broken), tolerant=True)
 
 
 @pytest.mark.parametrize("way", WAYS)
@@ -322,7 +298,7 @@ def test_the_beginning_must_be_whole():
 def test_seeking(way, start):
     positions, faces = bending(20)
     data, _ = encoded(positions, faces, **way)
-    found = frames_in(events_of(data, start=start))
+    found = frames_in(moving_events_of(data, start=start))
     assert_same(found, decode_sequence(data)[0], set(range(start, 20)))
 
 
@@ -431,23 +407,12 @@ def test_gops_end_earlier_where_decoders_lack_the_memory(monkeypatch):
     granted = least_memory(short)
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: granted)
     data, wanted = encoded(positions, faces, gop=32, step=1e-3)
-    assert 1 < len(gop_spans(data)) < 32
+    assert 1 < len(gops_of(data)) < 32
     decoded, _ = decode_sequence(data, granted)
     np.testing.assert_allclose(decoded, wanted, atol=0.05)
     monkeypatch.setitem(NAMED_LIMITS, "default", lambda: memory_of(granted.memory - 3e6))
     with pytest.raises(OptionError, match="memory"):
         encoded(positions, faces, gop=32)
-
-
-def methods_of(data):
-    reader = Reader()
-    reader.receive_data(data)
-    reader.receive_eof()
-    found = []
-    while (packet := reader.next_packet()) is not END_OF_STREAM:
-        if isinstance(packet, Gop):
-            found.append(packet.data[0])
-    return found
 
 
 def many_ways(frames, *, change):
@@ -468,7 +433,7 @@ def test_long_motion_is_one_gop_or_two_whatever_costs_less():
     def firsts_and_bytes(positions, faces, **chosen):
         data, wanted = encoded(positions, faces, **{"gop": None, "step": 0.005, **chosen})
         np.testing.assert_allclose(decode_sequence(data)[0], wanted, atol=0.05)
-        return [first for first, _, _ in gop_spans(data)], len(data)
+        return [gop.index for gop, _, _ in gops_of(data)], len(data)
 
     lasting, changing = many_ways(300, change=False), many_ways(300, change=True)
     firsts, size = firsts_and_bytes(*lasting)
@@ -538,31 +503,15 @@ def test_hostile_gops_give_typed_errors_or_frames(data):
 @cache
 def small_packets(way):
     positions, faces = bending(6)
-    return packets_of(encoded(positions, faces, step=0.02, block_size=400, **WAYS[way])[0])
-
-
-def packets_of(data):
-    reader = Reader()
-    reader.receive_data(data)
-    found = []
-    while not isinstance(packet := reader.next_packet(), Signal):
-        found.append(packet)
-    return found[:-1]
-
-
-def damaged(data, index, how):
-    _, offset, length = gop_spans(data)[index]
-    if how == "removed":
-        return data[:offset] + data[offset + length :]
-    broken = bytearray(data)
-    broken[offset + length // 2] ^= 0xFF
-    return bytes(broken)
+    return [packet for packet, *_ in packets_of(encoded(positions, faces, step=0.02, block_size=400, **WAYS[way])[0])][
+        :-1
+    ]
 
 
 def assert_same(found, decoded, indices):
     assert set(found) == indices
     for index in indices:
-        assert np.array_equal(found[index], decoded[index])
+        assert np.array_equal(found[index].positions, decoded[index])
 
 
 def test_vertices_that_no_face_uses_do_not_disturb_a_sequence():

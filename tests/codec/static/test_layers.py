@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.container.wire import FrameType, parse_frame
 from bsm.bitstream.errors import BsmError, CorruptError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
@@ -17,24 +16,13 @@ from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, LossEvent, RefinementEvent
 from bsm.codec.static.options import EncodeOptions
+from tests.streams import events_of
 from tools.vectors.good_fields import LAYER, base, on_grid, refined, soup
 from tools.vectors.meshes import torus
 
 MESH = torus(12, 10)
 REFINED = refined(MESH, LAYER, (50, 70))
 GRID = on_grid(torus(8, 7), counts=(30, 20, 6))
-
-
-def events_of(data: bytes, **options: Any) -> list[Any]:
-    """Everything that a decoder says of a whole stream."""
-    with Decoder(**options) as decoder:
-        decoder.receive_data(data)
-        decoder.receive_eof()
-        found = []
-        while (event := decoder.next_event()) is not END_OF_STREAM:
-            assert event is not NEED_DATA
-            found.append(event)
-        return found
 
 
 def shown(events: list[Any]) -> TriangleMesh:
@@ -152,15 +140,7 @@ def test_damage_anywhere_is_an_error_of_the_stream_or_a_loss(data: bytes) -> Non
 @pytest.mark.parametrize("size", [1, 7, 64])
 def test_events_do_not_depend_on_how_bytes_come(size: int) -> None:
     for data in (REFINED, GRID):
-        with Decoder() as decoder:
-            found = []
-            for start in range(0, len(data), size):
-                decoder.receive_data(data[start : start + size])
-                while (event := decoder.next_event()) is not NEED_DATA and event is not END_OF_STREAM:
-                    found.append(event)
-            decoder.receive_eof()
-            while (event := decoder.next_event()) is not END_OF_STREAM:
-                found.append(event)
+        found = events_of(data, [data[start : start + size] for start in range(0, len(data), size)])
         assert [type(event) for event in found] == [type(event) for event in events_of(data)]
 
 

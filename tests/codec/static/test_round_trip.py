@@ -5,16 +5,16 @@ import sys
 import numpy as np
 import pytest
 
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.errors import BsmError, CorruptError, LimitError, OptionError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import compare
-from bsm.codec.static.decoder import Decoder, decode
+from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.events import BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent
 from bsm.codec.static.options import EncodeOptions, changed
 from tests.shapes import patch, tetrahedron, together, torus
+from tests.streams import events_of
 
 SMALL = {"block_size": 120, "keep": 0.3, "step": 0.002}
 
@@ -23,18 +23,6 @@ def round_trip(mesh, **options):
     encoder = Encoder(mesh, changed(EncodeOptions(), **options))
     decoded = decode(encoder.encode())
     return encoder, decoded, compare(mesh.positions[encoder.vertex_order], decoded.positions, decoded.faces)
-
-
-def events_of(data, pieces):
-    found = []
-    with Decoder() as decoder:
-        for piece in pieces(data):
-            decoder.receive_data(piece)
-            while not isinstance(event := decoder.next_event(), type(NEED_DATA)):
-                found.append(event)
-        decoder.receive_eof()
-        assert decoder.next_event() is END_OF_STREAM
-    return found
 
 
 @pytest.mark.parametrize(
@@ -124,8 +112,8 @@ def test_vertices_without_faces_are_dropped_with_a_note():
 @pytest.mark.parametrize("smoothing", [0.0, 3.0])
 def test_events_do_not_depend_on_how_the_bytes_come(smoothing):
     data = encode(torus(), EncodeOptions(**SMALL, smoothing=smoothing))
-    whole = events_of(data, lambda d: [d])
-    single = events_of(data, lambda d: [d[i : i + 1] for i in range(len(d))])
+    whole = events_of(data)
+    single = events_of(data, [data[i : i + 1] for i in range(len(data))])
     assert [type(e) for e in whole] == [type(e) for e in single]
     assert isinstance(whole[0], HeaderEvent) and isinstance(whole[1], ConnectivityEvent)
     assert isinstance(whole[-1], EndEvent)
@@ -144,7 +132,7 @@ def test_every_vertex_becomes_final_once_and_stays(smoothing):
     positions = np.full_like(decoded.positions, np.nan)
     final = np.zeros(len(positions), bool)
     early = 0
-    blocks = [event for event in events_of(data, lambda d: [d]) if isinstance(event, BlockEvent)]
+    blocks = [event for event in events_of(data) if isinstance(event, BlockEvent)]
     for number, event in enumerate(blocks):
         assert not final[event.vertices].any()
         assert len(np.unique(event.vertices)) == len(event.vertices)
@@ -231,7 +219,7 @@ def test_the_order_can_be_kept():
     assert np.array_equal(decoded.faces, mesh.faces)
     assert compare(mesh.positions, decoded.positions, mesh.faces).rms_relative < 0.006
     seen = np.full_like(decoded.positions, np.nan)
-    for event in events_of(data, lambda d: [d]):
+    for event in events_of(data):
         if isinstance(event, BlockEvent):
             seen[event.vertices] = event.positions
     assert np.array_equal(seen, decoded.positions)

@@ -1,0 +1,60 @@
+"""What readers and decoders say of streams."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from bsm.bitstream.container.reader import END_OF_STREAM, Reader, Signal
+from bsm.codec.sequence.decoder import SequenceDecoder
+from bsm.codec.sequence.events import FrameEvent
+from bsm.codec.static.decoder import Decoder
+
+
+def events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any) -> list[Any]:
+    """Everything that a decoder says of a mesh, which comes in pieces."""
+    with Decoder(**options) as decoder:
+        return list(told(decoder, pieces or [data]))
+
+
+def moving_events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any) -> list[Any]:
+    """Everything that a decoder says of a sequence, which comes in pieces."""
+    with SequenceDecoder(**{"threads": 1, **options}) as decoder:
+        return list(told(decoder, pieces or [data]))
+
+
+def told(decoder: Decoder | SequenceDecoder, pieces: Sequence[bytes]) -> Iterator[Any]:
+    """The events of a decoder, each as early as it can be had."""
+    for piece in pieces:
+        decoder.receive_data(piece)
+        while not isinstance(event := decoder.next_event(), Signal):
+            yield event
+    decoder.receive_eof()
+    while (event := decoder.next_event()) is not END_OF_STREAM:
+        assert not isinstance(event, Signal)
+        yield event
+
+
+def frames_in(events: Sequence[Any]) -> dict[int, FrameEvent]:
+    """Frames among events, by number."""
+    return {event.index: event for event in events if isinstance(event, FrameEvent)}
+
+
+def packets_of(data: bytes) -> list[tuple[Any, int, int]]:
+    """The packets of a stream, with offset and length of the frame of each."""
+    reader = Reader()
+    reader.receive_data(data)
+    found = []
+    while not isinstance(packet := reader.next_packet(), Signal):
+        assert reader.last_frame is not None
+        found.append((packet, reader.last_frame.offset, reader.last_frame.length))
+    return found
+
+
+def without(data: bytes, packet: type, index: int, how: str) -> bytes:
+    """A stream whose packet number `index` of a kind is "removed" or "changed"."""
+    _, offset, length = [one for one in packets_of(data) if isinstance(one[0], packet)][index]
+    middle = offset + length // 2
+    if how == "removed":
+        return data[:offset] + data[offset + length :]
+    return data[:middle] + bytes([data[middle] ^ 0xFF]) + data[middle + 1 :]
