@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 34_120,
-    "all Python, lines": 73_160,
+    "all Python, lines": 72_960,
     "product modules": 222,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
