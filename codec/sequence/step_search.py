@@ -37,7 +37,7 @@ SLOPE, SLOPES = 0.7, (0.4, 2.5)
 EVENING, SMOOTHNESS = 1.2, 2.0
 """Frames are weighed by this power of what would make all look alike if errors were as weights ask, smoothly over so
 many frames: weights that change quickly are dear in the temporal basis."""
-AGAIN, ALONE, YIELD = 0.5, 6.0, 0.3
+AGAIN, ALONE, YIELD = 0.5, 6.0, 0.15
 """Powers of weights from a second look, and for single frames at the end, and that by which errors follow weights."""
 LEAST = 1e-3  # excess that is left of one, whatever other weights let expect
 WIDEST = 1.4  # logarithm of the largest weight, and of one over the smallest

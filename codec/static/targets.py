@@ -23,7 +23,7 @@ UNITS = {
 COARSEST_STEP = 0.1
 SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
-RISES = {"kg": 0.78}  # the power of the step that errors grow with, where it is known before two are tried; 1 elsewhere
+RISES = {"kg": 0.75}  # the power of the step that errors grow with, where it is known before two are tried; 1 elsewhere
 STEEPEST = 2.0  # errors grow with this power of the step at most, and with its inverse at least
 STRIDE, NEAREST = 2.0, 0.1
 """Between two tries, in the logarithm; and where both sides of a bound are known, the part of what is between them that
