@@ -140,10 +140,9 @@ class StepSearch:
             least = step
             if step <= finest:
                 break
-            over = measured.excess
             if weights is not None:  # a few frames are worse than they seemed, and cost less by themselves
-                weights, over = weights * _evening(measured.shares.clip(1.0)) ** ALONE, 0.5 * over
-            step = max(_finer(step, over, slack), finest)
+                weights = weights * _evening(measured.shares.clip(1.0)) ** ALONE
+            step = max(_finer(step, measured.excess, slack), finest)
             found = encode(step, weights, ROUNDS)
             decoded = found.decoded
             kept = step, self._measure(decoded), decoded, found
