@@ -214,8 +214,8 @@ def _system(url: str) -> tuple[Any, str]:
     try:
         return cast("tuple[Any, str]", fsspec.url_to_fs(url))
     except ImportError as error:
-        known = fsspec.registry.known_implementations.get(scheme, {})
-        package = known.get("class", "fsspec.").partition(".")[0]
+        known = imported("fsspec.registry", "", "remote").known_implementations  # the name itself is that of a table
+        package = known.get(scheme, {}).get("class", "fsspec.").partition(".")[0]
         if package == "fsspec":
             package = f"fsspec[{'http' if scheme in _WEB else scheme}]"
         raise DependencyError(f"{scheme}:// needs a package that is missing: pip install '{package}'") from error
