@@ -1,7 +1,7 @@
 """How much alike two meshes look: a distance, 1 where nobody can tell them apart on a screen (`spec/look.md`)."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,6 +31,8 @@ MOVING = 0.05  # 1 - SSIM of a frame of a moving picture at distance 1; no pixel
 POWER = 0.8  # of the larger of both over its bound: so that a distance is about linear in the step of a quantizer
 GONE, GONE_POWER = 0.5, 2.0  # the same of `Look.gone`: what is gone altogether is at distance 4, however small it is
 _LARGEST = 1e150
+
+Shading = Callable[[Positions], Normals]  # normals of corners, where vertices are known
 
 
 @public
@@ -70,9 +72,16 @@ class Look:
 
 
 class LookMetric:
-    """Pictures of an original, to compare one decoded version after another with."""
+    """Pictures of an original, and versions of it: with its own normals if it has some, or what `shading` makes."""
 
-    def __init__(self, mesh: TriangleMesh, *, threads: int | None = None, most_pixels: int = MOST_PIXELS) -> None:
+    def __init__(
+        self,
+        mesh: TriangleMesh,
+        *,
+        threads: int | None = None,
+        shading: Shading | None = None,
+        most_pixels: int = MOST_PIXELS,
+    ) -> None:
         self._mesh, self._threads = mesh, threads
         used = mesh.positions[_used(mesh.faces, len(mesh.positions))]
         low, high = box_around(used)
@@ -92,6 +101,7 @@ class LookMetric:
             raise MeshError("the mesh cannot be looked at: its faces have no area")
         own = own_normals(mesh)
         self._own = None if own is None else (self._drawn(positions, self._shape.faces, own), own)
+        self._shading = shading
 
     def look(self, positions: Positions) -> Look:
         """How these positions look on the faces of the original, with normals that follow from them."""
@@ -107,7 +117,10 @@ class LookMetric:
         if not np.isfinite(positions).all():
             raise MeshError("a position is not finite")
         placed = self._placed(positions)
-        shaded = [(self._pictures, self._shape.normals(placed)), *([self._own] if self._own else [])]
+        normals = Shape.of(placed, self._shape.faces).normals(placed)  # vertices that have come to one place are one
+        shaded = [(self._pictures, normals)]
+        if self._own is not None:
+            shaded.append((self._own[0], self._shading(placed) if self._shading else self._own[1]))
         glances = [self._glanced(pictures, placed, normals, least, most) for pictures, normals in shaded]
         return max(glances, key=lambda glance: (glance[1] or glance[0]).distance)
 
@@ -123,6 +136,13 @@ class LookMetric:
         rest = self._sums(pictures, *shown, others)
         whole = summed(np.concatenate([few, rest])[np.argsort([*FEW, *others])])
         return seen or whole, whole
+
+    def shaded(self, positions: Positions, normals: Normals) -> float:
+        """The distance of positions, shape (n, 3), with normals of corners, from pictures of the original's own."""
+        assert self._own is not None
+        if np.mean((normals * self._own[1]).reshape(-1, 3).sum(axis=1) < 0.0) > VISIBLE_SHARE:
+            return math.inf  # turned over, which pictures do not show that are lit alike on both sides
+        return self._seen(self._own[0], self._placed(positions), self._shape.faces, normals).distance
 
     def distance(self, positions: Positions) -> float:
         """The distance alone of `look` at `positions`, shape (n, 3)."""

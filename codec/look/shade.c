@@ -23,6 +23,13 @@ INLINE int64_t behind_centre(double x, int64_t size) {
     return end >= (double)size ? size : (int64_t)end;
 }
 
+/* Depths are whole numbers, so that faces at one place are at one depth, whatever their corners. */
+INLINE float depth_of(double z) { return (float)__builtin_rint(z); }
+
+INLINE float shade_of(float facing, float length) {
+    return AMBIENT + DIFFUSE * (length > 1e-24f ? __builtin_fabsf(facing) / __builtin_sqrtf(length) : 0.0f);
+}
+
 INLINE double within(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }
 
 typedef struct {
@@ -60,7 +67,7 @@ INLINE bool hidden(Face face, ConstSingles2 farthest) {
     int64_t last = tile_at(higher(higher(a[1], b[1]), c[1]), farthest.rows);
     int64_t from = tile_at(lower(lower(a[0], b[0]), c[0]), farthest.columns);
     int64_t to = tile_at(higher(higher(a[0], b[0]), c[0]), farthest.columns);
-    float nearest = (float)(a[2] + higher(b[2] - a[2], 0.0) + higher(c[2] - a[2], 0.0));
+    float nearest = depth_of(a[2] + higher(b[2] - a[2], 0.0) + higher(c[2] - a[2], 0.0));
     bool behind = true;
     for (int64_t row = first; row <= last && behind; row++) {
         const float *tiles = farthest.data + row * farthest.columns;
@@ -97,16 +104,20 @@ INLINE void draw_face(Face face, const float *normals, const double *light, int3
             double s = within(((x - a[0]) * cy - (y - a[1]) * cx) * inverse);
             double r = within((bx * (y - a[1]) - by * (x - a[0])) * inverse);
             int64_t pixel = row * picture.columns + column;
-            float z = (float)(a[2] + s * bz + r * cz);
-            if (!(z > depth.data[pixel]) && !(z == depth.data[pixel] && number < owner.data[pixel])) continue;
+            float z = depth_of(a[2] + s * bz + r * cz);
+            if (!(z >= depth.data[pixel])) continue;
             double q = 1.0 - s - r;
             double nx = q * (double)n[0] + s * (double)n[3] + r * (double)n[6];
             double ny = q * (double)n[1] + s * (double)n[4] + r * (double)n[7];
             double nz = q * (double)n[2] + s * (double)n[5] + r * (double)n[8];
+            float facing = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
+            float length = (float)(nx * nx + ny * ny + nz * nz);
+            if (z == depth.data[pixel] && !(shade_of(facing, length) > shade_of(picture.data[pixel], lengths.data[pixel])))
+                continue;
             owner.data[pixel] = number;
             depth.data[pixel] = z;
-            picture.data[pixel] = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
-            lengths.data[pixel] = (float)(nx * nx + ny * ny + nz * nz);
+            picture.data[pixel] = facing;
+            lengths.data[pixel] = length;
         }
     }
 }
@@ -122,7 +133,8 @@ INLINE void find_farthest(Singles2 depth, Singles2 farthest) {
     }
 }
 
-/* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light.
+/* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light; of what
+ * is at one depth the brightest is shown.
  * `placed` is room for all positions, `depth` and `lengths` for pictures, `farthest` for one number of each tile. `owner`
  * gets the face that each pixel shows, or -1.
  *
@@ -147,7 +159,7 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
             placed.data[3 * v + d] = m[4 * d] * p[0] + m[4 * d + 1] * p[1] + m[4 * d + 2] * p[2] + m[4 * d + 3];
     }
     for (int64_t i = 0; i < pixels; i++) {
-        depth.data[i] = -__builtin_inff();
+        depth.data[i] = -__FLT_MAX__;
         owner.data[i] = -1;
     }
     double ahead = 0.0;
@@ -166,9 +178,8 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
         }
     }
     for (int64_t i = 0; i < pixels; i++) {
-        float length = lengths.data[i], facing = picture.data[i];
-        float cosine = length > 1e-24f ? __builtin_fabsf(facing) / __builtin_sqrtf(length) : 0.0f;
-        picture.data[i] = depth.data[i] == -__builtin_inff() ? BACKGROUND : AMBIENT + DIFFUSE * cosine;
+        float shade = shade_of(picture.data[i], lengths.data[i]);
+        picture.data[i] = owner.data[i] < 0 ? BACKGROUND : shade;
     }
     return 0;
 }

@@ -1,7 +1,9 @@
 """A mesh to a stream: join, prepare, and draft what the options ask for."""
 
+import math
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,15 +13,15 @@ from bsm.bitstream.errors import OptionError, TargetError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.bitstream.public import public
-from bsm.codec.arrays import Order
+from bsm.codec.arrays import Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference
-from bsm.codec.look.measure import own_normals
+from bsm.codec.look.measure import Shading, own_normals
 from bsm.codec.look.pictures import Normals
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
-from bsm.codec.static.attributes.quality import Quality, qualities
+from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, Quality, qualities
 from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.choice.bounds import Measures
 from bsm.codec.static.choice.lattices import exact, rounded, rounded_to_cells
@@ -163,8 +165,8 @@ class Encoder:
         """What the options ask for, without a target."""
         self._take_attributes()
         promise = self.options.promise
-        bare = self._bare(progress) if promise is None else self._search(promise, progress).smallest(promise)
-        return self._admitted(self._dressed(bare))
+        kept = self._dressed(self._bare(progress)) if promise is None else self._smallest(promise, progress)
+        return self._admitted(kept)
 
     def _bare(self, progress: Progress | None) -> Draft:
         options = self.options
@@ -207,7 +209,38 @@ class Encoder:
             contract = replace(promise, angle=target.value, alike=True)
         else:
             contract = replace(promise, visual=max(10.0 ** (target.value / 10.0), sys.float_info.min))
-        return self._judged(self._dressed(self._search(contract, progress).smallest(contract)))
+        return self._judged(self._smallest(contract, progress))
+
+    def _smallest(self, contract: Contract, progress: Progress | None) -> Draft:
+        """The smallest stream that keeps a contract; of normals that nothing is said of, what the look needs."""
+        search = self._search(contract, progress)
+        bare, metric, free = search.smallest(contract), search.metric, self._free
+        if free is None or metric is None or contract.look == math.inf:
+            return self._dressed(bare)
+        again, decoded = self._carry_with(free, Quality("recompute")), self._prepared.units.into(bare.decoded)
+
+        def looks(carried: tuple[PreparedAttribute, ...], positions: Positions) -> bool:
+            return metric.shaded(positions, carried[free].normals(positions)) <= contract.look
+
+        if looks(again, decoded):
+            self._carried = again
+            return self._dressed(bare)
+        least, most = LEAST_NORMAL_BITS, int(self._wanted[free][1].amount)
+        while least < most:
+            bits = (least + most) // 2
+            carried = self._carry_with(free, Quality("bits", bits))
+            if looks(carried, decoded):
+                most, self._carried = bits, carried
+            else:
+                least = bits + 1
+        kept = self._dressed(bare)
+        if looks(again, self._prepared.positions):  # finer ones are, too, perhaps
+            with suppress(TargetError):
+                finer = self._search(contract, progress, again[free].normals).smallest(contract)
+                other = with_attributes(finer, again, self._given.metadata)
+                if other.size < kept.size:
+                    self._carried, kept = again, other
+        return kept
 
     def _sized(self, target: Target, progress: Progress | None) -> Attempt:
         """The best stream of a size, which keeps whatever is promised."""
@@ -296,8 +329,24 @@ class Encoder:
             self._joined.mesh, parts, keep_order=options.keep_order, splits=self._joined.splits, light=options.quick
         )
 
-    def _search(self, contract: Contract, progress: Progress | None) -> Search:
-        measures = Measures(self._prepared, self.options.threads, self._normals, alike=contract.alike)
+    def _carry_with(self, index: int, quality: Quality) -> tuple[PreparedAttribute, ...]:
+        """All attributes, one of them with another quality."""
+        wanted = [(one, quality if at == index else asked) for at, (one, asked) in enumerate(self._wanted)]
+        return carry(place_of(self._given, self._joined, self._prepared), wanted)
+
+    @cached_property
+    def _free(self) -> int | None:
+        """Which attribute are normals of which nothing is said, so that they may be what the look needs."""
+        options = self.options
+        if options.normals != "look" or "*" in dict(options.attributes) or self._normals is None:
+            return None
+        first = next(at for at, (one, _) in enumerate(self._wanted) if one.semantic == "normal")
+        one, quality = self._wanted[first]
+        said = one.name in dict(options.attributes) or not np.isfinite(self._normals).all()
+        return None if said or one.domain == "face" or quality.way != "bits" else first
+
+    def _search(self, contract: Contract, progress: Progress | None, shading: Shading | None = None) -> Search:
+        measures = Measures(self._prepared, self.options.threads, self._normals, shading, alike=contract.alike)
         return Search(measures, self.options, progress, self._size)
 
     @cached_property

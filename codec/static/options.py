@@ -17,7 +17,7 @@ from bsm.codec.static.targets import Target
 CHOICES = {
     "key_seed": KEY_SEEDS,
     "partition": ("derived", "metis"),
-    "normals": ("keep", "recompute"),
+    "normals": ("look", "keep", "recompute"),
     "limits": tuple(NAMED_LIMITS),
 }
 RANGES: dict[str, tuple[float, float]] = {
@@ -152,7 +152,8 @@ class EncodeOptions:
         nothing is said, whole numbers are exact, and floats in as many bits as their kind and the promise of positions
         suggest; the encoder's notes say so.
     normals : str
-        "keep", or "recompute": normals that nothing is said of are not sent, but made from the decoded mesh.
+        Of those that nothing is said of: "look", as little as the promised look needs; "keep", as many bits as the
+        promise of positions suggests; "recompute", nothing: they are made from the decoded mesh.
     grid_cell : float, optional
         Keep every position exactly as a grid of cells of this length, in the mesh's unit, rounds it: parts that are
         encoded apart on the same grid fit bit for bit.
@@ -190,7 +191,7 @@ class EncodeOptions:
     exact: bool = False
     grid: int | None = None
     attributes: Mapping[str, str] | tuple[tuple[str, str], ...] = ()
-    normals: str = "keep"
+    normals: str = "look"
     grid_cell: float | None = None
     grid_origin: tuple[float, float, float] | None = None
     limits: str = "default"

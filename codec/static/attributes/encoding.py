@@ -13,18 +13,20 @@ from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.fields.corners import Corners, corners_of
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Indices, Levels, Order
+from bsm.codec.arrays import Indices, Levels, Matrix, Order
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
-from bsm.codec.static.attributes.levels import KINDS, PieceEncoder, Words, leans, quantized, to_pieces
+from bsm.codec.look.pictures import Normals
+from bsm.codec.static.attributes.levels import KINDS, PieceEncoder, Words, leans, quantized, restored, to_pieces
 from bsm.codec.static.attributes.quality import Quality
-from bsm.codec.static.attributes.surface import Surface, surface_of
+from bsm.codec.static.attributes.surface import Surface, recomputed, surface_of
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.joining import JoinedMesh
 from bsm.codec.static.preamble_encoding import Prepared
 
 CHUNK = 1 << 15  # values of a frame
+AGAIN = Quality("bits", 8)  # normals that are the same so are made as one
 SEMANTICS = ("generic", "color", "normal", "texcoord")
 
 
@@ -62,6 +64,12 @@ class PreparedAttribute:
     levels: Words
     note: str
 
+    def normals(self, positions: Matrix) -> Normals:
+        """What normals a decoder will have at corners, shape (m, 9), where it has these positions, shape (n, 3)."""
+        again = self.declaration.coding == RECOMPUTED
+        values = recomputed(self.surface, positions) if again else restored(self.declaration, self.levels)
+        return np.ascontiguousarray(values[self.surface.faces].reshape(-1, 9), np.float32)
+
     @cached_property
     def plain(self) -> tuple[bytes, ...]:
         """The chunks of its values, predicted without positions."""
@@ -97,17 +105,18 @@ def _carry(
     used, rows, loose = _rows(place, attribute)
     values = attribute.values[used]
     result = quantized(values, attribute.semantic, quality, attribute.name)
-    recomputed = result.fields["coding"] == RECOMPUTED
+    again = result.fields["coding"] == RECOMPUTED
     vertices = len(place.corners.rank)
     domain, origin, seams, joins, seams_of = FACE, AS_CODED, b"", None, 0
     chosen: Order
     if attribute.domain == "face":
         chosen = rows.astype(np.int64)
     else:
-        numbers = row_numbers(values if recomputed else result.levels)[rows]
+        apart = quantized(values, "normal", AGAIN, attribute.name).levels if again else result.levels
+        numbers = row_numbers(apart)[rows]
         chosen = np.zeros(vertices, np.int64)
         chosen[place.corners.faces.ravel()] = rows.ravel()
-        differ = numbers != row_numbers(values if recomputed else result.levels)[chosen][place.corners.faces]
+        differ = numbers != row_numbers(apart)[chosen][place.corners.faces]
         domain = CORNER if differ.any() else VERTEX
         origin = AS_CODED if domain == {"vertex": VERTEX, "corner": CORNER}[attribute.domain] else OTHERWISE
         if domain == CORNER:
@@ -117,7 +126,7 @@ def _carry(
             seams = b"" if same else encode_seams(place.corners, joins.seams, tuple(each.seams for _, each in known))
             chosen = rows.ravel()[joins.first]
         chosen = np.concatenate([chosen, loose])
-    levels = result.levels[:0] if recomputed else result.levels[chosen]
+    levels = result.levels[:0] if again else result.levels[chosen]
     declaration = Declaration(
         name=attribute.name,
         domain=domain,

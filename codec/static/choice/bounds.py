@@ -15,7 +15,7 @@ from bsm.codec.geometry.graph import component_sizes
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.geometry.surface_distance import distances_to_surface
-from bsm.codec.look.measure import LookMetric
+from bsm.codec.look.measure import LookMetric, Shading
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.contract import ANY_ANGLE, Contract
@@ -41,13 +41,19 @@ class Measures:
     """What is measured of an original once, whatever is asked for; `alike`: angles count all faces alike."""
 
     def __init__(
-        self, prepared: Prepared, threads: int | None, normals: Normals | None = None, *, alike: bool = False
+        self,
+        prepared: Prepared,
+        threads: int | None,
+        normals: Normals | None = None,
+        shading: Shading | None = None,
+        *,
+        alike: bool = False,
     ) -> None:
         self.prepared = prepared
         self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
         self.shaper = Shaper(self.original, prepared.graph)
         self._threads = threads
-        self._normals = normals
+        self._normals, self._shading = normals, shading
 
     @cached_property
     def reference(self) -> Reference:
@@ -60,7 +66,7 @@ class Measures:
         own = () if self._normals is None else (Attribute("normal", self._normals.reshape(-1, 3), "corner", "normal"),)
         mesh = TriangleMesh(self.prepared.positions, self.prepared.mesh.faces, own)
         try:
-            return LookMetric(mesh, threads=self._threads)
+            return LookMetric(mesh, threads=self._threads, shading=self._shading)
         except MeshError:
             return None
 
@@ -118,10 +124,11 @@ class Bounds:
         metric = self.measures.look
         return self.measures.original.angle(positions) if metric is None else metric.distance(self._decoded(positions))
 
-    @property
-    def about_angle(self) -> float:
-        """Mean angle of normals that is about as good as all that is asked for, degrees."""
-        return min(self.contract.angle, ANGLE_OF_LOOK * self.contract.look)
+    @cached_property
+    def rough_step(self) -> float:
+        """A step at which normals are about as wrong as they may be, in BSM units."""
+        angle = min(self.contract.angle, ANGLE_OF_LOOK * self.contract.look)
+        return self.measures.shaper.character.step_of(angle, COARSEST)
 
     @cached_property
     def first_step(self) -> float:
@@ -132,7 +139,7 @@ class Bounds:
                 # Of errors, or of their squares.
                 step /= math.sqrt(max(*self._shares(np.rint(positions / step) * step), LEAST))
             return min(step, COARSEST)
-        step = self.measures.shaper.character.step_of(self.about_angle, COARSEST)
+        step = self.rough_step
         few, _ = self._glance(np.rint(positions / step) * step, math.inf, math.inf)
         return step * min(max(self.contract.look / max(few, LEAST), 0.1), 10.0)
 

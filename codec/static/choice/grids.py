@@ -7,6 +7,7 @@ from itertools import product
 import numpy as np
 
 from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
 from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
@@ -41,7 +42,17 @@ class Gridded:
         smallest = float(np.finfo(np.float32).smallest_subnormal) / prepared.units.scale
         self.least = max(float((prepared.positions - self._low).max()) / (MOST_LARGEST - 4), smallest)
         self.most = COARSEST
-        self.first = min(bounds.first_step, COARSEST)
+        self._bounds = bounds
+
+    @cached_property
+    def first(self) -> float:
+        """The step that is about right."""
+        return min(self._bounds.first_step, COARSEST)
+
+    def guess(self) -> float:
+        """About the bytes that it takes; of a model nobody can tell."""
+        character = self._shaper.character
+        return 0.0 if character.is_model else character.entropy(self._bounds.rough_step)
 
     def at(self, step: float) -> Candidate:
         """What a step comes to."""

@@ -7,6 +7,7 @@ from operator import attrgetter
 from typing import Protocol
 
 from bsm.bitstream.errors import LimitError, TargetError
+from bsm.codec.look.measure import LookMetric
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded
@@ -18,7 +19,7 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES
 from bsm.codec.static.targets import STEEPEST, secant
 from bsm.codec.static.ways.block_coder import Progress
 
-DEARER = 1.08  # a way is left alone whose first step takes so many times the bytes of what was found
+DEARER = 1.08  # a way is left alone whose first step takes, or is guessed to, so many times the bytes of what was found
 
 
 class Way(Protocol):
@@ -50,6 +51,11 @@ class Search:
         self._progress = progress
         self._size = size
 
+    @property
+    def metric(self) -> LookMetric | None:
+        """None: nothing of the mesh can be seen."""
+        return self._measures.look
+
     def smallest(self, contract: Contract) -> Draft:
         """The smallest stream that keeps a contract.
 
@@ -63,6 +69,9 @@ class Search:
         bounds, kept = Bounds(self._measures, contract), list[Candidate]()
         least = math.inf
         for way in self._ways(bounds, contract.look):
+            on_grid = any(one.draft.places is not None for one in kept)
+            if isinstance(way, Gridded) and not on_grid and way.guess() > DEARER * least:
+                continue
             found = widest(way, bounds, least)
             if found is not None:
                 kept.append(found)
@@ -130,8 +139,7 @@ class Search:
             blocks += [Refined(prepared, options, bounds, self._progress, look)]
             if not seen:
                 blocks += [Plain(prepared, options, bounds, self._progress)]
-        # The smaller ones first: the others are left alone sooner.
-        yield from (*grids, *blocks) if character.is_sharp else (*blocks, *grids)
+        yield from (*blocks, *grids)  # the smaller ones first, nearly always: the others are left alone sooner
 
     def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""

@@ -313,17 +313,22 @@ def test_a_glance_is_enough_where_it_tells_enough():
         assert looker.glance(other, *bounds) == (few, None)
 
 
-def test_of_faces_at_one_place_the_first_is_shown():
+def test_of_faces_at_one_place_the_brightest_is_shown():
     square = np.array([(0.0, -1, -1), (0, 1, -1), (0, 1, 1), (0, -1, 1)])
     faces = np.array([(0, 2, 1), (0, 3, 2), (0, 1, 2), (0, 2, 3)], np.int32)
     for order in ([0, 1, 2, 3], [2, 3, 0, 1]):
         mine = np.ascontiguousarray(faces[order])
         normals = np.zeros((4, 9), np.float32)
-        normals[:2, ::3], normals[2:, 2::3] = 1.0, 1.0
+        normals[:, ::3], normals[[order.index(2), order.index(3)], 2::3] = 1.0, 0.5
         camera = cameras(square, 64)[0]
         picture, owner = draw_owned(square, mine, normals, camera, 64)
-        assert set(owner[owner >= 0]) == {0, 1}
+        assert set(owner[owner >= 0]) == {order.index(2), order.index(3)}
         assert np.ptp(picture[owner >= 0]) < 1e-6
+
+
+def test_vertices_that_come_to_one_place_are_shaded_as_one():
+    coarse = moved(MESH, np.round(MESH.positions / MESH.diagonal * 20) / 20 * MESH.diagonal)
+    assert LookMetric(MESH).look(coarse.positions) == look(MESH, coarse)
 
 
 def test_normals_are_sums_of_what_is_around_and_not_behind_a_crease():

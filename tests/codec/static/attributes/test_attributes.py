@@ -8,11 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.container import packets
+from bsm.bitstream.container.declaration import RECOMPUTED
 from bsm.bitstream.container.reader import Reader, read_packets
 from bsm.bitstream.errors import BsmError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
+from bsm.codec.look.measure import look
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.events import AttributeEvent, EndEvent, LossEvent
@@ -94,7 +96,7 @@ def compared(given: TriangleMesh, decoded: TriangleMesh, encoder: Encoder) -> di
 @pytest.mark.parametrize("shape", [patch(30, 24), torus(), tetrahedron()], ids=["patch", "torus", "tetrahedron"])
 def test_everything_comes_back(shape, options):
     mesh = dressed(shape)
-    encoder = Encoder(mesh, options)
+    encoder = Encoder(mesh, replace(options, normals="keep"))
     decoded = decode(encoder.encode())
     errors = compared(mesh, decoded, encoder)
     fine = options.grid is not None
@@ -203,6 +205,14 @@ def test_attributes_can_be_left_out():
     assert "left out: color, normal, heat, group, wild" in encoder.notes
 
 
+def smooth_normals(mesh: TriangleMesh) -> np.ndarray:
+    a, b, c = (mesh.positions[mesh.faces[:, k]] for k in range(3))
+    found = np.zeros_like(mesh.positions)
+    for corner in range(3):
+        np.add.at(found, mesh.faces[:, corner], np.cross(b - a, c - a))
+    return found / np.linalg.norm(found, axis=1, keepdims=True)
+
+
 @pytest.mark.parametrize("options", [EncodeOptions(), PRESETS["grid14"]], ids=["blocks", "grid"])
 def test_normals_can_be_recomputed(options):
     mesh = torus()
@@ -211,12 +221,7 @@ def test_normals_can_be_recomputed(options):
     decoded = decode(stream)
     assert len(stream) < len(encode(mesh, options)) + 40
     found = decoded.attributes[0].values
-    a, b, c = (decoded.positions[decoded.faces[:, k]] for k in range(3))
-    expected = np.zeros_like(found)
-    for corner in range(3):
-        np.add.at(expected, decoded.faces[:, corner], np.cross(b - a, c - a))
-    expected /= np.linalg.norm(expected, axis=1, keepdims=True)
-    np.testing.assert_allclose(found, expected, atol=1e-9)
+    np.testing.assert_allclose(found, smooth_normals(decoded), atol=1e-9)
 
 
 def test_recomputed_normals_keep_their_creases():
@@ -225,6 +230,19 @@ def test_recomputed_normals_keep_their_creases():
     np.testing.assert_allclose(
         at_corners(decoded, decoded.attributes[0]), at_corners(mesh, mesh.attributes[0]), atol=1e-6
     )
+
+
+@pytest.mark.parametrize(("outwards", "wild"), [(1.0, 0.0), (1.0, 0.2), (-1.0, 0.0)])
+def test_the_look_chooses_normals(outwards, wild):
+    mesh = torus(60, 40)
+    noise = np.random.default_rng(0).normal(0, wild, (len(mesh.positions), 3))
+    own = Attribute("normal", outwards * smooth_normals(mesh) + noise, "vertex", "normal")
+    mesh = replace(mesh, attributes=(own,))
+    streams = {how: encode(mesh, EncodeOptions(normals=how)) for how in ("look", "keep")}
+    assert len(streams["look"]) < 0.9 * len(streams["keep"])
+    declared = next(p.declaration for p, *_ in frames(streams["look"]) if isinstance(p, packets.Attribute))
+    assert (declared.coding == RECOMPUTED) == (outwards > 0 and not wild)
+    assert look(mesh, decode(streams["look"])).distance <= 1.0
 
 
 @pytest.mark.parametrize(
@@ -319,7 +337,7 @@ def test_what_is_lost_of_one_attribute_spoils_none_before_it():
 
 def test_a_lost_declaration_loses_those_behind_it():
     mesh = dressed(patch(60, 50))
-    stream = encode(mesh)
+    stream = encode(mesh, EncodeOptions(normals="keep"))
     for packet, begin, end in frames(stream):
         if isinstance(packet, packets.Attribute):
             names, losses, missing = tolerated(broken(stream, begin, end))
