@@ -16,7 +16,6 @@ TOWARDS = (
 FEW = (0, 3, 6, 9, 12)  # those from which a mesh looks about as it does from all
 LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
 AIR = 1.03  # the side of the picture over the longer side of what it shows
-DEPTHS = 2.0**22  # depths in the box's diagonal
 LEAST_PIXELS, MOST_PIXELS = 512, 2048
 EDGE_PIXELS = 2.0  # what a mean edge has, where `MOST_PIXELS` allow it
 
@@ -40,7 +39,7 @@ def cameras(positions: Positions, pixels: int) -> list[Matrix]:
         seen = [across * x + deep * y + high_up * z for x, y, z in rows]
         low, high = (np.array([values.min() for values in seen]), np.array([values.max() for values in seen]))
         side = AIR * float((high - low)[:2].max()) or 1.0
-        scale = np.array([pixels / side, -pixels / side, DEPTHS])
+        scale = np.array([pixels / side, -pixels / side, 2.0**22])  # as many depths in the box's diagonal
         offset = np.array([pixels / 2, pixels / 2, 0.0]) - scale * (low + high) / 2
         light = LIGHT[0] * rows[0] + LIGHT[1] * rows[1] + LIGHT[2] * rows[2]
         found.append(np.concatenate([np.column_stack([rows * scale[:, None], offset]).ravel(), light]))
