@@ -29,7 +29,7 @@ from bsm.codec.sequence.gop import GopEncoder, silent
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.run_encoding import PARTS, EncodedGops, FirstFrame, RunEncoder, finest_step
 from bsm.codec.sequence.runs import Cutter, Frame, JoinedRun, Run, Shelf, joined_runs
-from bsm.codec.sequence.targets import SequenceComparison, compare_sequences
+from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.draft import Draft
@@ -164,7 +164,8 @@ class SequenceEncoder:
         if target is None:
             raise OptionError("there is no target to search for")
         finest = finest_step([_positions(frame) for frame in frames], self.options)
-        return search_step(lambda step: self.attempt(frames, step, progress), target, self.options.step, finest)
+        first, rise = self.options.step, RISES.get(target.kind, 1.0)
+        return search_step(lambda step: self.attempt(frames, step, progress), target, first, finest, rise)
 
     def attempt(self, frames: Sequence[Frame], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode frames, each of shape (n, 3), or meshes, with a given step, and see what the decoder will."""

@@ -23,7 +23,7 @@ KNOTS = 10  # frames, evenly over a GOP, that small pictures are drawn of at eve
 SMALL = 256  # pixels of the side of these
 COARSENESS = 0.03  # how far what is seen in them is off, in logarithms, if it is scaled by what is seen in large ones
 MORE = 1  # frames that seem the worst, drawn large at every attempt
-DEVIATIONS = 2.5
+DEVIATIONS = 4.0
 """An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
 SLACK, SLACK_OF_ONE = 0.04, 0.15
@@ -181,8 +181,14 @@ class StepSearch:
         self._ratios |= {index: share / measured.errors[index] for index, share in measured.drawn.items()}
 
     def _draw_doubtful(self, measured: Measured, decoded: Positions) -> None:
+        """Draw frames that may be worse than the bound: small, and large where that leaves a doubt."""
+        small, usual = set(self._knots), sum(self._scales.values()) / max(len(self._scales), 1)
         while measured.excess <= 0.0 and (index := measured.doubtful) is not None and measured.most[index] > 1.0:
-            measured.drawn[index] = self._look(index, decoded)
+            if index in small or len(decoded) == 1:
+                measured.drawn[index] = self._look(index, decoded)
+            else:
+                small.add(index)
+                measured.glimpsed[index] = self._look(index, decoded, SMALL) * math.exp(usual)
         self._note(measured)
 
     def _look(self, index: int, decoded: Positions, most_pixels: int = MOST_PIXELS) -> float:

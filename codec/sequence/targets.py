@@ -12,6 +12,8 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.targets import Target
 
+RISES = {"kg": 0.78}  # the power of the step that errors grow with, where it is known before two are tried; 1 elsewhere
+
 
 @dataclass(frozen=True)
 class SequenceComparison:

@@ -23,7 +23,6 @@ UNITS = {
 COARSEST_STEP = 0.1
 SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
-RISES = {"kg": 0.75}  # the power of the step that errors grow with, where it is known before two are tried; 1 elsewhere
 STEEPEST = 2.0  # errors grow with this power of the step at most, and with its inverse at least
 STRIDE, NEAREST = 2.0, 0.1
 """Between two tries, in the logarithm; and where both sides of a bound are known, the part of what is between them that
@@ -139,7 +138,9 @@ def secant(
 Found = TypeVar("Found", bound=Outcome)
 
 
-def search_step(attempt: Callable[[float], Found], target: Target, first: float, finest: float) -> Found:
+def search_step(
+    attempt: Callable[[float], Found], target: Target, first: float, finest: float, rise: float = 1.0
+) -> Found:
     """Find a step whose outcome meets the target."""
     seen: list[tuple[float, Found]] = []
 
@@ -151,7 +152,7 @@ def search_step(attempt: Callable[[float], Found], target: Target, first: float,
     if target.shrinks_with_step:
         secant(lambda fineness: tried(1.0 / fineness), 1.0 / first, 1.0 / COARSEST_STEP, 1.0 / finest, 2 * TRIES)
     else:
-        secant(tried, first, finest, COARSEST_STEP, 2 * TRIES, RISES.get(target.kind, 1.0))
+        secant(tried, first, finest, COARSEST_STEP, 2 * TRIES, rise)
     met = [one for one in seen if one[0] <= 0.0]
     if met:
         return max(met, key=itemgetter(0))[1]
