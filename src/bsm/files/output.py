@@ -85,15 +85,19 @@ def write_output(path: str | os.PathLike[str], data: bytes, *, overwrite: bool) 
 
 @contextmanager
 def _signals_wait() -> Iterator[None]:
-    """Until what is made is held by who takes it away again."""
-    if not hasattr(signal, "pthread_sigmask"):
+    """Until what is made is held by who takes it away again; the main thread handles them, whichever they reach."""
+    if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
+    came: list[int] = []
+    before = {one: signal.signal(one, lambda number, _: came.append(number)) for one in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for one, handler in before.items():
+            signal.signal(one, handler)
+        for number in came:
+            signal.raise_signal(number)
 
 
 def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
