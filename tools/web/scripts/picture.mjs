@@ -11,7 +11,7 @@ const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--e
 const SHARES = [0.55, 0.65, 0.76, 0.88, 1];
 const SIDE = 220;
 const CONTROLS = 320;
-const ZOOM_STEPS = 4;
+const ZOOM_STEPS = 1;
 
 const [stream, target] = process.argv.slice(2).map((path) => resolve(process.env.INIT_CWD ?? ".", path));
 const folder = mkdtempSync(join(tmpdir(), "bsm-picture-"));

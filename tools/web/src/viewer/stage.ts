@@ -1,9 +1,11 @@
 /** Camera, light and the mesh on a canvas. */
-import { AmbientLight, type BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Group, type Material, Mesh, MeshLambertMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
+import { AmbientLight, type BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Group, type Material, MathUtils, Mesh, MeshLambertMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const TURN = Math.PI / 24;
 const ZOOM = 1.1;
+const FIELD = (35 / 180) * Math.PI; // that is seen of the shorter side
+const FAR_ENOUGH = 0.5 / Math.sin(FIELD / 2); // for a ball around a box whose diagonal is 1
 const PLAIN = 0x7d8fa9;
 const WHITE = 0xffffff;
 
@@ -24,11 +26,11 @@ export class Stage {
         this.renderer.setPixelRatio(devicePixelRatio);
         this.controls = new OrbitControls(this.camera, canvas);
         this.controls.addEventListener("change", () => this.draw());
-        this.camera.position.set(0.5, 0.4, 2.1);
-        const light = new DirectionalLight(0xffffff, 2.2);
+        this.camera.position.set(0.5, 0.4, 2.1).setLength(FAR_ENOUGH);
+        const light = new DirectionalLight(0xffffff, 2.8);
         light.position.set(1, 2, 3);
         this.camera.add(light);
-        this.scene.add(this.camera, new AmbientLight(0xffffff, 0.8), this.turned);
+        this.scene.add(this.camera, new AmbientLight(0xffffff, 0.5), this.turned);
         this.turned.add(this.mesh);
         this.controls.update();
         canvas.addEventListener("keydown", (event) => this.turn(event));
@@ -57,6 +59,15 @@ export class Stage {
 
     set wireframe(on: boolean) {
         for (const material of [this.material, ...(this.clothes ?? [])]) (material as MeshLambertMaterial).wireframe = on;
+        this.draw();
+    }
+
+    /** Shade each face by itself. */
+    set flat(on: boolean) {
+        for (const material of [this.material, ...(this.clothes ?? [])] as MeshLambertMaterial[]) {
+            material.flatShading = on;
+            material.needsUpdate = true;
+        }
         this.draw();
     }
 
@@ -92,6 +103,7 @@ export class Stage {
         const { clientWidth, clientHeight } = this.canvas.parentElement!;
         this.renderer.setSize(clientWidth, clientHeight, false);
         this.camera.aspect = clientWidth / Math.max(clientHeight, 1);
+        this.camera.fov = 2 * MathUtils.RAD2DEG * Math.atan(Math.tan(FIELD / 2) / Math.min(this.camera.aspect, 1));
         this.camera.updateProjectionMatrix();
         this.draw();
     }

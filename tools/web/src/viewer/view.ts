@@ -88,7 +88,7 @@ export class View {
         this.streams = this.control("stream");
         [this.cut, this.rate, this.frame] = [this.control("cut"), this.control("rate"), this.control("frame")];
         [this.colour, this.play] = [this.control("colour"), this.control("play")];
-        const [wireframe, loop] = [this.control<HTMLInputElement>("wireframe"), this.control<HTMLInputElement>("loop")];
+        const [wireframe, flat, loop] = ["wireframe", "flat", "loop"].map((name) => this.control<HTMLInputElement>(name));
         this.part("licences").textContent = licences;
         try {
             this.stage = new Stage(root.querySelector("canvas")!);
@@ -97,6 +97,7 @@ export class View {
             throw error;
         }
         wireframe.addEventListener("change", () => (this.stage.wireframe = wireframe.checked));
+        flat.addEventListener("change", () => (this.stage.flat = flat.checked));
         this.colour.addEventListener("change", () => (this.stale = true));
         this.control("again").addEventListener("click", () => this.restart());
         this.play.addEventListener("click", () => this.toggle());
