@@ -345,6 +345,10 @@ static Arrival recover(Reader *reader) {
 
 Arrival next_packet(Reader *reader, Packet *packet) {
     if (failed(reader->context)) return NOTHING_BUT_AN_ERROR;
+    if (reader->behind_damage && reader->grammar.last == END_FRAME) { /* bytes behind END were told of */
+        drop(reader, waiting(reader).size);
+        return reader->finished ? NO_MORE : NO_MORE_YET;
+    }
     if (reader->behind_damage && reader->finished && reader->begin == reader->end) return NO_MORE;
     if (!reader->damage.found) {
         Arrival arrival = next_whole(reader, packet);

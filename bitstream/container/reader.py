@@ -243,6 +243,9 @@ class TolerantReader(Reader):
         self._behind_damage = False
 
     def _next(self) -> Event:
+        if self._behind_damage and self._grammar.ended:  # bytes behind END were told of
+            self._drop(len(self._buffer))
+            return END_OF_STREAM if self._eof else NEED_DATA
         if self._behind_damage and self._eof and not self._buffer:
             return END_OF_STREAM
         if self._damage is None:
