@@ -11,7 +11,7 @@ const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [19900, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "static meshes": [66800, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
     "sequences": [70600, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
-    "everything": [107100, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    "everything": [107200, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8500, ["three.js", "pool.js"]],
 };
 
