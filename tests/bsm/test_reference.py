@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm.cli import main
 from bsm.evaluation.sample import knot
 from tests.bsm.test_libraries import painted
 from tools.docs_pages import MODULES, reference
@@ -39,6 +40,7 @@ def folder(tmp_path_factory):
     bsm.save(painted(mesh), folder / "spot.obj")
     for name in ("bunny.ply", "a.ply", "b.obj"):
         bsm.save(mesh, folder / name)
+    assert main(["tile", str(folder / "bunny.ply"), "-o", str(folder / "scan"), "--finest"]) == 0
     noisy = gaussian_along_normals(mesh.positions, mesh.faces, 0.2, 0)
     bsm.save(bsm.TriangleMesh(noisy, mesh.faces), folder / "scan.ply")
     (folder / "bunny.bsm").write_bytes(bsm.encode(mesh))

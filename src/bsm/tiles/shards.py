@@ -194,8 +194,8 @@ class Tiles:
     --------
     >>> import bsm
     >>> tiles = bsm.open_tiles("scan")
-    >>> tiles.manifest["levels"][0]["error"]
-    0.31...
+    >>> [level["tiles"] for level in tiles.manifest["levels"]]
+    [1]
     """
 
     path: str
