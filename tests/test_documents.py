@@ -114,7 +114,8 @@ def folder(tmp_path_factory):
     for name, line in programs.items():
         (folder / "bin" / name).write_text(f"#!/bin/sh\n{line}\n")
         (folder / "bin" / name).chmod(0o755)
-    passed(run(folder, "bsm encode -q bunny.ply spot.obj && bsm decode -q spot.bsm -o scene.glb && bsm tile -q scan.ply -o scan/"))
+    encodes = "bsm encode -q bunny.ply spot.obj && bsm decode -q spot.bsm -o scene.glb"
+    passed(run(folder, f"{encodes} && bsm tile -q scan.ply -o scan/"))
     return folder
 
 

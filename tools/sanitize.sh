@@ -19,5 +19,5 @@ export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 PYTHONMALLOC
 cd "$root"
 unset PYTHONPATH PYTHONMALLOC
 LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
-    "$python" -m tests.engine.mutants 1000000 "$(git rev-parse HEAD)" --exact --tolerant --seconds 15 \
+    "$python" -m tests.engine.mutants 5000 ci --exact --tolerant --seconds 15 \
     --flags="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -DKERNEL_ONE_TARGET"
