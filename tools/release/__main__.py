@@ -1,34 +1,40 @@
-"""Make and check all that a release consists of, from the last commit: wheels, a source distribution, the npm package.
+"""Make and check all that a release consists of, from the last commit: wheels, sources, npm, C, crate, suite.
 
     python -m tools.release                   all of it, into dist/
     python -m tools.release --only sdist npm  parts of it
+    python -m tools.release --twice           made two times, which must give the same bytes
     python -m tools.release --tests tests     with the whole test suite from each wheel, README's second command
 
-Needs the extra `release`, Linux on x86-64, Python 3.11 and a later one, and npm. Nothing is published. Checks:
-versions agree; the source distribution builds where there is nothing but Python and a compiler; wheels hold one name
-and no sources, are what auditwheel calls manylinux, satisfy twine, and run both commands of README where no compiler
-is; npm takes the package, and Node decodes with it.
+Needs the extra `release`, Linux on x86-64, Python 3.11 and a later one, npm, cargo, CMake and pkg-config. Nothing is
+published. Checks: versions agree; the source distribution builds where there is nothing but Python and a compiler;
+wheels hold one name and no sources, are what auditwheel calls manylinux, satisfy twine, and run both commands of README
+where no compiler is; npm takes the package, and Node decodes with it; the C archive decodes by one command, by CMake
+and by pkg-config; cargo builds the crate that it packed. With them go a list of what a wheel brings along (SBOM,
+CycloneDX), and digests.
 """
 
 from __future__ import annotations
 
 import argparse
 import hashlib
+import os
 import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 from tools.pythons import pythons
+from tools.release.engine import make_archive, make_crate, make_suite
 from tools.release.npm import make_npm
 from tools.release.trial import try_wheel
 from tools.release.versions import check_versions, notes
-from tools.release.wheels import ARM, INTEL, make_sdist, make_wheel
+from tools.release.wheels import ARM, INTEL, clean, make_sdist, make_wheel
 
 ROOT = Path(__file__).parents[2]
-PARTS = ("sdist", "wheels", "arm64", "npm")
-RELEASED = ("bsm_codec-*", "bsm-decoder-*", "SHA256SUMS", "NOTES.md")
+PARTS = ("sdist", "wheels", "arm64", "npm", "engine")
+RELEASED = ("bsm_codec-*", "bsm-decoder-*", "bsmdec-*", "bsm-conformance-*", "SHA256SUMS", "NOTES.md")
 """What a release consists of, and what an earlier one has left."""
 STABLE = (3, 12)
 """From this Python on one wheel is enough."""
@@ -40,6 +46,7 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "dist", help="folder (default: dist)")
     parser.add_argument("--only", nargs="+", choices=PARTS, default=PARTS, help="parts of it (default: all)")
     parser.add_argument("--tests", nargs="+", default=["tests/bsm/test_api.py"], help="tests to run from the wheels")
+    parser.add_argument("--twice", action="store_true", help="make all of it again, and compare")
     args = parser.parse_args()
     version = check_versions(ROOT)
     output = args.output.resolve()
@@ -48,30 +55,74 @@ def main() -> None:
         for pattern in RELEASED:
             for old in output.glob(pattern):
                 old.unlink()
+    made = make(output, version, args.only, args.tests)
+    (output / "SHA256SUMS").write_text("".join(f"{digest(path)}  {path.name}\n" for path in made))
+    (output / "NOTES.md").write_text(notes(ROOT, version))
+    for path in made:
+        print(f"{path.stat().st_size / 1e6:7.2f} MB  {path.name}")
+    if args.twice:
+        with tempfile.TemporaryDirectory() as folder:
+            again = make(Path(folder), version, args.only, None)
+            differ = [one.name for one, other in zip(made, again, strict=True) if digest(one) != digest(other)]
+        if differ:
+            raise SystemExit(f"made again, {', '.join(differ)} is not the same")
+        print(f"made again: {len(made)} files, the same bytes")
+
+
+def make(output: Path, version: str, only: Sequence[str], tests: Sequence[str] | None) -> list[Path]:
+    """Make the parts, of the last commit and in its time, and try the wheels unless `tests` is None."""
+    date = subprocess.run(["git", "log", "-1", "--format=%ct"], cwd=ROOT, capture_output=True, text=True, check=True)
+    os.environ["SOURCE_DATE_EPOCH"] = date.stdout.strip()
     with tempfile.TemporaryDirectory() as folder:
         sources = exported(Path(folder))
         made = []
-        if set(args.only) & {"sdist", "wheels", "arm64"}:
+        if set(only) & {"sdist", "wheels", "arm64"}:
             made.append(make_sdist(sources, output))
         found = pythons()
         builders = [found[version] for version in sorted({min(found), min(v for v in found if v >= STABLE)})]
         for target, part in ((INTEL, "wheels"), (ARM, "arm64")):
-            if part in args.only:
+            if part in only:
                 made += [make_wheel(made[0], python, target, output) for python in builders]
         if made:
             subprocess.run([sys.executable, "-m", "twine", "check", "--strict", *made], check=True)
-        if "wheels" in args.only:
-            for number, python in found.items():
+        if "wheels" in only:
+            for number, python in found.items() if tests is not None else ():
                 say(f"trying Python {number[0]}.{number[1]}")
-                wheel = next(path for path in made if fits(path, number))
-                try_wheel(wheel, python, sources, args.tests)
-        if "npm" in args.only:
+                try_wheel(next(path for path in made if fits(path, number)), python, sources, list(tests or ()))
+            made.append(make_list(made[1], builders[0], output))
+        if "npm" in only:
             made.append(make_npm(sources, ROOT, output))
-    lines = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}" for path in made]
-    (output / "SHA256SUMS").write_text("\n".join(lines) + "\n")
-    (output / "NOTES.md").write_text(notes(ROOT, version))
-    for path in made:
-        print(f"{path.stat().st_size / 1e6:7.2f} MB  {path.name}")
+        if "engine" in only:
+            made += [part(sources, version, output) for part in (make_archive, make_crate, make_suite)]
+    return made
+
+
+def make_list(wheel: Path, python: Path, output: Path) -> Path:
+    """What the wheel brings along when it is installed (CycloneDX)."""
+    target = output / f"{wheel.name.partition('-cp')[0]}.cdx.json"
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([python, "-m", "venv", folder], check=True, env=clean())
+        installed = Path(folder, "bin/python")
+        subprocess.run(
+            [installed, "-m", "pip", "install", "-q", "--disable-pip-version-check", wheel], check=True, env=clean()
+        )
+        command = [
+            sys.executable,
+            "-m",
+            "cyclonedx_py",
+            "environment",
+            "--output-reproducible",
+            "-o",
+            target,
+            installed,
+        ]
+        subprocess.run(command, check=True, env=clean())
+    return target
+
+
+def digest(path: Path) -> str:
+    """SHA-256 of a file."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def exported(folder: Path) -> Path:

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import re
 from pathlib import Path
+
+OTHERS = {
+    "tools/web/package.json": r'^  "version": "(.+?)"',
+    "engine/bsmdec.h": r'^#define BSMDEC_VERSION "(.+)"',
+    "engine/CMakeLists.txt": r"^project\(bsmdec VERSION (\S+)",
+    "engine/rust/Cargo.toml": r'^version = "(.+)"',
+}
 
 
 def check_versions(root: Path) -> str:
@@ -13,10 +19,12 @@ def check_versions(root: Path) -> str:
     if match is None:
         raise SystemExit("src/bsm/__init__.py has no version")
     version = match.group(1)
-    npm = json.loads((root / "tools/web/package.json").read_text())["version"]
-    latest = sections(root)[0][0]
-    if not version == npm == latest:
-        raise SystemExit(f"versions differ: {version} in Python, {npm} for npm, {latest} first in CHANGELOG.md")
+    found = {"src/bsm/__init__.py": version, "CHANGELOG.md": sections(root)[0][0]}
+    for name, pattern in OTHERS.items():
+        stated = re.search(pattern, (root / name).read_text(), flags=re.MULTILINE)
+        found[name] = stated.group(1) if stated else "no version"
+    if len(set(found.values())) > 1:
+        raise SystemExit("versions differ: " + ", ".join(f"{stated} in {name}" for name, stated in found.items()))
     return version
 
 
