@@ -54,6 +54,7 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
     header = info.header
     return {
         "version": VERSION,
+        "extensions": [name for name, needed in _needs(info).items() if needed],
         "vertices": header.vertices,
         "faces": header.faces,
         "blocks": header.blocks,
@@ -78,6 +79,18 @@ def summarise(info: StreamInfo) -> dict[str, Any]:
     }
 
 
+def _needs(info: StreamInfo) -> dict[str, bool]:
+    """Which of the specification's extensions a decoder of the stream must know, or skip."""
+    header, sizes = info.header, info.sizes
+    return {
+        "order": sizes["order"] > 0,
+        "light": header.light > 0,
+        "paper": bool(header.paper) or sizes["partition"] > 0,
+        "attributes": header.attributes > 0,
+        "sequence": bool(header.sequence),
+    }
+
+
 def _worded(summary: Facts) -> str:
     if "shards" in summary:
         return "\n".join(_tile_lines(summary))
@@ -99,7 +112,8 @@ def _worded(summary: Facts) -> str:
         positions = f"{summary['blocks']} blocks of {summary['block_size']} vertices, "
         positions += f"{min(coefficients)} to {max(coefficients)} coefficients{refined}"
     lines = [
-        f"version {summary['version']}: {summary['vertices']} vertices, {summary['faces']} faces",
+        f"version {summary['version']}, {', '.join(summary['extensions']) or 'the core alone'}: "
+        f"{summary['vertices']} vertices, {summary['faces']} faces",
         positions,
         *_sequence_lines(summary),
         *([f"checksum of decoded positions: {summary['checksum']}"] if summary["checksum"] else []),
