@@ -103,20 +103,10 @@ def make_list(wheel: Path, python: Path, output: Path) -> Path:
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([python, "-m", "venv", folder], check=True, env=clean())
         installed = Path(folder, "bin/python")
-        subprocess.run(
-            [installed, "-m", "pip", "install", "-q", "--disable-pip-version-check", wheel], check=True, env=clean()
-        )
-        command = [
-            sys.executable,
-            "-m",
-            "cyclonedx_py",
-            "environment",
-            "--output-reproducible",
-            "-o",
-            target,
-            installed,
-        ]
-        subprocess.run(command, check=True, env=clean())
+        install: list[str | Path] = [installed, "-m", "pip", "install", "-q", "--disable-pip-version-check", wheel]
+        subprocess.run(install, check=True, env=clean())
+        options: list[str | Path] = ["--output-reproducible", "-o", target, installed]
+        subprocess.run([sys.executable, "-m", "cyclonedx_py", "environment", *options], check=True, env=clean())
     return target
 
 
