@@ -11,6 +11,7 @@ from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Mask, Matrix, Positions
 from bsm.codec.geometry.attributes import at_corners
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
+from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.pictures import (
     BACKGROUND,
     SQUARE,
@@ -159,6 +160,15 @@ class LookMetric:
         others = own_normals(other)
         shaded = self._seen(self._own[0], placed, shape.faces, smooth if others is None else others)
         return max(seen, shaded, key=lambda look: look.distance)
+
+    def flat(self, other: TriangleMesh) -> float:
+        """1 - SSIM of pictures in which each face has its own normal, see `spec/look.md`, L 6."""
+        pictures = []
+        for mesh in (self._mesh, other):
+            placed = self._placed(mesh.positions)
+            normals = np.tile(face_normals(placed, mesh.faces).astype(np.float32), 3)
+            pictures.append(self._drawn(placed, np.ascontiguousarray(mesh.faces, np.int32), normals))
+        return summed(np.array([difference(*pair) for pair in zip(*pictures, strict=True)])).dissimilarity
 
     def blame(self, positions: Positions) -> Matrix:
         """Where a version looks different: how unlike the pixels are that show each of its faces, added."""

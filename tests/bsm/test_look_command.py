@@ -8,6 +8,8 @@ import pytest
 
 import bsm
 from bsm.cli import main
+from bsm.codec.look.measure import LookMetric
+from bsm.files.mesh import read_mesh
 from tests.shapes import tetrahedron, torus
 
 
@@ -29,18 +31,22 @@ def run_json(capsys, *words):
 def test_the_command_says_what_python_says(files, capsys):
     seen = bsm.look(files / "a.ply", files / "b.bsm")
     found = run_json(capsys, files / "a.ply", files / "b.bsm", "--look")
+    original, decoded = (read_mesh(files / "a.ply").mesh, bsm.decode(files / "b.bsm"))
     assert found["look"] == {
         "distance": seen.distance,
         "dissimilarity": seen.dissimilarity,
         "visible": seen.visible,
         "gone": seen.gone,
+        "flat": pytest.approx(LookMetric(original).flat(decoded)),
+        "folded_edges": [0, 0],
     }
     assert seen.distance > 0
     assert found["theta_deg"] <= 4
     assert "look" not in run_json(capsys, files / "a.ply", files / "b.bsm")
     assert main(["compare", str(files / "a.ply"), str(files / "b.bsm"), "--look"]) == 0
-    line = capsys.readouterr().out.splitlines()[-1]
-    assert line.startswith(f"look               {seen.distance:.4g} (")
+    lines = capsys.readouterr().out.splitlines()[-3:]
+    assert lines[0].startswith(f"look               {seen.distance:.4g} (")
+    assert lines[2] == "edges folded over  0 in the first, 0 in the second"
 
 
 def test_meshes_of_other_faces_are_looked_at(files, capsys):

@@ -30,15 +30,15 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_245,
-    "all Python, lines": 73_300,
+    "product Python, lines": 34_275,
+    "all Python, lines": 73_330,
     "product modules": 222,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "header fields": 19,
     "fields of EncodeOptions": 20,
     "settings of --set": 12,
-    "words of spec/*.md": 25_390,
+    "words of spec/*.md": 25_425,
     "words of the core": 11_500,
     "tuned constants of the search": 60,
     "files that encoding a mesh walks through": 72,

@@ -16,7 +16,7 @@ from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import mnd, rms_over_edge
+from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge
 from bsm.codec.geometry.surface_distance import surface_distance
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
@@ -72,6 +72,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     with console.progress("reading") as progress:
         original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
         seen: Look | None = None
+        more: dict[str, Any] = {}
         if args.look or args.picture:
             progress.stage("looking from all sides")
             from bsm.codec.look.measure import LookMetric
@@ -80,6 +81,10 @@ def run(args: argparse.Namespace, console: Console) -> None:
                 refuse_to_overwrite(args.picture, args.force)
             looker = LookMetric(original)
             seen = looker.compare(decoded)
+            more = {
+                "flat": looker.flat(decoded),
+                "folded_edges": [folded_edges(mesh.positions, mesh.faces) for mesh in (original, decoded)],
+            }
             if args.picture:
                 write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
         progress.stage("comparing")
@@ -92,7 +97,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
             compared = {}
     attributes = compared.pop("attributes", {})
     if args.json:
-        shown = {"look": asdict(seen)} if seen else {}
+        shown = {"look": asdict(seen) | more} if seen else {}
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
         return
     lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if compared else []
@@ -100,6 +105,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if seen:
         parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
+        lines.append(f"{'look in facets':<19}1 - SSIM {more['flat']:.4g}\n")
+        before, after = more["folded_edges"]
+        lines.append(f"{'edges folded over':<19}{before} in the first, {after} in the second\n")
     for name, errors in attributes.items():
         said = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
         lines.append(f"{printable(name)}: {'not there any more' if said is None else said}\n")

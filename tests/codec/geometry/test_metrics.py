@@ -10,6 +10,7 @@ from bsm.codec.geometry.graph import vertex_neighbours
 from bsm.codec.geometry.metrics import (
     Reference,
     compare,
+    folded_edges,
     geometric_laplacian,
     kg_error,
     mean_edge_length,
@@ -105,3 +106,16 @@ def test_kg_error_is_relative_to_the_extent() -> None:
 def test_wrong_shapes_are_refused() -> None:
     with pytest.raises(MeshError, match="shape"):
         Reference(SQUARE, TWO).compare(SQUARE[:3])
+
+
+def test_folded_edges_are_counted_whatever_the_orientation_and_where_vertices_stand_twice() -> None:
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    faces = np.array([[0, 1, 2], [0, 2, 3]])
+    over = np.where(np.arange(4)[:, None] == 3, [1, 0.2, 0.1], square)  # the second face lies on the first
+    turned = np.array([[0, 1, 2], [0, 3, 2]])
+    assert [folded_edges(square, faces), folded_edges(square, turned)] == [0, 0]
+    assert [folded_edges(over, faces), folded_edges(over, turned)] == [1, 1]
+    apart = over[faces.ravel()]
+    assert folded_edges(apart, np.arange(6).reshape(2, 3)) == 1
+    fan = np.vstack([over, [0, 0, 1]])
+    assert folded_edges(fan, np.array([[0, 1, 2], [0, 2, 3], [0, 2, 4]])) == 0  # of three faces none is over another
