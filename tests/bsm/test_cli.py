@@ -113,13 +113,6 @@ def test_compare_takes_streams_files_and_permutations(folder, tmp_path, capsys, 
     assert same["nmsve_db"] is None
 
 
-def test_keep_order_keeps_it(folder, tmp_path, mesh):
-    options = ["-q", "--keep-order", "-o", str(tmp_path / "a.bsm"), *SMALL]
-    assert main(["encode", str(folder / "sample.ply"), *options]) == 0
-    assert main(["decode", str(tmp_path / "a.bsm"), "-q", "-o", str(tmp_path / "a.npz")]) == 0
-    assert np.array_equal(read_mesh(tmp_path / "a.npz").mesh.faces, mesh.faces)
-
-
 def test_some_blocks_are_a_part_of_the_mesh(folder, tmp_path, capsys):
     blocks = run_json(capsys, "info", folder / "sample.bsm")["blocks"]
     whole = run_json(capsys, "decode", folder / "sample.bsm", "-o", tmp_path / "all.ply")
@@ -281,14 +274,6 @@ def test_what_the_shell_has_closed(folder, tmp_path, words, code, said):
     assert done.stderr.endswith(said)
 
 
-@pytest.mark.parametrize(("command", "shown"), [("encode", True), ("info", False), ("compare", False)])
-def test_force_is_shown_where_files_are_written(capsys, command, shown):
-    with pytest.raises(SystemExit):
-        main([command, "--help"])
-    text = capsys.readouterr().out
-    assert ("--force" in text) is shown and "do harm" not in text
-
-
 # ---------------------------------------------------------------------------------------------------------------- help
 
 
@@ -301,14 +286,6 @@ def test_the_help_prints_the_table_of_codes_and_starts_fast(folder):
     program = "import sys; from bsm.cli import main; main(['info', sys.argv[1]]); sys.exit('codec' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", program, folder / "sample.bsm"], cwd=ROOT, timeout=60, check=False)
     assert done.returncode == 0, "bsm info needs no mathematics"
-
-
-def test_every_command_has_help(capsys):
-    for name in COMMANDS:
-        with pytest.raises(SystemExit) as stop:
-            main([name, "--help"])
-        assert stop.value.code == 0
-        assert "--quiet" in capsys.readouterr().out
 
 
 def test_the_flags_are_fields_and_show_their_defaults():

@@ -84,13 +84,6 @@ def test_meshes_are_encoded_on_the_way(tmp_path, capsys):
     assert f"{len(bsm.encode(source))} bytes as a stream" in capsys.readouterr().err
 
 
-def test_page_is_not_overwritten_unasked(tmp_path):
-    page = tmp_path / "page.html"
-    page.write_text("mine")
-    assert main(["view", str(VECTORS / "good-chain.bsm"), "--save", str(page)]) != 0
-    assert page.read_text() == "mine"
-
-
 def test_server_has_the_page_and_its_streams():
     stream = VECTORS / "good-chain.bsm"
     command = [sys.executable, "-m", "bsm", "view", str(stream), str(stream), "--no-open"]

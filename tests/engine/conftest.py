@@ -8,5 +8,5 @@ from tests.engine.decoding import build
 
 
 @pytest.fixture(scope="session")
-def library(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
-    return build(tmp_path_factory.mktemp("bsmdec"), "-w")
+def library() -> ctypes.CDLL:
+    return build()

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import fcntl
+import hashlib
 import subprocess
 from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
 from dataclasses import dataclass, field
@@ -12,9 +14,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from tools.amalgamate import amalgamated, interface
+from tools.amalgamate import ROOT, amalgamated, interface
 
-FLAGS = ("-std=gnu11", "-O2", "-ffp-contract=off", "-fPIC", "-shared")
+FLAGS = ("-std=gnu11", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-w")
 HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, END_OF_STREAM, ERROR = range(1, 12)
 
 
@@ -106,13 +108,26 @@ class Decoded:
     runs: list[tuple[int, int, npt.NDArray[Any]]] = field(default_factory=list)
 
 
-def build(folder: Path, *flags: str, compiler: str = "cc") -> ctypes.CDLL:
+def compiled(*flags: str, compiler: str = "cc") -> Path:
+    """A folder with bsmdec.c, bsmdec.h and bsmdec.so, compiled once of these sources and flags, whoever asks."""
+    source, header = amalgamated(), interface()
+    command = [compiler, *FLAGS, *flags]
+    name = hashlib.sha256("\0".join([source, header, *command]).encode()).hexdigest()[:16]
+    folder = ROOT / "build" / "bsmdec" / name
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (folder / "bsmdec.so").exists():
+            (folder / "bsmdec.c").write_text(source)
+            (folder / "bsmdec.h").write_text(header)
+            subprocess.run([*command, "bsmdec.c", "-o", "part.so", "-lm"], check=True, cwd=folder)
+            (folder / "part.so").rename(folder / "bsmdec.so")
+    return folder
+
+
+def build(*flags: str, compiler: str = "cc") -> ctypes.CDLL:
     """The library, compiled from one file."""
-    (folder / "bsmdec.c").write_text(amalgamated())
-    (folder / "bsmdec.h").write_text(interface())
-    target = folder / "bsmdec.so"
-    subprocess.run([compiler, *FLAGS, *flags, str(folder / "bsmdec.c"), "-o", str(target), "-lm"], check=True)
-    library = ctypes.CDLL(str(target))
+    library = ctypes.CDLL(str(compiled(*flags, compiler=compiler) / "bsmdec.so"))
     library.bsmdec_open.restype = c_void_p
     library.bsmdec_last_error.restype = POINTER(Failure)
     names = "close push finish next faces positions last_error"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bsm
-from tests.engine.decoding import BLOCK, END, END_OF_STREAM, NO_MEMORY, Allocator, Entry, Event, build, decode
+from tests.engine.decoding import BLOCK, END, END_OF_STREAM, NO_MEMORY, Allocator, Entry, Event, compiled, decode
 from tools.amalgamate import ROOT
 
 MISUSED = 2
@@ -83,9 +83,11 @@ def test_a_host_without_memory_gets_an_error_wherever_that_is(library: ctypes.CD
 
 
 def test_the_example_writes_what_python_decodes(tmp_path: Path) -> None:
-    build(tmp_path, "-w")
+    made = compiled()
     program, example = tmp_path / "obj", ROOT / "engine/examples/obj.c"
-    subprocess.run(["cc", "-w", f"-I{tmp_path}", example, tmp_path / "bsmdec.c", "-o", program, "-lm"], check=True)
+    subprocess.run(
+        ["cc", "-w", f"-I{made}", example, made / "bsmdec.so", f"-Wl,-rpath,{made}", "-o", program], check=True
+    )
     written = subprocess.run([program, VECTORS / "good-chain.bsm"], check=True, capture_output=True, text=True).stdout
     (tmp_path / "mesh.obj").write_text(written)
     mesh, expected = bsm.load(tmp_path / "mesh.obj"), bsm.decode(VECTORS / "good-chain.bsm")

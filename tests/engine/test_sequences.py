@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import bsm
-from tests.engine.decoding import build, decode
+from tests.engine.decoding import compiled, decode
 from tests.streams import frames_in, moving_events_of
 from tools.surgery import frames_of, stream_of
 
@@ -57,11 +57,12 @@ def test_a_lost_gop_costs_what_it_costs_in_python(library: ctypes.CDLL, name: st
 
 
 def test_the_example_goes_through_all_frames(tmp_path: Path) -> None:
-    build(tmp_path, "-w")
-    subprocess.run(["cc", "-std=gnu11", "-O1", "-w", "-c", "bsmdec.c"], check=True, cwd=tmp_path)
+    made = compiled()
     example = ROOT / "engine/examples/frames.cpp"
-    flags = ["-std=c++17", "-Wall", "-Wextra", "-Werror", f"-I{tmp_path}"]
-    subprocess.run(["c++", *flags, example, "bsmdec.o", "-o", "frames", "-lm"], check=True, cwd=tmp_path)
+    flags = ["-std=c++17", "-Wall", "-Wextra", "-Werror", f"-I{made}"]
+    subprocess.run(
+        ["c++", *flags, example, made / "bsmdec.so", f"-Wl,-rpath,{made}", "-o", "frames"], check=True, cwd=tmp_path
+    )
     vector = VECTORS / "good-sequence-long.bsm"
     lines = subprocess.run(
         [tmp_path / "frames", vector, "2"], check=True, capture_output=True, text=True

@@ -13,9 +13,7 @@ from bsm.bitstream import errors
 from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.static.decoder import Decoder, decode
-from bsm.codec.static.encoder import encode
 from bsm.codec.static.events import AttributeEvent
-from bsm.files.mesh import read_mesh
 from tools.vectors.__main__ import try_command, try_product
 from tools.vectors.bad import BAD
 from tools.vectors.bad_attributes import BAD_ATTRIBUTES
@@ -86,16 +84,6 @@ def test_the_reference_decoder_lacks_no_more_than_extensions(reference):
         except reference.UnsupportedError as error:
             assert str(error) in ("extension light", "extension sequence", "extension paper")
     assert 2 * decoded > len(GOOD)
-
-
-@pytest.mark.real
-@pytest.mark.long
-def test_both_decoders_agree_on_a_real_mesh(meshes, reference):
-    mesh = read_mesh(meshes / "static" / "fandisk_6475.ply").mesh
-    stream = encode(mesh)
-    decoded = decode(stream)
-    positions, faces, skipped = reference.decode(stream)
-    assert not skipped and np.array_equal(faces, decoded.faces) and np.array_equal(positions, decoded.positions)
 
 
 def test_every_vector_has_its_files_and_every_file_is_a_vector():

@@ -8,9 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.options import EncodeOptions
 from tools.measure import attributes
 
 CUBE = TriangleMesh(
@@ -29,13 +27,6 @@ def test_sharp_edges_part_normals():
     outwards = (CUBE.positions[CUBE.faces] - 0.5) / np.sqrt(0.75)
     assert smooth.indices is not None
     np.testing.assert_allclose(smooth.values[smooth.indices], outwards, atol=1e-6)
-
-
-def test_what_is_not_kept_is_noticed():
-    offered = Attribute("color", np.arange(24, dtype=np.uint8).reshape(8, 3), "vertex", "color")
-    attributes.check(CUBE, offered, EncodeOptions(grid=4, attributes={"color": "exact"}))
-    with pytest.raises(AssertionError):
-        attributes.check(CUBE, offered, EncodeOptions(grid=4, attributes={"color": "4bits"}))
 
 
 @pytest.mark.real

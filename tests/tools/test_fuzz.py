@@ -11,7 +11,6 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.static.decoder import Decoder
 from bsm.files.mesh import format_mesh, read_mesh
 from tools.attack.mutate import mutate_stream
-from tools.attack.targets import TARGETS, run, seeds
 from tools.surgery import frames_of, stream_of, with_header
 from tools.vectors.meshes import patch
 from tools.vectors.store import FOLDER
@@ -21,15 +20,6 @@ def change_a_byte(data, max_size):
     changed = bytearray(data or b"\0")
     changed[random.randrange(len(changed))] = random.randrange(256)
     return bytes(changed[:max_size])
-
-
-@pytest.mark.parametrize("name", ["stream", "damaged", "connectivity", "gops"])
-def test_a_little_of_it(name):
-    """A few mutations of every seed; what the command does for minutes."""
-    random.seed(1)
-    for data in seeds(name, FOLDER)[:40]:
-        for k in range(3):
-            run(TARGETS[name], mutate_stream(data, 1 << 16, k, change_a_byte))
 
 
 def test_mutated_streams_get_past_the_checksums():

@@ -7,9 +7,7 @@ from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import FrameType
 from bsm.codec.static.decoder import decode
-from bsm.codec.static.encoder import encode
-from bsm.codec.static.options import EncodeOptions
-from tools.gridded import gridded, lightened
+from tools.gridded import gridded
 from tools.surgery import first_entries, frames_of, stream_of
 from tools.vectors.meshes import torus
 
@@ -27,13 +25,3 @@ def test_what_is_put_together_decodes_to_the_values_that_were_given(light):
     mesh = decode(stream)
     assert np.array_equal(mesh.faces, coded.faces)
     assert np.array_equal(mesh.positions, values)
-
-
-def test_a_stream_is_coded_again_as_its_header_says_then():
-    stream = encode(torus(9, 7), EncodeOptions(grid=9, keep_order=True))
-    light = lightened(stream, 3, 60)
-    assert [kind for kind, _ in frames_of(light)] == [
-        *(FrameType.HEADER, FrameType.CONNECTIVITY, FrameType.ORDER, FrameType.GRID, FrameType.GRID)
-    ]
-    assert np.array_equal(decode(light).positions, decode(stream).positions)
-    assert np.array_equal(decode(light).faces, decode(stream).faces)

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.files.mesh import write_mesh
 from tests.shapes import tetrahedron, torus
-from tools.measure.speed import Delivery, break_even, measure_resources, subdivide
+from tools.measure.speed import Delivery, break_even, subdivide
 
 
 def test_subdividing_keeps_the_surface_and_its_topology():
@@ -28,14 +27,3 @@ def test_the_link_on_which_both_are_as_quick():
     assert break_even(ours, theirs) == pytest.approx(2.0)  # 80,000 bits in 40 ms
     assert break_even(Delivery(1_000, 7.0, 0.01), theirs) == float("inf")
     assert break_even(Delivery(11_000, 7.0, 0.05), theirs) == 0.0
-
-
-@pytest.mark.slow
-def test_memory_and_time_of_both_directions(tmp_path):
-    mesh = torus(30, 30)
-    write_mesh(tmp_path / "torus.npz", mesh)
-    for measured in measure_resources(tmp_path / "torus.npz").values():
-        assert measured["vertices"] == 900
-        assert 20 < measured["peak_mib"] < 2048
-        assert measured["cpu_microseconds_per_vertex"] == pytest.approx(1e6 * measured["cpu_seconds"] / 900)
-        assert measured["seconds"] > 0

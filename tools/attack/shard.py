@@ -7,7 +7,6 @@ with `--careful` each input is written to the folder of findings before it is tr
 from __future__ import annotations
 
 import argparse
-import ctypes
 import hashlib
 import json
 import subprocess
@@ -251,10 +250,7 @@ def not_finite(outcome: Outcome, tolerant: bool) -> str | None:
     return "positions that are not finite"
 
 
-@cache
-def _library() -> ctypes.CDLL:
-    with TemporaryDirectory(prefix="bsmdec-") as folder:
-        return build(Path(folder), "-w")
+_library = cache(build)
 
 
 def in_c(stream: bytes) -> Outcome:

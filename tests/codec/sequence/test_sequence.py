@@ -475,15 +475,6 @@ def test_frames_that_are_shown_grant_work():
         decode_sequence(data, Limits(work=0.71 * work, work_per_vertex=per_vertex / 2, work_per_byte=0))
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_every_truncation_is_a_typed_error(way):
-    positions, faces = bending(6)
-    data, _ = encoded(positions, faces, step=0.02, block_size=400, **way)
-    for size in range(0, len(data), 23):
-        with pytest.raises(BsmError):
-            decode_sequence(data[:size])
-
-
 @settings(max_examples=40)
 @given(st.data())
 def test_hostile_gops_give_typed_errors_or_frames(data):
@@ -512,11 +503,3 @@ def assert_same(found, decoded, indices):
     assert set(found) == indices
     for index in indices:
         assert np.array_equal(found[index].positions, decoded[index])
-
-
-def test_vertices_that_no_face_uses_do_not_disturb_a_sequence():
-    mesh = torus(8, 6)
-    alone = np.insert(mesh.positions, 5, 9.0, axis=0)
-    faces = mesh.faces + (mesh.faces >= 5)
-    positions, decoded = decode_sequence(encode_sequence([alone, alone + 0.01], faces, SequenceOptions(threads=1)))
-    assert positions.shape == (2, len(mesh.positions), 3) and len(decoded) == len(faces)
