@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
 from bsm.codec.arrays import Faces, Positions
+from bsm.files.motion.caches import write_cache
 from tests.shapes import torus
 
 
@@ -27,3 +30,21 @@ def turning(frames: int) -> tuple[Positions, Faces]:
     angles = np.arange(frames) / 7
     turned = [np.stack([np.cos(t) * x - np.sin(t) * z + t, y, np.sin(t) * x + np.cos(t) * z], axis=1) for t in angles]
     return np.array(turned), mesh.faces
+
+
+def animators_own(folder: Path, frames: int = 24, loose: int = 3) -> Positions:
+    """An OBJ with texture coordinates, vertices in no order, at one place, and in no face; and how it moves."""
+    positions, faces = bending(frames)
+    mixed = np.random.default_rng(1).permutation(positions.shape[1])
+    positions, faces = positions[:, mixed], np.argsort(mixed)[faces]
+    for copy in range(5):
+        faces[tuple(np.argwhere(faces == copy)[0])] = positions.shape[1] + copy
+    positions = np.concatenate([positions, positions[:, :5], 1.5 * positions[:, :loose]], axis=1)
+    lines = [*(f"v {x!r} {y!r} {z!r}" for x, y, z in positions[0].tolist()), "vt 0 0", "vt 1 0", "vt 0 1"]
+    lines += [f"f {a}/1 {b}/2 {c}/3" for a, b, c in (faces + 1).tolist()]
+    (folder / "rig.obj").write_text("\n".join(lines))
+    for kind in ("pc2", "mdd"):
+        with open(folder / f"rig.{kind}", "wb") as file, write_cache(file, kind, frames, lambda: 24.0) as write:
+            for frame in positions:
+                write(frame)
+    return positions

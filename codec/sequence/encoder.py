@@ -289,7 +289,8 @@ class SequenceEncoder:
     ) -> Iterator[packets.Packet]:
         """What comes before the GOPs of a run with a mesh of its own."""
         notes = (one.note for one in carried if not one.declaration.moves)
-        self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *notes)))
+        order = (f"the order of vertices and faces takes {len(one.data)} of the bytes" for one in prepared.order)
+        self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *notes, *order)))
         body = (*prepared.before_blocks, *(block.packet for block in first.blocks))
         draft = Draft(replace(first.header, run=(index,) if index else ()), body, run.given.positions)
         draft = with_attributes(draft, carried, {} if index else self._metadata)

@@ -54,6 +54,25 @@ def sequence():
     found["exact again"] = bool(np.array_equal(all_frames(bpy.data.objects["moving"]), decoded.astype(np.float32)))
 
 
+def rig():
+    """PC2 and MDD of streams, played on the OBJ that they were made of."""
+    fresh()
+    given = np.load(folder / "rig.npy")
+    bpy.ops.wm.obj_import(filepath=str(folder / "rig.obj"))
+    own, scene = bpy.context.object, bpy.context.scene
+    scene.frame_start, scene.frame_end, found["rig"] = 1, len(given), []
+    for kind in ("PC2", "MDD"):
+        cache = own.modifiers.new("cache", "MESH_CACHE")
+        cache.cache_format, cache.filepath, cache.frame_start = kind, str(folder / f"out.{kind.lower()}"), 1
+        shown = all_frames(own)
+        near = np.abs(shown - given).max() < 0.01 * np.linalg.norm(np.ptp(given[0], axis=0))
+        found["rig"] += [list(shown.shape), bool(near)]
+        own.modifiers.clear()
+    (made,) = bsm.blender.import_file(str(folder / "pc2.bsm"))
+    turns = {"own": own.rotation_euler, "stream": made.rotation_euler}
+    found["axes"] = {name: [round(np.degrees(angle)) for angle in turn] for name, turn in turns.items()}
+
+
 def static():
     """A mesh with attributes and a material, in and out."""
     fresh()
@@ -133,6 +152,7 @@ def extension():
 
 
 sequence()
+rig()
 static()
 export()
 extension()

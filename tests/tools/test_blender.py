@@ -14,9 +14,10 @@ import pytest
 from scipy.spatial import cKDTree
 
 import bsm
+from bsm.cli import main as cli
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from tests.motion import bending
+from tests.motion import animators_own, bending
 from tests.shapes import torus
 from tools.blender.__main__ import main
 
@@ -48,6 +49,14 @@ def folder(tmp_path_factory):
     told = {"material.0.name": "red", "material.0.baseColorFactor": "1 0.25 0 1", "up": "y"}
     still = TriangleMesh(mesh.positions, mesh.faces, (color, heat), told)
     (folder / "still.bsm").write_bytes(bsm.encode(still, preset="near-lossless"))
+    np.save(folder / "rig.npy", animators_own(folder, loose=0))
+    for kind in ("pc2", "mdd"):
+        words = (
+            ["encode", f"rig.{kind}", "-o", f"{kind}.bsm", "--up", "y"],
+            ["decode", f"{kind}.bsm", "-o", f"out.{kind}"],
+        )
+        assert not any(cli([str(folder / word) if "." in word else word for word in one]) for one in words)
+        (folder / "out.obj").unlink()
     return folder
 
 
@@ -65,6 +74,11 @@ def found(folder):
 
 def test_every_frame_is_the_decoders(found):
     assert found["exact"] and found["scene"] == pytest.approx([1, 10, 12.5]) and found["uv"] == ["texcoord"]
+
+
+def test_a_cache_plays_on_the_mesh_that_it_was_made_of(found):
+    assert found["rig"] == [[24, 485, 3], True] * 2
+    assert found["axes"] == {"own": [90, 0, 0], "stream": [90, 0, 0]}
 
 
 def test_a_project_that_lost_its_cache_is_whole_again(found):

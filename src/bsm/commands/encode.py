@@ -31,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is")
     said = "also say this of the mesh, for instance name=Bunny or unit=mm; any number of times"
     add("--meta", action="append", default=[], metavar="NAME=TEXT", help=said)
+    add("--up", choices=("y", "z"), help="also say which axis points up (as --meta up=y)")
     add_reader_flag(parser)
     add_encode_flags(parser)
 
@@ -58,7 +59,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     refuse_two_on_one_pipe(args, jobs[0].output)
     many, options = asked(Run, args), options_of(args)
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)
-    metadata = {}
+    metadata = {"up": args.up} if args.up else {}
     for name, sign, value in (text.partition("=") for text in args.meta):
         if not name or not sign:
             raise OptionError(f"--meta takes NAME=TEXT, not {name!r}")

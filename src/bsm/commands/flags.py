@@ -23,7 +23,8 @@ class Setting:
 
     def add(self, group: argparse._ActionsContainer) -> None:
         """Add it as a flag; a namespace has no such name where it is not given: defaults stand elsewhere."""
-        how = {"action": "store_true"} if self.type is bool else {"type": self.type, "metavar": self.metavar}
+        typed = {"type": self.type, "metavar": self.metavar}
+        how: dict[str, Any] = {"action": argparse.BooleanOptionalAction} if self.type is bool else typed
         how |= {"dest": self.field, "default": argparse.SUPPRESS, "help": self.help}
         group.add_argument(f"--{self.field.replace('_', '-')}", **how)
 
@@ -68,7 +69,7 @@ ENCODE_FLAGS = (
     Setting("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
     Setting("grid_origin", point, "X,Y,Z", "a place of that grid (default 0,0,0)"),
     Setting("quick", bool, "", "only what is quick: grids, by a small model, no blocks; frames without a search"),
-    Setting("keep_order", bool, "", "store the order of vertices and faces"),
+    Setting("keep_order", bool, "", "store the order of vertices and faces; of a PC2 or MDD, by default, of vertices"),
     Setting("threads", int, "N", "threads to use (default: one per core)"),
 )
 

@@ -5,6 +5,7 @@ an npz with `positions` of shape (T, n, 3) and `faces`; PC2 and MDD beside a mes
 pipes, npy arrays one behind the other.
 """
 
+import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count as count_from
@@ -13,11 +14,11 @@ from typing import Protocol
 
 import numpy as np
 
-from bsm.bitstream.errors import OptionError, UnsupportedError
+from bsm.bitstream.errors import BsmError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
-from bsm.files.mesh import USD_FORMATS, WRITTEN_FORMATS, by_name, save_written, written_mesh
+from bsm.files.mesh import USD_FORMATS, WRITTEN_FORMATS, by_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.folder import frame_files, in_order, is_numbered, names_many, read_files, write_files
 from bsm.files.motion.frames import Frames, Shared, Wanted
@@ -145,7 +146,8 @@ def _cache_writer(
 ) -> Iterator[Callable[[Positions], None]]:
     """A cache, and beside it the mesh of its first frame."""
     beside = mesh_of(path)
-    refuse_to_overwrite(beside, overwrite)
+    fits = _plays(beside, faces)
+    refuse_to_overwrite(beside, overwrite or fits)
     first: list[Positions] = []
     with open_output(path, overwrite=overwrite) as file:
         with write_cache(file, kind, count, lambda: shared.frame_rate) as write:
@@ -156,8 +158,20 @@ def _cache_writer(
                 write(frame)
 
             yield take
+        if fits:
+            return
         mesh = shared.mesh(first[0], faces)
         shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite))
+
+
+def _plays(path: str, faces: Faces) -> bool:
+    """Whether a mesh file is there that has these faces, in any order: it is the animator's, and stays."""
+    try:
+        known = read_mesh(path).mesh.faces if os.path.isfile(path) else faces[:0]
+    except (BsmError, OSError):
+        return False
+    one, other = (np.unique(np.sort(some[some[:, 0] != some[:, 1]], axis=1), axis=0) for some in (known, faces))
+    return np.array_equal(one, other)
 
 
 def _is_folder(path: str) -> bool:

@@ -33,7 +33,7 @@ _TYPES = {width: name for name, width in VECTORS.items()}
 _SORTING = ("part", "material")  # attributes of faces that only sort these
 _HALF = 0.5**0.5
 _TURNS = {"x": [0.0, 0.0, _HALF, _HALF], "z": [-_HALF, 0.0, 0.0, _HALF]}
-"""What turns the axis that a sequence calls up to that of glTF."""
+"""What turns the axis that a mesh calls up to that of glTF."""
 
 
 class _Scene:
@@ -80,6 +80,11 @@ class _Scene:
         return written.getvalue()
 
 
+def _upright(metadata: Metadata) -> Tree:
+    turn = _TURNS.get(str(metadata.get("up", "y")).lower())
+    return {"rotation": turn} if turn else {}
+
+
 # ------------------------------------------------------------------------------------------------------------ one mesh
 
 
@@ -102,7 +107,7 @@ class _Still(_Scene):
         sorting = [np.zeros(len(split.faces), np.int64) if one is None else one.values for one in (part, material)]
         kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, held = _at_vertices(split)
-        names, taken, said = formats.names_in(mesh.metadata, "part"), set[str](), {"part.names"}
+        names, taken, said = formats.names_in(mesh.metadata, "part"), set[str](), {"part.names", "up"}
         images = formats.images_in(mesh.metadata)
         materials = {
             n: self._material(n, words, images, said) for n, words in formats.materials_in(mesh.metadata).items()
@@ -123,7 +128,7 @@ class _Still(_Scene):
             primitive: Tree = {"attributes": given, "indices": self.numbers(corners.reshape(-1, 1).astype(np.uint32))}
             if (which := materials.get(its_material)) is not None:
                 primitive["material"] = which
-            self.place({"name": called, "primitives": [primitive]}, name=called)
+            self.place({"name": called, "primitives": [primitive]}, name=called, **_upright(mesh.metadata))
             self.primitives.append((primitive, origin[used]))
         said |= {f"part.{number}.name" for number in names}
         rest = {name: value for name, value in mesh.metadata.items() if name not in said}
@@ -296,9 +301,8 @@ def moving_scene(stream: bytes) -> bytes:
     scene.add("buffers", {"byteLength": room, "extensions": {EXTENSION: {"fallback": True}}})
     metadata: Metadata = sequence.metadata
     node = {"name": str(metadata["name"])} if "name" in metadata else {}
-    turn = _TURNS.get(str(metadata.get("up", "y")).lower())
     primitive = {"indices": places.pop("indices"), "attributes": places}
     mesh = {"primitives": [primitive], "extensions": {EXTENSION: {"stream": source}}}
-    scene.place(mesh, **node, **({"rotation": turn} if turn else {}))
+    scene.place(mesh, **node, **_upright(metadata))
     scene.tree |= {"extensionsUsed": [EXTENSION], "extensionsRequired": [EXTENSION]}
     return scene.whole()

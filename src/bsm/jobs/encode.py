@@ -118,7 +118,8 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     from bsm.codec.sequence.encoder import SequenceEncoder
 
     begin = time.perf_counter()
-    chosen = sequence_options(**job.options, threads=job.threads)
+    chosen = sequence_options(**{"keep_order": source.rigged > 0, **job.options}, threads=job.threads)
+    source = source.on_sorted_faces() if source.rigged and chosen.keep_order else source
     if job.permutation and chosen.runs:
         raise OptionError("--permutation is the order of one mesh, and --runs lets the faces change")
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}

@@ -26,7 +26,7 @@ from bsm.files.motion.folder import in_order, look_like_frames
 from bsm.files.motion.frames import Shared, Wanted
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
 from bsm.gltf.scene import Curve, matrix_of, read_gltf
-from tests.motion import bending
+from tests.motion import animators_own, bending
 from tests.shapes import torus
 
 MOVING = Path(__file__).parent / "moving"
@@ -98,6 +98,8 @@ def test_there_and_back(tmp_path, kind):
     if kind == "stl":  # which has no vertices, but corners
         assert np.allclose(frames[:, source.faces], positions[:, faces], atol=1e-6)
         return
+    if kind == "glb":  # whose up is y
+        frames = np.stack([frames[..., 0], -frames[..., 2], frames[..., 1]], axis=-1)
     same = cKDTree(positions[0]).query(frames[0])[1]
     assert len(set(same)) == len(same) == positions.shape[1]
     assert np.abs(frames - positions[:, same]).max() < 1e-6
@@ -113,6 +115,39 @@ def test_there_and_back(tmp_path, kind):
         assert np.allclose(shown, positions[0][same[source.faces]][:, :, :2] * 0.3 + 0.5, atol=1e-5)
     if kind.startswith("usd"):
         assert (source.metadata["unit"], source.metadata["up"]) == ("centimeters", "z")
+
+
+def corners_of(path):
+    """The faces that have an area: their vertices and texture coordinates, whatever corner is the first."""
+    mesh = read_mesh(path).mesh
+    (texcoord,) = mesh.attributes
+    places = texcoord.values[texcoord.indices].round(3).tolist()
+    faces = (zip(face, map(tuple, uv), strict=True) for face, uv in zip(mesh.faces.tolist(), places, strict=True))
+    return {found for found in map(frozenset, faces) if len(found) == 3 and len({v for v, _ in found}) == 3}
+
+
+@pytest.mark.parametrize("kind", ["pc2", "mdd"])
+def test_a_cache_comes_back_for_the_mesh_that_it_moves(tmp_path, capsys, kind):
+    positions = animators_own(tmp_path)
+    (tmp_path / "back").mkdir()
+    own = (tmp_path / "rig.obj").read_bytes()
+    (tmp_path / "back" / f"rig.{kind}").write_bytes(b"an older one")
+    (tmp_path / "back" / "rig.obj").write_bytes(own)
+    encode = ["encode", tmp_path / f"rig.{kind}", "-f", "-o", tmp_path / "a.bsm", "--quick"]
+    assert bsm(*encode) == 0 and "the order of vertices and faces takes" in capsys.readouterr().err
+    size = (tmp_path / "a.bsm").stat().st_size
+    assert bsm("decode", tmp_path / "a.bsm", "-f", "-o", tmp_path / "back" / f"rig.{kind}") == 0
+    assert (tmp_path / "back" / "rig.obj").read_bytes() == own
+    _, frames = frames_of(tmp_path / "back" / f"rig.{kind}")
+    assert frames.shape == positions.shape
+    assert np.abs(frames - positions).max() < 0.01 * np.linalg.norm(np.ptp(positions[0], axis=0))
+    assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / f"other.{kind}") == 0
+    corners = [corners_of(tmp_path / f"{name}.obj") for name in ("rig", "other")]
+    assert len(corners[0]) == 960 and corners[0] == corners[1]
+    assert bsm(*encode, "--no-keep-order") == 0 and (tmp_path / "a.bsm").stat().st_size < size
+    (tmp_path / "back" / f"rig.{kind}").unlink()
+    assert bsm("decode", tmp_path / "a.bsm", "-o", tmp_path / "back" / f"rig.{kind}") != 0
+    assert (tmp_path / "back" / "rig.obj").read_bytes() == own
 
 
 def test_usd_core_reads_what_we_write(tmp_path):

@@ -58,7 +58,8 @@ def read_cache(path: str, kind: str, reader: str | None, wanted: Wanted, limits:
     notes = [f"faces and attributes are those of {beside}"]
     notes += [f"left out, for they move: {', '.join(normals)}"] if normals else []
     frames = checked_frames(path, _samples(path, cache), cache.points)
-    return Frames(mesh.faces, cache.frames, frames, kept.attributes, tuple(notes), cache.rate, mesh.metadata)
+    shared = kept.attributes, tuple(notes), cache.rate, mesh.metadata
+    return Frames(mesh.faces, cache.frames, frames, *shared, rigged=cache.points)
 
 
 def read_head(path: str, kind: str) -> Cache:
