@@ -104,15 +104,6 @@ def test_several_materials_of_trimesh(trimesh):
     assert again.metadata["material.1.name"] == "painted" and again.metadata["image.0.data"] == png()
 
 
-def test_a_scene_of_trimesh(trimesh):
-    first, second = bsm.trimesh.to_trimesh(painted()), trimesh.creation.box()
-    scene = trimesh.Scene({"ring": first, "box": second})
-    ours = bsm.trimesh.from_trimesh(scene)
-    assert ours.metadata["part.0.name"] == "ring" and ours.metadata["part.1.name"] == "box"
-    assert np.bincount(attribute(ours, "part").values[:, 0]).tolist() == [len(first.faces), len(second.faces)]
-    assert as_mesh(scene).metadata == ours.metadata
-
-
 def test_a_mesh_of_parts_is_a_scene_of_trimesh(trimesh):
     first, second = bsm.trimesh.to_trimesh(painted()), trimesh.creation.box()
     second.metadata["maker"] = "somebody"

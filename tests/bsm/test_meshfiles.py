@@ -115,14 +115,6 @@ def test_obj_counts_back_continues_lines_and_ignores_the_rest(tmp_path):
     assert any("fewer than three corners were left out: 1" in note for note in source.notes)
 
 
-def test_off_with_comments_colours_and_counts_beside_the_name(tmp_path):
-    text = "# first\nNCOFF 4 1 0 # counts\n\n" + "".join(
-        f"{x} {y} 0 0 0 1 255 0 0\n" for x, y in [(0, 0), (1, 0), (1, 1), (0, 1)]
-    )
-    source = read_mesh(write(tmp_path, "a.off", text + "4 0 1 2 3 0.5 0.5 0.5 # quad\n"))
-    assert source.mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
-
-
 @pytest.mark.parametrize("line_end", ["\r\n", "\r"])
 @pytest.mark.parametrize("name", ["a.obj", "a.off", "a.ply"])
 def test_other_line_ends(name, line_end, tmp_path):
@@ -267,7 +259,7 @@ def test_concave_polygons_are_cut_without_overlap(start, tmp_path):
 
 
 @pytest.mark.real
-@pytest.mark.parametrize("name", ["bunny_34834", "dragon_22998", "scan_angel", "cgal_elephant_with_holes"])
+@pytest.mark.parametrize("name", ["scan_angel", "cgal_elephant_with_holes"])
 @pytest.mark.parametrize("kind", ["obj", "off", "ply", "npz"])
 def test_real_meshes_survive(meshes, name, kind, tmp_path):
     mesh = read_mesh(meshes / "static" / f"{name}.ply").mesh

@@ -50,12 +50,6 @@ def test_frames_of_other_faces_are_an_error_that_says_how_to_permit_them(tmp_pat
     assert "--runs" in said and not (tmp_path / "a.bsm").exists()
 
 
-def test_a_setting_of_sequences_is_none_of_meshes(tmp_path, capsys):
-    (path,) = written(tmp_path / "one", capture()[:1])
-    assert run("encode", path, "-o", tmp_path / "a.bsm", "--runs") != 0
-    assert "runs is for sequences" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("kind", ["obj", "ply"])
 def test_every_frame_comes_back_with_its_faces(stream, tmp_path, kind, capsys):
     assert run("decode", stream, "-o", tmp_path / "back" / f"%03d.{kind}") == 0

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
 from bsm.bitstream.errors import BsmError, CorruptError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.files.mesh import read_mesh
 from tests.shapes import Faces, grid_faces
 
 quick = settings(max_examples=200)
@@ -60,17 +61,6 @@ def check_round_trip(faces: Faces, vertex_count: int) -> EncodedConnectivity:
     np.testing.assert_array_equal(again.faces, decoded)
     np.testing.assert_array_equal(again.vertex_order, np.arange(vertex_count))
     return encoded
-
-
-def read_ply(path: Path) -> tuple[Faces, int]:
-    """Faces and number of vertices of the binary triangle files among the real meshes."""
-    data = path.read_bytes()
-    begin = data.index(b"end_header\n") + 11
-    words = data[:begin].split()
-    vertices, faces = (int(words[words.index(name) + 1]) for name in (b"vertex", b"face"))
-    rows = np.frombuffer(data, np.uint8, 13 * faces, len(data) - 13 * faces).reshape(faces, 13)
-    assert (rows[:, 0] == 3).all()
-    return compact(rows[:, 1:].copy().view("<i4")) if vertices else (np.empty((0, 3), np.int32), 0)
 
 
 def test_tetrahedron_is_a_few_bytes() -> None:
@@ -250,53 +240,7 @@ def test_counts_over_the_limits_are_refused() -> None:
 def test_real_meshes_round_trip_in_few_bits(meshes: Path) -> None:
     spent = {}
     for path in sorted((meshes / "static").glob("*.ply")):
-        faces, count = read_ply(path)
+        faces, count = compact(read_mesh(path).mesh.faces)
         spent[path.stem] = 8 * len(check_round_trip(faces, count).payload) / count
     over = {name: spent[name] for name, budget in BUDGETS.items() if spent[name] > budget}
     assert not over
-
-
-@pytest.mark.real
-def test_animated_meshes_round_trip(meshes: Path) -> None:
-    for path in sorted((meshes / "dynamic").glob("*.npz")):
-        with np.load(path) as data:
-            check_round_trip(*compact(data["faces"]))
-
-
-@pytest.mark.real
-def test_hostile_meshes_round_trip(meshes: Path) -> None:
-    checked = 0
-    for path in sorted((meshes / "hostile").glob("*.off")):
-        faces = read_off(path)
-        if len(faces):
-            check_round_trip(*compact(faces))
-            checked += 1
-    for path in sorted((meshes / "hostile").glob("*.obj")):
-        faces = read_obj(path)
-        if len(faces):
-            check_round_trip(*compact(faces))
-            checked += 1
-    assert checked > 20
-
-
-def _fans(polygons: list[list[int]]) -> Faces:
-    triangles = [[p[0], p[k], p[k + 1]] for p in polygons for k in range(1, len(p) - 1)]
-    return np.array(triangles, int).reshape(-1, 3)
-
-
-def read_obj(path: Path) -> Faces:
-    """Polygons as fans, whatever their vertices are."""
-    lines = [line.split() for line in path.read_text(errors="replace").splitlines()]
-    return _fans([[int(corner.split("/")[0]) for corner in line[1:]] for line in lines if line and line[0] == "f"])
-
-
-def read_off(path: Path) -> Faces:
-    """Polygons as fans; no faces if the file is not what it says."""
-    lines = [line.split("#")[0].split() for line in path.read_text(errors="replace").splitlines()]
-    words = [word for line in lines if line for word in line]
-    if not words or not words[0].endswith("OFF"):
-        return np.empty((0, 3), int)
-    rows = [line for line in lines if line and not line[0].endswith("OFF")]
-    vertices, faces = int(rows[0][0]), int(rows[0][1])
-    polygons = [[int(word) for word in row[1 : 1 + int(row[0])]] for row in rows[1 + vertices : 1 + vertices + faces]]
-    return _fans(polygons)

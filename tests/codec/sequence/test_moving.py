@@ -154,15 +154,6 @@ def test_a_lost_attribute_costs_those_behind_it(kind: type) -> None:
         decoded(broken)
 
 
-def test_a_lost_gop_costs_its_frames() -> None:
-    data, _ = encoded(FRAMES, gop=3)
-    found, whole = decoded(frames_without(data, packets.Gop, 1), tolerant=True), decoded(data)
-    assert 3 <= len(found) < 9  # others refer to it
-    for event in found:
-        for one, other in zip(event.attributes, whole[event.index].attributes, strict=True):
-            np.testing.assert_array_equal(one.values, other.values)
-
-
 def test_runs_have_attributes_that_move() -> None:
     other = torus(18, 10)
     frames = [worn(0), worn(1), *(worn(t, other) for t in (2, 3)), *(worn(t) for t in (4, 5, 6))]
@@ -188,15 +179,6 @@ def test_a_mesh_of_one_face_and_a_mesh_of_many_components() -> None:
         ]
         data, encoder = encoded(frames)
         assert errors(frames, encoder, decoded(data))["heat rms"] <= 0.0025 * 3 * len(mesh.positions)
-
-
-def test_vertices_at_one_place_of_different_colours_stay_two() -> None:
-    corners = MESH.positions[MESH.faces].reshape(-1, 3)
-    soup = TriangleMesh(corners, np.arange(len(corners), dtype=np.int32).reshape(-1, 3))
-    shades = [np.repeat(np.arange(len(MESH.faces)) + t, 3).astype(np.uint16) for t in range(3)]
-    frames = [replace(soup, attributes=(Attribute("shade", shade, "vertex", "color"),)) for shade in shades]
-    data, encoder = encoded(frames, attributes={"shade": "exact"}, keep_order=True)
-    assert errors(frames, encoder, decoded(data))["shade"] == 0.0
 
 
 def test_what_cannot_be_promised_is_refused() -> None:

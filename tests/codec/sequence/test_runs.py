@@ -18,7 +18,7 @@ from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.runs import KEPT_MESHES
 from bsm.codec.sequence.targets import SequenceTarget
-from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, HeaderEvent, LossEvent
+from bsm.codec.static.events import ConnectivityEvent, HeaderEvent, LossEvent
 from tests.streams import frames_in, moving_events_of, packets_of
 from tools.surgery import frames_of
 from tools.vectors.meshes import torus
@@ -124,12 +124,6 @@ def test_a_target_is_for_frames_that_share_their_faces():
     assert frames_in(moving_events_of(b"".join(encoded(same, target=SequenceTarget("kg", 5.0))[1])))
 
 
-def test_an_array_with_another_shape_is_refused():
-    frames = meshes((10, 3))
-    with pytest.raises(MeshError, match="frame 3 has shape"):
-        encoded([*frames, frames[0].positions[:-1]])
-
-
 def test_every_run_has_its_attributes():
     frames = meshes((10, 2), (7, 2), (10, 1))
 
@@ -149,16 +143,6 @@ def test_every_run_has_its_attributes():
                 (one,) = decoder.attributes
                 values.append((one.name, int(one.values[0, 0]), len(one.values)))
     assert values == [("colour", 7, 60)] * 2 + [("colour", 90, 42)] * 2 + [("colour", 7, 60)]
-
-
-def test_a_mesh_with_other_colours_is_another():
-    frames = meshes((10, 1), (7, 1), (10, 1))
-    red, blue = ((Attribute("colour", np.full((60, 3), value, np.uint8), "vertex", "color"),) for value in (200, 3))
-    chosen = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
-    given = [replace(frames[0], attributes=red), frames[1], replace(frames[2], attributes=blue)]
-    data = b"".join(SequenceEncoder(frames[0].faces, chosen, 3, attributes=red).chunks(given))
-    told = [int(event.values[0, 0]) for event in moving_events_of(data) if isinstance(event, AttributeEvent)]
-    assert told == [200, 3]
 
 
 # ---------------------------------------------------------------------------------------------------- loss and joining

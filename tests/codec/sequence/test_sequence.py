@@ -11,16 +11,7 @@ from hypothesis import strategies as st
 from bsm.bitstream.container.packets import Gop
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.container.writer import write_stream
-from bsm.bitstream.errors import (
-    BsmError,
-    CorruptError,
-    FormatError,
-    LimitError,
-    MeshError,
-    OptionError,
-    TargetError,
-    UnsupportedError,
-)
+from bsm.bitstream.errors import BsmError, CorruptError, LimitError, MeshError, OptionError, TargetError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.geometry.metrics import kg_error
 from bsm.codec.sequence import tracks
@@ -30,8 +21,6 @@ from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.history import FrameHistory
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
-from bsm.codec.static.decoder import decode
-from bsm.codec.static.encoder import encode
 from bsm.codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
@@ -167,14 +156,6 @@ def test_memory_does_not_grow_with_the_number_of_frames(way):
         work(8)
         short, long = peak_of(lambda: work(24)), peak_of(lambda: work(72))  # noqa: B023  (called at once)
         assert long < short + 16 * positions[0].nbytes, "a third of what the frames would take"
-
-
-@pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("frames", [1, 2, 3])
-def test_short_sequences(way, frames):
-    positions, faces = bending(frames)
-    data, original = encoded(positions, faces, **way)
-    assert np.abs(decode_sequence(data)[0] - original).max() < 0.02
 
 
 @pytest.mark.parametrize("together", [1, 2])
@@ -338,14 +319,6 @@ def test_a_target_that_cannot_be_met_is_an_error():
     for kind, value in (("size", 3.0), ("kg", 0.0), ("bpvf", math.inf)):
         with pytest.raises(OptionError):
             SequenceTarget(kind, value)
-
-
-def test_static_meshes_and_sequences_are_told_apart():
-    positions, faces = bending(2)
-    with pytest.raises(UnsupportedError, match="sequence"):
-        decode(encoded(positions, faces)[0])
-    with pytest.raises(FormatError, match="static"):
-        decode_sequence(encode(torus(12, 8)))
 
 
 def test_springs_that_there_are_not_are_corrupt():
