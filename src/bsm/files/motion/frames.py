@@ -31,7 +31,7 @@ class Frames:
     rigged: int = 0  # vertices of the mesh that plays them, whose number and order count, of a cache of points
 
     def on_sorted_faces(self) -> Frames:
-        """The same where the order of faces costs nothing, and each vertex in no face has one without area."""
+        """These frames where the order of faces costs nothing, and each vertex in no face has one without area."""
         loose = np.setdiff1d(np.arange(self.rigged), self.faces)
         faces = np.concatenate([self.faces, np.repeat(loose[:, None], 3, axis=1)]).astype(np.int32)
         order = np.lexsort(np.sort(faces, axis=1).T)
