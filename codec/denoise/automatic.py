@@ -61,6 +61,7 @@ CANDIDATES = (
     *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.45, 0.6)),
 )
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
+HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
 HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])  # those that compete for the second guess
 LEARNT_MORE = 0.025
 """Movement over noise with the learnt normals, above that without them, from which on they are left out."""
@@ -140,11 +141,11 @@ def choose(
     candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (CANDIDATES, HERALDS))
     # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
     # with. A third round would believe its own mistakes.
-    herald = rehearsal.compete(heralds, most)
+    herald = rehearsal.compete(heralds, most, HERALDED)
     share, gain = rehearsal.weigh(herald)
     rehearsal.rehearse(rehearsal.perform(herald.steps, share))
     untreated = rehearsal.untreated
-    winner = rehearsal.compete(candidates, most)
+    winner = rehearsal.compete(candidates, most, REHEARSED)
     steps, expected = winner.steps, gain * winner.error
     reason = finding.reason
     if expected > WORTH * untreated:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.automatic import AutomaticChoice, calm, choose, treat
+from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, treat
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.outliers import find_outliers
@@ -92,7 +92,7 @@ class FrameDenoiser:
         for group, remaining in self._steadied(frames):
             if found is None:
                 begun = group[0][1]
-                self._progress("finding noise")
+                self._progress("finding noise", 0.0)
                 if remaining is None:
                     begun, outliers, ripples = calm(begun, self._patient)
                 found = find_noise(begun, self._patient.probe)
@@ -100,7 +100,7 @@ class FrameDenoiser:
                     found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
                 goal = "both" if remaining is not None and self._goal == "shading" else self._goal
                 self.choice = choose(begun, found, self._patient, goal, self._progress)
-                self._progress("filtering")
+                self._progress("filtering", CHOSEN)
                 if remaining is None:
                     self.choice = self.choice.after(outliers, ripples)
                 elif not self.choice.steps:

@@ -31,13 +31,14 @@ LEARNT_SHARES = (0.0, 0.2, 0.4)
 """Of the learnt normals in the mean with those of the recipes; more of them costs up to two thirds on dodecahedra where
 it gains a fifteenth on a scan, and alone they are worse on half of the meshes tried."""
 SEED = 1
+ROUND = 0.1  # of all work, what the recipes of a round take, more or less
 MIRRORED = ("impulses",)  # kinds of which too little is known to draw such noise anew: it is taken as it was found
 
 Goal = Callable[[Reference, Positions], float]
-Progress = Callable[[str], None]
+Progress = Callable[[str, float], None]
 
 
-def silent(stage: str) -> None:
+def silent(stage: str, share: float) -> None:
     """Nobody wants to know."""
 
 
@@ -132,11 +133,11 @@ class Rehearsal:
                 break
         return best
 
-    def compete(self, recipes: tuple[Recipe, ...], members: int = MOST_MEMBERS) -> Outcome:
-        """The steps whose mean is best, found greedily."""
+    def compete(self, recipes: tuple[Recipe, ...], members: int = MOST_MEMBERS, begun: float = 0.0) -> Outcome:
+        """The steps whose mean is best, found greedily; `begun` of all work is done before."""
         alone = []
         for number, outcome in enumerate(ordered_map(self.attempt, recipes, None), start=1):
-            self._progress(f"rehearsing {number} of {len(recipes)}")
+            self._progress(f"rehearsing {number} of {len(recipes)}", begun + ROUND * number / len(recipes))
             alone.append(outcome)
         alone.sort(key=lambda outcome: outcome.error)
         chosen, error = [alone[0]], alone[0].error

@@ -148,7 +148,7 @@ class Encoder:
         Parameters
         ----------
         progress : callable, optional
-            Called with the number of blocks done and of all blocks, once for every time that blocks are coded.
+            Called with how much is done, and of how much in all; again from the beginning where blocks are coded again.
 
         Raises
         ------
@@ -347,7 +347,9 @@ class Encoder:
 
     def _search(self, contract: Contract, progress: Progress | None, shading: Shading | None = None) -> Search:
         measures = Measures(self._prepared, self.options.threads, self._normals, shading, alike=contract.alike)
-        return Search(measures, self.options, progress, self._size)
+        # About as long as blocks take, drawing and weighing take behind them.
+        half = None if progress is None else lambda done, blocks: progress(done, 2 * blocks)
+        return Search(measures, self.options, half, self._size)
 
     @cached_property
     def _normals(self) -> Normals | None:

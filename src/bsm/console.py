@@ -17,6 +17,7 @@ from typing import Any
 
 _PATIENCE, _SECOND = 0.5, 1.0
 _RUNNING = "{desc}: {elapsed}"  # of a line of which nobody knows how long it will be
+_KNOWN, _NEARLY = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<LEFT", 0.99
 _TYPICAL_ROUNDS = 6
 _USUAL_SHAPE = (80, 24)
 
@@ -49,6 +50,7 @@ class Progress:
         self._shown = shown
         self._lines = lines
         self._begun = self._said = time.monotonic()
+        self._share, self._whole, self._seen = 0.0, 0.0, 0.0  # for certain; all, in seconds, 0: unknown; what is shown
         self._bar: Any = None
         self._round = 0
         self._last = 0
@@ -57,7 +59,7 @@ class Progress:
         self._clock: threading.Thread | None = None
 
     def __enter__(self) -> Progress:
-        if self._shown:
+        if self._shown or self._lines:
             self._clock = threading.Thread(target=self._tick, daemon=True)
             self._clock.start()
         return self
@@ -69,29 +71,49 @@ class Progress:
         if self._bar is not None:
             self._bar.close()
 
-    def stage(self, name: str) -> None:
+    def stage(self, name: str, share: float = 0.0) -> None:
+        """Name what begins; what is done before it, if that is known."""
         self._what, self._round, self._last = name, 0, 0
+        self._at(share)
         if self._bar is not None:
-            self._bar.total = None
-            self._bar.bar_format = _RUNNING
-            self._bar.set_description_str(name, refresh=True)
+            self._draw(name)
 
     def __call__(self, done: int, total: int) -> None:
-        now = time.monotonic()
-        if self._lines and now - self._said >= _SECOND:
-            self._said, share = now, done / max(total, 1)
-            left = (now - self._begun) * (1.0 - share) / share if share else None
-            line = {"stage": self._what, "share": share, "seconds": now - self._begun, "seconds_left": left}
-            print(json.dumps(line), file=sys.stderr, flush=True)
-        if not self._shown or self._opened() is None:
-            return
-        self._bar.bar_format = None
-        if done < self._last:
-            self._round += 1
-            self._bar.set_description_str(f"{self._what}, attempt {self._round + 1}", refresh=False)
+        self._round += done < self._last
         self._last = done
-        self._bar.total = total * (max(_TYPICAL_ROUNDS, self._round + 1) if self._round else 1)
-        self._bar.update(self._round * total + done - self._bar.n)
+        rounds = max(_TYPICAL_ROUNDS, self._round + 1) if self._round else 1
+        self._at((self._round + done / max(total, 1)) / rounds)
+        if self._lines and time.monotonic() - self._said >= _SECOND:
+            self._tell()
+        if self._shown and self._opened() is not None:
+            self._draw(f"{self._what}, attempt {self._round + 1}" if self._round else self._what)
+
+    def _at(self, share: float) -> None:
+        if share > 0.0:
+            self._share, self._whole = share, (time.monotonic() - self._begun) / share
+
+    def _now(self) -> tuple[float, float, float | None]:
+        """The share that is done, as far as time tells; seconds since the beginning, and to the end if known."""
+        since = time.monotonic() - self._begun
+        if not self._whole:
+            return self._share, since, None
+        self._seen = max(self._seen, self._share, min(since / self._whole, _NEARLY))  # and never goes back
+        return self._seen, since, self._whole * (1.0 - self._seen)
+
+    def _tell(self) -> None:
+        self._said = time.monotonic()
+        share, since, left = self._now()
+        line = {"stage": self._what, "share": share, "seconds": since, "seconds_left": left}
+        print(json.dumps(line), file=sys.stderr, flush=True)
+
+    def _draw(self, what: str = "") -> None:
+        share, _, left = self._now()
+        if what:
+            self._bar.set_description_str(what, refresh=False)
+        if left is not None:
+            self._bar.total, self._bar.n = 100, int(100 * share)
+            self._bar.bar_format = _KNOWN.replace("LEFT", f"{int(left) // 60:02d}:{int(left) % 60:02d}")
+        self._bar.refresh()
 
     def _opened(self) -> Any:
         """The bar; None where there is no library to draw it."""
@@ -112,11 +134,12 @@ class Progress:
             return self._bar
 
     def _tick(self) -> None:
-        """Draw anew each second, so that nobody takes silence for the end."""
-        while not self._over.wait(_SECOND if self._bar is not None else _PATIENCE):
-            if self._opened() is None:
-                return
-            self._bar.refresh()
+        """Draw and tell anew each second, so that nobody takes silence for the end."""
+        while not self._over.wait(_PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)):
+            if self._lines and time.monotonic() - self._said >= _SECOND / 2:
+                self._tell()
+            if self._shown and self._opened() is not None:
+                self._draw()
 
 
 def _shape() -> tuple[int, int]:
