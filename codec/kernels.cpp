@@ -35,10 +35,12 @@ NB_MODULE(_kernels, m) {
     m.def("crosses_around", &crosses_around, "positions"_a, "faces"_a, "crosses"_a, "lengths"_a, Unlocked());
     m.def("face_normals", &face_normals, "positions"_a, "faces"_a, "normals"_a, Unlocked());
     m.def("geometric_laplacian", &geometric_laplacian, "positions"_a, "starts"_a, "members"_a, "result"_a, Unlocked());
-    m.def("build_tree", &build_tree, "lowest"_a, "highest"_a, "order"_a, "scratch"_a, "low"_a, "high"_a, "first"_a,
+    m.def("build_tree", &build_tree, "lowest"_a, "highest"_a, "order"_a, "low"_a, "high"_a, "first"_a,
           "count"_a, Unlocked());
     m.def("nearest_distances", &nearest_distances, "points"_a, "triangles"_a, "low"_a, "high"_a, "first"_a, "count"_a,
           "distances"_a, Unlocked());
+    m.def("farthest_distance", &farthest_distance, "points"_a, "triangles"_a, "low"_a, "high"_a, "first"_a, "count"_a,
+          Unlocked());
     m.def("nearest_faces", &nearest_faces, "corners"_a, "owner"_a, "depth"_a, Unlocked());
     m.def("shown_normals", checked<&shown_normals>, "positions"_a, "faces"_a, "joined"_a, "starts"_a, "around"_a,
           "cosine"_a, "half"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());

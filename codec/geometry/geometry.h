@@ -19,10 +19,12 @@ void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts m
 double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
                       double lost);
 double farthest_apart(ConstDoubles2 original, ConstDoubles2 decoded);
-int64_t build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Longs scratch, Doubles2 low,
+int64_t build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Doubles2 low,
                    Doubles2 high, Longs first, Longs count);
 void nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
                        ConstLongs first, ConstLongs count, Doubles distances);
+double farthest_distance(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
+                         ConstLongs first, ConstLongs count);
 void nearest_faces(ConstDoubles2 corners, Ints2 owner, Doubles2 depth);
 
 /* Sort values that nearly always come nearly sorted: by insertion, and by a heap once that has moved too many of them,

@@ -7,34 +7,32 @@ typedef struct {
     int64_t begin, end, parent;
 } Range;
 
-/* Stable merge sort of `order[0 .. size - 1]` by the middle of each box along one axis. */
-static void sort_by_middle(int64_t *order, int64_t *scratch, int64_t size, const double *low, const double *high,
-                           int axis) {
-    int64_t *source = order, *target = scratch;
-    for (int64_t run = 1; run < size; run *= 2) {
-        for (int64_t begin = 0; begin < size; begin += 2 * run) {
-            int64_t middle = least(begin + run, size), end = least(begin + 2 * run, size);
-            for (int64_t i = begin, a = begin, b = middle; i < end; i++) {
-                bool left = b == end;
-                if (a < middle && b < end) {
-                    int64_t p = 3 * source[a] + axis, q = 3 * source[b] + axis;
-                    left = low[p] + high[p] <= low[q] + high[q];
-                }
-                target[i] = left ? source[a++] : source[b++];
-            }
+/* Put those boxes into the first half of `order[0 .. size - 1]` whose middles along one axis are the lower ones. */
+static void halve_by_middle(int64_t *order, int64_t size, const double *low, const double *high, int axis) {
+    for (int64_t begin = 0, end = size - 1, half = size / 2; begin < end;) {
+        int64_t pivot = 3 * order[begin + (end - begin) / 2] + axis, i = begin, j = end;
+        double middle = low[pivot] + high[pivot];
+        while (i <= j) {
+            while (low[3 * order[i] + axis] + high[3 * order[i] + axis] < middle) i++;
+            while (low[3 * order[j] + axis] + high[3 * order[j] + axis] > middle) j--;
+            if (i > j) break;
+            int64_t swapped = order[i];
+            order[i++] = order[j];
+            order[j--] = swapped;
         }
-        int64_t *swapped = source;
-        source = target;
-        target = swapped;
+        if (half <= j)
+            end = j;
+        else if (half >= i)
+            begin = i;
+        else
+            return;
     }
-    if (source != order)
-        for (int64_t i = 0; i < size; i++) order[i] = source[i];
 }
 
 /* Split the boxes at the median of their widest axis until few are left; nodes in pre-order. The first child of node k
  * is k + 1; `first[k]` is its other child (count 0) or its first triangle (count > 0). Returns the number of nodes, at
  * most 2 m + 1. */
-int64_t build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Longs scratch, Doubles2 low,
+int64_t build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Doubles2 low,
                    Doubles2 high, Longs first, Longs count) {
     Range stack[DEPTH];
     int64_t nodes = 0, size = lowest.rows;
@@ -63,8 +61,7 @@ int64_t build_tree(ConstDoubles2 lowest, ConstDoubles2 highest, Longs order, Lon
         int widest = 0;
         for (int axis = 1; axis < 3; axis++)
             if (top[axis] - bottom[axis] > top[widest] - bottom[widest]) widest = axis;
-        sort_by_middle(order.data + range.begin, scratch.data, range.end - range.begin, lowest.data, highest.data,
-                       widest);
+        halve_by_middle(order.data + range.begin, range.end - range.begin, lowest.data, highest.data, widest);
         int64_t middle = (range.begin + range.end) / 2;
         stack[depth++] = (Range){middle, range.end, node};
         stack[depth++] = (Range){range.begin, middle, -1};
@@ -119,33 +116,53 @@ static double to_triangle(const double *p, const double *triangle) {
     return third < nearest ? third : nearest;
 }
 
+/* Squared distance from a point to the nearest triangle, or any that is at most `enough`; `found` is where the triangle
+ * stands that the search begins with, and then the one that was found. */
+static double nearest(const double *p, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high, ConstLongs first,
+                      ConstLongs count, double enough, int64_t *found) {
+    int64_t stack[DEPTH];
+    double best = to_triangle(p, triangles.data + 9 * *found);
+    stack[0] = 0;
+    for (int depth = 1; depth > 0 && best > enough;) {
+        int64_t node = stack[--depth];
+        if (to_box(p, low.data + 3 * node, high.data + 3 * node) >= best) continue;
+        if (count.data[node] > 0) {
+            for (int64_t k = first.data[node]; k < first.data[node] + count.data[node]; k++) {
+                double squared = to_triangle(p, triangles.data + 9 * k);
+                if (squared >= best) continue;
+                best = squared;
+                *found = k;
+            }
+            continue;
+        }
+        int64_t near = node + 1, far = first.data[node];
+        if (to_box(p, low.data + 3 * near, high.data + 3 * near) >
+            to_box(p, low.data + 3 * far, high.data + 3 * far)) {
+            near = far;
+            far = node + 1;
+        }
+        stack[depth++] = far;
+        stack[depth++] = near;
+    }
+    return best;
+}
+
 /* Distance of each point to the nearest triangle; `triangles` has nine numbers a row, in the order of the tree. */
 void nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
                        ConstLongs first, ConstLongs count, Doubles distances) {
-    int64_t stack[DEPTH];
-    for (int64_t i = 0; i < least(points.rows, distances.size); i++) {
-        const double *p = points.data + 3 * i;
-        double best = __builtin_inf();
-        stack[0] = 0;
-        for (int depth = 1; depth > 0;) {
-            int64_t node = stack[--depth];
-            if (to_box(p, low.data + 3 * node, high.data + 3 * node) >= best) continue;
-            if (count.data[node] > 0) {
-                for (int64_t k = first.data[node]; k < first.data[node] + count.data[node]; k++) {
-                    double squared = to_triangle(p, triangles.data + 9 * k);
-                    best = squared < best ? squared : best;
-                }
-                continue;
-            }
-            int64_t near = node + 1, far = first.data[node];
-            if (to_box(p, low.data + 3 * near, high.data + 3 * near) >
-                to_box(p, low.data + 3 * far, high.data + 3 * far)) {
-                near = far;
-                far = node + 1;
-            }
-            stack[depth++] = far;
-            stack[depth++] = near;
-        }
-        distances.data[i] = __builtin_sqrt(best);
+    int64_t found = 0;
+    for (int64_t i = 0; i < least(points.rows, distances.size); i++)
+        distances.data[i] = __builtin_sqrt(nearest(points.data + 3 * i, triangles, low, high, first, count, 0.0, &found));
+}
+
+/* The largest of these distances: what is nearer than the largest so far need not be known exactly. */
+double farthest_distance(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubles2 low, ConstDoubles2 high,
+                         ConstLongs first, ConstLongs count) {
+    int64_t found = 0;
+    double most = 0.0;
+    for (int64_t i = 0; i < points.rows; i++) {
+        double squared = nearest(points.data + 3 * i, triangles, low, high, first, count, most, &found);
+        most = squared > most ? squared : most;
     }
+    return __builtin_sqrt(most);
 }

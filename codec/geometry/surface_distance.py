@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.arrays import Faces, Matrix, Order, Positions
 
 Floats = Matrix
 
@@ -53,15 +53,24 @@ def sample_surface(positions: Positions, faces: Faces, samples: int, seed: int) 
 
 def distances_to_surface(points: Floats, positions: Positions, faces: Faces) -> Floats:
     """Exact distance of each point to the nearest triangle, shape (k,)."""
+    distances = np.empty(len(points))
+    _kernels.nearest_distances(np.ascontiguousarray(points), *_tree(positions, faces), distances)
+    return distances
+
+
+def farthest_from_surface(points: Floats, positions: Positions, faces: Faces) -> float:
+    """The largest of these distances, much sooner; consecutive points should be near each other."""
+    return float(_kernels.farthest_distance(np.ascontiguousarray(points), *_tree(positions, faces)))
+
+
+def _tree(positions: Positions, faces: Faces) -> tuple[Floats, Floats, Floats, Order, Order]:
+    """Triangles in the order of a tree of boxes; its nodes: lowest, highest corner, what is first, how many."""
     corners = np.ascontiguousarray(positions[faces], dtype=np.float64)
     m = len(corners)
-    order, scratch, first, count = (np.empty(size, np.int64) for size in (m, m, 2 * m + 1, 2 * m + 1))
+    order, first, count = (np.empty(size, np.int64) for size in (m, 2 * m + 1, 2 * m + 1))
     low, high = np.empty((2 * m + 1, 3)), np.empty((2 * m + 1, 3))
-    _kernels.build_tree(corners.min(axis=1), corners.max(axis=1), order, scratch, low, high, first, count)
-    distances = np.empty(len(points))
-    triangles = corners[order].reshape(m, 9)
-    _kernels.nearest_distances(np.ascontiguousarray(points), triangles, low, high, first, count, distances)
-    return distances
+    _kernels.build_tree(corners.min(axis=1), corners.max(axis=1), order, low, high, first, count)
+    return corners[order].reshape(m, 9), low, high, first, count
 
 
 def _one_sided(

@@ -8,6 +8,7 @@ import pytest
 
 import bsm
 from bsm.bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.surface_distance import distances_to_surface
 from bsm.commands import tile as command
@@ -138,6 +139,56 @@ def test_untile_of_a_box_and_of_a_level(folder, tmp_path):
     assert same(bsm.load(tmp_path / "a.bsm"), expected)
 
 
+@pytest.mark.parametrize("suffix", ["ply", "npz", "obj"])
+def test_colours_and_normals_go_along(mesh, tmp_path, suffix):
+    colour = (np.abs(mesh.positions) * 90).astype(np.uint8)
+    normal = (mesh.positions / np.linalg.norm(mesh.positions, axis=1, keepdims=True)).astype(np.float32)
+    dressed = [Attribute("color", colour, "vertex", "color")]
+    dressed += [] if suffix == "obj" else [Attribute("normal", normal, "vertex", "normal")]
+    output = made(TriangleMesh(mesh.positions, mesh.faces, dressed), tmp_path / "out", suffix=suffix)
+    assert program("untile", output, "-o", tmp_path / "back.ply").returncode == 0
+    back = bsm.load(tmp_path / "back.ply")
+    assert same(bsm.load(tmp_path / f"mesh.{suffix}"), back) and len(back.positions) == len(mesh.positions)
+    places = Lattice(CELL).places
+    order, other = (np.lexsort(places(one.positions).T) for one in (mesh, back))
+    found = {one.name: one.values[other] for one in back.attributes}
+    assert np.array_equal(found["color"], colour[order])
+    if suffix != "obj":
+        assert np.abs(found["normal"] - normal[order]).max() < 0.01
+    assert program("untile", output, "-o", tmp_path / "coarse.bsm", "--level", 0).returncode == 0
+    coarse = bsm.load(tmp_path / "coarse.bsm")
+    nearest = np.argmin(((coarse.positions[:, None] - mesh.positions) ** 2).sum(axis=2), axis=1)
+    told = next(one.values for one in coarse.attributes if one.name == "color").astype(int)
+    assert len(coarse.faces) < 0.4 * len(mesh.faces) and np.abs(told - colour[nearest]).mean() < 4
+
+
+def test_vertices_that_differ_in_colour_alone_stay_apart(tmp_path):
+    positions = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 0), (1, 1, 0)], float)
+    colour = np.array([(1, 2, 3)] * 4 + [(9, 9, 9)] * 2, np.uint8)
+    square = TriangleMesh(positions, [(0, 1, 2), (4, 5, 3)], [Attribute("color", colour, "vertex", "color")])
+    write_mesh(tmp_path / "a.ply", square)
+    tile(tmp_path / "a.ply", tmp_path / "out", "--grid-cell", 1)
+    found = bsm.open_tiles(str(tmp_path / "out")).region((0, 0, 0), (1, 1, 1))
+    rows = {(*at, *it) for at, it in zip(found.positions.tolist(), found.attributes[0].values.tolist())}
+    assert rows == {(*at, *it) for at, it in zip(positions.tolist(), colour.tolist())}
+
+
+@pytest.mark.parametrize("suffix", ["ply", "npz", "obj"])
+def test_textures_are_refused(mesh, tmp_path, suffix):
+    texture = Attribute("texcoord", mesh.positions[:, :2], "vertex", "texcoord")
+    write_mesh(tmp_path / f"a.{suffix}", TriangleMesh(mesh.positions, mesh.faces, [texture]))
+    done = program("tile", tmp_path / f"a.{suffix}", "-o", tmp_path / "out", text=True)
+    assert done.returncode == 5 and "has a texture" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_untile_of_one_level_of_any_size(folder, tmp_path):
+    for level, tiles in enumerate(levels := bsm.open_tiles(str(folder)).manifest["levels"]):
+        assert program("untile", folder, "-o", tmp_path / "a.ply", "-f", "--level", level).returncode == 0
+        assert len(bsm.load(tmp_path / "a.ply").faces) >= tiles["faces"]
+    done = program("untile", folder, "-o", tmp_path / "b.ply", "--level", len(levels), text=True)
+    assert done.returncode == 2 and f"levels 0 to {len(levels) - 1}" in done.stderr
+
+
 def test_locked_vertices_stay_where_nothing_else_holds_them():
     mesh = torus(60, 40)
     places = Lattice(CELL).places(mesh.positions)
@@ -221,7 +272,15 @@ def test_info_and_verify_of_a_folder(folder):
 
 @pytest.mark.parametrize(
     "change",
-    [{"cell": 0}, {"format": "x"}, {"shards": [{"file": "../../x"}]}, {"root": {}}, {"version": 2}, {"levels": 1}],
+    [
+        {"attributes": {"color": ["O", 3]}},
+        {"cell": 0},
+        {"format": "x"},
+        {"shards": [{"file": "../../x"}]},
+        {"root": {}},
+        {"version": 2},
+        {"levels": 1},
+    ],
 )
 def test_a_manifest_that_makes_no_sense(folder, tmp_path, change):
     (tmp_path / "manifest.json").write_text(
@@ -262,11 +321,11 @@ def test_grids_that_cannot_be_told_exactly(mesh, tmp_path):
 
 
 def test_what_is_left_out_is_said_and_the_files_of_others_stay(tmp_path):
-    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 3/1\n")
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n")
     done = program("tile", tmp_path / "a.obj", "-o", tmp_path / "out", "--work", tmp_path, "--grid-cell", 1, text=True)
     assert done.returncode == 2 and "holds other files" in done.stderr and (tmp_path / "a.obj").exists()
     said = tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 1).stderr
-    assert "left out: texcoord; tiles have positions and faces" in said
+    assert "left out: normal; tiles have faces, positions" in said
 
 
 def test_the_grid_is_chosen_by_the_look(mesh, tmp_path):

@@ -89,7 +89,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def _input_of(work: Path, plan: Plan, name: str) -> str:
     """What a tile depends on: the plan, or those that it is made of."""
-    return str(work / ("plan.json" if name in plan.leaves else f"{name}[0-7].bsm"))
+    return str(work / ("plan.json" if name in plan.leaves else f"{name}[0-7].mesh"))
 
 
 def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
@@ -110,8 +110,10 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     note.write_text(asked_for)
     raw = read_big(args.input, args.format, work, console)
     if raw.left_out:
-        console.note(f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have positions and faces")
+        console.note(
+            f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colours and normals"
+        )
     with console.progress("cutting"):
-        plan = cut(raw, chosen_lattice(raw, args.grid_cell, args.grid_origin), args.triangles, work)
+        plan = cut(raw, chosen_lattice(raw, args.grid_cell, args.grid_origin), args.triangles)
     plan.save(work / "plan.json")
     return plan

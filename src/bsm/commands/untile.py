@@ -27,28 +27,32 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--output",
         metavar="OUT",
         required=True,
-        help=".ply (- for a pipe) for the finest level of any size; with --box or --error any mesh format, or .bsm",
+        help=".ply (- for a pipe) of any size; in memory, any mesh format, or .bsm",
     )
     add("--box", type=box, metavar="X,Y,Z,X,Y,Z", help="the triangles that reach into this box, in memory")
-    add("--error", type=float, metavar="H", help="the coarsest tiles that are at most so far off, in the mesh's unit")
+    of = parser.add_mutually_exclusive_group()
+    of.add_argument("--level", type=int, metavar="N", help="a level, 0 the coarsest (default: the finest)")
+    of.add_argument(
+        "--error", type=float, metavar="H", help="the coarsest tiles that are at most so far off, in the mesh's unit"
+    )
     add_limits_flag(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
     tiles = open_tiles(args.input, limits_of(args.limits))
     refuse_to_overwrite(args.output, args.force)
-    if args.box is None and args.error is None:
-        if args.output != "-" and Path(args.output).suffix.lower() != ".ply":
-            raise OptionError(
-                f"the finest level is written as .ply, not {args.output}; --error 0 makes one mesh in memory"
-            )
+    last = len(tiles.manifest["levels"]) - 1
+    if args.level is not None and not 0 <= args.level <= last:
+        raise OptionError(f"--level {args.level}: these tiles have the levels 0 to {last}")
+    if args.box is None and (args.output == "-" or Path(args.output).suffix.lower() == ".ply"):
         refuse_terminal(args.output)
-        said = write_joined(tiles, args.output, console, overwrite=args.force)
+        chosen = tiles.chosen(args.error or 0.0, level=args.level)
+        said = write_joined(tiles, chosen, args.output, console, overwrite=args.force)
     else:
         far = 1e300
         ends = args.box or (-far, -far, -far, far, far, far)
         with console.progress("decoding"):
-            mesh = tiles.region(ends[:3], ends[3:], args.error or 0.0)
+            mesh = tiles.region(ends[:3], ends[3:], args.error or 0.0, level=args.level)
         said = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
         if Path(args.output).suffix.lower() == ".bsm":
             import bsm

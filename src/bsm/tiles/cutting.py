@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -18,7 +18,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.files.output import write_output
-from bsm.tiles.reading import Raw, pieces_of
+from bsm.tiles.reading import CARRIED, Kinds, Raw, mapped
 
 Ints: TypeAlias = npt.NDArray[np.int64]
 Places: TypeAlias = npt.NDArray[np.int32]
@@ -73,12 +73,9 @@ def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | Non
 
 def _cell_by_look(raw: Raw) -> float:
     """The largest power of two that keeps the default's promise for some triangles from the middle of the file."""
-    first = max(0, raw.triangles - _SAMPLE) // 2
-    with raw.faces.open("rb") as file:
-        file.seek(12 * first)
-        faces = np.fromfile(file, "<u4", 3 * _SAMPLE)
-    used, corners = np.unique(faces, return_inverse=True)
-    positions = np.memmap(raw.positions, raw.kind, "r").reshape(-1, 3)[used].astype(np.float64)
+    first = max(0, raw.rows["faces"] - _SAMPLE) // 2
+    used, corners = np.unique(raw.table("faces")[first : first + _SAMPLE], return_inverse=True)
+    positions = raw.table("positions")[used].astype(np.float64)
     encoder = Encoder(
         TriangleMesh(positions, corners.reshape(-1, 3).astype(np.int32)), EncodeOptions(quick=True, threads=1)
     )
@@ -111,12 +108,13 @@ class Root:
 @dataclass(frozen=True)
 class Plan(Root):
     """How a mesh is cut: `leaves` tells of each tile of the finest level where its faces begin in the file `cut`, and
-    how many they are."""
+    how many they are; `kinds` of the tables beside it."""
 
     lattice: Lattice
     depth: int
     vertices: int
     faces: int
+    kinds: Kinds
     leaves: dict[str, tuple[int, int]]
 
     def codes(self, places: npt.NDArray[Any]) -> Ints:
@@ -125,6 +123,11 @@ class Plan(Root):
         for step, mask in _SPREAD:
             shifted = (shifted | shifted << step) & mask
         return np.asarray(shifted[:, 0] << 2 | shifted[:, 1] << 1 | shifted[:, 2])
+
+    @property
+    def carried(self) -> tuple[str, ...]:
+        """What vertices have beside their place."""
+        return tuple(what for what in CARRIED if what in self.kinds)
 
     def ends(self, name: str) -> tuple[int, int]:
         """The codes of a node: from the first on, before the second."""
@@ -147,23 +150,28 @@ def load_plan(path: Path) -> Plan:
     return Plan(**{**given, "low": tuple(given["low"])})
 
 
-def cut(raw: Raw, lattice: Lattice, most: int, folder: Path) -> Plan:
-    """Write the lattice's places, faces leaf by leaf, and which places are used from outside of their leaf."""
-    low, high = np.full(3, _FARTHEST, np.int64), np.full(3, -_FARTHEST, np.int64)
-    with (folder / "places").open("wb") as file:
-        for piece in pieces_of(raw.positions, raw.kind):
-            places = lattice.places(piece)
-            low, high = np.minimum(low, places.min(axis=0)), np.maximum(high, places.max(axis=0))
-            places.tofile(file)
-    raw.positions.unlink()
+def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
+    """Write the lattice's places, faces leaf by leaf, and which places are used from outside of their leaf; a triangle
+    is of the leaf that its first corner is in."""
+    folder, (low, high) = raw.folder, lattice.places(np.array([raw.low, raw.high])).astype(np.int64)
+    vertices, triangles = raw.rows["positions"], raw.rows["faces"]
     # Above the first level that is cut there is one node a level, down to a mesh that is there at once.
-    above = max(0, math.ceil(math.log(min(most, raw.triangles) / COARSEST, 4)))
+    above = max(0, math.ceil(math.log(min(most, triangles) / COARSEST, 4)))
     bits = int((high - low).max()).bit_length() + above
     depth = min(DEPTH + above, bits)
-    plan = Plan(tuple(map(int, low)), bits, lattice, depth, raw.vertices, raw.triangles, {})
+    kinds = {what: kind for what, kind in raw.kinds.items() if what not in ("positions", "faces")}
+    kinds |= {"places": ("<i4", 3), "cut": ("<u4", 3), "codes": ("<i8", 1), "outside": ("<i8", 5)}
+    plan = Plan(tuple(map(int, low)), bits, lattice, depth, vertices, triangles, kinds, {})
+    with (folder / "places").open("wb") as file, (folder / "codes").open("wb") as coded:
+        for piece in raw.pieces("positions"):
+            places = lattice.places(piece)
+            places.tofile(file)
+            plan.codes(places).tofile(coded)
+    (folder / "positions").unlink()
     codes, counts = np.zeros(0, np.int64), np.zeros(0, np.int64)
-    for _, corners in _corners(raw, folder):
-        found, number = np.unique(plan.codes(corners.sum(axis=1) // 3), return_counts=True)
+    for faces in raw.pieces("faces"):
+        # Mapped anew for each piece, so that no more of it is in memory than the piece needs.
+        found, number = np.unique(mapped(folder, "codes", kinds)[faces[:, 0], 0], return_counts=True)
         codes, inverse = np.unique(np.concatenate([codes, found]), return_inverse=True)
         counts = np.bincount(inverse, np.concatenate([counts, number])).astype(np.int64)
     before = np.concatenate([[0], np.cumsum(counts)])
@@ -177,38 +185,30 @@ def cut(raw: Raw, lattice: Lattice, most: int, folder: Path) -> Plan:
             for eighth in "01234567":
                 yield from leaves(name + eighth)
 
-    plan = Plan(plan.low, bits, lattice, depth, raw.vertices, raw.triangles, dict(leaves("r")))
-    _sort_faces(plan, raw, folder)
+    plan = replace(plan, leaves=dict(leaves("r")))
+    _sort_faces(plan, raw)
     return plan
 
 
-def _corners(raw: Raw, folder: Path) -> Iterator[tuple[npt.NDArray[np.uint32], Ints]]:
-    """Faces, shape (k, 3), and the places of their corners, shape (k, 3, 3)."""
-    for faces in pieces_of(raw.faces, "<u4"):
-        # Mapped anew for each piece, so that no more of it is in memory than the piece needs.
-        places = np.memmap(folder / "places", np.int32, "r").reshape(-1, 3)
-        yield faces, places[faces].astype(np.int64)
-
-
-def _sort_faces(plan: Plan, raw: Raw, folder: Path) -> None:
+def _sort_faces(plan: Plan, raw: Raw) -> None:
     """Faces by their leaves, in the order of the file inside each; and the places that tiles reach out to."""
     ends = np.array([plan.ends(name) for name in plan.leaves])
     following = np.array([begin for begin, _ in plan.leaves.values()])
-    corners = np.array([plan.cube(name)[0] for name in plan.leaves])
-    sides = np.array([plan.bits - len(name) + 1 for name in plan.leaves])
-    outside: list[Ints] = []
-    with (folder / "cut").open("wb") as file:
-        for faces, places in _corners(raw, folder):
-            leaf = np.searchsorted(ends[:, 0], plan.codes(places.sum(axis=1) // 3), "right") - 1
+    outside = [np.zeros((0, 5), np.int64)]
+    with (raw.folder / "cut").open("wb") as file:
+        for faces in raw.pieces("faces"):
+            codes = mapped(raw.folder, "codes", plan.kinds)[:, 0][faces]
+            leaf = (np.searchsorted(ends[:, 0], codes[:, 0], "right") - 1).astype(np.min_scalar_type(len(ends)))
             order = np.argsort(leaf, kind="stable")
             numbers, first, count = np.unique(leaf[order], return_index=True, return_counts=True)
             for number, begin, size in zip(numbers.tolist(), first.tolist(), count.tolist()):
                 file.seek(12 * int(following[number]))
                 faces[order[begin : begin + size]].tofile(file)
             following[numbers] += count
-            out = (((places - corners[leaf, None]) >> sides[leaf, None, None]) != 0).any(axis=2)
-            reached, user = places[out], ends[leaf, 0][np.nonzero(out)[0]]
-            found = np.column_stack([plan.codes(reached), reached, user])
+            row, corner = np.nonzero((codes < ends[leaf, :1]) | (codes >= ends[leaf, 1:]))
+            places = mapped(raw.folder, "places", plan.kinds)[faces[row, corner]]
+            found = np.column_stack([codes[row, corner], places, ends[leaf[row], 0]])
             outside.append(np.unique(found, axis=0))
-    np.save(folder / "outside.npy", np.unique(np.concatenate(outside), axis=0))
-    raw.faces.unlink()
+    np.unique(np.concatenate(outside), axis=0).tofile(raw.folder / "outside")
+    for name in ("faces", "codes"):
+        (raw.folder / name).unlink()

@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial import KDTree
 
 from bsm.bitstream.errors import NumericError, TargetError
 from bsm.bitstream.extras import imported
 from bsm.bitstream.fields.corners import MOST_LARGEST
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.surface_distance import distances_to_surface
+from bsm.codec.geometry.surface_distance import farthest_from_surface
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.console import Console
 from bsm.files.output import open_output, write_output
 from bsm.jobs.report import Facts, Task
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, load_plan
+from bsm.tiles.reading import mapped
 
 Faces: TypeAlias = npt.NDArray[np.int32]
 _KEPT = 4  # of so many triangles one stays from level to level
+_SAMPLE = 10_000
 _ONE_AT_A_TIME = threading.Lock()  # the library that simplifies keeps its mesh in one place
 
 
@@ -33,34 +37,55 @@ class TileJob(Task):
 
     most: int = 0
     cell: float = 0.0
+    finest: bool = False
 
 
 def tile_one(job: TileJob, console: Console) -> Facts:
     name, folder = Path(job.output).stem, Path(job.input).parent
     plan = load_plan(folder / "plan.json")
     if name in plan.leaves:
-        places, faces, error = *_leaf(plan, name, folder), 0.0
+        mesh, error = _leaf(plan, name, folder), 0.0
     else:
-        places, faces, error = _coarser(plan, name, folder, job.most)
-    mesh = TriangleMesh(plan.lattice.positions(places), faces)
+        mesh, error = _coarser(plan, name, folder, job.most)
+    places = np.asarray(mesh.positions, np.int32)
+    if not job.finest:
+        with open_output(folder / f"{name}.mesh", overwrite=True) as file:
+            for table in (np.array(error), places, mesh.faces, *(_of_vertices(one, mesh) for one in mesh.attributes)):
+                np.save(file, table)
     options = EncodeOptions(grid_cell=plan.lattice.cell, grid_origin=plan.lattice.origin, threads=1)  # type: ignore[arg-type]
-    data = b"".join(Encoder(mesh, options).result().frames)
-    with open_output(folder / f"{name}.npz", overwrite=True) as file:
-        np.savez(file, places=places, faces=faces, error=error)
+    data = Encoder(replace(mesh, positions=plan.lattice.positions(places)), options).encode()
     write_output(job.output, data, overwrite=True)
     ends = {"low": places.min(axis=0).tolist(), "high": places.max(axis=0).tolist()}
-    counts = {"vertices": len(places), "faces": len(faces), "apart": error}
+    counts = {"vertices": len(places), "faces": len(mesh.faces), "apart": error}
     return {"input": job.input, "output": job.output, "output_bytes": len(data), **counts, **ends}
 
 
-def _leaf(plan: Plan, name: str, folder: Path) -> tuple[Places, Faces]:
+def _leaf(plan: Plan, name: str, folder: Path) -> TriangleMesh:
+    """A tile in cells of the lattice; where vertices at one place differ in colour or normal, so do corners."""
     begin, count = plan.leaves[name]
-    with (folder / "cut").open("rb") as file:
-        file.seek(12 * begin)
-        corners = np.fromfile(file, "<u4", 3 * count)
-    used, corners = np.unique(corners, return_inverse=True)
-    places, numbers = welded(np.memmap(folder / "places", np.int32, "r").reshape(-1, 3)[used])
-    return places, numbers[corners].reshape(-1, 3)
+    used, corners = np.unique(mapped(folder, "cut", plan.kinds)[begin : begin + count], return_inverse=True)
+    corners = corners.reshape(-1, 3)
+    places, numbers = welded(mapped(folder, "places", plan.kinds)[used])
+    some = np.empty(len(places), np.int64)
+    some[numbers[::-1]] = np.arange(len(numbers))[::-1]
+
+    def carried(what: Any) -> Attribute:
+        values = mapped(folder, what, plan.kinds)[used]
+        if np.array_equal(values[some][numbers], values):
+            return Attribute(what, values[some], "vertex", what)
+        different, rows = np.unique(values, axis=0, return_inverse=True)
+        return Attribute(what, different, "corner", what, rows.reshape(-1)[corners].astype(np.int32))
+
+    return TriangleMesh(places.astype(np.float64), numbers[corners], tuple(map(carried, plan.carried)))
+
+
+def _of_vertices(one: Attribute, mesh: TriangleMesh) -> npt.NDArray[Any]:
+    """One value for each vertex."""
+    if one.indices is None:
+        return one.values
+    found = np.zeros((len(mesh.positions), one.components), one.values.dtype)
+    found[mesh.faces[::-1]] = one.values[one.indices[::-1]]
+    return found
 
 
 def welded(places: npt.NDArray[np.int32]) -> tuple[Places, Faces]:
@@ -80,20 +105,32 @@ def keys_of(places: npt.NDArray[np.int32], low: Ints | None = None) -> Ints:
     return keys
 
 
-def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[Places, Faces, float]:
+def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMesh, float]:
     """A node by those below it; what others use of it stays where it is."""
-    tables, triangles, before, first = [], [], 0.0, 0
-    for path in sorted(folder.glob(f"{name}[0-7].npz")):
-        with np.load(path) as child:
-            tables.append(child["places"])
-            triangles.append(child["faces"] + first)
-            first, before = first + len(tables[-1]), max(before, float(child["error"]))
-    places, numbers = welded(np.concatenate(tables))
-    faces = solid(numbers[np.concatenate(triangles)])
+    children, before, first = [], 0.0, 0
+    for path in sorted(folder.glob(f"{name}[0-7].mesh")):
+        with path.open("rb") as file:
+            before = max(before, float(np.load(file)))
+            places, faces, *values = (np.load(file) for _ in range(2 + len(plan.carried)))
+        children.append((places, faces + first, *values))
+        first += len(places)
+    together, corners, *tables = map(np.concatenate, zip(*children))
+    places, numbers = welded(together)
+    some = np.empty(len(places), np.int64)
+    some[numbers[::-1]] = np.arange(len(numbers))[::-1]
+
+    def carried(near: Ints) -> tuple[Attribute, ...]:
+        return tuple(
+            Attribute(what, table[some[near]], "vertex", what)  # type: ignore[arg-type]
+            for what, table in zip(plan.carried, tables)
+        )
+
+    faces = solid(numbers[corners])
     if not len(faces):
-        return places, numbers[triangles[0][:1]], before
+        faces, every = numbers[corners[:1]], np.arange(len(places))
+        return TriangleMesh(places.astype(np.float64), faces, carried(every)), before
     locked = plan.outside(name, places)
-    outside = np.load(folder / "outside.npy", mmap_mode="r")
+    outside = mapped(folder, "outside", plan.kinds)
     begin, end = plan.ends(name)
     rows = np.array(outside[slice(*np.searchsorted(outside[:, 0], (begin, end)))])
     rows = rows[(rows[:, 4] < begin) | (rows[:, 4] >= end)]
@@ -101,8 +138,11 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[Places, Fa
     inside = ((rows[:, 1:4] >= low) & (rows[:, 1:4] <= places.max(axis=0))).all(axis=1)
     locked |= np.isin(keys_of(places, low), keys_of(rows[inside, 1:4], low))
     new, smaller = simplified(places, faces, np.flatnonzero(locked), max(len(faces) // _KEPT, min(COARSEST, most) // 2))
-    apart = distances_to_surface(places.astype(np.float64), new.astype(np.float64), smaller)
-    return new, smaller, before + float(apart.max()) * plan.lattice.cell
+    # In the order of a curve consecutive places are near each other.
+    order = np.argsort(plan.codes(places), kind="stable")
+    apart = farthest_from_surface(places[order].astype(np.float64), new.astype(np.float64), smaller)
+    near = KDTree(places).query(new)[1] if tables else np.zeros(0, np.int64)
+    return TriangleMesh(new.astype(np.float64), smaller, carried(near)), before + apart * plan.lattice.cell
 
 
 def solid(faces: Faces) -> Faces:
@@ -125,7 +165,8 @@ def simplified(places: Places, faces: Faces, locked: Ints, target: int) -> tuple
     # In a unit that edges have about one of, as its thresholds expect, and that changes no digit.
     low = places.min(axis=0).astype(np.float64)
     points = places - low
-    unit = 2.0 ** np.round(np.log2(np.median(np.ptp(points[faces], axis=1).max(axis=1))))
+    some = points[faces[:: 1 + len(faces) // _SAMPLE]]
+    unit = 2.0 ** np.round(np.log2(np.median(np.ptp(some, axis=1).max(axis=1))))
     points /= unit
     beside = np.stack([points[locked] + (1.0, 0.0, 0.0), points[locked] + (0.0, 1.0, 0.0)], axis=1).reshape(-1, 3)
     given = np.concatenate([faces, np.column_stack([locked, fins])]).astype(np.int32)

@@ -1,54 +1,64 @@
-"""Mesh files of any size, piece by piece: positions and faces as plain arrays on the disk."""
+"""Mesh files of any size, piece by piece: positions, faces, colours and normals as plain arrays on the disk."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import closing
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, closing
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, BinaryIO, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError
+from bsm.bitstream.errors import FormatError, LimitError, MeshError, TruncatedError, UnsupportedError
 from bsm.console import Console
 from bsm.files.formats.npz import NpzArray, opened_archive
 from bsm.files.formats.obj import ObjPieces
-from bsm.files.formats.ply import Element, parse_header
+from bsm.files.formats.ply import IMAGE, Element, parse_header
+from bsm.files.formats.polygons import meaning_of
 from bsm.files.mesh import format_of_bytes, format_of_name
 from bsm.files.pipes import Input
 
 Array: TypeAlias = npt.NDArray[Any]
-Pieces: TypeAlias = Iterator[tuple[Array, Array]]  # some positions, shape (k, 3), and some faces, from anywhere on
+Pieces: TypeAlias = Iterator[tuple[str, Array]]  # some rows of "positions", "faces", "color" or "normal"
 LeftOut: TypeAlias = dict[str, None]  # names, in order
+Kinds: TypeAlias = Mapping[str, tuple[str, int]]  # of numbers in a table, and how many a row has
+CARRIED = {"color": ("red", "green", "blue", "alpha"), "normal": ("nx", "ny", "nz")}
 _KNOWN = ("x", "y", "z", "length", "corners")
+_TEXTURES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texcoord",), ("texnumber",))
 ROWS = 1 << 18  # that are in memory at a time
 _HEAD = 1 << 16
 _TEXT = 1 << 23
 _MOST_INDEX = (1 << 32) - 1
-NO_FACES, NO_POSITIONS = np.zeros((0, 3), np.int64), np.zeros((0, 3))
 
 
 @dataclass(frozen=True)
 class Raw:
-    """A mesh in two files, each a table of three columns."""
+    """A mesh as tables in files of a folder."""
 
-    positions: Path
-    faces: Path
-    kind: str
-    vertices: int = 0
-    triangles: int = 0
+    folder: Path
+    kinds: dict[str, tuple[str, int]] = field(default_factory=dict)
+    rows: dict[str, int] = field(default_factory=lambda: {"positions": 0, "faces": 0})
     low: tuple[float, ...] = ()
     high: tuple[float, ...] = ()
     left_out: tuple[str, ...] = ()
 
+    def pieces(self, what: str) -> Iterator[Array]:
+        """A table from its beginning to its end."""
+        kind, columns = self.kinds[what]
+        with (self.folder / what).open("rb") as file:
+            while len(piece := np.fromfile(file, kind, columns * ROWS)):
+                yield piece.reshape(-1, columns)
 
-def pieces_of(path: Path, kind: str) -> Iterator[Array]:
-    """A table of three columns on the disk, from its beginning to its end."""
-    with path.open("rb") as file:
-        while len(piece := np.fromfile(file, kind, 3 * ROWS)):
-            yield piece.reshape(-1, 3)
+    def table(self, what: str) -> Array:
+        """A table of which no more gets into memory than is looked at."""
+        return mapped(self.folder, what, self.kinds)
+
+
+def mapped(folder: Path, what: str, kinds: Kinds) -> Array:
+    kind, columns = kinds[what]
+    return np.memmap(folder / what, kind, "r").reshape(-1, columns)
 
 
 def read_big(name: str, file_format: str | None, folder: Path, console: Console) -> Raw:
@@ -60,41 +70,69 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
         raise FormatError("the file is empty")
     if kind not in _READERS:
         raise FormatError(f"tiles are made of binary PLY, binary STL, npz and OBJ files, not of {kind or 'such files'}")
-    raw = Raw(folder / "positions", folder / "faces", "<f8")
+    raw = Raw(folder)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    vertices = triangles = largest = 0
+    largest, files = 0, dict[str, BinaryIO]()
     left_out: LeftOut = {}
-    with (
-        raw.positions.open("wb") as points,
-        raw.faces.open("wb") as corners,
-        closing(given),
-        console.progress("reading"),
-    ):
-        for positions, faces in _READERS[kind](given, left_out):
-            if not vertices and len(positions) and positions.dtype.itemsize == 4 and positions.dtype.kind == "f":
-                raw = Raw(raw.positions, raw.faces, "<f4")
-            if not np.isfinite(positions).all():
-                row = vertices + int(np.argmin(np.isfinite(positions).all(axis=1)))
-                raise MeshError(f"vertex {row} has a coordinate that is not finite; remove or repair it")
-            if len(faces):
-                if faces.dtype.kind not in "iu":
-                    raise MeshError(f"faces must be integers, not {faces.dtype}")
-                if faces.min() < 0:
-                    raise MeshError(f"a face refers to vertex {faces.min()}, which there is not")
-                largest = max(largest, int(faces.max()))
-                if largest > _MOST_INDEX:
-                    raise LimitError(f"a face refers to vertex {largest}; tiles are made of up to {_MOST_INDEX}")
-                faces.astype("<u4").tofile(corners)
-            if len(positions):
-                low, high = np.minimum(low, positions.min(axis=0)), np.maximum(high, positions.max(axis=0))
-                positions.astype(raw.kind).tofile(points)
-            vertices, triangles = vertices + len(positions), triangles + len(faces)
-    if not triangles:
+    with closing(given), console.progress("reading"), ExitStack() as opened:
+        for what, piece in _READERS[kind](given, left_out):
+            if not len(piece):
+                continue
+            piece = _checked(what, piece, raw.rows.get(what, 0))
+            if what == "positions":
+                low, high = np.minimum(low, piece.min(axis=0)), np.maximum(high, piece.max(axis=0))
+            elif what == "faces":
+                largest = max(largest, int(piece.max()))
+            if what not in files:
+                files[what] = opened.enter_context((folder / what).open("wb"))
+                raw.kinds[what] = piece.dtype.newbyteorder("<").str, piece.shape[1]
+            piece.astype(raw.kinds[what][0], copy=False).tofile(files[what])
+            raw.rows[what] = raw.rows.get(what, 0) + len(piece)
+    vertices = raw.rows["positions"]
+    if not raw.rows["faces"]:
         raise MeshError("the mesh has no faces; point clouds are not supported")
     if largest >= vertices:
         raise MeshError(f"a face refers to vertex {largest}, outside 0..{vertices - 1}")
-    ends = tuple(map(float, low)), tuple(map(float, high))
-    return Raw(raw.positions, raw.faces, raw.kind, vertices, triangles, *ends, tuple(left_out))
+    for what in CARRIED:
+        if raw.rows.get(what, vertices) != vertices:
+            raise MeshError(f"{raw.rows[what]} of {vertices} vertices have a {what}: give all of them one, or none")
+    return Raw(folder, raw.kinds, raw.rows, tuple(map(float, low)), tuple(map(float, high)), tuple(left_out))
+
+
+def _checked(what: str, piece: Array, before: int) -> Array:
+    """Rows as they are kept: positions as floats, colours as bytes or words."""
+    floats = piece.dtype.kind == "f"
+    if floats and not np.isfinite(piece).all():
+        row = before + int(np.argmin(np.isfinite(piece).all(axis=1)))
+        raise MeshError(f"vertex {row} has a {_WORDS[what]} that is not finite; remove or repair it")
+    if what == "positions":
+        return piece if floats and piece.dtype.itemsize == 4 else piece.astype("<f8")
+    if what == "normal":
+        return piece.astype("<f4")
+    if what == "color":
+        if floats and piece.min() >= 0 and piece.max() <= 1:
+            return np.asarray(np.rint(piece * 255), "u1")
+        if piece.dtype.kind != "u" or piece.dtype.itemsize > 2:
+            raise MeshError(f"colours must be bytes, words, or floats from 0 to 1, not such {piece.dtype}")
+        return piece
+    if piece.dtype.kind not in "iu":
+        raise MeshError(f"faces must be integers, not {piece.dtype}")
+    if piece.min() < 0:
+        raise MeshError(f"a face refers to vertex {piece.min()}, which there is not")
+    if piece.max() > _MOST_INDEX:
+        raise LimitError(f"a face refers to vertex {piece.max()}; tiles are made of up to {_MOST_INDEX}")
+    return piece.astype("<u4")
+
+
+_WORDS = {"positions": "coordinate", "color": "colour", "normal": "normal", "faces": "corner"}
+
+
+def _refuse_textures(names: set[str]) -> None:
+    if names:
+        raise UnsupportedError(
+            f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colours and normals of vertices "
+            "alone: write it without, or its texture as colours"
+        )
 
 
 def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
@@ -104,9 +142,19 @@ def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
     given.read(header.size)
     if {"vertex", "face"} - {element.name for element in header.elements}:
         raise FormatError("the PLY file has no vertices, or no faces")
+    names = {column.name for element in header.elements for column in element.properties}
+    images = {IMAGE for _, line in header.comments if line.startswith(f"{IMAGE} ")}
+    _refuse_textures(images | {one[0] for one in _TEXTURES if names.issuperset(one)})
     for element in header.elements:
         kind = _row_of(element, header.order)
-        left_out |= dict.fromkeys(name for name in kind.names or () if name not in _KNOWN)
+        names = set(kind.names or ())
+        carried = {
+            what: tuple(column for column in columns if column in names)
+            for what, columns in CARRIED.items()
+            if element.name == "vertex" and names.issuperset(columns[:3])
+        }
+        known = {*_KNOWN, *(column for columns in carried.values() for column in columns)}
+        left_out |= dict.fromkeys(name for name in kind.names or () if name not in known)
         for first in range(0, element.count, ROWS):
             size = min(ROWS, element.count - first) * kind.itemsize
             data = given.read(size)
@@ -116,11 +164,12 @@ def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
                 )
             rows = np.frombuffer(data, kind)
             if element.name == "vertex":
-                yield np.stack([rows[axis] for axis in "xyz"], axis=1), NO_FACES
+                for what, columns in {"positions": ("x", "y", "z"), **carried}.items():
+                    yield what, np.stack([rows[column] for column in columns], axis=1)
             elif element.name == "face":
                 if (rows["length"] != 3).any():
                     raise MeshError("the faces are not all triangles; triangulate polygons first")
-                yield NO_POSITIONS, rows["corners"]
+                yield "faces", rows["corners"]
 
 
 def _row_of(element: Element, order: str) -> np.dtype[Any]:
@@ -154,24 +203,28 @@ def _read_stl(given: Input, left_out: LeftOut) -> Pieces:
         data = given.read(50 * rows)
         if len(data) < 50 * rows:
             raise TruncatedError(f"the STL file is cut short: triangle {first} and those behind it are missing")
-        yield (
-            np.frombuffer(data, record)["corners"].reshape(-1, 3),
-            np.arange(3 * first, 3 * (first + rows)).reshape(-1, 3),
-        )
+        yield "positions", np.frombuffer(data, record)["corners"].reshape(-1, 3)
+        yield "faces", np.arange(3 * first, 3 * (first + rows)).reshape(-1, 3)
 
 
 def _read_npz(given: Input, left_out: LeftOut) -> Pieces:
     if not given.is_file:
         raise FormatError("an npz is read from a file of this machine only")
     with opened_archive(given.name) as archive:
-        names = (name.removesuffix(".npy") for name in archive.namelist())
-        left_out |= dict.fromkeys(name for name in names if name not in ("positions", "faces"))
-        for name in ("positions", "faces"):
+        names = [name.removesuffix(".npy") for name in archive.namelist()]
+        meant = {name: meaning_of(name.removeprefix("vertex/")) for name in names}
+        _refuse_textures({name for name, meaning in meant.items() if meaning == "texcoord" or "texcoord" in name})
+        taken = {"positions": "positions", "faces": "faces"}
+        for name, meaning in meant.items():
+            if meaning in CARRIED and meaning not in taken.values():
+                taken[name] = meaning
+        left_out |= dict.fromkeys(name for name in names if name not in taken)
+        for name, what in taken.items():
             with NpzArray(archive, name) as array:
-                if len(array.shape) != 2 or array.shape[1] != 3:
+                if len(array.shape) != 2 or array.shape[1] not in ((3, 4) if what == "color" else (3,)):
                     raise MeshError(f"{name} must have shape (n, 3), not {array.shape}")
                 for piece in array.pieces(ROWS):
-                    yield (piece, NO_FACES) if name == "positions" else (NO_POSITIONS, piece)
+                    yield what, piece
 
 
 def _read_obj(given: Input, left_out: LeftOut) -> Pieces:
@@ -180,19 +233,22 @@ def _read_obj(given: Input, left_out: LeftOut) -> Pieces:
         text, newline, rest = (rest + data).rpartition(b"\n")
         if not newline and len(rest) > _TEXT:
             raise FormatError("this is not an OBJ file: it has no lines")
-        yield _triangles(*pieces.take(text))
-    yield _triangles(*pieces.take(rest))
+        yield from _triangles(*pieces.take(text))
+    yield from _triangles(*pieces.take(rest))
+    _refuse_textures(pieces.left_out & {"texcoord"})
     left_out |= dict.fromkeys(sorted(pieces.left_out))
 
 
-def _triangles(positions: Array, sizes: Array, corners: Array) -> tuple[Array, Array]:
+def _triangles(positions: Array, colors: Array, sizes: Array, corners: Array) -> Pieces:
     if (sizes < 3).any():
         raise MeshError("a face has fewer than three corners")
     starts = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes - 2)
     turn = np.arange(len(owner)) - (np.cumsum(sizes - 2) - (sizes - 2))[owner]
     first = starts[owner]
-    return positions, np.stack([corners[first], corners[first + turn + 1], corners[first + turn + 2]], axis=1)
+    yield "positions", positions
+    yield "color", colors
+    yield "faces", np.stack([corners[first], corners[first + turn + 1], corners[first + turn + 2]], axis=1)
 
 
 _READERS = {"ply": _read_ply, "stl": _read_stl, "npz": _read_npz, "obj": _read_obj}

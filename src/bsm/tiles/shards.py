@@ -8,21 +8,27 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.bitstream.public import public
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.output import open_output, write_output
 from bsm.files.pipes import about, inside, is_url, read_bytes, read_range
 from bsm.files.stream import decode_whole
 from bsm.jobs.report import Facts
-from bsm.tiles.cutting import Lattice, Places, Plan, Root
+from bsm.tiles.cutting import Lattice, Plan, Root
 from bsm.tiles.making import Faces
+from bsm.tiles.reading import CARRIED, Kinds
 
+Table: TypeAlias = npt.NDArray[np.int32]
+KINDS = {"|u1": "uchar", "<u2": "ushort", "<f4": "float"}  # of numbers that vertices have, and their names in PLY
 MANIFEST = "manifest.json"
 SHARD = 64_000_000  # bytes from which on a shard takes no more tiles
 _END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
@@ -83,6 +89,7 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
         "cell": plan.lattice.cell,
         "origin": plan.lattice.origin,
         "root": {"low": plan.low, "bits": plan.bits},
+        "attributes": {what: plan.kinds[what] for what in plan.carried},
         "vertices": plan.vertices,
         "faces": plan.faces,
         "levels": [{"level": level, **sums[level]} for level in sorted(sums)],
@@ -141,6 +148,9 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
             if not re.fullmatch(r"\d{5,9}\.tiles", shard["file"]) or not 0 < shard["index"] < min(_MOST, shard["size"]):
                 raise ValueError(shard["file"])
             _ends(shard)
+        kinds = {what: (str(kind), int(_number(size))) for what, (kind, size) in given.get("attributes", {}).items()}
+        if any(what not in CARRIED or kind not in KINDS or not 3 <= size <= 4 for what, (kind, size) in kinds.items()):
+            raise ValueError("attributes")
         for level in given["levels"]:
             [_number(level[key]) for key in ("level", "tiles", "faces", "bytes", "error")]
         _number(given["faces"])
@@ -148,7 +158,7 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
             raise ValueError("cell, origin or root")
     except _NO_JSON as error:
         raise FormatError(f"{name}: this is no manifest of tiles: {error!r}") from error
-    return Tiles(path, given, lattice, root, limits)
+    return Tiles(path, given, lattice, root, limits, kinds)
 
 
 _NO_JSON = (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError)
@@ -184,6 +194,8 @@ class Tiles:
         The cube that is cut into eighths.
     limits : Limits
         Of each tile.
+    kinds : mapping
+        What vertices have beside their places: the type of its numbers, and how many a vertex has.
 
     Raises
     ------
@@ -203,42 +215,60 @@ class Tiles:
     lattice: Lattice
     root: Root
     limits: Limits = DEFAULT_LIMITS
+    kinds: Kinds = field(default_factory=dict)
     _held: dict[str, list[Tile]] = field(default_factory=dict, init=False, repr=False)
 
-    def region(self, low: Sequence[float], high: Sequence[float], error: float = 0.0) -> TriangleMesh:
-        """Triangles that reach into a box, from the coarsest tiles whose error is at most `error`, as one mesh."""
+    def region(
+        self, low: Sequence[float], high: Sequence[float], error: float = 0.0, *, level: int | None = None
+    ) -> TriangleMesh:
+        """Triangles that reach into a box, from the coarsest tiles whose error is at most `error`, or from those of a
+        level, 0 the coarsest, and of the finest where that has none, as one mesh."""
         ends = np.array([low, high], np.float64)
         if ends.shape != (2, 3) or not np.isfinite(ends).all():
             raise ArgumentError("a box has a low and a high corner of three numbers each")
         box = (ends - np.array(self.lattice.origin)) / self.lattice.cell
         tables, triangles, first = [], [], 0
-        for shard, tile in self.chosen(error, box):
-            places, faces = self.decoded(shard, tile)
-            corners = places[faces]
+        for shard, tile in self.chosen(error, box, level):
+            table, faces = self.decoded(shard, tile)
+            corners = table[faces, :3]
             faces = faces[((corners.max(axis=1) >= box[0]) & (corners.min(axis=1) <= box[1])).all(axis=1)]
-            tables.append(places)
+            tables.append(table)
             triangles.append(faces + first)
-            first += len(places)
+            first += len(table)
         if not sum(map(len, triangles)):
             raise OptionError("there is nothing of the mesh in this box")
         used, rows = np.unique(np.concatenate(triangles), return_inverse=True)
         different, numbers = np.unique(np.concatenate(tables)[used], axis=0, return_inverse=True)
         joined = numbers.reshape(-1)[rows].reshape(-1, 3).astype(np.int32)
-        return TriangleMesh(self.lattice.positions(different), joined)
+        carried = [Attribute(what, values, "vertex", what) for what, values in self.values(different).items()]  # type: ignore[arg-type]
+        return TriangleMesh(self.lattice.positions(different[:, :3]), joined, tuple(carried))
 
-    def chosen(self, error: float, box: Any = None) -> Iterator[tuple[Facts, Tile]]:
-        """The coarsest tiles whose error is at most that, and that meet a box of places."""
+    def values(self, table: Table) -> dict[str, npt.NDArray[Any]]:
+        """What vertices, shape (n, 3 and more), have beside their places, by its name; shape (n, c)."""
+        found, column = {}, 3
+        for what, (kind, size) in self.kinds.items():
+            width = -(-np.dtype(kind).itemsize * size // 4)
+            words = np.ascontiguousarray(table[:, column : column + width])
+            found[what] = words.view(kind)[:, :size]
+            column += width
+        return found
+
+    def chosen(self, error: float = 0.0, box: Any = None, level: int | None = None) -> Iterator[tuple[Facts, Tile]]:
+        """The coarsest tiles whose error is at most that, or those of a level, that meet a box of places."""
         found: dict[str, tuple[Facts, Tile]] = {}
         for shard in self.manifest["shards"]:
             if box is None or _meet(box, shard["low"], shard["high"]):
                 found |= {tile.name: (shard, tile) for tile in self.index(shard)}
         taken: set[str] = set()
+        inner = {name[:-1] for name in found}
         for name in sorted(found, key=lambda name: (len(name), name)):
+            tile = found[name][1]
+            near = tile.error <= error if level is None else tile.level == level or name not in inner
             if name[:-1] in taken:
                 taken.add(name)
-            elif found[name][1].error <= error:
+            elif near:
                 taken.add(name)
-                if box is None or _meet(box, found[name][1].low, found[name][1].high):
+                if box is None or _meet(box, tile.low, tile.high):
                     yield found[name]
 
     def index(self, shard: Facts) -> list[Tile]:
@@ -274,11 +304,22 @@ class Tiles:
             raise CorruptError(f"{name}: tile {tile.name} is not what was written", offset=tile.offset)
         return data
 
-    def decoded(self, shard: Facts, tile: Tile) -> tuple[Places, Faces]:
-        """Places on the grid, shape (n, 3), and faces, shape (m, 3)."""
-        with about(f"{inside(self.path, shard['file'])}, tile {tile.name}"):
-            mesh = decode_whole(iter([self.data(shard, tile)]), self.limits)
-        return self.lattice.places(mesh.positions), mesh.faces
+    def decoded(self, shard: Facts, tile: Tile) -> tuple[Table, Faces]:
+        """Vertices, shape (n, 3 and more): places on the grid, and the bits of what else they have; and faces, shape
+        (m, 3)."""
+        name = f"{inside(self.path, shard['file'])}, tile {tile.name}"
+        with about(name):
+            mesh = split_by_attributes(decode_whole(iter([self.data(shard, tile)]), self.limits))
+        columns = [self.lattice.places(mesh.positions)]
+        carried = {one.name: one.values for one in mesh.attributes}
+        for what, (kind, size) in self.kinds.items():
+            values = carried.get(what)
+            if values is None or values.shape[1] != size or values.dtype != np.dtype(kind):
+                raise CorruptError(f"{name} has no {what} as the manifest says")
+            bits = np.ascontiguousarray(values.astype(kind)).view(np.uint8).reshape(len(values), -1)
+            padded = np.pad(bits, ((0, 0), (0, -bits.shape[1] % 4)))
+            columns.append(np.ascontiguousarray(padded).view("<i4"))
+        return np.column_stack(columns), mesh.faces
 
     def faults(self, decode: bool) -> Iterator[BsmError | OSError]:
         """What is wrong, shard by shard and tile by tile."""

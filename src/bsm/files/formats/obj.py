@@ -81,8 +81,8 @@ class ObjPieces:
         self._seen = 0
         self.left_out: set[str] = set()
 
-    def take(self, text: bytes) -> tuple[Doubles, Ints, Ints]:
-        """Points, shape (k, 3), and of faces how many corners they have, and these."""
+    def take(self, text: bytes) -> tuple[Doubles, Doubles, Ints, Ints]:
+        """Points, shape (k, 3), colours, if they have some, and of faces how many corners they have, and these."""
         lines = _Lines(without_comments(text))
         polygons, are_points = lines.of(b"f"), lines.are(b"v")
         sizes = np.fromiter((len(line.split()) for line in polygons), np.int64, len(polygons))
@@ -92,8 +92,10 @@ class ObjPieces:
             raise MeshError("a face refers to vertex 0, but OBJ files count from 1")
         seen = np.repeat(self._seen + np.cumsum(are_points)[np.flatnonzero(lines.are(b"f"))], sizes)
         self._seen += int(are_points.sum())
-        points = Rows(lines.of(b"v"), "vertex").columns(0, 3)
-        return points, sizes, np.where(written > 0, written - 1, written + seen)
+        points = Rows(lines.of(b"v"), "vertex")
+        colored = len(points.counts) and 6 <= points.counts.min() == points.counts.max() <= 7
+        colors = points.columns(3, 3) if colored else np.zeros((0, 3))
+        return points.columns(0, 3), colors, sizes, np.where(written > 0, written - 1, written + seen)
 
 
 class _Lines:
