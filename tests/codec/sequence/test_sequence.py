@@ -363,7 +363,7 @@ def memory_of(size):
 
 def least_memory(data):
     """Limits of so little memory that hardly anything is kept, but the stream is decoded."""
-    for size in range(4_000_000, 16_000_000, 300_000):
+    for size in range(4_000_000, 16_000_000, 1_000_000):
         try:
             decode_sequence(data, memory_of(size))
         except LimitError as error:

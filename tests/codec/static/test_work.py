@@ -180,7 +180,7 @@ def test_an_encoder_makes_nothing_that_decoders_refuse():
         encode(torus(64, 64), changed(EncodeOptions(), **wide, key_seed="cosines"))
     exact = {"coefficients": 400, "block_size": 800, "bits": 12, "key_interval": 1}
     with pytest.raises(OptionError, match="work"):
-        encode(torus(64, 64), changed(EncodeOptions(), **exact, limits="service"))
+        encode(torus(40, 40), changed(EncodeOptions(), **exact, limits="service"))
     with pytest.raises(OptionError, match="refuse"):
         encode(soup(1500, 6000), EncodeOptions(block_size=1500, coefficients=4))
 
