@@ -76,8 +76,6 @@ def test_reference_decoder(vector, reference):
                 assert np.array_equal(positions, right["positions"]) and np.array_equal(faces, right["faces"])
 
 
-
-
 def test_every_vector_has_its_files_and_every_file_is_a_vector():
     names = {vector.name for vector in VECTORS}
     assert (
