@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from bsm.bitstream.container.layout import FRAME_TYPES, PARSERS, WRITERS
 from bsm.bitstream.container.packets import Block, Connectivity, End, Gop, Metadata, Order, Partition
 from bsm.bitstream.container.wire import FrameType
-from bsm.bitstream.errors import CorruptError, LimitError, OptionError
+from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 CASES = [
@@ -69,23 +69,3 @@ def test_metadata_limit():
     with pytest.raises(LimitError, match="metadata_bytes = 105 is over the limit of 104"):
         parse(Metadata(), payload, Limits(metadata_bytes=len(payload) - 1))
     assert parse(Metadata(), payload, Limits(metadata_bytes=len(payload)))
-
-
-@pytest.mark.parametrize(
-    ("like", "payload"),
-    [
-        (CASES[0][0], "8101"),
-        (CASES[0][0], "8101a161"),  # an integer for a name
-        (CASES[0][0], "81a16191a161"),  # a list for a value
-        (CASES[0][0], "81a161cb3ff0000000000000"),  # a double where a single is exact
-        (CASES[5][0], ""),
-        (CASES[5][0], "05"),
-        (CASES[5][0], "8000"),
-        (CASES[6][0], "80"),
-        (CASES[7][0], "05785634"),
-        (CASES[7][0], "057856341200"),
-    ],
-)
-def test_corrupt_payloads(like, payload):
-    with pytest.raises(CorruptError):
-        parse(like, bytes.fromhex(payload))

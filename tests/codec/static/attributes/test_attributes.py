@@ -336,8 +336,8 @@ def test_what_is_lost_of_one_attribute_spoils_none_before_it():
 
 
 def test_a_lost_declaration_loses_those_behind_it():
-    mesh = dressed(patch(60, 50))
-    stream = encode(mesh, EncodeOptions(normals="keep"))
+    mesh = dressed(patch(40, 35))
+    stream = encode(mesh, QUICK)
     for packet, begin, end in frames(stream):
         if isinstance(packet, packets.Attribute):
             names, losses, missing = tolerated(broken(stream, begin, end))
