@@ -11,6 +11,7 @@ import math
 import os
 import tempfile
 from collections.abc import Callable, Iterator
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,7 @@ from bsm.files.formats.polygons import Array, unused_name
 from bsm.files.motion.caches import write_cache
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import SequenceStream, decode_whole, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, inspect_stream, peek_header
 
 _DOMAINS = {"vertex": "POINT", "corner": "CORNER", "face": "FACE"}
 _TYPES = {1: ("FLOAT", "value"), 2: ("FLOAT2", "vector"), 3: ("FLOAT_VECTOR", "vector"), 4: ("FLOAT_COLOR", "color")}
@@ -194,7 +195,8 @@ def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
 # ------------------------------------------------------------------------------------------------------------------- in
 
 
-STREAM = "bsm_stream"  # the property of an object that holds its stream, so that a project keeps it, packed or moved
+STREAM = "bsm_stream"  # of an object, what it plays, or the object that has it: a project keeps it, packed or moved
+RUN = "bsm_run"  # which of the runs of that it plays
 MOST_STREAM_BYTES = 1 << 28
 _MODIFIER = "BSM"
 Progress = Callable[[int, int], None]
@@ -208,15 +210,16 @@ def import_file(
     header, chunks = peek_header(read_chunks(path))
     name = Path(path).stem
     if header is None or not header.gop_frames:
-        made = _placed(name, decode_whole(chunks), up)
+        found = [_placed(name, decode_whole(chunks), up)]
     else:
-        made = _sequence(name, b"".join(chunks), path, frame_start, set_scene, up, progress)
+        found = _sequence(name, b"".join(chunks), path, frame_start, set_scene, up, progress)
     for other in bpy.context.selected_objects:
         other.select_set(False)
-    bpy.context.collection.objects.link(made)
-    made.select_set(True)
-    bpy.context.view_layer.objects.active = made
-    return [made]
+    for made in found:
+        bpy.context.collection.objects.link(made)
+        made.select_set(True)
+    bpy.context.view_layer.objects.active = found[0]
+    return found
 
 
 def _placed(name: str, mesh: TriangleMesh, up: str) -> Any:
@@ -232,28 +235,45 @@ def _placed(name: str, mesh: TriangleMesh, up: str) -> Any:
 
 def _sequence(
     name: str, data: bytes, source: str, frame_start: int, set_scene: bool, up: str, progress: Progress | None
-) -> Any:
-    stream = SequenceStream(iter([data]))
-    frames = stream.frames()
-    first = next(frames)[1]
-    mesh = TriangleMesh(first, stream.faces, stream.attributes, stream.metadata)
-    made = _placed(name, mesh, up)
-    path = _cache_path(made.name, source)
-    count = _write(path, first, frames, stream.header.frames, progress)
+) -> list[Any]:
+    """An object for each run of frames that share their faces, seen while it plays."""
+    found: list[tuple[Any, int, int]] = []
+    for begun, mesh, frames, count in _runs(data):
+        made = _placed(name if not found else f"{name}_{begun:05d}", mesh, up)
+        path = _cache_path(made.name, source)
+        count = _write(path, mesh.positions, frames, count, progress)
+        made[RUN] = len(found)
+        cache = made.modifiers.new(_MODIFIER, "MESH_CACHE")
+        cache.cache_format, cache.filepath = "PC2", _relative(path)
+        cache.frame_start = frame_start + begun
+        found.append((made, begun, begun + count))
+    for made, begun, end in found if len(found) > 1 else ():
+        for hidden, at in ((True, begun - 1), (False, begun), (True, end))[begun == 0 : 2 + (end < found[-1][2])]:
+            for switch in ("hide_viewport", "hide_render"):
+                setattr(made, switch, hidden)
+                made.keyframe_insert(switch, frame=frame_start + at)
     if len(data) <= MOST_STREAM_BYTES:
-        made[STREAM] = data
-    cache = made.modifiers.new(_MODIFIER, "MESH_CACHE")
-    cache.cache_format, cache.filepath = "PC2", _relative(path)
-    cache.frame_start = frame_start
+        found[0][0][STREAM] = data
+    for made, *_ in found[1:]:
+        made[STREAM] = found[0][0]
     scene = bpy.context.scene
     if set_scene:
         rate = mesh.metadata.get("frame_rate")
         if isinstance(rate, int | float) and 0 < rate < 1e6:
             scene.render.fps = max(1, round(rate))
             scene.render.fps_base = scene.render.fps / rate
-        scene.frame_start, scene.frame_end = frame_start, frame_start + count - 1
+        scene.frame_start, scene.frame_end = frame_start, frame_start + found[-1][2] - 1
         scene.frame_set(frame_start)
-    return made
+    return [made for made, *_ in found]
+
+
+def _runs(data: bytes) -> Iterator[tuple[int, TriangleMesh, Iterator[tuple[int, Positions]], int]]:
+    """The number of the first frame of each run, that as a mesh, other frames, and how many, if that is known."""
+    stream = SequenceStream(iter([data]))
+    count = stream.header.frames if len(inspect_stream(iter([data])).runs) == 1 else 0
+    for _, frames in groupby(stream.changing_frames(), lambda _: len(stream.run_starts)):
+        begun, first = next(frames)
+        yield begun, TriangleMesh(first, stream.faces, stream.attributes, stream.metadata), frames, count  # noqa: B031
 
 
 def _write(
@@ -264,7 +284,7 @@ def _write(
         frames = [first, *(frame for _, frame in others)]
         count, others = len(frames), enumerate(frames[1:], 1)
     Path(path).parent.mkdir(parents=True, exist_ok=True)
-    with open_output(path, overwrite=True) as file, write_cache(file, "pc2", count, lambda: 0.0) as write:
+    with open_output(path, overwrite=True) as file, write_cache(file, "pc2", count) as write:
         write(first)
         for number, frame in others:
             write(frame)
@@ -294,10 +314,11 @@ def restore_caches() -> list[str]:
             continue
         if os.path.isfile(bpy.path.abspath(cache.filepath)):
             continue
-        stream = SequenceStream(iter([bytes(data)]))
-        frames = stream.frames()
+        data = bytes(data.get(STREAM, b"") if isinstance(data, bpy.types.Object) else data)
         path = _cache_path(moving.name, "")
-        _write(path, next(frames)[1], frames, stream.header.frames, None)
+        for run, (_, mesh, frames, count) in enumerate(_runs(data)):
+            if run == moving.get(RUN, 0):
+                _write(path, mesh.positions, frames, count, None)
         cache.filepath = _relative(path)
         restored.append(moving.name)
     return restored

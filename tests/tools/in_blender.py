@@ -73,6 +73,25 @@ def rig():
     found["axes"] = {name: [round(np.degrees(angle)) for angle in turn] for name, turn in turns.items()}
 
 
+def runs():
+    """Frames of other faces: objects that take turns, also in a project that has lost their caches."""
+    fresh()
+    scene, shown = bpy.context.scene, []
+    names = [one.name for one in bsm.blender.import_file(str(folder / "runs.bsm"))]
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "project" / "runs.blend"))
+    for path in (folder / "bsm_cache").glob("runs*"):
+        path.unlink()
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "project" / "runs.blend"))
+    found["runs"] = [names, sorted(bsm.blender.restore_caches())]
+    scene = bpy.context.scene
+    for number in range(scene.frame_start, scene.frame_end + 1):
+        scene.frame_set(number)
+        (now,) = [one for one in bpy.data.objects if not one.hide_viewport]
+        assert not now.hide_render
+        shown.append(np.ptp(seen(now), axis=0).tolist())
+    found["turns"] = shown
+
+
 def static():
     """A mesh with attributes and a material, in and out."""
     fresh()
@@ -153,6 +172,7 @@ def extension():
 
 sequence()
 rig()
+runs()
 static()
 export()
 extension()

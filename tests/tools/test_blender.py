@@ -49,6 +49,9 @@ def folder(tmp_path_factory):
     told = {"material.0.name": "red", "material.0.baseColorFactor": "1 0.25 0 1", "up": "y"}
     still = TriangleMesh(mesh.positions, mesh.faces, (color, heat), told)
     (folder / "still.bsm").write_bytes(bsm.encode(still, preset="near-lossless"))
+    meshes = [torus(size, 6, bumps=0.05 * t) for t, size in enumerate((10, 10, 10, 7, 7, 10))]
+    np.save(folder / "turns.npy", [np.ptp(mesh.positions, axis=0) for mesh in meshes])
+    (folder / "runs.bsm").write_bytes(bsm.encode_frames(meshes, step=0.002, runs=True))
     np.save(folder / "rig.npy", animators_own(folder, loose=0))
     for kind in ("pc2", "mdd"):
         words = (
@@ -79,6 +82,12 @@ def test_every_frame_is_the_decoders(found):
 def test_a_cache_plays_on_the_mesh_that_it_was_made_of(found):
     assert found["rig"] == [[24, 485, 3], True] * 2
     assert found["axes"] == {"own": [90, 0, 0], "stream": [90, 0, 0]}
+
+
+def test_faces_that_change_are_objects_that_take_turns(found, folder):
+    names = ["runs", "runs_00003", "runs_00005"]
+    assert found["runs"] == [names, names]
+    assert np.allclose(found["turns"], np.load(folder / "turns.npy"), atol=0.05)
 
 
 def test_a_project_that_lost_its_cache_is_whole_again(found):

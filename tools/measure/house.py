@@ -30,8 +30,8 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_520,
-    "all Python, lines": 73_330,
+    "product Python, lines": 34_610,
+    "all Python, lines": 73_345,
     "product modules": 222,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

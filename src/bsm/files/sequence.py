@@ -6,22 +6,23 @@ pipes, npy arrays one behind the other.
 """
 
 import os
+import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count as count_from
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, OptionError, UnsupportedError
+from bsm.bitstream.errors import BsmError, CorruptError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npz import NPY, open_npz_sequence, read_archive, read_pipe, write_npy
 from bsm.files.mesh import USD_FORMATS, WRITTEN_FORMATS, by_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.caches import CACHES, mesh_of, read_cache, write_cache
 from bsm.files.motion.folder import frame_files, in_order, is_numbered, names_many, read_files, write_files
-from bsm.files.motion.frames import Frames, Shared, Wanted
+from bsm.files.motion.frames import Frames, FrameWriter, Shared, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import Source, as_input, is_pipe, is_url
 
@@ -75,11 +76,6 @@ def open_frames(
     return read_files(in_order(names), file_format, reader, DEFAULT_LIMITS, runs=runs)
 
 
-class FrameWriter(Protocol):
-    def __call__(self, frame: Positions, faces: Faces | None = None) -> None:
-        """Take a frame, shape (n, 3), and its faces, shape (m, 3), where they are others than before."""
-
-
 @contextmanager
 def sequence_writer(
     path: str, kind: str, faces: Faces, count: int, *, overwrite: bool, shared: Shared | None = None
@@ -101,8 +97,8 @@ def sequence_writer(
             yield take
         return
     if kind in CACHES:
-        with _cache_writer(path, kind, faces, count, overwrite, shared) as write:
-            yield _of_one_mesh(write, kind, shared)
+        with _cache_writer(path, kind, faces, count, overwrite, shared) as write_run:
+            yield _of_first(write_run, shared)
         return
     with open_output(path, overwrite=overwrite) as file:
         if kind == "npz":
@@ -112,8 +108,8 @@ def sequence_writer(
             write_npy(file, faces)
             yield _of_one_mesh(lambda frame: write_npy(file, frame), kind)
         elif kind == "glb":
-            with by_name("bsm.gltf.write", "write_frames")(file, path, faces, shared) as write:
-                yield _of_one_mesh(write, kind, shared)
+            with by_name("bsm.gltf.write", "write_frames")(file, path, faces, shared) as write_changing:
+                yield _of_first(write_changing, shared)
         else:
             with by_name("bsm.files.motion.usd", "write_usd")(file, kind, faces, shared) as write_changing:
                 yield write_changing
@@ -122,8 +118,8 @@ def sequence_writer(
             shared.loses([one.name for one in shared.attributes()])
 
 
-def _of_one_mesh(write: Callable[[Positions], None], kind: str, shared: Shared | None = None) -> FrameWriter:
-    """A writer of a form that has one set of faces, and, where it is `shared`, attributes of the first frame alone."""
+def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
+    """A writer of a form that has one set of faces."""
     numbers = count_from(0)
 
     def take(frame: Positions, faces: Faces | None = None) -> None:
@@ -131,37 +127,67 @@ def _of_one_mesh(write: Callable[[Positions], None], kind: str, shared: Shared |
         if faces is not None:
             raise OptionError(
                 f"{kind.upper()} holds one set of faces, and they change after {number} frames; write to a folder, to "
-                "numbered files (%04d.obj) or to USD, or frames of the same faces, --frames A:B"
+                "numbered files (%04d.obj), GLB, PC2 or USD, or frames of the same faces, --frames A:B"
             )
         write(frame)
-        if shared is not None:
-            shared.loses(f"how {one.name} changes" for one in shared.moved())
+
+    return take
+
+
+def _of_first(write: FrameWriter, shared: Shared) -> FrameWriter:
+    """A writer of a form that has the attributes of the first frame of each run."""
+
+    def take(frame: Positions, faces: Faces | None = None) -> None:
+        write(frame, faces)
+        shared.loses(f"how {one.name} changes" for one in shared.moved(anew=faces is not None))
 
     return take
 
 
 @contextmanager
 def _cache_writer(
-    path: str, kind: str, faces: Faces, count: int, overwrite: bool, shared: Shared
-) -> Iterator[Callable[[Positions], None]]:
-    """A cache, and beside it the mesh of its first frame."""
-    beside = mesh_of(path)
-    fits = _plays(beside, faces)
-    refuse_to_overwrite(beside, overwrite or fits)
-    first: list[Positions] = []
-    with open_output(path, overwrite=overwrite) as file:
-        with write_cache(file, kind, count, lambda: shared.frame_rate) as write:
+    path: str, kind: str, first: Faces, count: int, overwrite: bool, shared: Shared
+) -> Iterator[FrameWriter]:
+    """A cache, and beside it the mesh of its first frame; where faces change, both for each run, by its first frame."""
+    refuse_to_overwrite(path, overwrite)
+    refuse_to_overwrite(mesh_of(path), overwrite or _plays(mesh_of(path), first))
+    meshes: list[TriangleMesh] = []
+    begun = taken = 0
+    with tempfile.TemporaryFile() as spool:
 
-            def take(frame: Positions) -> None:
-                if not first:
-                    first.append(np.array(frame))
-                write(frame)
+        def end(name: str) -> None:
+            mesh, beside = meshes[-1], mesh_of(name)
+            fits = _plays(beside, mesh.faces)
+            refuse_to_overwrite(beside, overwrite or fits)
+            spool.seek(0)
+            with (
+                open_output(name, overwrite=overwrite) as file,
+                write_cache(file, kind, taken - begun, shared.frame_rate, begun) as write,
+            ):
+                for _ in range(taken - begun):
+                    write(np.frombuffer(spool.read(mesh.positions.nbytes), np.float64).reshape(-1, 3))
+            if not fits:
+                shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite))
+            spool.seek(0)
+            spool.truncate()
 
-            yield take
-        if fits:
-            return
-        mesh = shared.mesh(first[0], faces)
-        shared.loses(save_written(beside, written_mesh(mesh, "obj", beside), overwrite=overwrite))
+        def numbered() -> str:
+            return str(Path(path).with_stem(f"{Path(path).stem}_{begun:05d}"))
+
+        def take(frame: Positions, faces: Faces | None = None) -> None:
+            nonlocal begun, taken
+            if meshes and faces is not None:
+                end(numbered())
+                begun = taken
+            if taken == begun:
+                meshes.append(shared.mesh(np.array(frame), first if faces is None else faces))
+            spool.write(np.ascontiguousarray(frame, np.float64).tobytes())
+            taken += 1
+
+        yield take
+        if count and taken != count:
+            raise CorruptError(f"{taken} of {count} frames came")
+        end(path if begun == 0 else numbered())
 
 
 def _plays(path: str, faces: Faces) -> bool:

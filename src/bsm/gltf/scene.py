@@ -36,7 +36,8 @@ class Curve:
 
     def at(self, time: float) -> Doubles:
         """The value at a time, shape (c,); before the first key and behind the last that of those."""
-        after = int(np.searchsorted(self.times, time, side="right"))
+        late = 1e-5 if self.way == "STEP" else 0.0  # in single precision a key may lie a little behind its frame
+        after = int(np.searchsorted(self.times, time + late, side="right"))
         before, after = max(after - 1, 0), min(after, len(self.times) - 1)
         span = float(self.times[after] - self.times[before])
         part = min(max((time - float(self.times[before])) / span, 0.0), 1.0) if span > 0 else 0.0

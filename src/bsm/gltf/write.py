@@ -3,9 +3,9 @@
 import io
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, Any
 
@@ -18,7 +18,7 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats import metadata as formats
-from bsm.files.motion.frames import Shared
+from bsm.files.motion.frames import FrameWriter, Shared
 from bsm.files.rows import Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream, numbered, numbers_of
 from bsm.gltf.compress import drawn
@@ -98,6 +98,10 @@ class _Still(_Scene):
 
     def __init__(self, file: IO[bytes], mesh: TriangleMesh, stem: str) -> None:
         super().__init__(file)
+        self.left_out: tuple[str, ...] = ()
+        self.begin(mesh, stem)
+
+    def begin(self, mesh: TriangleMesh, stem: str) -> None:
         if not single_suffices(mesh.positions):
             raise MeshError("the coordinates need double precision, which GLB does not have; write PLY, OBJ or OFF")
         split = split_by_attributes(replace(mesh, positions=numbered(mesh.faces, len(mesh.positions)).positions))
@@ -134,7 +138,7 @@ class _Still(_Scene):
         rest = {name: value for name, value in mesh.metadata.items() if name not in said}
         extras = {name: value for name, value in rest.items() if not isinstance(value, bytes)}
         self.tree["scenes"][0] |= {"extras": extras} if extras else {}
-        self.left_out = formats.left_out(mesh, [*held, material, part], [name for name in rest if name not in extras])
+        self.left_out += formats.left_out(mesh, [*held, material, part], [name for name in rest if name not in extras])
 
     def _material(
         self, number: int, words: formats.Material, images: Mapping[int, tuple[str, bytes]], said: set[str]
@@ -197,19 +201,22 @@ def _unit(vectors: Doubles) -> Doubles:
 
 
 @contextmanager
-def write_frames(file: IO[bytes], path: str, faces: Faces, shared: Shared) -> Iterator[Callable[[Positions], None]]:
+def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> Iterator[FrameWriter]:
     """Write a GLB in which each frame is a morph target; yields what takes frame after frame.
 
-    Between frames the weights of two targets cross, so that what is shown is the straight line between them. Nothing
-    but the first frame is kept in memory; the targets wait in a file until their number is known.
+    Between frames the weights of two targets cross, so that what is shown is the straight line between them. Where
+    faces change, other meshes take the place of those before, by their scale. Nothing but the first frame of a run is
+    kept in memory; the targets wait in a file until their number is known.
     """
     with tempfile.TemporaryFile() as spool:
         moving: _Moving | None = None
 
-        def write(frame: Positions) -> None:
+        def write(frame: Positions, faces: Faces | None = None) -> None:
             nonlocal moving
             if moving is None:
-                moving = _Moving(spool, shared.mesh(frame, faces), Path(path).stem)
+                moving = _Moving(spool, shared.mesh(frame, first), Path(path).stem)
+            elif faces is not None:
+                moving.begin(shared.mesh(frame, faces), f"{Path(path).stem}_{moving.frames:05d}")
             else:
                 moving.add_frame(frame)
 
@@ -220,47 +227,77 @@ def write_frames(file: IO[bytes], path: str, faces: Faces, shared: Shared) -> It
         moving.write(file)
 
 
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """Frames that share their faces: the first of them, and the nodes and primitives that show it."""
+
+    begun: int
+    faces: Faces
+    first: tuple[Positions, Doubles]
+    nodes: range
+    primitives: list[tuple[Tree, Ints]]
+
+
 class _Moving(_Still):
-    """The first frame as a scene, and what the others add to it."""
+    """The first frame of each run as a scene, and what the others add to it."""
 
     def __init__(self, file: IO[bytes], first: TriangleMesh, stem: str) -> None:
-        self._faces, self._frames = first.faces, 1
+        self.frames, self._runs = 0, list[_Run]()
+        super().__init__(file, first, stem)
+
+    def begin(self, first: TriangleMesh, stem: str) -> None:
         normals = _vertex_normals(first.positions, first.faces)
         kept = [one for one in first.attributes if one.semantic != "normal"]
         normal = Attribute("normal", normals.astype(np.float32), "vertex", "normal")
-        super().__init__(file, replace(first, attributes=(*kept, normal)), stem)
-        self._first = (first.positions, normals)
+        begin = len(self.tree.get("nodes", ()))
+        super().begin(replace(first, attributes=(*kept, normal)), stem)
         for primitive, _ in self.primitives:
             primitive["targets"] = []
+        nodes = range(begin, len(self.tree["nodes"]))
+        self._runs.append(_Run(self.frames, first.faces, (first.positions, normals), nodes, self.primitives))
+        self.frames += 1
 
     def add_frame(self, frame: Positions) -> None:
-        if self._frames == MOST_FRAMES:
+        run = self._runs[-1]
+        if self.frames - run.begun == MOST_FRAMES:
             raise LimitError(
                 f"a GLB holds each frame as a morph target, of which viewers take {MOST_FRAMES}; "
                 "take fewer with --frames A:B, or write USD"
             )
-        now = (frame, _vertex_normals(frame, self._faces))
+        now = (frame, _vertex_normals(frame, run.faces))
         with np.errstate(over="ignore"):
-            deltas = [(one - other).astype(np.float32) for one, other in zip(now, self._first, strict=True)]
+            deltas = [(one - other).astype(np.float32) for one, other in zip(now, run.first, strict=True)]
         if not all(np.isfinite(delta).all() for delta in deltas):
-            raise MeshError(f"frame {self._frames} is beyond single precision, which GLB has")
-        self._frames += 1
-        for primitive, rows in self.primitives:
+            raise MeshError(f"frame {self.frames} is beyond single precision, which GLB has")
+        self.frames += 1
+        for primitive, rows in run.primitives:
             positions, normals = (self.numbers(delta[rows], bounds=True) for delta in deltas)
             primitive["targets"].append({"POSITION": positions, "NORMAL": normals})
 
     def animate(self, rate: float) -> None:
-        count = self._frames - 1
-        if not count:
-            return
-        weights = np.vstack([np.zeros((1, count), np.float32), np.eye(count, dtype=np.float32)])
-        times = self.numbers((np.arange(self._frames) / rate).astype(np.float32)[:, None], bounds=True)
-        sampler = {"input": times, "output": self.numbers(weights.reshape(-1, 1)), "interpolation": "LINEAR"}
-        nodes = range(len(self.tree["nodes"]))
-        channels = [{"sampler": 0, "target": {"node": number, "path": "weights"}} for number in nodes]
-        self.add("animations", {"name": "frames", "samplers": [sampler], "channels": channels})
-        for mesh in self.tree["meshes"]:
-            mesh["weights"] = [0.0] * count
+        samplers: list[Tree] = []
+        channels: list[Tree] = []
+
+        def move(nodes: range, path: str, times: Array, values: Array, way: str) -> None:
+            told = self.numbers((times / rate).astype(np.float32)[:, None], bounds=True)
+            samplers.append({"input": told, "output": self.numbers(values.astype(np.float32)), "interpolation": way})
+            place = len(samplers) - 1
+            channels.extend({"sampler": place, "target": {"node": node, "path": path}} for node in nodes)
+
+        ends = [*(run.begun for run in self._runs[1:]), self.frames]
+        for run, end in zip(self._runs, ends, strict=True):
+            count = end - run.begun - 1
+            if count:
+                weights = np.vstack([np.zeros((1, count)), np.eye(count)])
+                move(run.nodes, "weights", np.arange(run.begun, end), weights.reshape(-1, 1), "LINEAR")
+                for node in run.nodes:
+                    self.tree["meshes"][self.tree["nodes"][node]["mesh"]]["weights"] = [0.0] * count
+            if len(self._runs) > 1:
+                times = np.array([0, run.begun, end][run.begun == 0 : 3 - (end == self.frames)])
+                seen = np.array([0, 1, 0][run.begun == 0 : 3 - (end == self.frames)])
+                move(run.nodes, "scale", times, np.repeat(seen[:, None], 3, axis=1), "STEP")
+        if channels:
+            self.add("animations", {"name": "frames", "samplers": samplers, "channels": channels})
 
 
 def _vertex_normals(positions: Positions, faces: Faces) -> Doubles:

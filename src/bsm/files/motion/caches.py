@@ -15,7 +15,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from bsm.bitstream.errors import CorruptError, FormatError, MeshError, OptionError, TruncatedError
+from bsm.bitstream.errors import CorruptError, FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.files.mesh import read_mesh
@@ -125,21 +125,19 @@ def _beside(path: str) -> str:
 
 @contextmanager
 def write_cache(
-    file: BinaryIO, kind: str, count: int, rate: Callable[[], float]
+    file: BinaryIO, kind: str, count: int, rate: float = 0.0, begun: int = 0
 ) -> Iterator[Callable[[Positions], None]]:
-    """Write a cache; yields what takes frame after frame, as many as announced, and keeps none."""
-    if count < 1:
-        raise OptionError(f"a {kind.upper()} begins with its number of frames, which this stream lacks; write npz")
+    """Write a cache of frames from number `begun` on; yields what takes them, as many as announced, and keeps none."""
     single = "<f4" if kind == "pc2" else ">f4"
     taken = 0
 
     def write(frame: Positions) -> None:
         nonlocal taken
         if taken == 0 and kind == "pc2":
-            file.write(_PC2.pack(_SIGNATURE, 1, len(frame), 0.0, 1.0, count))
+            file.write(_PC2.pack(_SIGNATURE, 1, len(frame), float(begun), 1.0, count))
         elif taken == 0:
             file.write(_MDD.pack(count, len(frame)))
-            file.write((np.arange(count) / (rate() or 24.0)).astype(">f4").tobytes())
+            file.write((np.arange(begun, begun + count) / (rate or 24.0)).astype(">f4").tobytes())
         if np.abs(frame).max() > np.finfo(np.float32).max:
             raise MeshError(f"a coordinate of frame {taken} is beyond single precision, which {kind.upper()} has")
         file.write(np.ascontiguousarray(frame, single).tobytes())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -55,6 +56,11 @@ class Wanted:
     runs: bool = False
 
 
+class FrameWriter(Protocol):
+    def __call__(self, frame: Positions, faces: Faces | None = None) -> None:
+        """Take a frame, shape (n, 3), and its faces, shape (m, 3), where they are others than before."""
+
+
 @dataclass(frozen=True, eq=False)
 class Shared:
     """What belongs to all frames of a sequence that is written, and what could not be held of it."""
@@ -72,8 +78,10 @@ class Shared:
     def mesh(self, positions: Positions, faces: Faces, *, with_metadata: bool = True) -> TriangleMesh:
         return TriangleMesh(positions, faces, self.attributes(), self.metadata() if with_metadata else {})
 
-    def moved(self) -> tuple[Attribute, ...]:
-        """Attributes that are others now than they were when this was asked first."""
+    def moved(self, *, anew: bool = False) -> tuple[Attribute, ...]:
+        """Attributes that are others now than they were when this was asked first, or anew."""
+        if anew:
+            self._begun.clear()
         now = self.attributes()
         return tuple(one for one in now if self._begun.setdefault(one.name, one) is not one)
 
