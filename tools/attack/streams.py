@@ -176,14 +176,6 @@ def _grid(shape: tuple[Any, ...], chunk: int, **fields: Any) -> bytes:
     return stream_of(gridded(coded, np.zeros((size, 3), np.int32), counts, **{"grid": (1, 1, 1)} | fields))
 
 
-def _noisy_grid(shape: tuple[Any, ...], bits: int, **fields: Any) -> bytes:
-    """Values that nothing foretells."""
-    coded = _coded(*shape)
-    size, largest = len(coded.vertex_order), (1 << bits) - 1
-    values = np.random.default_rng(7).integers(0, largest + 1, (size, 3), np.int32)
-    return stream_of(gridded(coded, values, [size], **{"grid": [largest] * 3} | fields))
-
-
 def _layers(rows: int, columns: int, chunk: int) -> bytes:
     coded = _coded("torus", rows, columns)
     size = len(coded.vertex_order)
@@ -455,7 +447,6 @@ NOTHING = _learnt_gop(1, 0)
 BACK_AND_FORTH = np.arange(1024) % 2
 BOMBS: dict[str, Callable[[], bytes]] = {
     "members": lambda: _tiny_blocks(ring(256, 256), 4096, sent=0),  # blocks that overlap as much as they may
-    "members-all": lambda: _tiny_blocks(ring(128, 128), 4096, **ONCE),  # the same, and all of them sent
     "members-illegal": lambda: _blocky(ring(256, 256), sent=0, blocks=65536, block_size=4096),  # 65,536 blocks of 4,096
     "narrow": lambda: one_block(91, 90, 1, power=64, key_iterations=1024),  # one column, power 64, 1,024 iterations
     # The same in tiny blocks
@@ -469,15 +460,6 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "svd-keys": lambda: _blocky(ring(100, 100), columns=100, blocks=50, block_size=250, exact=1, key_interval=1),
     # Columns that one solution loses
     "careful": lambda: one_block(40, 40, 400, power=64, shift=2.0 ** (-30), key_iterations=16),
-    # The same in pieces
-    "careful-pieces": lambda: _blocky(
-        ("pieces", 500), columns=700, blocks=1, block_size=1500, power=64, shift=2.0 ** (-30), key_iterations=16
-    ),
-    "chains": lambda: _tiny_blocks(ring(256, 256), 8, key_interval=2, springs=1, **ONCE),  # chains of two blocks
-    # The same of a large mesh, each on its own
-    "chains-large": lambda: _blocky(
-        ring(1024, 1024), sent=4000, blocks=131072, block_size=64, key_interval=2, springs=1, **ONCE
-    ),
     "tiny": lambda: _tiny_blocks(ring(64, 64), 4, **ONCE),  # blocks of one vertex
     # Parts that are all over the mesh
     "scattered": lambda: _blocky(
@@ -491,15 +473,12 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     ),
     # One block without separators
     "expander": lambda: _blocky(("soup", 3000, 9000), blocks=1, block_size=3000, columns=100),
-    # Many blocks without separators
-    "expander-blocks": lambda: _blocky(("soup", 6000, 18000), blocks=60, block_size=1600, columns=8),
     # Hubs that every block grows over
     "hubs": lambda: _blocky(("wheels", 200, 8000), blocks=32, block_size=4096, **ONCE),
     # The same with small blocks
     "hubs-small": lambda: _blocky(("wheels", 60, 2000), blocks=16, block_size=2060, **ONCE),
     # Smoothing where everything is near everything
     "rings": lambda: _blocky(("wheels", 2, 20000), blocks=1600, block_size=200, smoothing=1.0, **ONCE),
-    "rings-torus": lambda: _tiny_blocks(ring(100, 100), 16, smoothing=1.0, **ONCE),  # smoothing of small blocks
     "faces": lambda: _blocky(("repeated", 250000), blocks=1, block_size=4),  # a million faces of four vertices
     "glued": lambda: _blocky(("glued", 999, 999), blocks=1, block_size=3),  # two million faces of three vertices
     "pieces": lambda: _blocky(("pieces", 100000), blocks=2000, block_size=160, smoothing=1.0),  # triangles apart
@@ -514,7 +493,6 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "light-hubs": lambda: _grid(("wheels", 20, 4000), 1 << 15, light=1),  # hubs beside everything, by the small model
     # Vertices with very many corners, by the small model
     "light-repeated": lambda: _grid(("repeated", 15000), 1, light=1),
-    "light-noise": lambda: _noisy_grid(ring(64, 64), 20, light=1),  # values that nothing foretells, by the small model
     "layers": lambda: _layers(512, 512, 1 << 15),  # a layer
     "layers-chunks": lambda: _layers(50, 50, 1),  # the same, vertex by vertex
     "metadata": lambda: _metadata(256),  # 256 names and 100,000 frames to skip
@@ -531,7 +509,6 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "values-faces": lambda: _valued(100, 100, 20, 1 << 15, domain=FACE, origin=AS_CODED, coded=20000),
     "seams": lambda: _seamed(1024, 1024, 60),  # 60 attributes with seams of their own on a million vertices
     "seams-many": lambda: _seamed(256, 256, 255),  # 255 of them on fewer
-    "seams-most": lambda: _seamed(1024, 1024, 255),  # 255 of them on a million
     "skippable": lambda: _before_faces([(8, b"")] * 4000000),  # frames of nothing
     "skippable-long": lambda: _before_faces([(8, bytes(1 << 25))]),  # one of much
     "nested-header": lambda: _nested(FrameType.HEADER, 1 << 24),  # arrays in arrays as a header
@@ -541,12 +518,8 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "torn-chunks": lambda: _grid(ring(100, 100), 1)[: 9 * 4000],  # half of a stream of tiny frames
     "worthless": lambda: _worthless(64, 64, 1000, 100),  # blocks that end too early
     "sequence": lambda: _sequence(200, 200, [NOTHING], width=440),  # dictionaries of all columns
-    "sequence-large": lambda: _sequence(600, 600, [NOTHING], width=440, **ONCE),  # the same of many vertices
     # The same by iterations without end
     "sequence-power": lambda: _sequence(40, 40, [NOTHING], width=8, power=64, key_iterations=1024),
-    "sequence-tiny": lambda: _sequence(256, 256, [NOTHING], width=8, part=1, power=1),  # parts of one vertex
-    # Parts of ten vertices
-    "sequence-small": lambda: _sequence(256, 256, [NOTHING], width=10, part=10, power=1),
     # Runs of small meshes
     "sequence-runs": lambda: _joined(_sequence(4, 4 + k % 9, [NOTHING], width=4, power=1) for k in range(3000)),
     # More large meshes than are kept
@@ -578,12 +551,8 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "gop-300": lambda: _sequence(50, 50, [_learnt_gop(1024, 300, _still(50, 50, 400, 300))] * 2, width=400),
     # Frames that refer to many
     "gop-next": lambda: _sequence(100, 80, _next_gops(1000, _still(100, 80, 400, 3)), width=400),
-    # Frames of nothing, one by one
-    "gop-keys": lambda: _sequence(100, 100, _key_gops(1000, _still(100, 100, 10, 3)), width=10),
     # 60 attributes of four doubles that move
     "moving": lambda: _moving(60, 60, 60, [_learnt_gop(100, 4, _still(60, 60, 10, 4), 60)]),
-    # 15 of them, in frames of nothing
-    "moving-still": lambda: _moving(60, 60, 15, [_learnt_gop(100, 0, _still(60, 60, 10, 0))]),
     # 255 attributes in parts of eight vertices, told of again and again
     "moving-most": lambda: _moving(
         20, 20, 255, [_learnt_gop(1, 1, _still(20, 20, 8, 1, 8), 255)] * 20, part=8, width=8
@@ -602,39 +571,26 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "runs-parts": lambda: _joined([_run(_scattered(ring(3, 3), 3), part=3)] * 200),
     "runs-order": lambda: _joined([_run(_in_order())] * 300),
     "runs-attributes": lambda: _joined([_attributed_run(10)] * 50),
-    "runs-moving": lambda: _joined([_attributed_run(20)], [0] * 500, NOTHING),
     "metadata-entries": lambda: _before_faces(
         [(FrameType.METADATA, write_map([(f"{k:04}{entry:03}", 1) for entry in range(256)])) for k in range(300)]
     ),
-    "metadata-frames": lambda: _before_faces([(FrameType.METADATA, write_map([(f"{k:06}", 1)])) for k in range(20000)]),
     "gops": lambda: _sequence(3, 3, [NOTHING] * 2000, width=1, **ONCE),
     "gops-told": lambda: _sequence(3, 3, [_learnt_gop(1, 3, _still(3, 3, 4, 3))] * 1500, width=4, **ONCE),
     "gops-parts": lambda: _sequence(
         20, 20, [_learnt_gop(1, 3, _still(20, 20, 8, 3, 8))] * 80, width=8, part=8, power=1
     ),
     "gops-following": lambda: _sequence(3, 3, _followed(1500, _learnt_gop(1, 3, _still(3, 3, 4, 3))), width=4, power=1),
-    "gops-following-parts": lambda: _sequence(
-        20, 20, _followed(80, _learnt_gop(1, 3, _still(20, 20, 8, 3, 8))), width=8, part=8, power=1
-    ),
     "gops-following-large": lambda: _sequence(
         100, 100, _followed(3, _learnt_gop(64, 75, _still(100, 100, 20, 75))), width=20
     ),
     "gops-stretches": lambda: _sequence(3, 3, [replace(_learnt_gop(1024, 0), shown=BACK_AND_FORTH)] * 20, width=1),
     "gops-keys": lambda: _sequence(3, 3, _key_gops(1500, _still(3, 3, 4, 3)), width=4, power=1),
-    "gops-keys-parts": lambda: _sequence(20, 20, _key_gops(80, _still(20, 20, 8, 3, 8)), width=8, part=8, power=1),
     "gops-next": lambda: _sequence(3, 3, _next_gops(1500, _still(3, 3, 4, 3)), width=4, power=1),
-    "gops-next-parts": lambda: _sequence(20, 20, _next_gops(80, _still(20, 20, 8, 3, 8)), width=8, part=8, power=1),
-    "gops-next-vertices": lambda: _sequence(20, 20, _next_gops(15, _still(20, 20, 8, 3, 1)), width=8, part=1, power=1),
     "moving-gops": lambda: _moving(3, 3, 100, [NOTHING] * 100),
-    "moving-told": lambda: _moving(3, 3, 100, [_learnt_gop(1, 1, _still(3, 3, 8, 1), 100)] * 20, width=8),
     "moving-parts": lambda: _moving(20, 20, 60, [_learnt_gop(1, 1, _still(20, 20, 8, 1, 8), 60)] * 5, part=8, width=8),
-    "moving-keys-small": lambda: _moving(
-        3, 3, 40, _key_gops(30, _still(3, 3, 8, 3), *[_still(3, 3, 8, 4)] * 40), width=8
-    ),
     "sequence-parts": lambda: _sequence(50, 50, [NOTHING], width=8, part=1, power=1),
     "attributes-small": lambda: _valued(3, 3, 255, 9),
     # Small ones of a large mesh
     "values-chunks-large": lambda: _valued(400, 400, 1, 80, kind=0, components=1, largest=(1,), origin=AS_CODED),
-    "sequence-runs-large": lambda: _joined([_sequence(200, 200, [NOTHING], width=1, **ONCE)], [0] * 20, NOTHING),
 }
 """What each is called, and what makes it; beside it what it is that costs."""
