@@ -148,7 +148,7 @@ def test_threads_and_events_change_nothing(vector):
 @named(GOOD)
 def test_truncations_are_refused(vector):
     data = vector.stream.read_bytes()
-    for length in range(0, len(data), max(1, len(data) // 20)):
+    for length in range(0, len(data), max(1, len(data) // 8)):
         with pytest.raises(errors.TruncatedError):
             if vector.name.startswith("good-sequence"):
                 list(decode_frames(data[:length], threads=1))

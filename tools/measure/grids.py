@@ -14,16 +14,11 @@ import time
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
-from bsm.bitstream.container.reader import Reader, read_packets
-from bsm.bitstream.container.writer import write_stream
-from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
-from bsm.bitstream.fields.grid import find_lattice, grid_field, spread
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.decoder import decode
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions
 from bsm.files.mesh import read_mesh
-
-CHUNK = 1 << 15
-"""Vertices of a frame."""
 
 Faces = npt.NDArray[np.int32]
 Positions = npt.NDArray[np.float32]
@@ -48,40 +43,15 @@ def rounded(positions: Positions, bits: int) -> Faces:
 
 
 def encode(positions: Positions, faces: Faces, bits: int) -> tuple[bytes, float]:
-    """A whole stream, and the processor time per vertex that the grid took, in microseconds."""
-    connectivity = encode_connectivity(faces, len(positions))
-    cells = (1 << bits) - 1
-    step = float((positions - positions.min(axis=0)).max()) / cells
+    """A whole stream, once it is found to be exact, and the processor time per vertex in microseconds."""
     start = time.process_time()
-    points, lattice = find_lattice(rounded(positions, bits)[connectivity.vertex_order], cells)
-    header = Header(
-        vertices=len(positions),
-        faces=len(faces),
-        grid=tuple(points.max(axis=0).tolist()),
-        lattice=lattice,
-        center=tuple(positions.min(axis=0).tolist()),
-        scale=step,
-    )
-    encoder = FieldEncoder(grid_field(connectivity.faces, len(points), header.grid), points)
-    packets: list[Packet] = [header, Connectivity(connectivity.payload)]
-    for first in range(0, len(points), CHUNK):
-        count = min(CHUNK, len(points) - first)
-        packets.append(Grid(first, count, encoder.chunk(count)))
-    spent = (time.process_time() - start) / len(points) * 1e6
-    check(packets, connectivity.faces, spread(points, lattice))
-    return write_stream(packets), spent
-
-
-def check(packets: list[Packet], faces: Faces, values: npt.NDArray[np.int64]) -> None:
-    """Raise AssertionError if the stream of `packets` does not say `values`."""
-    decoded = np.full_like(values, -1)
-    for packet in read_packets([write_stream(packets)], Reader()):
-        if isinstance(packet, Header):
-            header, decoder = packet, FieldDecoder(grid_field(faces, packet.vertices, packet.grid))
-        if isinstance(packet, Grid):
-            vertices, points = decoder.chunk(packet.data, packet.count)
-            decoded[vertices] = spread(points, header.lattice)
-    assert np.array_equal(decoded, values), "what was decoded is not what was encoded"
+    encoder = Encoder(TriangleMesh(positions.astype(np.float64), faces), EncodeOptions(grid=bits, threads=1))
+    data = encoder.encode()
+    spent = (time.process_time() - start) / len(positions) * 1e6
+    cell = float((positions - positions.min(axis=0)).max()) / ((1 << bits) - 1)
+    places = (decode(data).positions - positions.min(axis=0)) / cell
+    assert np.array_equal(np.rint(places), rounded(positions, bits)[encoder.vertex_order]), "it is not what was encoded"
+    return data, spent
 
 
 def draco_bytes(positions: Positions, faces: Faces, bits: int) -> int:
