@@ -30,7 +30,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_610,
+    "product Python, lines": 34_680,
     "all Python, lines": 73_345,
     "product modules": 222,
     "product C files and headers": 72,

@@ -7,10 +7,11 @@ import numpy as np
 
 from bsm.bitstream.errors import FormatError, LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
-from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, rate_of_times
+from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, painted_like, rate_of_times
 from bsm.files.room import require_count
 from bsm.files.rows import Doubles, Ints
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Array, Document, Tree, as_format_error, read_document
@@ -85,6 +86,7 @@ class Part:
     node: int
     base: Doubles
     targets: Doubles
+    colors: Doubles  # of the vertices, and what each target adds to them; none where none adds anything
     faces: Ints
     skin: Skin | None
     joints: Ints
@@ -103,6 +105,8 @@ class Scene:
         self._skins: dict[int, Skin] = {}
         self._nodes = document.items("nodes")
         self._parents = self._ordered()
+        targets = (target for primitive in document.primitives() for target in primitive.get("targets", []))
+        self._painted = any("COLOR_0" in target for target in targets)
         self._check_sizes()
         self._curves = self._animated(animation)
         self.notes: list[str] = []
@@ -119,7 +123,7 @@ class Scene:
         numbers = 0
         for primitive in document.primitives():
             given = [*primitive["attributes"].values(), primitive.get("indices")]
-            given += [target.get("POSITION") for target in primitive.get("targets", [])]
+            given += [target.get(n) for target in primitive.get("targets", []) for n in ("POSITION", "COLOR_0")]
             numbers += sum(document.claimed(index) for index in given if index is not None)
         if numbers > MOST_NUMBERS:
             raise LimitError(f"the meshes of this glTF have {numbers} numbers; the limit is {MOST_NUMBERS}")
@@ -133,7 +137,8 @@ class Scene:
     def work(self) -> float:
         """Nanoseconds that a frame takes, at most."""
         joints = sum(len(part.skin.joints) for part in self.parts if part.skin is not None)
-        numbers = sum(len(part.targets) + part.targets.size + part.joints.size for part in self.parts)
+        tables = [table for part in self.parts for table in (part.targets, part.colors, part.joints)]
+        numbers = sum(table.size for table in tables) + sum(len(part.targets) for part in self.parts)
         return 3e4 * (len(self._parents) + len(self.parts)) + 1e3 * joints + 100.0 * numbers
 
     @property
@@ -164,9 +169,7 @@ class Scene:
     def _placed(self, part: Part, places: dict[int, Doubles], time: float) -> Doubles:
         points = part.base
         if len(part.targets):
-            weights = self._weights(part.node, len(part.targets), time)
-            used = np.flatnonzero(weights)
-            points = points + np.tensordot(weights[used], part.targets[used], 1)
+            points = points + self._added(part, part.targets, time)
         if part.skin is None:
             matrix = places[part.node]
             return points @ matrix[:3, :3].T + matrix[:3, 3]
@@ -176,6 +179,20 @@ class Scene:
             bone = bones[joint]
             moved += weight[:, None] * (np.einsum("nij,nj->ni", bone[:, :3, :3], points) + bone[:, :3, 3])
         return moved
+
+    def colors(self, time: float) -> Doubles:
+        """The colours of all parts' vertices, white where a part has none; of no rows if no target changes any."""
+        if not self._painted:
+            return np.zeros((0, 4))
+        moved = (part.colors[0] + self._added(part, part.colors[1:], time) for part in self.parts)
+        found: Doubles = np.clip(np.concatenate(list(moved)), 0.0, 1.0)
+        return found
+
+    def _added(self, part: Part, targets: Doubles, time: float) -> Doubles:
+        weights = self._weights(part.node, len(targets), time) if len(targets) else np.zeros(0)
+        used = np.flatnonzero(weights)
+        found: Doubles = np.tensordot(weights[used], targets[used], 1)
+        return found
 
     def _weights(self, node: int, count: int, time: float) -> Doubles:
         curve = self._curves.get((node, "weights"))
@@ -289,6 +306,12 @@ class Scene:
         targets = [
             self._of(target.get("POSITION"), count, 3, "a morph target") for target in primitive.get("targets", [])
         ]
+        shades = []
+        if self._painted:
+            shades = [self._shade(given.get("COLOR_0"), count, 1.0)]
+            shades += [self._shade(target.get("COLOR_0"), count, 0.0) for target in primitive.get("targets", [])]
+            given = {name: index for name, index in given.items() if name != "COLOR_0"}
+        colors = np.array(shades).reshape(-1, count, 4)
         if "indices" in primitive:
             corners = document.numbers(primitive["indices"])[:, 0].astype(np.int64)
         else:
@@ -308,12 +331,13 @@ class Scene:
             if joints.size and joints.max() >= len(skin.joints):
                 raise FormatError(f"a vertex of node {node} hangs on joint {joints.max()} of {len(skin.joints)}")
         columns = self._columns(given, count, corners.reshape(-1))
-        origin = _alike([base, *targets, joints, weights])
+        origin = _alike([base, *targets, joints, weights, *colors])
         first = np.unique(origin, return_index=True)[1]
         return Part(
             node,
             base[first],
             np.array(targets).reshape(len(targets), count, 3)[:, first],
+            colors[:, first],
             origin[corners],
             skin,
             joints[first],
@@ -330,6 +354,16 @@ class Scene:
         found = self._document.numbers(index).astype(np.float64)
         if found.shape != (count, width):
             raise FormatError(f"{what} of {found.shape} numbers for {count} vertices")
+        return found
+
+    def _shade(self, index: object, count: int, usual: float) -> Doubles:
+        """Colours as red, green, blue and opacity."""
+        found = np.full((count, 4), usual)
+        if index is not None:
+            values = self._document.numbers(index)
+            if len(values) != count or values.shape[1] not in (3, 4):
+                raise FormatError(f"COLOR_0 has {values.shape} numbers for {count} vertices")
+            found[:, : values.shape[1]] = values
         return found
 
     def _columns(self, given: Tree, count: int, corners: Ints) -> tuple[shapes.Column, ...]:
@@ -407,7 +441,19 @@ def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Fr
     notes += ["left out, for they move: normals"] if moving else []
     mesh = still.mesh
     frames = checked_frames(path, map(scene.at, times.tolist()), len(mesh.positions))
-    return Frames(mesh.faces, count, frames, mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata)
+    told = mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata
+    meshes = (painted_like(mesh, _painted(scene, mesh, time)) for time in times.tolist())
+    return Frames(mesh.faces, count, frames, *told, meshes if len(scene.colors(0.0)) else None)
+
+
+def _painted(scene: Scene, mesh: TriangleMesh, time: float) -> TriangleMesh:
+    """The mesh at a time, its colours, too."""
+    color = shapes.color_column(scene.colors(time), "vertex")
+    now = [
+        replace(one, values=color.values) if one.name == "color" and one.domain == "vertex" else one
+        for one in mesh.attributes
+    ]
+    return replace(mesh, positions=scene.at(time), attributes=tuple(now))
 
 
 def _chosen(document: Document, wish: str) -> tuple[int, Tree]:
@@ -446,6 +492,8 @@ def _still(scene: Scene, document: Document, time: float, limits: Limits) -> sha
         (part.columns for part in parts), [{"corner": 3 * len(part.faces)} for part in parts]
     )
     metadata: dict[str, Value] = {"up": "y", "unit": "meters"}
+    if len(colors := scene.colors(time)):
+        columns.append(shapes.color_column(colors, "vertex"))
     numbers = np.repeat([part.material for part in parts], [len(part.faces) for part in parts])
     used = [int(number) for number in np.unique(numbers)]
     if any(number >= 0 for number in used):

@@ -1,14 +1,17 @@
 """Sequences in the files of other programs: read as those show them, written so that those read them."""
 
+import io
 import json
 import shutil
 import struct
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
+from bsm.api import decode_frames
 from bsm.bitstream.errors import (
     BsmError,
     FormatError,
@@ -23,9 +26,10 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.motion.folder import in_order, look_like_frames
-from bsm.files.motion.frames import Shared, Wanted
+from bsm.files.motion.frames import Shared, Wanted, painted_like
 from bsm.files.sequence import open_frames, open_sequence, sequence_kind, sequence_writer
 from bsm.gltf.scene import Curve, matrix_of, read_gltf
+from bsm.gltf.write import _Scene
 from tests.motion import animators_own, bending
 from tests.shapes import torus
 
@@ -511,3 +515,67 @@ def test_curves_go_as_gltf_says():
     assert np.allclose(eighth, [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     with pytest.raises(FormatError):
         Curve(times[::-1], np.zeros((2, 1)), "LINEAR")
+
+
+def painted_frames(count=5):
+    positions, faces = bending(count)
+    positions = positions.astype(np.float32).astype(np.float64)
+    shades = 0.5 + 0.4 * np.sin(positions + np.arange(count)[:, None, None])
+    return positions, faces, shades.astype(np.float32)
+
+
+@pytest.mark.parametrize("kind", ["glb", "usdc"])
+def test_colours_that_change_come_in(tmp_path, kind, capsys):
+    """As COLOR_0 of the morph targets of a glTF, as primvars of USD."""
+    needs(kind)
+    positions, faces, shades = painted_frames()
+    path = tmp_path / f"a.{kind}"
+    if kind == "glb":
+        scene = _Scene(io.BytesIO())
+        given = {"POSITION": scene.numbers(positions[0].astype(np.float32)), "COLOR_0": scene.numbers(shades[0])}
+        deltas = [(p - positions[0], s - shades[0]) for p, s in zip(positions[1:], shades[1:], strict=True)]
+        targets = [
+            {"POSITION": scene.numbers(p.astype(np.float32)), "COLOR_0": scene.numbers(s.astype(np.float32))}
+            for p, s in deltas
+        ]
+        corners = scene.numbers(faces.reshape(-1, 1).astype(np.uint32))
+        scene.place({"primitives": [{"attributes": given, "indices": corners, "targets": targets}]})
+        weights = np.vstack([np.zeros((1, 4)), np.eye(4)]).astype(np.float32).reshape(-1, 1)
+        times = scene.numbers((np.arange(5) / 24).astype(np.float32)[:, None])
+        channel = {"sampler": 0, "target": {"node": 0, "path": "weights"}}
+        scene.add(
+            "animations", {"samplers": [{"input": times, "output": scene.numbers(weights)}], "channels": [channel]}
+        )
+        path.write_bytes(scene.whole())
+    else:
+        from pxr import Sdf, Usd, UsdGeom, Vt
+
+        stage = Usd.Stage.CreateNew(str(path))
+        stage.SetTimeCodesPerSecond(24)
+        mesh = UsdGeom.Mesh.Define(stage, "/mesh")
+        mesh.CreateFaceVertexCountsAttr([3] * len(faces))
+        mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(np.ascontiguousarray(faces.reshape(-1))))
+        points = mesh.CreatePointsAttr()
+        color = UsdGeom.PrimvarsAPI(mesh).CreatePrimvar("displayColor", Sdf.ValueTypeNames.Color3fArray, "vertex")
+        for time in range(5):
+            points.Set(Vt.Vec3fArray.FromNumpy(positions[time].astype(np.float32)), time)
+            color.Set(Vt.Vec3fArray.FromNumpy(shades[time]), time)
+        stage.Save()
+    assert bsm("encode", path, "-o", tmp_path / "a.bsm", "--animation", "0", "--quick") == 0
+    assert "color: per vertex, moves" in capsys.readouterr().err
+    found = list(decode_frames(tmp_path / "a.bsm"))
+    assert len(found) == 5
+    for number, frame in enumerate(found):
+        same = cKDTree(positions[number]).query(frame.positions)[1]
+        (color,) = frame.attributes
+        off = color.values[:, :3] - shades[number][same]
+        assert np.sqrt(np.square(off).mean()) < 0.02
+
+
+def test_colours_are_of_the_kind_that_they_are_first():
+    mesh = torus(6, 5)
+    colors = [np.full((30, 3), value) for value in (np.uint8(255), np.float32(0.5))]
+    whole, part = (replace(mesh, attributes=(Attribute("color", one, "vertex", "color"),)) for one in colors)
+    for first, other, value in ((whole, part, 128), (part, whole, 1.0)):
+        (now,) = painted_like(first, other).attributes
+        assert now.values.dtype == first.attributes[0].values.dtype and (now.values == value).all()

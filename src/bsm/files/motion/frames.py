@@ -89,6 +89,20 @@ class Shared:
         self.left_out.extend(name for name in dict.fromkeys(names) if name not in self.left_out)
 
 
+def painted_like(first: TriangleMesh, mesh: TriangleMesh) -> TriangleMesh:
+    """A frame whose colours are of the kind of the first one's: bytes, or floats from 0 to 1."""
+    kinds = {one.name: one.values.dtype for one in first.attributes if one.semantic == "color"}
+
+    def same(one: Attribute) -> Attribute:
+        kind = kinds.get(one.name, one.values.dtype)
+        if kind == one.values.dtype or one.semantic != "color":
+            return one
+        shades = one.values / (255.0 if one.values.dtype == np.uint8 else 1.0)
+        return replace(one, values=(np.rint(255.0 * shades) if kind == np.uint8 else shades).astype(kind))
+
+    return replace(mesh, attributes=tuple(map(same, mesh.attributes)))
+
+
 def checked_frames(name: str, frames: Iterable[Positions], vertices: int) -> Iterator[Positions]:
     """The frames of one file, as float64."""
     for number, frame in enumerate(frames):

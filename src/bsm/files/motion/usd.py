@@ -23,7 +23,7 @@ from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Se
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
-from bsm.files.motion.frames import Frames, Shared, Wanted, checked_frames
+from bsm.files.motion.frames import Frames, Shared, Wanted, checked_frames, painted_like
 from bsm.files.room import require_count
 from bsm.files.rows import Doubles, Ints, single_suffices
 from bsm.lengths import metres
@@ -276,12 +276,19 @@ class _Part:
 
     @property
     def times(self) -> list[float]:
-        found = list(self._points.GetTimeSamples())
+        found = [time for attr in (self._points, *self.painted) for time in attr.GetTimeSamples()]
         prim = self.prim
         while prim and not prim.IsPseudoRoot():
             found += self._pxr.UsdGeom.Xformable(prim).GetTimeSamples() if prim.IsA(self._pxr.UsdGeom.Xformable) else []
             prim = prim.GetParent()
         return found
+
+    @property
+    def painted(self) -> list[Any]:
+        """The primvars of vertices that change."""
+        found = self._pxr.UsdGeom.PrimvarsAPI(self.prim).GetPrimvars()
+        at_vertices = (one.GetAttr() for one in found if _DOMAINS.get(one.GetInterpolation()) == "vertex")
+        return [attr for attr in at_vertices if attr.GetNumTimeSamples() > 1]
 
     def at(self, time: float, cache: Any) -> Doubles:
         code = self._pxr.Usd.TimeCode(time)
@@ -448,17 +455,18 @@ def read_usd(path: str, wanted: Wanted, limits: Limits = DEFAULT_LIMITS) -> Fram
 
     every = [first + number * codes / rate for number in range(count)]
     mesh, notes = still.mesh, (f"{count} frames at {rate:g} per second", *still.notes)
-    if wanted.runs and stage.changes():
+    checked = checked_frames(path, map(stage.at, every), len(mesh.positions))
+    meshes = None
+    if (wanted.runs and stage.changes()) or any(part.painted for part in stage.parts):
 
-        def meshes() -> Iterator[TriangleMesh]:
+        def changing() -> Iterator[TriangleMesh]:
             for time in every:
                 stage.parts = [_Part(stage.pxr, part.prim, time) for part in stage.parts]
                 stage.require_counts()
-                yield stage.mesh(stage.at(time)).mesh
+                yield painted_like(mesh, stage.mesh(stage.at(time)).mesh)
 
-        return Frames(mesh.faces, count, iter(()), mesh.attributes, notes, rate, mesh.metadata, meshes())
-    checked = checked_frames(path, map(stage.at, every), len(mesh.positions))
-    return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, mesh.metadata)
+        meshes = changing()
+    return Frames(mesh.faces, count, checked, mesh.attributes, notes, rate, mesh.metadata, meshes)
 
 
 def read_usd_mesh(path: str, limits: Limits = DEFAULT_LIMITS) -> shapes.MeshFile:
