@@ -1,6 +1,7 @@
 """Every measurement of the repository: `python -m tools.measure WHAT ...`, and `WHAT --help` for what it asks.
 
 look        bytes, distance and visible share of presets and options, against Draco at the same look
+evidence    bytes over Draco's by other people's measures, and in other light
 theta       bytes at a mean angle of normals, against Draco's
 nmsve       bytes at a visual error (NMSVE), against Draco's
 contract    what presets give, checked by themselves and by surfaces, against Draco's bytes
@@ -22,6 +23,7 @@ from tools.command import dispatch
 
 COMMANDS = {
     "look": "look:main",
+    "evidence": "evidence:main",
     "theta": "presets:theta_command",
     "nmsve": "presets:nmsve_command",
     "contract": "presets:contract_command",
