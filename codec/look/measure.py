@@ -1,4 +1,4 @@
-"""How much alike two meshes look: a distance, 1 where nobody can tell them apart on a screen (`spec/look.md`)."""
+"""How much alike two meshes look: a distance, up to 1 they look the same on a screen (`spec/look.md`)."""
 
 import math
 from collections.abc import Callable, Sequence

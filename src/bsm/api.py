@@ -557,7 +557,7 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
 
 
 def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
-    """How much alike two meshes look in pictures, of whatever vertices and faces: distance 1 is what nobody can tell.
+    """How much alike two meshes look in pictures, of whatever vertices and faces; up to 1 they look the same.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--permutation", metavar="FILE.npy", help="what encode wrote: vertex p[j] of A is j of B")
     surface = "of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance"
     add("--surface", action="store_true", help=surface)
-    alike = "also how much alike they look in pictures: nobody can tell them apart at a distance of 1; faces of "
+    alike = "also how much alike they look in pictures: the same up to a distance of 1; faces of "
     add("--look", action="store_true", help=f"{alike}meshes may differ; of a sequence every frame")
     add(
         "--picture",

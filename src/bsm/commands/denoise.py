@@ -147,7 +147,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     more: dict[str, Any] = {"moved": {"vertices": touched, "mean": mean, "farthest": farthest}}
     if args.look:
         seen = look(mesh, moved)
-        console.note(f"looks      {seen.distance:.2g} from the input (nobody can tell them apart at 1)")
+        console.note(f"looks      {seen.distance:.2g} from the input (the same up to 1)")
         more["look"] = asdict(seen)
     file = Written(encode(moved, preset="near-lossless")) if kind == STREAM else written_mesh(moved, kind, args.output)
     left_out = save_written(args.output, file, overwrite=args.may_replace(args.output), overwrite_beside=args.force)
