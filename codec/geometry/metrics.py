@@ -15,7 +15,6 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, mesh_edges, vertex_neighbours
 from bsm.codec.geometry.mesh import extent_of
-from bsm.codec.geometry.welding import weld
 
 Floats = Matrix
 
@@ -182,10 +181,9 @@ def face_normals(positions: Positions, faces: Faces) -> Floats:
 
 
 def folded_edges(positions: Positions, faces: Faces) -> int:
-    """How many edges that two faces share are folded by more than 90 degrees; vertices at one position are one."""
-    joined = weld(positions, faces)[1].astype(np.int64)
+    """How many edges that two faces share are folded by more than 90 degrees; faces without area fold none."""
     normals = face_normals(positions, faces)
-    ends = np.stack([joined, np.roll(joined, -1, axis=1)], axis=2).reshape(-1, 2)
+    ends = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
     _, edge, uses = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True, return_counts=True)
     paired = np.flatnonzero((uses == 2)[edge.reshape(-1)])
     first, second = paired[np.argsort(edge.reshape(-1)[paired], kind="stable")].reshape(-1, 2).T

@@ -183,7 +183,14 @@ class Refined:
             layer = Layer(single(step), UNSEEN_RATIO)
             heights = base.wanted(base.expected_steps(layer))[0]
             levels = base.wanted(base.known_steps(layer, heights))[0]
-        return _candidate(step, base, layer, levels)
+        candidate = _candidate(step, base, layer, levels)
+
+        def unfold() -> Candidate | None:
+            directions = base.wanted(base.known_steps(layer, levels))[1].reshape(-1, 9)
+            turned = self._bounds.measures.shaper.unfold(candidate.positions, levels, directions, self._bounds.reaches)
+            return None if turned is None else _candidate(step, base, layer, turned)
+
+        return replace(candidate, unfold=unfold)
 
     @cached_property
     def _base(self) -> Base:

@@ -73,11 +73,13 @@ class Measures:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """What a step comes to: positions as decoded, in BSM units, shape (n, 3), and the stream."""
+    """What a step comes to: positions as decoded, in BSM units, shape (n, 3), and the stream; and the same with faces
+    turned back that rounding has turned over, None if there are none."""
 
     step: float
     positions: Matrix
     make: Callable[[], Draft]
+    unfold: Callable[[], "Candidate | None"] = lambda: None
 
     @cached_property
     def draft(self) -> Draft:

@@ -53,6 +53,7 @@ int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, Const
                      double pull, Bytes open);
 int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps, ConstInts starts,
                    ConstInts members, Ints2 bends, ConstDoubles rates, int64_t axes, Creases creases, Bytes open);
+int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions, Bytes open);
 int64_t count_bends_on(ConstDoubles2 corners, double step, Ints2 counts);
 int64_t count_bends(ConstInts2 bends, int64_t stride, Ints2 counts);
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -62,10 +63,21 @@ class Gridded:
         if self._worth:
             aim = Aim(self._worth * step / self._shaper.character.mean_edge, min(self._reach, NEAR_PLACE * step), 3)
             places = self._shaper.places(places, self._low, held / unit, aim)
+        return self._placed(held, places)
+
+    def _placed(self, held: float, places: Levels) -> Candidate:
+        """Places from the origin on, some below it, perhaps."""
         least = places.min(axis=0)
         origin = tuple(self._hold(value) for value in self._origin + least * held)
         grid = Grid(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)))
-        return self._candidate(grid, places - least)
+        candidate = self._candidate(grid, places - least)
+
+        def unfold() -> Candidate | None:
+            directions = held / self._prepared.units.scale * np.eye(3).reshape(1, 9)
+            turned = self._shaper.unfold(candidate.positions, places, directions, self._bounds.reaches)
+            return None if turned is None else self._placed(held, turned)
+
+        return replace(candidate, unfold=unfold)
 
     def counted(self, step: float) -> Candidate:
         """A grid of this step with places that are counted from where the mesh's unit begins: shorter to write."""

@@ -36,6 +36,18 @@ class Way(Protocol):
         """What a step comes to."""
 
 
+class Unfolding:
+    """A way with faces turned back that rounding has turned over."""
+
+    def __init__(self, way: Way, first: float) -> None:
+        self.least, self.most, self.first, self._way = way.least, way.most, first, way
+
+    def at(self, step: float) -> Candidate:
+        """What a step comes to."""
+        candidate = self._way.at(step)
+        return candidate.unfold() or candidate
+
+
 class Search:
     """Looks for the best stream of a mesh among all ways to code it."""
 
@@ -67,7 +79,7 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         bounds, kept = Bounds(self._measures, contract), list[Candidate]()
-        least = math.inf
+        least, made = math.inf, list[Way]()
         for way in self._ways(bounds, contract.look):
             on_grid = any(one.draft.places is not None for one in kept)
             if isinstance(way, Gridded) and not on_grid and way.guess() > DEARER * least:
@@ -75,6 +87,7 @@ class Search:
             found = widest(way, bounds, least)
             if found is not None:
                 kept.append(found)
+                made.append(way)
                 least = min(least, found.draft.size)
         near = bounds.excess()
         for candidate in self._made_on(bounds, kept):
@@ -84,7 +97,13 @@ class Search:
                 least = candidate.draft.size
         if not kept:
             kept += self._last_resort(bounds)
-        return min((candidate.draft for candidate in kept), key=self._size)
+        smallest = min(kept, key=lambda candidate: self._size(candidate.draft))
+        turned = smallest.unfold()
+        if turned is not None and not bounds.keeps(turned.positions):
+            turned = widest(Unfolding(made[kept.index(smallest)], smallest.step), bounds)
+            if turned is not None and turned.draft.size > DEARER * smallest.draft.size:
+                turned = None
+        return (turned or smallest).draft
 
     def _last_resort(self, bounds: Bounds) -> list[Candidate]:
         """What grids do that are finer than where a search began, where it came to nothing."""

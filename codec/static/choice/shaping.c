@@ -6,6 +6,7 @@
 #include "codec/static/choice/choice.h"
 
 enum { FAN = 32, MOVES = 32, LANES = 8 }; /* faces of one vertex that are looked at; moves; how many of them at once */
+enum { UNFOLDING = 8 };                   /* sweeps over what is turned over */
 
 /* The faces at a vertex, `padded` with some of no weight: twice the area times the normal, in coordinates along the wanted
  * normal and across it, in some unit of the vertex; and what a step in each direction adds to that, which is the same
@@ -271,6 +272,81 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
             for (int32_t i = starts.data[v]; i < starts.data[v + 1]; i++)
                 for (int a = 0; a < 3; a++)
                     bends.data[3 * (int64_t)(members.data[i] >> 1) + a] += (members.data[i] & 1 ? -1 : 1) * by[a];
+            moves++;
+            open_around(&wanted, v, open);
+        }
+    return moves;
+}
+
+/* Whether a normal with these coordinates is more than 60 degrees off: two faces that are may be folded onto each other. */
+INLINE bool is_over(float along, float across, float aside) { return along < 0.0f || across * across + aside * aside > 3.0f * along * along; }
+
+/* How bent the faces are with the vertex so many levels from where it is, and what it costs that some are turned over. */
+INLINE double folded_by(const Fan *fan, const float *by, double over) {
+    double sum = 0.0;
+    for (int k = 0; k < fan->count; k++) {
+        float at[3];
+        for (int i = 0; i < 3; i++)
+            at[i] = fan->normal[i][k] + by[0] * fan->turn[0][i][k] + by[1] * fan->turn[1][i][k] + by[2] * fan->turn[2][i][k];
+        sum += fan->weight[k] * chord(at[0], at[1], at[2]) + (is_over(at[0], at[1], at[2]) ? over : 0.0);
+    }
+    return sum;
+}
+
+/* Moves levels (n x 3) by one along `directions` (n x 9, or one row for all; a level long) where that turns faces back, which
+ * rounding has turned over, however small they are; `moved` is kept in step. No vertex ends up farther from its place than
+ * its `reach`, unless it was. Returns how often one moved. */
+KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
+                             Bytes open) {
+    if (!fits(&wanted, moved, levels, open) || levels.columns != 3 || directions.columns != 9 || reach.size != levels.rows ||
+        (directions.rows != levels.rows && directions.rows != 1))
+        return MISUSED;
+    ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
+    double over = 1.0 / (double)largest(wanted.faces.rows, 1);
+    int64_t moves = 0;
+    Fan fan;
+    for (int64_t v = 0; v < open.size; v++) open.data[v] = 0;
+    for (int64_t f = 0; f < wanted.faces.rows; f++) {
+        const int32_t *face = wanted.faces.data + 3 * f;
+        const double *a = moved.data + 3 * (int64_t)face[0], *b = moved.data + 3 * (int64_t)face[1];
+        const double *c = moved.data + 3 * (int64_t)face[2], *normal = wanted.normals.data + 3 * f;
+        double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+        double n[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+        double along = normal[0] * n[0] + normal[1] * n[1] + normal[2] * n[2];
+        bool over = along < 0.0 || n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 4.0 * along * along;
+        for (int k = 0; k < 3 && over; k++) open.data[face[k]] = 1;
+    }
+    for (int64_t sweep = 0; sweep < UNFOLDING; sweep++)
+        for (int32_t v = 0; v < (int32_t)levels.rows; v++) {
+            if (!open.data[v]) continue;
+            open.data[v] = 0;
+            gather(&wanted, now_at, v, &fan);
+            bool any = false;
+            for (int k = 0; k < fan.count; k++) any |= is_over(fan.normal[0][k], fan.normal[1][k], fan.normal[2][k]);
+            if (!any) continue;
+            const double *direction = directions.data + (directions.rows == 1 ? 0 : 9 * (int64_t)v);
+            const double *place = wanted.positions.data + 3 * (int64_t)v;
+            double *at = moved.data + 3 * (int64_t)v, far = square(place, at), most = reach.data[v] * reach.data[v];
+            for (int a = 0; a < 3; a++) find_turn(&fan, a, direction + 3 * a);
+            float stay[3] = {0.0f};
+            double best = folded_by(&fan, stay, over);
+            int pick = 13;
+            for (int c = 0; c < 27; c++) {
+                float by[3] = {(float)(c % 3 - 1), (float)(c / 3 % 3 - 1), (float)(c / 9 - 1)};
+                double there[3];
+                for (int j = 0; j < 3; j++)
+                    there[j] = at[j] + by[0] * direction[j] + by[1] * direction[3 + j] + by[2] * direction[6 + j];
+                double away = square(place, there);
+                if (c == 13 || (away > most && away > far)) continue;
+                double then = folded_by(&fan, by, over);
+                if (then < best) best = then, pick = c;
+            }
+            if (pick == 13) continue;
+            int by[3] = {pick % 3 - 1, pick / 3 % 3 - 1, pick / 9 - 1};
+            for (int a = 0; a < 3; a++) {
+                levels.data[3 * (int64_t)v + a] += by[a];
+                for (int j = 0; j < 3; j++) at[j] += by[a] * direction[3 * a + j];
+            }
             moves++;
             open_around(&wanted, v, open);
         }

@@ -165,6 +165,12 @@ class Shaper:
         )  # fmt: skip
         return chosen
 
+    def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
+        """Levels, shape (n, 3), that turn fewer faces over, along `directions`, shape (n or 1, 9), or None."""
+        chosen = np.array(levels, np.int32, order="C")
+        given = np.array(positions), chosen, np.ascontiguousarray(directions)
+        return chosen if _kernels.unfold_levels(self._wanted, reach, *given, self._open) else None
+
     def _aim(self, aim: Aim, share: int) -> tuple[float, float, int]:
         return aim.worth / (share * len(self._open)), float(aim.reach), aim.sweeps
 

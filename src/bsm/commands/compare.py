@@ -81,10 +81,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
                 refuse_to_overwrite(args.picture, args.force)
             looker = LookMetric(original)
             seen = looker.compare(decoded)
-            more = {
-                "flat": looker.flat(decoded),
-                "folded_edges": [folded_edges(mesh.positions, mesh.faces) for mesh in (original, decoded)],
-            }
+            more["flat"] = looker.flat(decoded)
             if args.picture:
                 write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
         progress.stage("comparing")
@@ -106,8 +103,6 @@ def run(args: argparse.Namespace, console: Console) -> None:
         parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
         lines.append(f"{'look in facets':<19}1 - SSIM {more['flat']:.4g}\n")
-        before, after = more["folded_edges"]
-        lines.append(f"{'edges folded over':<19}{before} in the first, {after} in the second\n")
     for name, errors in attributes.items():
         said = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
         lines.append(f"{printable(name)}: {'not there any more' if said is None else said}\n")
@@ -127,8 +122,9 @@ def _compared(
         name: errors and {what: value for what, value in errors.items() if value is not None}
         for name, errors in result.pop("attributes").items()
     }
+    before, after, faces = paired.original.positions, paired.positions, paired.original.faces
+    result |= {"folded_before": folded_edges(before, faces), "folded_after": folded_edges(after, faces)}
     if args.surface:  # what the literature on denoising measures
-        before, after, faces = paired.original.positions, paired.positions, paired.original.faces
         distance = surface_distance(before, faces, after, faces)
         result |= {"mnd": mnd(before, after, faces), "rms_over_edge": rms_over_edge(before, after, faces)}
         result |= {"hausdorff": distance.hausdorff, "surface_distance": distance.mean}

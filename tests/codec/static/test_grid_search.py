@@ -9,7 +9,7 @@ import pytest
 
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Original
+from bsm.codec.geometry.metrics import Original, face_normals, folded_edges
 from bsm.codec.static.choice.shaping import Character, Shaper
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
@@ -100,3 +100,33 @@ def test_a_small_model_counts_its_cells_from_the_origin() -> None:
     assert encoder.draft().header.corner == (-1, -1, -1)
     assert np.array_equal(decode(data).positions, encoder.mesh.positions)
     assert len(data) <= 59
+
+
+def test_faces_that_rounding_turns_over_are_turned_back_within_reach() -> None:
+    mesh = curved(patch(24, 24))
+    random = np.random.default_rng(3)
+    slivers = mesh.positions + random.uniform(-0.45, 0.45, mesh.positions.shape) * (1, 1, 0) / 24
+    original, step = Original(slivers, mesh.faces), 1 / 30
+    shaper = Shaper(original, graph_of_faces(mesh.faces, len(slivers)))
+
+    def over(places: np.ndarray) -> int:
+        turned = face_normals(places * step, mesh.faces) * original.normals
+        return int(np.count_nonzero(turned.sum(axis=1) < 0))
+
+    rounded = np.rint(slivers / step).astype(np.int32)
+    directions, reach = step * np.eye(3).reshape(1, 9), np.full(len(slivers), 1.5 * step)
+    better = shaper.unfold(rounded * step, rounded, directions, reach)
+    assert better is not None and over(better) < over(rounded) / 4
+    assert np.linalg.norm(better * step - slivers, axis=1).max() <= 1.5 * step
+    none = np.zeros(len(slivers))
+    nearer = shaper.unfold(rounded * step, rounded, directions, none)
+    away = np.linalg.norm(rounded * step - slivers, axis=1)
+    assert nearer is None or (np.linalg.norm(nearer * step - slivers, axis=1) <= away + 1e-12).all()
+    assert shaper.unfold(slivers, rounded, directions, reach) is None, "nothing is turned over"
+
+
+@pytest.mark.real
+def test_cloth_is_not_folded_over(meshes: Path) -> None:
+    mesh = join(read_mesh(meshes / "assets/cloth.obj").mesh, keep=False).mesh
+    decoded = decode(encode(mesh, EncodeOptions()))
+    assert folded_edges(decoded.positions, decoded.faces) <= folded_edges(mesh.positions, mesh.faces) + 25
