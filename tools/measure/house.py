@@ -30,8 +30,8 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_680,
-    "all Python, lines": 73_345,
+    "product Python, lines": 34_720,
+    "all Python, lines": 73_669,
     "product modules": 222,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
