@@ -150,14 +150,6 @@ def test_no_input_is_replaced_even_by_force(output, meshes, tmp_path):
     assert (tmp_path / "a.npz").read_bytes() == mesh
 
 
-def test_different_meshes_are_no_animation(meshes, tmp_path):
-    for name in (str(meshes), f"{meshes}/*.npz"):
-        done = bsm("encode", name, "-o", tmp_path / "x.bsm")
-        assert done.returncode == 3
-        assert "different meshes, not the frames of one animation" in done.stderr and "b.npz" in done.stderr
-    assert names(tmp_path) == []
-
-
 def test_a_folder_without_a_name(tmp_path):
     done = bsm("encode", ".")
     assert (done.returncode, done.stderr) == (2, "bsm: . gives the output no name; name it with -o\n")

@@ -248,15 +248,6 @@ def test_scipy_is_asked_for_where_it_is_needed(words, folder, tmp_path):
     assert done.returncode == 8 and "pip install " in done.stderr and done.stderr.count("\n") == 1
 
 
-def test_force_overwrites(folder, tmp_path):
-    output = tmp_path / "a.bsm"
-    output.write_bytes(b"old")
-    assert main(["encode", str(folder / "sample.ply"), "-o", str(output), "-q", *SMALL]) == 9
-    assert output.read_bytes() == b"old"
-    assert main(["encode", str(folder / "sample.ply"), "-o", str(output), "-q", "-f", *SMALL]) == 0
-    assert output.read_bytes() == (folder / "sample.bsm").read_bytes()
-
-
 @pytest.mark.parametrize(
     ("words", "code", "said"),
     [

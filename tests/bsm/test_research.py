@@ -5,7 +5,6 @@ import pytest
 
 import bsm
 from bsm import research
-from bsm.bitstream.errors import ArgumentError
 from bsm.evaluation.sample import knot
 
 MESH = knot(2000)
@@ -104,15 +103,3 @@ def test_curves_are_measured_beside_ours():
     assert [len(result["points"]) for result in found.values()] == [3, 3]
     with pytest.raises(bsm.OptionError, match="something else"):
         research.curves(MESH, {"ours": research.Idea()})
-
-
-@pytest.mark.parametrize("stream", [5, None, 3.5, [1], np.zeros((2, 3))[:, :2].tolist(), object()])
-def test_what_is_no_stream_is_refused(stream):
-    with pytest.raises(ArgumentError):
-        research.decode(stream)
-
-
-def test_streams_come_in_any_buffer():
-    data = research.encode(MESH)
-    for stream in (bytearray(data), memoryview(data), np.frombuffer(data, np.uint8)):
-        assert len(research.decode(stream).faces) == len(MESH.faces)

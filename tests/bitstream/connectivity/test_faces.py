@@ -63,11 +63,6 @@ def check_round_trip(faces: Faces, vertex_count: int) -> EncodedConnectivity:
     return encoded
 
 
-def test_tetrahedron_is_a_few_bytes() -> None:
-    encoded = check_round_trip(np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]), 4)
-    assert len(encoded.payload) <= 4
-
-
 @pytest.mark.parametrize(
     "faces",
     [

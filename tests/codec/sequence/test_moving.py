@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.reader import Reader, read_packets
 from bsm.bitstream.errors import CorruptError, MeshError, OptionError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -17,7 +16,7 @@ from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.options import SequenceOptions
 from tests.shapes import torus
-from tests.streams import frames_in, moving_events_of
+from tests.streams import frames_in, moving_events_of, packets_of, without
 
 MESH = torus(24, 12)
 
@@ -127,21 +126,10 @@ def test_frames_can_be_had_from_any_on() -> None:
                 np.testing.assert_array_equal(own.values, same.values)
 
 
-def frames_without(data: bytes, kind: type, which: int = 0) -> bytes:
-    """The stream with a broken byte in a frame."""
-    reader = Reader()
-    places = [
-        reader.last_frame.offset + reader.last_frame.length // 2
-        for packet in read_packets([data], reader)
-        if isinstance(packet, kind) and reader.last_frame is not None
-    ]
-    return data[: places[which]] + bytes([data[places[which]] ^ 1]) + data[places[which] + 1 :]
-
-
 @pytest.mark.parametrize("kind", [packets.Values, packets.Attribute])
 def test_a_lost_attribute_costs_those_behind_it(kind: type) -> None:
     data, _ = encoded(FRAMES, gop=4)
-    broken = frames_without(data, kind, 1)
+    broken = without(data, kind, 1, "changed")
     whole, found = decoded(data), decoded(broken, tolerant=True)
     assert len(found) == len(whole)
     for one, other in zip(whole, found, strict=True):
@@ -164,7 +152,7 @@ def test_runs_have_attributes_that_move() -> None:
         color, own = given.attributes[0].values, event.attributes[0].values
         off = np.sort(color, axis=0).astype(float) - np.sort(own, axis=0)  # no farther than in any other order
         assert np.sqrt(np.square(off).mean()) <= 0.01 * extent("color")
-    declared = [packet for packet in read_packets([data], Reader()) if isinstance(packet, packets.Attribute)]
+    declared = [packet for packet, *_ in packets_of(data) if isinstance(packet, packets.Attribute)]
     assert len(declared) == 8  # the first mesh returns
 
 

@@ -218,12 +218,6 @@ def test_targets_of_quality_are_met_without_wide_dictionaries(kind: str, value: 
     assert max(attempt.coefficients, default=0) <= 0.18 * attempt.header.block_size
 
 
-@pytest.mark.parametrize("bpv", [3.0, 8.0, 20.0])
-def test_targets_of_size_are_met(bpv: float) -> None:
-    attempt = Encoder(torus(60, 40), replace(PRESETS["none"], target=Target("bpv", bpv))).search()
-    assert attempt.bpv <= bpv
-
-
 def test_a_contract_excludes_what_it_must() -> None:
     with pytest.raises(OptionError):
         EncodeOptions(grid=12, step=0.01)

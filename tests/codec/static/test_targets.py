@@ -1,5 +1,4 @@
 import math
-import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,16 +75,6 @@ def test_targets_are_met_by_what_is_quick_to_decode(kind, value):
     assert attempt.header.grid and attempt.header.light
     assert getattr(attempt, kind, None) or getattr(attempt.comparison, kind) <= value
     assert attempt.size <= (value if kind == "size" else math.inf)
-
-
-def test_an_impossible_size_is_an_error():
-    with pytest.raises(TargetError, match="10 bytes at most cannot be reached") as refused:
-        Encoder(torus(20, 12), EncodeOptions(contract=None, target=Target("size", 10))).encode()
-    best = int(re.search(r"had is (\d+) bytes", str(refused.value)).group(1))
-    data = Encoder(torus(20, 12), EncodeOptions(contract=None, target=Target("size", best))).encode()
-    assert len(data) <= best, "the best can be had"
-    with pytest.raises(TargetError):
-        Encoder(torus(20, 12), EncodeOptions(contract=None, target=Target("size", 0.8 * best))).encode()
 
 
 def test_wrong_targets_are_refused():

@@ -1,6 +1,7 @@
 """Attributes of meshes through whole streams."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,7 +10,6 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.declaration import RECOMPUTED
-from bsm.bitstream.container.reader import Reader, read_packets
 from bsm.bitstream.errors import BsmError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -21,6 +21,7 @@ from bsm.codec.static.events import AttributeEvent, EndEvent, LossEvent
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
 from tests.shapes import curved, patch, tetrahedron, torus
+from tests.streams import packets_of, without
 from tools.surgery import frames_of, stream_of
 
 QUICK = EncodeOptions(grid=12)
@@ -240,7 +241,7 @@ def test_the_look_chooses_normals(outwards, wild):
     mesh = replace(mesh, attributes=(own,))
     streams = {how: encode(mesh, EncodeOptions(normals=how)) for how in ("look", "keep")}
     assert len(streams["look"]) < 0.9 * len(streams["keep"])
-    declared = next(p.declaration for p, *_ in frames(streams["look"]) if isinstance(p, packets.Attribute))
+    declared = of_kind(streams["look"], packets.Attribute)[0].declaration
     assert (declared.coding == RECOMPUTED) == (outwards > 0 and not wild)
     assert look(mesh, decode(streams["look"])).distance <= 1.0
 
@@ -283,18 +284,8 @@ def test_values_come_as_events():
     }
 
 
-def frames(stream: bytes) -> list[tuple[object, int, int]]:
-    """Packets, and where their frames begin and end."""
-    reader, found = Reader(), []
-    for packet in read_packets([stream], reader):
-        assert reader.last_frame is not None
-        found.append((packet, reader.last_frame.offset, reader.last_frame.offset + reader.last_frame.length))
-    return found
-
-
-def broken(stream: bytes, begin: int, end: int) -> bytes:
-    middle = (begin + end) // 2
-    return stream[:middle] + bytes([stream[middle] ^ 0x55]) + stream[middle + 1 :]
+def of_kind(stream: bytes, kind: type) -> list[Any]:
+    return [packet for packet, *_ in packets_of(stream) if isinstance(packet, kind)]
 
 
 def tolerated(stream: bytes) -> tuple[set[str], int, int]:
@@ -316,42 +307,36 @@ def tolerated(stream: bytes) -> tuple[set[str], int, int]:
 def test_what_is_lost_of_one_attribute_spoils_none_before_it():
     mesh = dressed(curved(patch(70, 65)))
     stream = encode(mesh, EncodeOptions(grid=12))
-    for packet, begin, end in frames(stream):
-        if isinstance(packet, packets.Values):
-            name = mesh.attributes[packet.attribute].name
-            names, *lost = tolerated(broken(stream, begin, end))
-            assert lost == [1, 0]
-            assert names - {name} == {one.name for one in mesh.attributes[: packet.attribute]}
-            hostile = stream_of(
-                [
-                    (kind, data[:-2] if data[0] == packet.attribute and kind == 0 else data)
-                    for kind, data in frames_of(stream)
-                ]
-            )
-            with pytest.raises(BsmError, match=f"attribute '{name}'"):
-                decode(hostile)
-    *_, last = (begin_end for packet, *begin_end in frames(stream) if isinstance(packet, packets.Grid))
-    names, losses, missing = tolerated(broken(stream, *last))
+    for which, packet in enumerate(of_kind(stream, packets.Values)):
+        name = mesh.attributes[packet.attribute].name
+        names, *lost = tolerated(without(stream, packets.Values, which, "changed"))
+        assert lost == [1, 0]
+        assert names - {name} == {one.name for one in mesh.attributes[: packet.attribute]}
+        frames = frames_of(stream)
+        short = [(kind, data[:-2] if data[0] == packet.attribute and kind == 0 else data) for kind, data in frames]
+        with pytest.raises(BsmError, match=f"attribute '{name}'"):
+            decode(stream_of(short))
+    names, losses, missing = tolerated(without(stream, packets.Grid, -1, "changed"))
     assert names == set() and losses == 1 and missing > 0
 
 
 def test_a_lost_declaration_loses_those_behind_it():
     mesh = dressed(patch(40, 35))
     stream = encode(mesh, QUICK)
-    for packet, begin, end in frames(stream):
-        if isinstance(packet, packets.Attribute):
-            names, losses, missing = tolerated(broken(stream, begin, end))
-            assert losses >= 1 and missing == 0
-            assert names == {one.name for one in mesh.attributes[: packet.index]}
-            with pytest.raises(BsmError):
-                decode(broken(stream, begin, end))
+    for packet in of_kind(stream, packets.Attribute):
+        broken = without(stream, packets.Attribute, packet.index, "changed")
+        names, losses, missing = tolerated(broken)
+        assert losses >= 1 and missing == 0
+        assert names == {one.name for one in mesh.attributes[: packet.index]}
+        with pytest.raises(BsmError):
+            decode(broken)
 
 
 def test_seams_that_two_share_are_sent_once():
     mesh = dressed(torus())
     second = replace(mesh.attributes[1], name="uv2", values=1 - mesh.attributes[1].values)
     mesh = replace(mesh, attributes=(*mesh.attributes, second))
-    declared = [p for p, *_ in frames(encode(mesh, QUICK)) if isinstance(p, packets.Attribute)]
+    declared = of_kind(encode(mesh, QUICK), packets.Attribute)
     assert [p.declaration.seams_of for p in declared] == [0, 0, 0, 0, 0, 0, 2]
     assert [bool(p.seams) for p in declared] == [False, True, True, False, False, False, False]
     encoder = Encoder(mesh, QUICK)
