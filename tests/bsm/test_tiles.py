@@ -12,7 +12,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.surface_distance import distances_to_surface
 from bsm.commands import tile as command
-from bsm.files.mesh import write_mesh
+from bsm.files.mesh import read_mesh, write_mesh
 from bsm.tiles.cutting import Lattice
 from bsm.tiles.making import simplified, welded
 from tests.bsm.program import bsm as program
@@ -187,6 +187,36 @@ def test_untile_of_one_level_of_any_size(folder, tmp_path):
         assert len(bsm.load(tmp_path / "a.ply").faces) >= tiles["faces"]
     done = program("untile", folder, "-o", tmp_path / "b.ply", "--level", len(levels), text=True)
     assert done.returncode == 2 and f"levels 0 to {len(levels) - 1}" in done.stderr
+
+
+def test_a_tileset_says_where_tiles_are_and_how_far_off(mesh, folder, tmp_path):
+    output = tmp_path / "made" / "tileset.json"
+    output.parent.mkdir()
+    assert program("untile", folder, "-o", output).returncode == 0
+    tree = json.loads(output.read_text())
+    faces, seen = 0, 0
+
+    def walk(node, origin, above):
+        nonlocal faces, seen
+        here = origin + node["transform"][12:15]
+        box = np.reshape(node["boundingVolume"]["box"], (4, 3))
+        center, half = box[0], np.diag(box[1:])
+        assert node["geometricError"] <= above
+        drawn = read_mesh(str(output.parent / node["content"]["uri"])).mesh
+        turned = drawn.positions @ [(1, 0, 0), (0, 0, 1), (0, -1, 0)] + here  # glTF has y upwards, 3D Tiles z
+        assert (np.abs(turned - here - center) <= half + 1e-6).all()
+        seen += 1
+        for child in node.get("children", ()):
+            walk(child, here, node["geometricError"])
+        if "children" not in node:
+            assert node["geometricError"] == 0
+            faces += len(drawn.faces)
+            assert np.isin(Lattice(CELL).places(turned).view("i4,i4,i4"), finest).all()
+
+    finest = Lattice(CELL).places(mesh.positions).view("i4,i4,i4")
+    walk(tree["root"], np.zeros(3), tree["geometricError"])
+    assert faces == len(mesh.faces)
+    assert seen == sum(level["tiles"] for level in bsm.open_tiles(str(folder)).manifest["levels"])
 
 
 def test_locked_vertices_stay_where_nothing_else_holds_them():

@@ -24,9 +24,9 @@ import bsm
 from bsm.bitstream.container.wire import MAGIC
 from bsm.cli import main
 from bsm.evaluation.curve import encode_draco
-from bsm.viewer.page import DRACO_LEVEL, Growing, PageServer, compared, written_to
+from bsm.viewer.page import DRACO_LEVEL, Growing, PageServer, Ranged, Tiled, compared, written_to
 from tests.bitstream.streams import frame_ends
-from tests.shapes import torus
+from tests.shapes import curved, torus
 from tests.streams import moving_events_of
 
 needs_packages = pytest.mark.skipif(
@@ -219,6 +219,61 @@ def test_what_is_still_being_written_is_watched(way, tmp_path):
             server.terminate()
             if source is not None:
                 os.close(source)
+
+
+@pytest.mark.slow
+@needs_packages
+def test_tiles_are_seen_coarse_first_and_fine_from_near(tmp_path):
+    pytest.importorskip("fast_simplification")
+    bsm.save(curved(torus(300, 200)), tmp_path / "a.ply")
+    folder = tmp_path / "tiles"
+    options = ["--grid-cell", "1e-5", "--triangles", "4000", "--tileset"]
+    assert main(["tile", str(tmp_path / "a.ply"), "-o", str(folder), *options]) == 0
+    levels = bsm.open_tiles(str(folder)).manifest["levels"]
+    command = [sys.executable, "-m", "bsm", "view", "--no-open", str(folder)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
+        try:
+            assert server.stdout
+            seen = {"address": server.stdout.readline().strip(), "folder": str(folder)}
+            seen |= {"coarsest": levels[0]["faces"], "faces": 120_000}
+            javascript("tiles", BSM_TILES=json.dumps(seen))
+        finally:
+            server.terminate()
+
+
+@pytest.mark.parametrize(
+    ("asked", "code"),
+    [
+        ("bytes=0-9", 206),
+        ("bytes=5-2", 416),
+        ("", 416),
+        ("bytes=0-99999999", 416),
+        ("bytes=-5", 416),
+        ("lines=1-2", 416),
+    ],
+)
+def test_files_are_sent_by_ranges(tmp_path, asked, code):
+    (tmp_path / "a").write_bytes(b"0123456789abcdef")
+    files = {"manifest.json": b"{}", "a": Ranged(str(tmp_path / "a"), 16)}
+    with PageServer([Tiled("some", files)]) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        request = urllib.request.Request(f"http://{server.host}/0/a", headers={"Range": asked} if asked else {})
+        try:
+            with urllib.request.urlopen(request) as answer:
+                assert (answer.status, answer.read()) == (code, b"0123456789")
+        except urllib.error.HTTPError as error:
+            assert error.code == code
+        (tmp_path / "a").unlink()
+        with pytest.raises(urllib.error.HTTPError, match="No such file" if code == 206 else str(code)):
+            urllib.request.urlopen(request)
+        server.shutdown()
+
+
+def test_tiles_are_looked_at_alone(tmp_path, capsys):
+    (tmp_path / "manifest.json").write_text("{}")
+    for more in (["--save", str(tmp_path / "page.html")], ["--original", "ball.ply"], ["--follow"]):
+        assert main(["view", "--no-open", str(tmp_path), *more]) == 2
+        assert "come by ranges" in capsys.readouterr().err
 
 
 def javascript(tests: str, **environment: str) -> None:

@@ -15,9 +15,10 @@ from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
 from bsm.jobs.report import Facts, Job, Outcome, Run
 from bsm.jobs.run import came_to, run_many
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
+from bsm.tiles.joining import write_tileset
 from bsm.tiles.making import TileJob, simplifier, tile_one
 from bsm.tiles.reading import read_big
-from bsm.tiles.shards import MANIFEST, write_shards
+from bsm.tiles.shards import MANIFEST, open_tiles, write_shards
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -41,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="work on the Dask cluster of this scheduler, whose machines have the same folders",
     )
     add("--resume", action="store_true", help="go on with what an earlier run has left in --work")
+    add("--tileset", action="store_true", help="write tileset.json of 3D Tiles, too, with a plain GLB for each tile")
     add("--json", action="store_true", help="print the manifest")
 
 
@@ -82,6 +84,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         f"{len(manifest['levels'])} levels, on a grid of {plan.lattice.cell:g}, {came_to(taken, given)}"
     )
     shutil.rmtree(work)
+    if args.tileset:
+        write_tileset(open_tiles(args.output), args.output, console, overwrite=args.force or args.resume)
     if args.json:
         print_json(manifest)
     return 0

@@ -8,7 +8,7 @@ from bsm.commands.flags import add_limits_flag, limits_of
 from bsm.console import Console
 from bsm.files.mesh import write_mesh
 from bsm.files.output import refuse_terminal, refuse_to_overwrite
-from bsm.tiles.joining import write_joined
+from bsm.tiles.joining import TILESET, write_joined, write_tileset
 from bsm.tiles.shards import open_tiles
 
 
@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--output",
         metavar="OUT",
         required=True,
-        help=".ply (- for a pipe) of any size; in memory, any mesh format, or .bsm",
+        help=".ply (- for a pipe) of any size, or .../tileset.json for 3D Tiles; in memory, any mesh format, or .bsm",
     )
     add("--box", type=box, metavar="X,Y,Z,X,Y,Z", help="the triangles that reach into this box, in memory")
     of = parser.add_mutually_exclusive_group()
@@ -44,6 +44,12 @@ def run(args: argparse.Namespace, console: Console) -> None:
     last = len(tiles.manifest["levels"]) - 1
     if args.level is not None and not 0 <= args.level <= last:
         raise OptionError(f"--level {args.level}: these tiles have the levels 0 to {last}")
+    if Path(args.output).name == TILESET:
+        if args.box or args.level is not None or args.error is not None:
+            raise OptionError(f"{TILESET} is of all tiles: no --box, --level or --error")
+        count = write_tileset(tiles, args.output[: -len(TILESET)].rstrip("/") or ".", console, overwrite=args.force)
+        console.note(f"{args.input} -> {args.output}: {count} tiles as GLB")
+        return
     if args.box is None and (args.output == "-" or Path(args.output).suffix.lower() == ".ply"):
         refuse_terminal(args.output)
         chosen = tiles.chosen(args.error or 0.0, level=args.level)

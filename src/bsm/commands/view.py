@@ -2,6 +2,7 @@
 
 import argparse
 import itertools
+import json
 import webbrowser
 from pathlib import Path
 from threading import Thread
@@ -13,8 +14,9 @@ from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.console import Console
 from bsm.files.mesh import read_mesh
 from bsm.files.output import write_output
-from bsm.files.pipes import about, read_chunks
-from bsm.viewer.page import Content, Growing, PageServer, compared, page_with, written_to
+from bsm.files.pipes import about, inside, read_chunks
+from bsm.tiles.shards import MANIFEST, is_tiles, open_tiles
+from bsm.viewer.page import Content, Growing, PageServer, Ranged, Tiled, compared, page_with, written_to
 
 _NO_STREAM = "what came through the pipe is no BSM stream; encode it on the way: bsm encode - -o - | ..."
 
@@ -25,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "inputs",
         metavar="IN",
         nargs="+",
-        help="stream, of a mesh or a sequence, or - for a pipe; or a mesh file, which is encoded on the way",
+        help="stream, of a mesh or a sequence, or - for a pipe; mesh file, encoded on the way; folder of tiles",
     )
     add("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
     add("--follow", action="store_true", help="the files are still being written: go on as they grow, as with a pipe")
@@ -39,6 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     if args.follow and (args.save or args.original):
         raise OptionError(f"{'--save' if args.save else '--original'} needs streams that are written: no --follow")
+    if (args.save or args.original or args.follow) and any(map(is_tiles, args.inputs)):
+        raise OptionError("tiles come by ranges, as they are looked at: no --save, --original or --follow")
     reading = console.progress("reading and comparing" if args.original else "reading")
     if args.save:
         with reading:
@@ -47,8 +51,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
         console.note(f"{args.save}: open it in a browser")
         return 0
     with reading:
-        served: list[Content | Growing] = []
+        served: list[Content | Growing | Tiled] = []
         for name, path in {} if args.original else _named(args.inputs).items():
+            if is_tiles(path):
+                manifest = open_tiles(path, limits_of(args.limits)).manifest
+                shards = {one["file"]: Ranged(inside(path, one["file"]), one["size"]) for one in manifest["shards"]}
+                served.append(Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards}))
+                continue
             growing = args.follow or path == "-"
             served.append(_growing(name, path) if growing else Content(name, _stream(path, args.reader, console)))
         served += _contents(args, console) if args.original else []

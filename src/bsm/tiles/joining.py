@@ -1,7 +1,9 @@
-"""Tiles as one mesh again: welded on the lattice, with the memory of a tile."""
+"""Tiles for others: as one mesh again, welded on the lattice, or as 3D Tiles; with the memory of a tile."""
 
 from __future__ import annotations
 
+import json
+import os
 import shutil
 import tempfile
 from collections.abc import Iterable
@@ -11,14 +13,19 @@ from typing import Any, BinaryIO
 import numpy as np
 import numpy.typing as npt
 
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
-from bsm.files.output import open_output
+from bsm.files.output import open_output, write_output
+from bsm.files.pipes import inside, is_url
+from bsm.gltf.write import write_glb
 from bsm.jobs.report import Facts
+from bsm.tiles.cutting import Ints
 from bsm.tiles.making import keys_of
 from bsm.tiles.reading import CARRIED
 from bsm.tiles.shards import KINDS, Tile, Tiles
 
 _COPIED = 1 << 24
+TILESET, _CONTENT = "tileset.json", "glb"
 
 
 def write_joined(
@@ -88,6 +95,46 @@ def write_joined(
                 part.seek(0)
                 shutil.copyfileobj(part, file, _COPIED)
     return {"vertices": vertices, "faces": total}
+
+
+def write_tileset(tiles: Tiles, folder: str, console: Console, *, overwrite: bool) -> int:
+    """Write tileset.json of 3D Tiles 1.1, and beside it each tile as a plain GLB; returns how many."""
+    known = {tile.name: (shard, tile) for shard, tile in tiles.all()}
+    below: dict[str, set[str]] = {}
+    ends: dict[str, npt.NDArray[np.int64]] = {}  # of a node and all below it
+    for name, (_, tile) in known.items():
+        own = np.array([tile.low, tile.high], np.int64)
+        for size in range(1, len(name) + 1):
+            low, high = ends.get(name[:size], own)
+            ends[name[:size]] = np.array([np.minimum(low, own[0]), np.maximum(high, own[1])])
+            below.setdefault(name[: size - 1], set()).add(name[:size])
+    if not is_url(folder):
+        os.makedirs(os.path.join(folder, _CONTENT), exist_ok=True)
+    with console.progress("writing", "tiles") as progress:
+        for number, (name, (shard, tile)) in enumerate(known.items(), 1):
+            table, faces = tiles.decoded(shard, tile)
+            moved = ((table[:, :3] - ends[name][0]) * tiles.lattice.cell).astype(np.float32)
+            mesh = TriangleMesh(moved.astype(np.float64), faces, tiles.attributes(table), {"up": "z"})
+            data = write_glb(mesh, name).data
+            write_output(inside(folder, f"{_CONTENT}/{name}.glb"), data, overwrite=overwrite)
+            progress(number, len(known))
+    diagonal = tiles.lattice.cell * float(np.linalg.norm(np.ptp(ends["r"], axis=0)))
+
+    def node(name: str, around: Ints) -> Facts:
+        """A node of the octree, where `around` is the lowest place of the one above."""
+        (low, high), children = ends[name], sorted(below.get(name, ()))
+        half, moved = (high - low) * tiles.lattice.cell / 2, (low - around) * tiles.lattice.cell
+        told: Facts = {"geometricError": known[name][1].error if name in known else diagonal, "refine": "REPLACE"}
+        told["boundingVolume"] = {"box": [*half.tolist(), *np.diag(half).ravel().tolist()]}
+        told["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *moved.tolist(), 1]
+        told |= {"content": {"uri": f"{_CONTENT}/{name}.glb"}} if name in known else {}
+        return told | ({"children": [node(one, low) for one in children]} if children else {})
+
+    root = node("r", ends["r"][0])
+    root["transform"][12:15] = tiles.lattice.positions(ends["r"][0]).tolist()
+    tree = {"asset": {"version": "1.1", "generator": "bsm"}, "geometricError": diagonal, "root": root}
+    write_output(inside(folder, TILESET), json.dumps(tree).encode() + b"\n", overwrite=overwrite)
+    return len(known)
 
 
 def _row_of(tiles: Tiles, single: bool) -> np.dtype[Any]:

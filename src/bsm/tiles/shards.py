@@ -240,8 +240,11 @@ class Tiles:
         used, rows = np.unique(np.concatenate(triangles), return_inverse=True)
         different, numbers = np.unique(np.concatenate(tables)[used], axis=0, return_inverse=True)
         joined = numbers.reshape(-1)[rows].reshape(-1, 3).astype(np.int32)
-        carried = [Attribute(what, values, "vertex", what) for what, values in self.values(different).items()]  # type: ignore[arg-type]
-        return TriangleMesh(self.lattice.positions(different[:, :3]), joined, tuple(carried))
+        return TriangleMesh(self.lattice.positions(different[:, :3]), joined, self.attributes(different))
+
+    def attributes(self, table: Table) -> tuple[Attribute, ...]:
+        """What vertices, shape (n, 3 and more), have beside their places, as a mesh has it."""
+        return tuple(Attribute(what, found, "vertex", what) for what, found in self.values(table).items())  # type: ignore[arg-type]
 
     def values(self, table: Table) -> dict[str, npt.NDArray[Any]]:
         """What vertices, shape (n, 3 and more), have beside their places, by its name; shape (n, c)."""
@@ -255,10 +258,7 @@ class Tiles:
 
     def chosen(self, error: float = 0.0, box: Any = None, level: int | None = None) -> Iterator[tuple[Facts, Tile]]:
         """The coarsest tiles whose error is at most that, or those of a level, that meet a box of places."""
-        found: dict[str, tuple[Facts, Tile]] = {}
-        for shard in self.manifest["shards"]:
-            if box is None or _meet(box, shard["low"], shard["high"]):
-                found |= {tile.name: (shard, tile) for tile in self.index(shard)}
+        found = {tile.name: (shard, tile) for shard, tile in self.all(box)}
         taken: set[str] = set()
         inner = {name[:-1] for name in found}
         for name in sorted(found, key=lambda name: (len(name), name)):
@@ -270,6 +270,12 @@ class Tiles:
                 taken.add(name)
                 if box is None or _meet(box, tile.low, tile.high):
                     yield found[name]
+
+    def all(self, box: Any = None) -> Iterator[tuple[Facts, Tile]]:
+        """Tiles of all shards, or of those that meet a box of places."""
+        for shard in self.manifest["shards"]:
+            if box is None or _meet(box, shard["low"], shard["high"]):
+                yield from ((shard, tile) for tile in self.index(shard))
 
     def index(self, shard: Facts) -> list[Tile]:
         """What a shard says of its tiles."""

@@ -5,10 +5,11 @@ import hashlib
 import json
 import math
 import os
+import re
 import select
 import socket
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from http import HTTPStatus
@@ -28,7 +29,8 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.comparison import in_order_of
-from bsm.files.pipes import Input
+from bsm.exits import worded
+from bsm.files.pipes import Input, read_range
 from bsm.files.stream import decode_whole, peek_header
 
 _CHUNK = 1 << 18
@@ -139,6 +141,7 @@ def written_to(file: BinaryIO) -> Iterator[bytes]:
 
 DRACO_LEVEL = 10
 DRACO_BITS = range(6, 25)
+_RANGE = re.compile(r"bytes=(\d{1,18})-(\d{1,18})")
 
 
 @dataclass(frozen=True)
@@ -148,6 +151,22 @@ class Rival:
     bytes: int
     bits: int
     theta: float
+
+
+@dataclass(frozen=True)
+class Ranged:
+    """A file, here or behind a URL, that is sent by ranges."""
+
+    path: str
+    size: int
+
+
+@dataclass(frozen=True, eq=False)
+class Tiled:
+    """A folder of tiles: its manifest, and its shards by their names."""
+
+    name: str
+    files: Mapping[str, bytes | Ranged]
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,9 +265,9 @@ class PageServer(ThreadingHTTPServer):
 
     daemon_threads = True
 
-    def __init__(self, contents: Sequence[Content | Growing], port: int = 0) -> None:
+    def __init__(self, contents: Sequence[Content | Growing | Tiled], port: int = 0) -> None:
         super().__init__((LOOPBACK, port), _Handler)
-        self.content: dict[str, tuple[str, bytes | Growing]] = {}
+        self.content: dict[str, tuple[str, bytes | Growing | Ranged]] = {}
 
         def place(path: str, data: bytes | Growing) -> dict[str, str]:
             self.content[path] = (_BYTES, data)
@@ -259,6 +278,9 @@ class PageServer(ThreadingHTTPServer):
             path = f"/{number}"
             if isinstance(content, Growing):
                 entries.append({"name": content.name, "live": True} | place(path, content))
+            elif isinstance(content, Tiled):
+                self.content |= {f"{path}/{name}": (_BYTES, data) for name, data in content.files.items()}
+                entries.append({"name": content.name, "tiles": path})
             else:
                 entries.append(_listed(content, path, place))
         page = _page(entries)
@@ -283,7 +305,19 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.NOT_FOUND)
         else:
             kind, data = self.server.content[self.path]
-            self.send_response(HTTPStatus.OK)
+            status = HTTPStatus.OK
+            if isinstance(data, Ranged):
+                asked = _RANGE.fullmatch(self.headers.get("Range", ""))
+                begin, end = map(int, asked.groups()) if asked else (1, 0)
+                if not begin <= end < data.size:
+                    self.send_error(HTTPStatus.REQUESTED_RANGE_NOT_SATISFIABLE)
+                    return
+                try:
+                    data, status = read_range(data.path, begin, end + 1 - begin), HTTPStatus.PARTIAL_CONTENT
+                except (BsmError, OSError) as error:
+                    self.send_error(HTTPStatus.INTERNAL_SERVER_ERROR, worded(error))
+                    return
+            self.send_response(status)
             self.send_header("Content-Type", kind)
             self.send_header("X-Content-Type-Options", "nosniff")
             self.send_header("X-Frame-Options", "DENY")

@@ -2,6 +2,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { inflateSync } from "node:zlib";
 import { crc16, crc32 } from "../src/checksums";
 import { parseVarint } from "../src/varint";
 import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh, type Wishes } from "../src/index";
@@ -106,4 +107,42 @@ export function mended(stream: Uint8Array): Uint8Array {
         at = end + size;
     }
     return stream;
+}
+
+/** Rows of an 8-bit PNG, and how wide its pixels are. */
+export function* rowsOf(png: Buffer): Generator<{ row: Uint8Array; channels: number; y: number; width: number; height: number }> {
+    const [width, height, channels] = [png.readUInt32BE(16), png.readUInt32BE(20), png[25] === 6 ? 4 : 3];
+    const parts: Buffer[] = [];
+    for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {
+        if (png.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(png.subarray(at + 8, at + 8 + png.readUInt32BE(at)));
+    }
+    const rows = inflateSync(Buffer.concat(parts));
+    const stride = width * channels;
+    let above = new Uint8Array(stride);
+    for (let y = 0; y < height; y++) {
+        const filter = rows[y * (stride + 1)];
+        const row = Uint8Array.from(rows.subarray(y * (stride + 1) + 1, (y + 1) * (stride + 1)));
+        for (let i = 0; i < stride; i++) {
+            const [a, b, c] = [i < channels ? 0 : row[i - channels], above[i], i < channels ? 0 : above[i - channels]];
+            const paeth = [a, b, c].sort((p, q) => Math.abs(a + b - c - p) - Math.abs(a + b - c - q))[0];
+            row[i] += [0, a, b, (a + b) >> 1, paeth][filter];
+        }
+        yield { row, channels, y, width, height };
+        above = row;
+    }
+}
+
+/** Share of the pixels that differ from the corner, and where their middle is. */
+export function silhouette(png: Buffer): { share: number; x: number; y: number } {
+    let [count, sumX, sumY, size] = [0, 0, 0, [1, 1]];
+    let corner: Uint8Array | undefined;
+    for (const { row, channels, y, width, height } of rowsOf(png)) {
+        corner ??= row.slice(0, 3);
+        size = [width, height];
+        for (let x = 0; x < width; x++) {
+            if ([0, 1, 2].some((d) => Math.abs(row[x * channels + d] - corner![d]) > 8)) [count, sumX, sumY] = [count + 1, sumX + x, sumY + y];
+        }
+    }
+    const [width, height] = size;
+    return { share: count / (width * height), x: sumX / count / width, y: sumY / count / height };
 }

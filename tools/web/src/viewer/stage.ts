@@ -1,5 +1,5 @@
 /** Camera, light and the mesh on a canvas. */
-import { AmbientLight, type BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Group, type Material, MathUtils, Mesh, MeshLambertMaterial, PerspectiveCamera, Scene, Spherical, WebGLRenderer } from "three";
+import { AmbientLight, type BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, Group, type Material, MathUtils, Mesh, MeshLambertMaterial, PerspectiveCamera, Scene, Spherical, type Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const TURN = Math.PI / 24;
@@ -19,6 +19,7 @@ export class Stage {
     /** What turns the axis that a mesh calls up to the top. */
     private readonly turned = new Group();
     private mesh = new Mesh<BufferGeometry, Material | Material[]>(new BufferGeometry(), this.material);
+    private readonly tiles = new Group();
     private clothes?: Material[];
 
     constructor(private readonly canvas: HTMLCanvasElement) {
@@ -31,7 +32,7 @@ export class Stage {
         light.position.set(1, 2, 3);
         this.camera.add(light);
         this.scene.add(this.camera, new AmbientLight(0xffffff, 0.5), this.turned);
-        this.turned.add(this.mesh);
+        this.turned.add(this.mesh, this.tiles);
         this.controls.update();
         canvas.addEventListener("keydown", (event) => this.turn(event));
         this.watch.observe(canvas.parentElement!);
@@ -40,6 +41,7 @@ export class Stage {
     /** Show a geometry whose bounding box has this centre and diagonal, turned by these angles. */
     show(geometry: BufferGeometry, center: number[], diagonal: number, turn: [number, number, number]): void {
         this.turned.remove(this.mesh);
+        this.tiles.clear();
         this.mesh.geometry.dispose();
         this.dress();
         this.turned.rotation.set(...turn);
@@ -49,6 +51,25 @@ export class Stage {
         this.mesh.position.set(-center[0] / diagonal, -center[1] / diagonal, -center[2] / diagonal);
         this.turned.add(this.mesh);
         this.draw();
+    }
+
+    /** Show these geometries together, which lie around a centre; those that are not among them go. */
+    together(geometries: BufferGeometry[], center: number[], diagonal: number): void {
+        this.mesh.visible = false;
+        const fresh = new Set(geometries);
+        for (const mesh of [...this.tiles.children] as Mesh[]) if (!fresh.delete(mesh.geometry)) this.tiles.remove(mesh);
+        for (const geometry of fresh) this.tiles.add(new Mesh(geometry, this.material));
+        this.tiles.scale.setScalar(1 / diagonal);
+        this.tiles.position.set(-center[0] / diagonal, -center[1] / diagonal, -center[2] / diagonal);
+        this.whiten(geometries.some((geometry) => geometry.hasAttribute("color")));
+        this.draw();
+    }
+
+    /** From where one looks, in the unit of what is shown together, and how many pixels a unit has at a distance of 1. */
+    get eye(): { place: Vector3; pixels: number } {
+        this.tiles.updateWorldMatrix(true, false);
+        const place = this.tiles.worldToLocal(this.camera.position.clone());
+        return { place, pixels: this.canvas.height / (2 * Math.tan(this.camera.fov / 2 / MathUtils.RAD2DEG)) };
     }
 
     /** Draw with materials of its own, or with none again. */
@@ -77,12 +98,16 @@ export class Stage {
         const { clothes } = this;
         this.mesh.material = dressed && clothes ? (clothes.length > 1 ? clothes : clothes[0]) : this.material;
         if (colours) this.mesh.geometry.setAttribute("color", colours);
-        if (this.material.vertexColors !== on) {
-            this.material.vertexColors = on;
-            this.material.color.set(on ? WHITE : PLAIN);
-            this.material.needsUpdate = true;
-        }
+        this.whiten(on);
         this.draw();
+    }
+
+    /** Let vertices have colours, or not. */
+    private whiten(on: boolean): void {
+        if (this.material.vertexColors === on) return;
+        this.material.vertexColors = on;
+        this.material.color.set(on ? WHITE : PLAIN);
+        this.material.needsUpdate = true;
     }
 
     draw(): void {

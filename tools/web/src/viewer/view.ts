@@ -7,6 +7,7 @@ import type { Pool, StreamDecoding } from "../pool";
 import { coloursOf, errorsOf, LEGENDS, type Errors, type Scheme } from "./colours";
 import { Playback } from "../playback";
 import { Stage } from "./stage";
+import { TileSet } from "./tiles";
 import template from "./view.html";
 
 /** Draco's file of a mesh that keeps the normals as well as the stream. */
@@ -77,6 +78,9 @@ export class View {
     private stale = false;
     private frameShown = -1;
     private closed = false;
+    private tiles?: TileSet;
+    /** From where tiles were chosen; undefined before the first time. */
+    private looked?: string;
 
     constructor(
         private readonly root: HTMLElement,
@@ -128,6 +132,36 @@ export class View {
         this.restart();
     }
 
+    /** Show tiles of a folder, as far as they are worth it. */
+    async openTiles(name: string, url: string): Promise<void> {
+        this.open({ name });
+        this.over = true;
+        const tiles = await TileSet.open(url, this.pool, () => (this.looked = ""));
+        if (this.closed || this.content.name !== name || this.tiles) return tiles.close();
+        this.tiles = tiles;
+    }
+
+    /** Look for the tiles that are to be seen, when the camera has moved or some have come. */
+    private walk(tiles: TileSet): void {
+        const { center, diagonal } = tiles.extent;
+        const { place, pixels } = this.stage.eye;
+        const looked = [...place, pixels].join();
+        if (looked === this.looked) return;
+        const first = this.looked === undefined;
+        this.looked = looked;
+        if (first) this.stage.together([], center, diagonal);
+        else tiles.look(place, pixels);
+        const shown = tiles.shown;
+        this.stage.together(shown, center, diagonal);
+        const faces = shown.reduce((sum, geometry) => sum + geometry.getIndex()!.count / 3, 0);
+        this.say("status", `${shown.length} tiles, ${counted(faces)} faces`);
+        this.part("problem").textContent = tiles.problem;
+        this.root.dataset.tiles = String(shown.length);
+        this.root.dataset.faces = String(faces);
+        this.root.dataset.state = !tiles.complete ? "loading" : tiles.problem ? "damaged" : "complete";
+        if (first) this.looked = "";
+    }
+
     /** Take bytes of the stream. */
     receive(bytes: Uint8Array): void {
         const length = this.length + bytes.length;
@@ -166,6 +200,7 @@ export class View {
     close(): void {
         this.closed = true;
         this.decoding?.close();
+        this.tiles?.close();
         this.stage.dispose();
     }
 
@@ -180,6 +215,8 @@ export class View {
     /** Decode from the first byte on; what is shown stays until there is something else. */
     private restart(): void {
         this.decoding?.close();
+        this.tiles?.close();
+        this.tiles = this.looked = undefined;
         const geometry = new BSMGeometry({ onConnectivity: () => (this.stale = true), onBlock: () => this.drawn(), onFrame: () => this.begin(geometry) });
         this.geometry = geometry;
         this.playback = undefined;
@@ -214,6 +251,7 @@ export class View {
 
     /** Go on for one picture. */
     private step(now: number): void {
+        if (this.tiles) return this.walk(this.tiles);
         if (Number(this.cut.value) < this.fed) this.restart();
         const allowed = this.allowed();
         if (!this.over && this.fed < allowed) {

@@ -15,6 +15,8 @@ interface Place {
 interface Source extends Place {
     name: string;
     live?: boolean;
+    /** The folder of a mesh in tiles. */
+    tiles?: string;
     original?: Place;
     draco?: Rival;
 }
@@ -49,6 +51,8 @@ async function fillPage(list: HTMLElement): Promise<void> {
     const open = async (index: number): Promise<void> => {
         const turn = ++turns;
         try {
+            const { name, tiles } = sources[index];
+            if (tiles !== undefined) return await view.openTiles(name, tiles);
             const content = await contentOf(sources[index]);
             const reader = (await responseOf(content.name, sources[index])).body!.getReader();
             if (turn === turns) view.open(content);

@@ -1,0 +1,187 @@
+/** Tiles of a mesh of any size: coarse ones first, then those that are worth most where one looks, by ranges; memory has a bound. */
+import { Vector3 } from "three";
+import { BSMGeometry } from "../geometry";
+import type { Pool } from "../pool";
+
+const BUDGET = 3_000_000; // faces that are shown at a time
+const AT_ONCE = 4;
+const FOOT = 16; // bytes behind the index of a shard
+const FINE = 1; // pixels that a tile may be off
+
+type Triple = [number, number, number];
+
+interface Manifest {
+    cell: number;
+    origin: Triple;
+    shards: { file: string; size: number; index: number; sha256: string }[];
+}
+
+interface Told {
+    name: string;
+    offset: number;
+    size: number;
+    sha256: string;
+    faces: number;
+    error: number;
+    low: Triple;
+    high: Triple;
+}
+
+class Tile {
+    readonly below: Tile[] = [];
+    readonly center: Vector3;
+    readonly radius: number;
+    geometry?: BSMGeometry;
+    asked = false;
+
+    constructor(
+        readonly told: Told,
+        readonly url: string,
+        { cell, origin }: Manifest,
+    ) {
+        const [low, high] = [told.low, told.high].map((place) => new Vector3(...place.map((at, d) => at * cell + origin[d])));
+        this.center = low.clone().add(high).divideScalar(2);
+        this.radius = low.distanceTo(high) / 2;
+    }
+
+    /** How many pixels it is off, seen from a place, where a unit at distance 1 is so many. */
+    off(eye: Vector3, pixels: number): number {
+        return this.below.length === 0 ? 0 : (pixels * this.told.error) / Math.max(eye.distanceTo(this.center) - this.radius, 1e-3 * this.radius);
+    }
+}
+
+/** Bytes of a file, if they are those that were written. */
+async function ranged(url: string, offset: number, size: number, sum: string): Promise<Uint8Array> {
+    const response = await fetch(url, { headers: { Range: `bytes=${offset}-${offset + size - 1}` } });
+    if (response.status !== 206) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+    const bytes = new Uint8Array(await response.arrayBuffer());
+    const found = Array.from(new Uint8Array(await crypto.subtle.digest("SHA-256", bytes)), (byte) => byte.toString(16).padStart(2, "0"));
+    if (found.join("") !== sum) throw new Error(`${url}: bytes from ${offset} on are not what was written`);
+    return bytes;
+}
+
+/** Opened by its manifest and the indices of its shards. */
+export class TileSet {
+    /** What is wrong with tiles that could not be shown; coarser ones stand in their place. */
+    problem = "";
+    private cut = new Set<Tile>();
+    private wanted: Tile[] = [];
+    private loading = 0;
+    private closed = false;
+
+    private constructor(
+        private readonly tops: Tile[],
+        private readonly pool: Pool,
+        private readonly changed: () => void,
+    ) {}
+
+    static async open(url: string, pool: Pool, changed: () => void): Promise<TileSet> {
+        const response = await fetch(`${url}/manifest.json`);
+        if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+        const manifest = (await response.json()) as Manifest;
+        const nodes = new Map<string, Tile>();
+        for (const { file, size, index, sha256 } of manifest.shards) {
+            const at = `${url}/${file}`;
+            const text = new TextDecoder().decode(await ranged(at, size - FOOT - index, index, sha256));
+            for (const told of JSON.parse(text) as Told[]) nodes.set(told.name, new Tile(told, at, manifest));
+        }
+        for (const [name, tile] of nodes) nodes.get(name.slice(0, -1))?.below.push(tile);
+        return new TileSet([...nodes].flatMap(([name, tile]) => (nodes.has(name.slice(0, -1)) ? [] : [tile])), pool, changed);
+    }
+
+    /** The middle of all, and how long its diagonal is. */
+    get extent(): { center: number[]; diagonal: number } {
+        const center = this.tops.reduce((sum, { center }) => sum.add(center), new Vector3()).divideScalar(this.tops.length);
+        return { center: center.toArray(), diagonal: 2 * Math.max(...this.tops.map((top) => top.center.distanceTo(center) + top.radius)) };
+    }
+
+    /** Choose what is to be seen from a place: what is most pixels off gives way to what it is made of. */
+    look(eye: Vector3, pixels: number): void {
+        const chosen = new Set(this.tops);
+        let faces = this.tops.reduce((sum, { told }) => sum + told.faces, 0);
+        const order: Tile[] = [...this.tops];
+        for (;;) {
+            const worst = [...chosen].reduce<[number, Tile?]>((most, tile) => (tile.off(eye, pixels) > most[0] ? [tile.off(eye, pixels), tile] : most), [FINE, undefined])[1];
+            if (!worst) break;
+            const more = worst.below.reduce((sum, { told }) => sum + told.faces, -worst.told.faces);
+            if (faces + more > BUDGET) break;
+            faces += more;
+            chosen.delete(worst);
+            worst.below.forEach((tile) => chosen.add(tile));
+            order.push(...worst.below);
+        }
+        this.cut = chosen;
+        this.wanted = order;
+        const kept = new Set(order);
+        const drop = (tile: Tile): void => {
+            if (!kept.has(tile) && tile.geometry) [tile.geometry, tile.asked] = [tile.geometry.dispose() as undefined, false];
+            tile.below.forEach(drop);
+        };
+        this.tops.forEach(drop);
+        this.load();
+    }
+
+    /** What is there of it: all parts of a tile in its place, or the tile. */
+    get shown(): BSMGeometry[] {
+        const parts = (tile: Tile): BSMGeometry[] | undefined => {
+            const own = tile.geometry && [tile.geometry];
+            if (this.cut.has(tile)) return own;
+            const below = tile.below.map(parts);
+            return below.every((part) => part !== undefined) ? below.flat() : own;
+        };
+        return this.tops.flatMap((tile) => parts(tile) ?? []);
+    }
+
+    /** Whether all that is to be seen is there. */
+    get complete(): boolean {
+        return this.loading === 0 && this.wanted.every(({ asked }) => asked);
+    }
+
+    close(): void {
+        this.closed = true;
+        this.tops.forEach(function drop(tile: Tile): void {
+            tile.geometry?.dispose();
+            tile.below.forEach(drop);
+        });
+    }
+
+    private load(): void {
+        for (const tile of this.wanted) {
+            if (this.closed || this.loading >= AT_ONCE) return;
+            if (tile.asked) continue;
+            tile.asked = true;
+            this.loading++;
+            void this.fetched(tile).finally(() => {
+                this.loading--;
+                this.load();
+                if (!this.closed) this.changed();
+            });
+        }
+    }
+
+    private async fetched(tile: Tile): Promise<void> {
+        const { offset, size, sha256, name } = tile.told;
+        try {
+            const bytes = await ranged(tile.url, offset, size, sha256);
+            const geometry = await this.decoded(bytes);
+            if (this.closed || !this.wanted.includes(tile)) {
+                geometry.dispose();
+                tile.asked = false;
+                return;
+            }
+            if (geometry.colour) geometry.setAttribute("color", geometry.colour);
+            tile.geometry = geometry;
+        } catch (error) {
+            this.problem = `Tile ${name} cannot be shown, a coarser one stands in its place: ${error instanceof Error ? error.message : error}`;
+        }
+    }
+
+    private decoded(bytes: Uint8Array): Promise<BSMGeometry> {
+        return new Promise((keep, fail) => {
+            const geometry = new BSMGeometry();
+            const stream = this.pool.open({ onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail }, { drawing: "whole" });
+            stream.receiveData(bytes);
+            stream.receiveEof();
+        });
+    }
+}

@@ -1,0 +1,126 @@
+/** A mesh in tiles in headless Chromium: by our page, and by 3d-tiles-renderer; coarse first, fine where one is near. */
+import assert from "node:assert/strict";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { build } from "esbuild";
+import { chromium, type Browser, type Page } from "playwright-core";
+import { serveSite } from "./server";
+import { CHROMIUM, FLAGS, silhouette, WEB } from "./shared";
+
+/** Where `bsm view` serves the tiles, their folder with a tileset, faces of the coarsest level and of all the mesh. */
+interface Given {
+    address: string;
+    folder: string;
+    coarsest: number;
+    faces: number;
+}
+
+const SCRIPT = `
+import { AmbientLight, Color, DirectionalLight, PerspectiveCamera, Scene, WebGLRenderer } from "three";
+import { TilesRenderer } from "3d-tiles-renderer";
+const renderer = new WebGLRenderer();
+renderer.setSize(600, 400);
+document.body.append(renderer.domElement);
+const camera = new PerspectiveCamera(50, 1.5, 0.01, 1e4);
+const scene = new Scene();
+scene.background = new Color(0xe9ecf0);
+const light = new DirectionalLight(0xffffff, 3);
+const tiles = new TilesRenderer("/scan/tileset.json");
+tiles.errorTarget = 0.5;
+tiles.group.rotation.x = -Math.PI / 2;
+tiles.setCamera(camera);
+tiles.setResolutionFromRenderer(camera, renderer);
+scene.add(camera.add(light), new AmbientLight(0xffffff, 0.5), tiles.group);
+const loaded = [];
+tiles.addEventListener("load-model", ({ tile }) => loaded.push(tile.content.uri));
+let [distance, quiet] = [200, 0];
+globalThis.from = (far) => { [distance, quiet] = [far, 0]; };
+globalThis.told = () => {
+    let faces = 0;
+    tiles.group.traverse((one) => { if (one.isMesh) faces += one.geometry.index.count / 3; });
+    return { loaded, faces, quiet };
+};
+renderer.setAnimationLoop(() => {
+    camera.position.set(0, 0, distance);
+    camera.updateMatrixWorld();
+    tiles.update();
+    quiet = tiles.isLoading || tiles.loadProgress < 1 ? 0 : quiet + 1;
+    renderer.render(scene, camera);
+});
+`;
+
+const given = process.env.BSM_TILES;
+
+describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`) }, () => {
+    const { address, folder, coarsest, faces } = JSON.parse(given ?? "{}") as Given;
+    const pages: Page[] = [];
+    const complaints: string[] = [];
+    let browser: Browser;
+
+    before(async () => {
+        browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
+    });
+    after(() => browser.close());
+
+    async function opened(): Promise<Page> {
+        const page = await browser.newPage({ viewport: { width: 600, height: 400 } });
+        page.on("pageerror", (error) => complaints.push(error.message));
+        pages.push(page);
+        return page;
+    }
+
+    test("the page shows coarse tiles first, and as many more as there are pixels for", async () => {
+        const page = await opened();
+        const asked: (string | undefined)[] = [];
+        page.on("request", (request) => request.url().endsWith(".tiles") && asked.push(request.headers().range));
+        await page.addInitScript(() => {
+            const seen: number[] = ((globalThis as unknown as { seen: number[] }).seen = []);
+            new MutationObserver(() => seen.push(Number(document.body?.dataset.faces ?? 0))).observe(document, { attributes: true, subtree: true, attributeFilter: ["data-faces"] });
+        });
+        await page.goto(address);
+        await page.waitForSelector("body[data-state=complete]", { timeout: 60_000 });
+        const seen = (await page.evaluate("seen.filter((faces) => faces > 0)")) as number[];
+        const far = await page.locator("canvas").screenshot();
+        assert.equal(seen[0], coarsest, "the coarsest comes first");
+        assert.ok(asked.length > 2 && asked.every((range) => range?.startsWith("bytes=")), "by ranges");
+        const { share } = silhouette(far);
+        assert.ok(share > 0.05 && share < 0.9, `share ${share}`);
+        const before = Number(await page.locator("body").getAttribute("data-faces"));
+        await page.locator("canvas").focus();
+        for (let k = 0; k < 12; k++) await page.keyboard.press("+");
+        await page.waitForFunction((before) => document.body.dataset.state === "complete" && Number(document.body.dataset.faces) > before, before, { timeout: 60_000 });
+        assert.ok(Number(await page.locator("body").getAttribute("data-faces")) <= faces);
+        assert.ok(silhouette(await page.locator("canvas").screenshot()).share > share);
+        for (let k = 0; k < 60; k++) await page.keyboard.press("-");
+        await page.waitForFunction((before) => Number(document.body.dataset.faces) < before, before, { timeout: 60_000 });
+        assert.deepEqual(complaints, []);
+    });
+
+    test("3d-tiles-renderer shows the tileset, coarse from afar and fine from near", async () => {
+        const site = await serveSite();
+        try {
+            const options = { stdin: { contents: SCRIPT, resolveDir: WEB }, bundle: true, write: false, format: "esm", logLevel: "error" } as const;
+            site.extra.set("/script.js", (await build(options)).outputFiles[0].text);
+            site.extra.set("/scan/tileset.json", readFileSync(join(folder, "tileset.json"), "utf8"));
+            for (const name of readdirSync(join(folder, "glb"))) site.extra.set(`/scan/glb/${name}`, readFileSync(join(folder, "glb", name)));
+            const page = await opened();
+            await page.goto(site.address);
+            const told = async (): Promise<{ loaded: string[]; faces: number }> => {
+                await page.waitForFunction("told().quiet > 5 && told().faces > 0", undefined, { timeout: 60_000 });
+                return (await page.evaluate("told()")) as { loaded: string[]; faces: number };
+            };
+            const far = await told();
+            assert.equal(far.faces, coarsest);
+            assert.deepEqual(far.loaded, ["glb/r.glb"]);
+            await page.evaluate("from(2.5)");
+            const near = await told();
+            assert.ok(near.faces > 2 * coarsest && near.faces <= faces, `${near.faces} faces`);
+            const { share, x, y } = silhouette(await page.locator("canvas").screenshot());
+            assert.ok(share > 0.1 && Math.abs(x - 0.5) < 0.1 && Math.abs(y - 0.5) < 0.15, `${share} ${x} ${y}`);
+            assert.deepEqual(complaints, []);
+        } finally {
+            site.close();
+        }
+    });
+});
