@@ -1,15 +1,90 @@
 /** Scenes of glTF whose geometry is BSM streams (EXT_bsm_compression), in Babylon.js: an extension of its loader. */
-import type { GLTFLoader, IBufferView, IGLTFLoaderExtension } from "@babylonjs/loaders/glTF/2.0/index.js";
+import type { AbstractMesh } from "@babylonjs/core/Meshes/abstractMesh.js";
+import type { GLTFLoader, IBufferView, IGLTFLoaderExtension, IMesh, IMeshPrimitive, INode } from "@babylonjs/loaders/glTF/2.0/index.js";
 import { registerGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js";
-import type { Shape } from "./index";
-import { Pool } from "./pool";
+import type { FramePicture, Shape } from "./index";
+import { Playback } from "./playback";
+import { Pool, type StreamDecoding } from "./pool";
 import { bytesOf, EXTENSION, type Coded } from "./views";
 
-/** Streams are decoded in threads, each once; of meshes that move the first frame is shown. */
+const MOST_NORMAL = 32767;
+/** What Babylon.js calls what vertices have. */
+const KINDS: Record<string, string> = { uv: "uv", uv1: "uv2", color: "color" };
+
+/** The frames of a stream, played on meshes of a scene: `mesh.metadata.sequence` of each. */
+export interface BabylonSequence {
+    /** Whether all frames are there. */
+    complete: boolean;
+    /** The frame that is shown. */
+    shown: number;
+    readonly frames: { picture: FramePicture; shape: Shape }[];
+    /** What it says of time: `playing`, `loop`, `frame`. */
+    readonly playback: Playback;
+    /** Show a frame, or the last of those that are there. */
+    seek(frame: number): this;
+}
+
+class Played implements BabylonSequence {
+    complete = false;
+    shown = 0;
+    readonly frames: { picture: FramePicture; shape: Shape }[] = [];
+    readonly playback: Playback;
+    private readonly worn = new Map<AbstractMesh, Shape>();
+
+    constructor(
+        rate: number,
+        private readonly decoding: StreamDecoding,
+    ) {
+        this.playback = new Playback(rate, true);
+    }
+
+    /** Show the frames on a mesh, which has the first one, as long as there is the mesh. */
+    playOn(mesh: AbstractMesh): void {
+        const scene = mesh.getScene();
+        const watch = scene.onBeforeRenderObservable.add(() => this.step(performance.now()));
+        mesh.alwaysSelectAsActiveMesh = true; // the bounds are those of the first frame
+        mesh.metadata = { ...mesh.metadata, sequence: this };
+        this.worn.set(mesh, this.frames[0].shape);
+        mesh.onDisposeObservable.add(() => {
+            scene.onBeforeRenderObservable.remove(watch);
+            this.worn.delete(mesh);
+            if (this.worn.size === 0) this.decoding.close();
+        });
+    }
+
+    seek(frame: number): this {
+        this.playback.seek(Math.min(Math.max(0, Math.floor(frame)), this.frames.length - 1));
+        this.show(this.playback.frame);
+        return this;
+    }
+
+    private step(now: number): void {
+        this.playback.step(now, this.frames.length, this.complete);
+        this.show(this.playback.frame);
+    }
+
+    private show(index: number): void {
+        if (index === this.shown || index >= this.frames.length) return;
+        this.shown = index;
+        const { picture, shape } = this.frames[index];
+        for (const [mesh, before] of this.worn) {
+            if (before !== shape) mesh.setIndices(shape.index, shape.positions.length / 3);
+            mesh.setVerticesData("position", picture.positions, true);
+            mesh.setVerticesData("normal", Float32Array.from(picture.normals, (one) => one / MOST_NORMAL), true);
+            for (const { name, values } of before === shape ? picture.attributes : [...shape.attributes, ...picture.attributes]) {
+                if (KINDS[name]) mesh.setVerticesData(KINDS[name], Float32Array.from(values), true);
+            }
+            this.worn.set(mesh, shape);
+        }
+    }
+}
+
+/** Streams are decoded in threads, each once; meshes that say so play the frames of theirs. */
 class BabylonBSMExtension implements IGLTFLoaderExtension {
     readonly name = EXTENSION;
     enabled = true;
     private readonly shapes = new Map<number, Promise<Shape>>();
+    private readonly sequences = new Map<number, Played>();
 
     constructor(
         private readonly loader: GLTFLoader,
@@ -18,6 +93,19 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
 
     dispose(): void {
         this.shapes.clear();
+        this.sequences.clear();
+    }
+
+    /** A mesh, which plays if it says so; null: it does not. */
+    _loadMeshPrimitiveAsync(context: string, name: string, node: INode, mesh: IMesh, primitive: IMeshPrimitive, assign: (one: AbstractMesh) => void): Promise<AbstractMesh> | null {
+        const moving = mesh.extensions?.[EXTENSION] as { stream: number } | undefined;
+        return moving ? this.played(moving.stream, this.loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign)) : null;
+    }
+
+    private async played(stream: number, loading: Promise<AbstractMesh>): Promise<AbstractMesh> {
+        const mesh = await loading;
+        this.sequences.get(stream)?.playOn(mesh);
+        return mesh;
     }
 
     /** The bytes of a bufferView that a stream holds; null: it is a plain one. */
@@ -38,15 +126,28 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
         if (!view) throw new Error(`${context}: there is no bufferView ${stream}`);
         const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(`/bufferViews/${stream}`, view);
         return new Promise((keep, fail) => {
+            let [shape, rate]: [Shape | undefined, unknown] = [undefined, 0];
+            let sequence: Played | undefined;
             const decoding = this.pool.open(
                 {
                     onPicture: (picture) => {
-                        if (picture.type !== "whole") return;
-                        keep(picture.shape);
-                        decoding.close();
+                        if (picture.type === "whole") ({ shape } = picture);
+                        if (picture.type === "metadata") rate = picture.entries.get("frame_rate") ?? rate;
+                        if (picture.type !== "frame" || !shape) return;
+                        if (!sequence) this.sequences.set(stream, (sequence = new Played(Number(rate), decoding)));
+                        sequence.frames.push({ picture, shape });
+                        keep(sequence.frames[0].shape);
                     },
-                    onEnd: () => fail(new Error(`${context}: bufferView ${stream} is a stream without a mesh`)),
-                    onError: fail,
+                    onEnd: () => {
+                        if (sequence) sequence.complete = true;
+                        else if (shape) keep(shape);
+                        else fail(new Error(`${context}: bufferView ${stream} is a stream without a mesh`));
+                    },
+                    onError: (error) => {
+                        if (sequence) sequence.complete = true;
+                        this.loader.log(`${context}: ${error}`);
+                        fail(error);
+                    },
                 },
                 { drawing: "whole" },
             );

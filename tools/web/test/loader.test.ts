@@ -236,6 +236,37 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.match(String(seen.problems), /POSITION has \d+ bytes, not \d+.*the stream ends before its END frame/);
     });
 
+    test("moves meshes in Babylon.js", async () => {
+        const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
+        const { positions, faces } = decode(await compile(BUILDS[0]), stream);
+        site.extra.set("/moving.glb", sceneOf(stream, positions.length / 3, faces.length, true));
+        const seen = await found(`
+            const { Engine, Scene, AppendSceneAsync } = await import("/babylon.js");
+            const { registerBSM } = await import("/bsm/babylon.js");
+            registerBSM();
+            const scene = new Scene(new Engine(document.body.appendChild(document.createElement("canvas"))));
+            await AppendSceneAsync("/moving.glb", scene);
+            const mesh = scene.meshes.find((one) => one.getTotalVertices() > 0);
+            const { sequence } = mesh.metadata;
+            while (!sequence.complete) await new Promise((go) => setTimeout(go, 5));
+            const own = await new BSMLoader().loadAsync("/stream/good-sequence-learnt.bsm");
+            const same = own.frames.map((frame, index) => (sequence.seek(index), [...mesh.getVerticesData("position")].join() === [...frame.positions].join()));
+            sequence.seek(0);
+            const pictures = [];
+            for (let n = 0; n < 20; n++) {
+                scene.onBeforeRenderObservable.notifyObservers(scene);
+                pictures.push(sequence.shown);
+                await new Promise((go) => setTimeout(go, 20));
+            }
+            const moved = new Set(pictures).size > 1;
+            mesh.dispose();
+            await new Promise((go) => setTimeout(go, 20));
+            return { same: same.every(Boolean), frames: same.length, moved, left: scene.onBeforeRenderObservable.observers.length };`);
+        assert.equal(seen.same, true);
+        assert.ok(Number(seen.frames) > 1);
+        assert.deepEqual([seen.moved, seen.left], [true, 0]);
+    });
+
     test("moves meshes of glTF", async () => {
         const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
         const { positions, faces } = decode(await compile(BUILDS[0]), stream);
