@@ -7,7 +7,7 @@ charges  many small and few large of all that can be many: time by what was char
 walk     every frame type and field as large as its bytes allow, held against the law
 readers  every reader of files, with every number as large as it can be, held against the law
 search   files that make readers slow for their bytes, found step by step, and read at four times the size
-proof    vectors, mutants and random streams by all decoders, on all processors, in all environments
+proof    mutants and random streams by all decoders, on all processors, in all environments
 """
 
 from __future__ import annotations

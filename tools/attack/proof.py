@@ -6,7 +6,6 @@
 
 | suite | what it does |
 |---|---|
-| vectors | every vector by the decoders in Python and in C, on threads, in pieces, tolerantly |
 | mutants | streams of all kinds with something changed behind right checksums: strict, in pieces, tolerant |
 | browser | mutants by the browser's decoder, in Node |
 | differential | mutants and random streams by both decoders |
@@ -97,7 +96,6 @@ def plan(args: argparse.Namespace) -> list[Part]:
     """All shards, the suites in turn, so that a run that is stopped has done a little of everything."""
     places = range(0, len(environments()), 8 if args.short else 1)
     queues = [
-        [Part("vectors", number, 2) for number in range(2)],
         [Part("mutants", *cut) for cut in cuts(args.mutants, MUTANTS)],
         [Part("browser", *cut) for cut in cuts(args.mutants, MUTANTS)],
         [Part("differential", *cut) for cut in cuts(args.differential, DIFFERENTIAL)],

@@ -36,8 +36,6 @@ from tools.attack.places import Place, environments, processors
 from tools.attack.tally import Outcome, Tally
 from tools.attack.targets import LIMITS
 from tools.attack.walk import cases
-from tools.vectors.__main__ import try_product
-from tools.vectors.store import read_manifest
 from tools.web_constants import limits_there
 
 WEB = Path(__file__).parents[2] / "tools" / "web"
@@ -104,18 +102,6 @@ class Shard:
             self.tally.escapes += 1
             self.tally.findings.append(f"encoding, seed {seed}: {traceback.format_exc(limit=-4)}")
             return None
-
-
-def vectors(shard: Shard, number: int, size: int) -> None:
-    """Every vector by both decoders, in pieces and on two threads."""
-    for vector in read_manifest()[number::size]:
-        stream = vector.stream.read_bytes()
-        with shard.watching(stream):
-            outcome = whole(stream)
-        shard.tally.saw(outcome)
-        shard.found(stream, try_product(vector))
-        shard.found(stream, shard.tally.hold(stream, in_c(stream), outcome))
-        agree(shard, stream, outcome)
 
 
 def mutants(shard: Shard, number: int, size: int) -> None:
@@ -292,7 +278,7 @@ def readers(shard: Shard, number: int, size: int) -> None:
 
 
 SUITES: dict[str, Callable[[Shard, int, int], None]] = {
-    suite.__name__: suite for suite in (vectors, mutants, browser, differential, encodes, surroundings, walk, readers)
+    suite.__name__: suite for suite in (mutants, browser, differential, encodes, surroundings, walk, readers)
 }
 
 

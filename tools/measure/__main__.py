@@ -7,7 +7,7 @@ nmsve       bytes at a visual error (NMSVE), against Draco's
 contract    what presets give, checked by themselves and by surfaces, against Draco's bytes
 grids       whole files with exact positions on a grid, against Draco's
 attributes  what attributes take, against Draco's
-speed       time and memory per vertex as meshes grow; links on which it is there first
+speed       links on which it is there first
 large       not a measurement: a mesh of any size to measure tiles with, made of a scan
 sequences   moving meshes, against Draco frame by frame and principal components
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
