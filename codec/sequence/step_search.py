@@ -15,6 +15,7 @@ from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.sides import MOST_PIXELS
+from bsm.codec.sequence.frames import same_frames
 from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.row_prediction import ROUNDS
 from bsm.codec.static.targets import COARSEST_STEP
@@ -41,6 +42,8 @@ AGAIN, ALONE, YIELD = 0.5, 6.0, 0.15
 """Powers of weights from a second look, and for single frames at the end, and that by which errors follow weights."""
 LEAST = 1e-3  # excess that is left of one, whatever other weights let expect
 WIDEST = 1.4  # logarithm of the largest weight, and of one over the smallest
+TWIN_STEP, TWIN = 1 / 16, 1.005
+"""A step, in reaches, far below which frames are the same; and how much worse than another one may look."""
 TRIES = 20
 _PIXEL = 4 * 14  # bytes of a `LookMetric` for each pixel of its pictures' side, squared
 
@@ -98,7 +101,10 @@ class StepSearch:
         self._ratios: dict[int, float] = {}  # of what large pictures showed and what normals let expect
         self._room = KEPT
         self._knots: list[int] = []
+        self._twins = np.arange(len(frames))  # the first frame that each is the same as, as in loops
+        self._looked: tuple[Positions, dict[tuple[int, int], float]] = frames, {}  # what was seen of decoded ones
         if promise.look < math.inf:
+            self._twins = same_frames(frames, (), TWIN_STEP * self._reach)
             self._shading = Shading(frames.shape[1], faces)
             self._knots = np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist()
 
@@ -192,8 +198,17 @@ class StepSearch:
         self._note(measured)
 
     def _look(self, index: int, decoded: Positions, most_pixels: int = MOST_PIXELS) -> float:
-        """Share of the bound; 0 for a frame of which nothing is seen."""
-        key = index, most_pixels
+        """Share of the bound; 0 for a frame of which nothing is seen. What comes again is looked at once."""
+        if self._looked[0] is not decoded:
+            self._looked = decoded, {}
+        twin, looked = int(self._twins[index]), self._looked[1]
+        if twin != index and not np.array_equal(decoded[twin], decoded[index]):
+            twin = index
+        if (twin, most_pixels) not in looked:
+            looked[twin, most_pixels] = self._seen((twin, most_pixels), decoded[twin])
+        return looked[twin, most_pixels] * (1.0 if twin == index else TWIN)
+
+    def _seen(self, key: tuple[int, int], decoded: Matrix) -> float:
         if key not in self._metrics:
             metric = self._metric(*key)
             held = _PIXEL * metric.pixels**2 if metric else 0
@@ -202,7 +217,7 @@ class StepSearch:
                 self._metrics[key] = metric
         else:
             metric = self._metrics[key]
-        return 0.0 if metric is None else metric.look(decoded[index]).moving / self._promise.look
+        return 0.0 if metric is None else metric.look(decoded).moving / self._promise.look
 
     def _metric(self, index: int, most_pixels: int) -> LookMetric | None:
         """None for a frame of which nothing is seen."""

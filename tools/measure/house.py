@@ -30,7 +30,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_720,
+    "product Python, lines": 34_840,
     "all Python, lines": 73_669,
     "product modules": 222,
     "product C files and headers": 72,

@@ -48,6 +48,19 @@ def test_every_frame_looks_the_same(gop: int) -> None:
     assert max(found) > 0.8  # with little to spare
 
 
+def test_frames_that_come_again_are_looked_at_once_if_they_are_decoded_alike() -> None:
+    positions, faces = bending(3)
+    frames = np.concatenate([positions, positions + 1e-7])
+    search = StepSearch(frames, faces, Promise(0.01, 1.0), 1.0, 1)
+    decoded = frames + 0.003 * np.sin(40.0 * frames)
+    decoded[3:] = decoded[:3]
+    once, again = (search._look(index, decoded) for index in (0, 3))
+    assert once < again < 1.01 * once and len(search._metrics) == 1
+    decoded = decoded.copy()
+    decoded[3] = frames[3]
+    assert search._look(3, decoded) < 0.1 * once and len(search._metrics) == 2
+
+
 @pytest.mark.parametrize("absolute", [False, True])
 def test_no_vertex_is_farther_off_than_is_said(absolute: bool) -> None:
     positions, faces = bending(12)
