@@ -16,7 +16,7 @@ Factor factor_room(Arena *arena, const Patch *patch) {
 bool factorize_patch(Context *context, const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor) {
     int64_t n = patch->size;
     Doubles diagonal = take_doubles(arena, n);
-    Singles scratch = take_singles(arena, 2 * (n + 32) + 15);
+    Singles scratch = take_singles(arena, 3 * (n + 16) + 15);
     Words column = take_words(arena, n + 1);
     *factor = factor_room(arena, patch);
     if (failed(context)) return false;

@@ -1,7 +1,12 @@
 /* The stages of one mesh: faces, blocks or grids, refinements, attributes (specification, F 3.8, F 8.3). */
 #include "engine/decoder.h"
 
-static bool behind_positions(const Mesh *mesh) { return mesh->has_layer || mesh->values_begun; }
+/* Whether a frame's place is before what has begun: behind a loss the grammar does not know what came before it. */
+static bool comes_late(const Mesh *mesh, FrameType type) {
+    const uint32_t early = 1u << CONNECTIVITY_FRAME | 1u << PARTITION_FRAME | 1u << ORDER_FRAME | 1u << BLOCK_FRAME;
+    const uint32_t positions = mesh->values_begun ? 1u << GRID_FRAME | 1u << REFINEMENT_FRAME : 0;
+    return (mesh->has_layer || mesh->values_begun) && (early | positions) >> type & 1;
+}
 
 void end_mesh(Mesh *mesh) {
     if (mesh->has_chains) end_chains(&mesh->chains);
@@ -221,11 +226,9 @@ static bool finish_attributes(bsmdec *decoder) {
 }
 
 bool take_in(bsmdec *decoder, const Packet *packet) {
-    const uint32_t EARLY = 1u << CONNECTIVITY_FRAME | 1u << PARTITION_FRAME | 1u << ORDER_FRAME | 1u << BLOCK_FRAME;
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
-    /* Behind a loss the grammar does not know what came before it. */
-    if (behind_positions(mesh) && EARLY >> packet->type & 1) return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
+    if (comes_late(mesh, packet->type)) return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
     switch (packet->type) {
         case HEADER_FRAME:
             begin_mesh(decoder, packet->header);

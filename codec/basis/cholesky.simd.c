@@ -41,33 +41,43 @@ INLINE void leave(const int vectors, int64_t p, const int rows, const float *mat
     EACH(r, rows) EACH(v, vectors) store(result + r * apart + p + v * WIDTH, lanes[r][v]);
 }
 
-/* Take from one or two rows of a target's matrix what the steps of a front take from its columns i and i + 1, `column`
- * being those of the target; `left` is scratch. */
+/* Take from one or two rows of a target's matrix what the steps of a front take from its columns i and i + 1. `places` says
+ * which column of the target each column of the front up to `end` is; `left` is scratch. */
 INLINE void take_from(const int rows, const Fronts *fronts, const Front *front, const float *matrix, const float *inverse,
-                      int64_t i, const Front *target, float *matrices, const uint32_t *column, float *left) {
+                      int64_t i, int64_t end, const Front *target, float *matrices, const uint32_t *places, float *left) {
     const uint32_t *border = fronts->borders.data + front->edge - front->own;
-    int64_t apart = front->apart, n = fronts->rows.size, end = front->width, begin = i / WIDTH * WIDTH;
-    while (end > i && border[end - 1] == n) end--;
-    for (int r = 0; r < rows; r++) {
-        const float *to = matrices + target->place + (border[i + r] - target->first) * target->apart;
-        for (int64_t j = begin; j < apart; j++) left[r * apart + j] = j >= i + r && j < end ? to[column[border[j]]] : 0.0f;
+    int64_t apart = front->apart;
+    float *to[2];
+    EACH(r, rows) {
+        to[r] = matrices + target->place + (border[i + r] - target->first) * target->apart;
+        for (int64_t j = i + r; j < end; j++) left[r * apart + j] = to[r][places[j]];
     }
-    for (int64_t p = begin; p < apart; p += LANES)
-        WITH_VECTORS(least(VECTORS, (apart - p) / WIDTH), p, leave, rows, matrix, apart, inverse, front->own, i, left);
-    for (int r = 0; r < rows; r++) {
-        float *to = matrices + target->place + (border[i + r] - target->first) * target->apart;
-        for (int64_t j = i + r; j < end; j++) to[column[border[j]]] = left[r * apart + j];
+    for (int64_t p = i / WIDTH * WIDTH; p < end; p += LANES)
+        WITH_VECTORS(least(VECTORS, (whole_vectors(end) - p) / WIDTH), p, leave, rows, matrix, apart, inverse, front->own, i, left);
+    EACH(r, rows) for (int64_t j = i + r; j < end; j++) to[r][places[j]] = left[r * apart + j];
+}
+
+/* Which column of a target's matrix each column of a front from i to `end` is: both are in ascending order. */
+INLINE void find_places(const Fronts *fronts, const Front *front, int64_t i, int64_t end, const Front *target, uint32_t *places) {
+    const uint32_t *border = fronts->borders.data + front->edge - front->own, *theirs = fronts->borders.data + target->edge;
+    int64_t limit = target->first + target->own, last = target->width - target->own - 1, k = 0;
+    for (; i < end && border[i] < limit; i++) places[i] = border[i] - (uint32_t)target->first;
+    for (; i < end; i++) {
+        while (k < last && theirs[k] != border[i]) k++;
+        places[i] = (uint32_t)(target->own + k);
     }
 }
 
 /* Factorise the matrix that has `diagonal`, and minus its weight, one without any, for every edge, to the columns of -C, as
- * rows of the fronts' matrices, and D^-1. `column` is scratch of n + 1, `scratch` of two rows of a front's matrix, at most
- * 2 (n + 32). */
+ * rows of the fronts' matrices, and D^-1. `column` is scratch of n + 1, `scratch` of three rows of a front's matrix, at most
+ * 3 (n + 16), and 15 more. */
 void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal,
                              Fronts fronts, Words column, Singles scratch, Singles values, Singles inverse) {
     int64_t n = fronts.rows.size, count = fronts.firsts.size - 1, filled = fronts.places.data[count];
     float *matrices = aligned(values.data), *left = aligned(scratch.data);
+    uint32_t *places = (uint32_t *)(left + 2 * whole_vectors(n + 1));
     for (int64_t i = 0; i < filled; i += WIDTH) store(matrices + i, zeros());
+    for (int64_t i = 0; i < 2 * whole_vectors(n + 1); i += WIDTH) store(left + i, zeros());
     for (int64_t t = 0; t < count; t++) {
         Front front = front_at(&fronts, t);
         float *row = matrices + front.place;
@@ -90,22 +100,16 @@ void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubl
                 WITH_VECTORS(least(VECTORS, (apart - p) / WIDTH), p, eliminate, matrix, apart, pivots, k);
             pivots[k] = 1.0f / matrix[k * apart + k];
         }
-        uint32_t owner = UINT32_MAX;
-        Front target = front;
         const uint32_t *border = fronts.borders.data + front.edge - own;
-        for (int64_t i = own; i < width && border[i] < n;) {
-            if (fronts.owners.data[border[i]] != owner) {
-                owner = fronts.owners.data[border[i]];
-                target = front_at(&fronts, owner);
-                find_columns(&fronts, &target, column.data);
-            }
-            if (i + 1 < width && border[i + 1] < n && fronts.owners.data[border[i + 1]] == owner) {
-                take_from(2, &fronts, &front, matrix, pivots, i, &target, matrices, column.data, left);
-                i += 2;
-            } else {
-                take_from(1, &fronts, &front, matrix, pivots, i, &target, matrices, column.data, left);
-                i++;
-            }
+        int64_t end = width - (width > own && border[width - 1] == n);
+        for (int64_t i = own; i < end;) {
+            uint32_t owner = fronts.owners.data[border[i]];
+            Front target = front_at(&fronts, owner);
+            find_places(&fronts, &front, i, end, &target, places);
+            for (; i + 1 < end && fronts.owners.data[border[i + 1]] == owner; i += 2)
+                take_from(2, &fronts, &front, matrix, pivots, i, end, &target, matrices, places, left);
+            if (i < end && fronts.owners.data[border[i]] == owner)
+                take_from(1, &fronts, &front, matrix, pivots, i++, end, &target, matrices, places, left);
         }
         for (int64_t k = 0; k < own; k++)
             for (int64_t p = 0; p < apart; p += WIDTH)

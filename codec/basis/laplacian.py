@@ -103,7 +103,7 @@ def factorize(laplacian: Laplacian, shift: float | Matrix) -> Factor:
     """Factorise L + delta I; `shift` is delta > 0, or one for every row, shape (n,)."""
     block, fronts, n = laplacian.block, laplacian.fronts, laplacian.block.size
     values, inverse = factor_room(fronts), np.empty(n, np.float32)
-    column, scratch = np.empty(n + 1, np.uint32), np.empty(2 * (n + 32) + PADDING, np.float32)
+    column, scratch = np.empty(n + 1, np.uint32), np.empty(3 * (n + 16) + PADDING, np.float32)
     given = block.offsets, block.neighbours, laplacian.weights, laplacian.diagonal + shift, fronts
     _kernels.factorize_fronts(*given, column, scratch, values, inverse)
     return Factor(fronts, values, inverse)

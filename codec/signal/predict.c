@@ -68,7 +68,7 @@ int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, C
     ConstSingles pivots = {inverse.data, inverse.size};
     if (!fits_graph(offsets, neighbours) || offsets.size != n + 1 || diagonal.size != n || pulls.rows != n ||
         !fits_factor(&fronts, n, values, pivots) || (weights.size > 0 && weights.size < offsets.data[n]) || sums.size != n ||
-        column.size != n + 1 || scratch.size < 2 * (n + 32) + 15)
+        column.size != n + 1 || scratch.size < 3 * (n + 16) + 15)
         return MISUSED;
     for (int64_t r = 0; r < n; r++) sums.data[r] = diagonal.data[r] + (springs.data[r] + shift);
     factorize_fronts(offsets, neighbours, weights, (ConstDoubles){sums.data, n}, fronts, column, scratch, values, inverse);

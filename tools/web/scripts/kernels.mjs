@@ -122,8 +122,8 @@ function checkTables(clang, objects, priors, target) {
     compare("priors", new Uint8Array(buffer, exports.PRIORS.value, priors.length), priors);
 }
 
-/** Sources of what takes most time where positions are on a grid, or refined. */
-const HOT = /fields|conquest/;
+/** Sources of what takes most time where positions are on a grid. */
+const HOT = /fields\/(value|grid|corners)/;
 
 /** Every build: whether with vector instructions, what of the decoder it is without, and which sources are compiled for speed, and not for their size alone. */
 export const KERNEL_BUILDS = {
@@ -131,7 +131,7 @@ export const KERNEL_BUILDS = {
     "built/kernels-scalar.wasm": { vectors: false, fast: HOT },
     "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attributes|values|declaration|zstd)\.c/ },
     "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attributes|values|declaration|zstd)\.c/ },
-    "built/quick.wasm": { vectors: true, exported: ["__heap_base", ...LIGHT], fast: HOT },
+    "built/quick.wasm": { vectors: true, exported: ["__heap_base", ...LIGHT], fast: /fields|conquest/ },
 };
 
 /** Objects of sources, which builds have in common. */
@@ -163,7 +163,8 @@ export function compileKernels({ vectors, exported = PAGE, without, fast }) {
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
         const limits = fast ? ["--one-caller-inline-max-function-size=100"] : [];
         // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
-        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, "-Oz", "--converge", "--low-memory-unused", ...limits, ...features, "-o", target]);
+        const passes = ["-Oz", "--converge", "--low-memory-unused", "--flatten", "--rereloop", "-Oz", "-Oz"];
+        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, ...passes, ...limits, ...features, "-o", target]);
         return readFileSync(target);
     } finally {
         rmSync(folder, { recursive: true });
