@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 34_840,
-    "all Python, lines": 73_669,
+    "all Python, lines": 73_649,
     "product modules": 222,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
@@ -39,7 +39,7 @@ LIMITS = {
     "fields of EncodeOptions": 20,
     "settings of --set": 12,
     "words of spec/*.md": 25_000,
-    "words of the core": 11_130,
+    "words of the core": 11_125,
     "tuned constants of the search": 60,
     "files that encoding a mesh walks through": 72,
 }
