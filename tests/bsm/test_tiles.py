@@ -1,6 +1,11 @@
 """Meshes in tiles: borders, levels, shards, and the way back."""
 
 import json
+import os
+import resource
+import signal
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -236,6 +241,45 @@ def test_processes_and_clusters_give_the_same_bytes(mesh, folder, tmp_path):
     options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": 50}
     with distributed.LocalCluster(**options) as cluster:
         assert contents(made(mesh, tmp_path / "dask", "--dask", cluster.scheduler_address)) == contents(folder)
+
+
+@pytest.mark.slow
+def test_a_worker_that_is_shot_changes_nothing(mesh, folder, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    shot = []
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": 50}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster, set_as_default=False) as client:
+
+        def shoot():
+            end = time.monotonic() + 60
+            while not shot and time.monotonic() < end:
+                busy = {address for address, tasks in client.processing().items() if tasks}
+                for nanny in cluster.workers.values():
+                    if nanny.worker_address in busy and not shot:
+                        os.kill(nanny.pid, signal.SIGKILL)
+                        shot.append((tmp_path / "dask" / "manifest.json").exists())
+
+        hunter = threading.Thread(target=shoot)
+        hunter.start()
+        output = made(mesh, tmp_path / "dask", "--dask", cluster.scheduler_address)
+        hunter.join()
+    assert shot == [False] and contents(output) == contents(folder)
+
+
+@pytest.mark.parametrize("most", [20_000, 100_000, 300_000])
+def test_a_full_disk_is_told(mesh, folder, tmp_path, most):
+    write_mesh(tmp_path / "mesh.ply", mesh)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (most, before[1]))
+    try:
+        done = program("tile", tmp_path / "mesh.ply", "-o", tmp_path / "out", "--triangles", 9000, text=True)
+        back = program("untile", folder, "-o", tmp_path / "back.ply", text=True)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    for one, file in ((done, tmp_path / "out" / "manifest.json"), (back, tmp_path / "back.ply")):
+        assert (one.returncode == 0) == file.exists()
+        assert one.returncode == 0 or (one.returncode == 9 and one.stderr.strip().endswith(": File too large"))
+        assert one.returncode == 0 or "/" in one.stderr.splitlines()[-1]
 
 
 def test_a_run_that_was_interrupted_goes_on(mesh, folder, tmp_path, monkeypatch):

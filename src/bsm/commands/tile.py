@@ -10,7 +10,7 @@ from bsm.bitstream.errors import FormatError, OptionError
 from bsm.commands.flags import asked, point
 from bsm.console import Console, print_json
 from bsm.exits import tell
-from bsm.files.output import refuse_to_overwrite
+from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
 from bsm.jobs.report import Facts, Job, Outcome, Run
 from bsm.jobs.run import came_to, run_many
@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("input", metavar="MESH", help="binary PLY, binary STL, npz or OBJ of any size; URLs as well")
     add("-o", "--output", metavar="FOLDER", required=True, help="folder or URL for shards and their manifest.json")
     add("--format", choices=("ply", "stl", "npz", "obj"), help="format of the input (default: by its name or content)")
-    add("--triangles", type=int, default=1 << 20, metavar="N", help="of a tile, at most (default 2^20)")
+    add("--triangles", type=int, default=1 << 19, metavar="N", help="of a tile, at most (default 2^19)")
     add("--grid-cell", type=float, metavar="H", help="the grid of all tiles (default: a power of two by the look)")
     add("--grid-origin", type=point, metavar="X,Y,Z", help="a place of that grid (default 0,0,0)")
     add("--finest", action="store_true", help="the finest level alone, no coarser ones")
@@ -56,7 +56,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         os.makedirs(args.output, exist_ok=True)
     beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
     work = Path(os.path.abspath(args.work or beside))
-    with about(args.input):
+    with about(args.input), by_its_own_name(work):
         plan = _planned(args, work, console)
     asked_for = asked(TileJob, args, input="", output="", most=args.triangles, cell=plan.lattice.cell, force=False)
     done: list[Facts] = []

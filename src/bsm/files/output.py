@@ -48,13 +48,13 @@ def open_output(path: str | os.PathLike[str], *, overwrite: bool = False) -> Ite
         raise IsADirectoryError(errno.EISDIR, "the output is a folder", os.fspath(path))
     if not can_be_replaced(path):
         descriptor = _descriptor(path)
-        with _by_its_own_name(path), open(path if descriptor is None else os.dup(descriptor), "wb") as device:
+        with by_its_own_name(path), open(path if descriptor is None else os.dup(descriptor), "wb") as device:
             yield device
         return
     # Through a symbolic link the file behind it is replaced, not the link.
     target = Path(os.path.realpath(path))
     refuse_to_overwrite(path, overwrite)
-    with termination_as_exception(), _by_its_own_name(path):
+    with termination_as_exception(), by_its_own_name(path):
         name = lock = None
         try:
             with _signals_wait():
@@ -143,8 +143,8 @@ def can_be_replaced(path: str | os.PathLike[str]) -> bool:
 
 
 @contextmanager
-def _by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Let errors about the temporary file name the one that is wanted; those of a full disk name none by themselves."""
+def by_its_own_name(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Let errors about a temporary file name what is wanted; those of a full disk name none by themselves."""
     try:
         yield
     except OSError as error:

@@ -165,8 +165,8 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     with (folder / "places").open("wb") as file, (folder / "codes").open("wb") as coded:
         for piece in raw.pieces("positions"):
             places = lattice.places(piece)
-            places.tofile(file)
-            plan.codes(places).tofile(coded)
+            file.write(places.data)
+            coded.write(plan.codes(places).data)
     (folder / "positions").unlink()
     codes, counts = np.zeros(0, np.int64), np.zeros(0, np.int64)
     for faces in raw.pieces("faces"):
@@ -203,12 +203,12 @@ def _sort_faces(plan: Plan, raw: Raw) -> None:
             numbers, first, count = np.unique(leaf[order], return_index=True, return_counts=True)
             for number, begin, size in zip(numbers.tolist(), first.tolist(), count.tolist()):
                 file.seek(12 * int(following[number]))
-                faces[order[begin : begin + size]].tofile(file)
+                file.write(faces[order[begin : begin + size]].data)
             following[numbers] += count
             row, corner = np.nonzero((codes < ends[leaf, :1]) | (codes >= ends[leaf, 1:]))
             places = mapped(raw.folder, "places", plan.kinds)[faces[row, corner]]
             found = np.column_stack([codes[row, corner], places, ends[leaf[row], 0]])
             outside.append(np.unique(found, axis=0))
-    np.unique(np.concatenate(outside), axis=0).tofile(raw.folder / "outside")
+    (raw.folder / "outside").write_bytes(np.unique(np.concatenate(outside), axis=0).tobytes())
     for name in ("faces", "codes"):
         (raw.folder / name).unlink()

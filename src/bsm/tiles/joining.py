@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
-from bsm.files.output import open_output, write_output
+from bsm.files.output import by_its_own_name, open_output, write_output
 from bsm.files.pipes import inside, is_url
 from bsm.gltf.write import write_glb
 from bsm.jobs.report import Facts
@@ -33,7 +33,7 @@ def write_joined(
 ) -> dict[str, int]:
     """Write a binary PLY of tiles; vertices that they share are one."""
     chosen = list(chosen)
-    with ExitStack() as opened:
+    with by_its_own_name(tempfile.gettempdir()), ExitStack() as opened:
         tables, faces, points, corners = (opened.enter_context(tempfile.TemporaryFile()) for _ in range(4))
         counts: list[tuple[int, int]] = []
         outside, single = [tiles.decoded(*chosen[0])[0][:0]], True
@@ -41,8 +41,8 @@ def write_joined(
         with console.progress("decoding", "tiles") as progress:
             for number, (shard, tile) in enumerate(chosen, 1):
                 table, triangles = tiles.decoded(shard, tile)
-                table.tofile(tables)
-                triangles.tofile(faces)
+                tables.write(table.data)
+                faces.write(triangles.data)
                 counts.append((len(table), len(triangles)))
                 positions = tiles.lattice.positions(table[:, :3])
                 single = single and bool((positions.astype(np.float32) == positions).all())
@@ -76,10 +76,10 @@ def write_joined(
             rows["places"] = tiles.lattice.positions(table[fresh, :3])
             for what, values in tiles.values(table[fresh]).items():
                 rows[what] = values
-            rows.tofile(points)
+            points.write(rows.tobytes())
             ends = np.empty(triangles_of, [("length", "u1"), ("corners", index, (3,))])
             ends["length"], ends["corners"] = 3, given[_read(faces, np.int32, triangles_of, 3)]
-            ends.tofile(corners)
+            corners.write(ends.tobytes())
         words = [("float" if single else "double", axis) for axis in "xyz"]
         for what, (kind, size) in tiles.kinds.items():
             words += [(KINDS[kind], name) for name in CARRIED[what][:size]]

@@ -20,6 +20,7 @@ from bsm.codec.geometry.surface_distance import farthest_from_surface
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.console import Console
+from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output, write_output
 from bsm.jobs.report import Facts, Task
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, load_plan
@@ -51,7 +52,7 @@ def tile_one(job: TileJob, console: Console) -> Facts:
     if not job.finest:
         with open_output(folder / f"{name}.mesh", overwrite=True) as file:
             for table in (np.array(error), places, mesh.faces, *(_of_vertices(one, mesh) for one in mesh.attributes)):
-                np.save(file, table)
+                write_npy(file, table)
     options = EncodeOptions(grid_cell=plan.lattice.cell, grid_origin=plan.lattice.origin, threads=1)  # type: ignore[arg-type]
     data = Encoder(replace(mesh, positions=plan.lattice.positions(places)), options).encode()
     write_output(job.output, data, overwrite=True)
@@ -115,6 +116,7 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
         children.append((places, faces + first, *values))
         first += len(places)
     together, corners, *tables = map(np.concatenate, zip(*children))
+    del children, places, faces, values  # as large as all else
     places, numbers = welded(together)
     some = np.empty(len(places), np.int64)
     some[numbers[::-1]] = np.arange(len(numbers))[::-1]
@@ -125,10 +127,10 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
             for what, table in zip(plan.carried, tables)
         )
 
-    faces = solid(numbers[corners])
+    faces, one = solid(numbers[corners]), numbers[corners[:1]]
+    del together, corners, numbers
     if not len(faces):
-        faces, every = numbers[corners[:1]], np.arange(len(places))
-        return TriangleMesh(places.astype(np.float64), faces, carried(every)), before
+        return TriangleMesh(places.astype(np.float64), one, carried(np.arange(len(places)))), before
     locked = plan.outside(name, places)
     outside = mapped(folder, "outside", plan.kinds)
     begin, end = plan.ends(name)

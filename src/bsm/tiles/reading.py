@@ -86,7 +86,7 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
             if what not in files:
                 files[what] = opened.enter_context((folder / what).open("wb"))
                 raw.kinds[what] = piece.dtype.newbyteorder("<").str, piece.shape[1]
-            piece.astype(raw.kinds[what][0], copy=False).tofile(files[what])
+            files[what].write(np.ascontiguousarray(piece, raw.kinds[what][0]).data)
             raw.rows[what] = raw.rows.get(what, 0) + len(piece)
     vertices = raw.rows["positions"]
     if not raw.rows["faces"]:
