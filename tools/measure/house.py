@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 34_840,
-    "all Python, lines": 73_380,
+    "all Python, lines": 73_500,
     "product modules": 222,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
