@@ -20,9 +20,15 @@ from pathlib import Path
 import numpy as np
 
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.denoise.learnt.cascade import VERTEX_ITERATIONS, regressed_normals
+from bsm.codec.denoise.learnt.cascade import (
+    VERTEX_ITERATIONS,
+    WEIGHTS,
+    Network,
+    read_networks,
+    regressed_normals,
+    sigmoid,
+)
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles, descriptions, mirrored
-from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks, sigmoid
 from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals
 from bsm.files.mesh import read_mesh
 from tools.made_shapes import made_shape

@@ -16,7 +16,7 @@ from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
 from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
-from bsm.codec.denoise.recipe import Patient, Recipe, Step
+from bsm.codec.denoise.recipe import RAYS, Patient, Recipe, Step
 from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Progress, Rehearsal, silent
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats
@@ -60,6 +60,9 @@ CANDIDATES = (
     Recipe("none", 0.2, "patches", 0.35),
     *(Recipe("none", 0.2, "local", sigma_r) for sigma_r in (0.35, 0.45, 0.6)),
 )
+SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 0.1, 1.0, 3.0) for sigma_r in (0.4, 0.25, 0.55))
+"""For scans of one view; the first one is the base."""
+SEEN_HERALDS = (*SEEN[:3], *SEEN[7:9])
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
 HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])  # those that compete for the second guess
@@ -136,9 +139,14 @@ def choose(
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
     if len(members) < patient.topology.n:
         positions, patient = positions[members], Patient(part, len(members))
-    patient.expect(LARGEST_KEEP)
-    rehearsal = Rehearsal(positions, finding.on(members), patient, BASE, named("goal", GOALS, goal), progress)
-    candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (CANDIDATES, HERALDS))
+    patient.view = finding.view
+    base, candidates, heralds = BASE, CANDIDATES, HERALDS
+    if finding.view is None:
+        patient.expect(LARGEST_KEEP)
+    else:
+        base, candidates, heralds = SEEN[0], SEEN, SEEN_HERALDS
+    rehearsal = Rehearsal(positions, finding.on(members), patient, base, named("goal", GOALS, goal), progress)
+    candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (candidates, heralds))
     # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
     # with. A third round would believe its own mistakes.
     herald = rehearsal.compete(heralds, most, HERALDED)
@@ -172,7 +180,8 @@ def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: 
     """Do to `noisy`, shape (n, 3), what was chosen, where there is noise and as far as the result may stand."""
     if not choice.steps:
         return noisy, Verdict(np.ones(len(noisy), dtype=np.bool_), 0.0, 0.0, "")
-    patient.expect(max(step.recipe.keep for step in choice.steps))
+    patient.view = finding.view
+    patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
     treatments = patient.treatments(noisy)
     result, verdict = _judged(treatments.mean(choice.steps), noisy, finding, patient)
     if choice.learnt > 0.0:

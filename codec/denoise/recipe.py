@@ -14,12 +14,14 @@ from bsm.codec.choices import named
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
 from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.normals import Guide, GuidedFilter, filtered_normals, fine_step, own_normals, patch_guidance
 from bsm.codec.denoise.surface import Topology, face_geometry, surface_normals
 from bsm.codec.geometry.metrics import mean_edge_length
 
 GUIDES: dict[str, Guide] = {"patches": patch_guidance, "own": own_normals}
 LOCAL = "local"
+RAYS = "rays"  # the hand-over of scans of one view, see `View.flattened`; what is kept is its strength then
 SIGMA_R = 0.3  # width of the range kernel; half or twice of it leaves 0.1 and 1.1 % more of the angle
 
 HandOver = Callable[[Positions, Positions, Topology], Positions]
@@ -109,7 +111,7 @@ class Recipe:
 
     @property
     def needs_coarse(self) -> bool:
-        return self.hand_over != "none"
+        return self.hand_over not in ("none", RAYS)
 
 
 @dataclass(frozen=True)
@@ -121,18 +123,24 @@ class Step:
 class Treatments:
     """What recipes make of one mesh: where they start is found once for all that start there, and so are results."""
 
-    def __init__(self, noisy: Positions, smooth: Callable[[float], Positions], topology: Topology) -> None:
-        self.noisy, self._smooth, self._topology = noisy, smooth, topology
+    def __init__(
+        self, noisy: Positions, smooth: Callable[[float], Positions], topology: Topology, view: View | None = None
+    ) -> None:
+        self.noisy, self._smooth, self._topology, self._view = noisy, smooth, topology, view
         self._starts: dict[tuple[str, float], GuidedFilter] = {}
         self._results: dict[Step, Positions] = {}
 
     def iterates(self, recipe: Recipe) -> Iterator[Positions]:
         """The positions, shape (n, 3), after the hand-over and 0, 1, 2, ... iterations, without end."""
-        where = (recipe.hand_over, recipe.keep if recipe.needs_coarse else 0.0)
+        where = (recipe.hand_over, 0.0 if recipe.hand_over == "none" else recipe.keep)
         start = self._starts.get(where)
         if start is None:
-            smooth = self._smooth(recipe.keep) if recipe.needs_coarse else self.noisy
-            positions = hand_over(recipe.hand_over)(self.noisy, smooth, self._topology)
+            if recipe.hand_over == RAYS:
+                assert self._view is not None
+                positions = self._view.flattened(self.noisy, self._topology, recipe.keep)
+            else:
+                smooth = self._smooth(recipe.keep) if recipe.needs_coarse else self.noisy
+                positions = hand_over(recipe.hand_over)(self.noisy, smooth, self._topology)
             start = self._starts[where] = GuidedFilter(positions, self._topology)
         if recipe.guide == LOCAL:
             return filtered_normals(start.positions, self._topology, recipe.sigma_r)
@@ -161,13 +169,14 @@ class Patient:
     def __init__(self, faces: Faces, n: int) -> None:
         self.topology = Topology(faces, n)
         self.probe = Probe(self.topology)
+        self.view: View | None = None
         self._last: Treatments | None = None
         self._coarse: CoarseFilter | None = None
         self._keep = 0.0
 
     def expect(self, keep: float) -> None:
         """Be ready for coarse meshes of up to that fraction of the frequencies."""
-        if self._coarse is None or self._keep < keep:
+        if keep > 0.0 and (self._coarse is None or self._keep < keep):
             self._keep = keep
             self._coarse = CoarseFilter(self.topology.faces, self.topology.n, keep, BLOCK_SIZE)
 
@@ -181,7 +190,7 @@ class Patient:
         return mean_edge_length(positions, self.topology.faces)
 
     def treated(self, positions: Positions) -> Treatments:
-        return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology)
+        return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology, self.view)
 
     def treatments(self, positions: Positions) -> Treatments:
         """What `treated` makes of `positions`, shape (n, 3), kept until others are asked for; by any thread."""

@@ -72,7 +72,8 @@ class Rehearsal:
     ) -> None:
         self._patient, self._topology, self._goal, self._progress = patient, patient.topology, goal, progress
         self._given, self._finding, self._touched = noisy, finding, finding.levels > 0.0
-        self.level = estimate_noise(noisy, patient.smooth(noisy, base.keep), patient.topology)
+        smooth = patient.smooth(noisy, base.keep) if base.needs_coarse else noisy
+        self.level = estimate_noise(noisy, smooth, patient.topology)
         guesses = patient.treatments(noisy).iterates(base)
         self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
         given, done, self.rounds = 1, -1, 0

@@ -59,7 +59,7 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     judged = windows.valid & (known > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0
     most = MOST
-    if finding.kind == "correlated":
+    if finding.kind in ("correlated", "view"):
         most *= min(max(movement, 1.0), MOST_CORRELATED)
     bad = windows.valid & ~(ratio <= most)
     failed = float(bad[judged].mean()) if judged.any() else 0.0

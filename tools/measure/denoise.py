@@ -46,6 +46,7 @@ from tools.noise import (
     rounded,
     uniform_along_normals,
 )
+from tools.scans import CAMERAS, Scan, fused, view
 
 Kind = Callable[[Positions, Faces, float], Positions]
 SEED = 11
@@ -238,7 +239,7 @@ def flicker(clean: np.ndarray, frames: np.ndarray, faces: Faces) -> float:
 def oracle(noisy: Positions, faces: Faces, reference: Reference) -> dict[str, float]:
     """Theta of every rival at its best iteration."""
     treatments = _treatments(noisy, faces)
-    return {name: _best(treatments.iterates(rival), reference) for name, rival in RIVALS.items()}
+    return {name: _best(treatments.iterates(rival), reference.theta) for name, rival in RIVALS.items()}
 
 
 def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
@@ -261,10 +262,10 @@ def _treatments(noisy: Positions, faces: Faces) -> Treatments:
     return Treatments(noisy, partial(coarse, noisy), Topology(faces, len(noisy)))
 
 
-def _best(run: Iterator[Positions], reference: Reference) -> float:
+def _best(run: Iterator[Positions], angle_of: Callable[[Positions], float]) -> float:
     best, at = np.inf, 0
     for count, positions in enumerate(islice(run, MOST + 1)):
-        angle = reference.theta(positions)
+        angle = angle_of(positions)
         if angle < best:
             best, at = angle, count
         elif count >= at + PATIENCE:
@@ -281,6 +282,13 @@ ROOT = Path(__file__).parents[2]
 FIGURES = ROOT / "tools" / "measure" / "denoising.json"
 PAGE = ROOT / "docs" / "measured.md"
 BEGIN, END = "<!-- denoising: made by tools.measure tables -->", "<!-- denoising: end -->"
+
+
+SCANS = {"scans": "Scans", "fused": "Twelve views fused on a grid, scans"}
+
+
+def scans(means: dict[str, list[float]]) -> str:
+    return ", ".join(f"{camera} {mean:.2f} ({worst:.2f} at worst)" for camera, (mean, worst) in means.items())
 
 
 def denoising_tables(figures: dict[str, Any]) -> str:
@@ -302,6 +310,7 @@ def denoising_tables(figures: dict[str, Any]) -> str:
         "- White noise, against guided filtering, bilateral normal filtering and the paper's scheme, each stopped by "
         f"an oracle: {gaussian['mean']:.2f} of the best of the three, {gaussian['worst']:.2f} at worst.",
         f"- Sequences against their frames one by one: {', '.join(sequences)}.",
+        *(f"- {kind} of depth cameras over the same: {scans(figures[key])}." for key, kind in SCANS.items()),
         f"- {'; '.join(hard)} (degrees).",
     ]
     return "\n".join(lines)
@@ -382,6 +391,33 @@ def automatic_table(folder: Path) -> dict[str, list[float]]:
     return rows
 
 
+SCANNED = ("fandisk_6475", "trim_star", "block", "fr_casting", "nicolo", "armadillo_12502")
+
+
+def scan_trials(folder: Path, scanned: Callable[..., Scan] = view) -> dict[str, list[float]]:
+    """Scans of two depth cameras: angle and position against the best of the rivals that an oracle stops."""
+    print("scan               camera                 in   oracle      out   ratio     off over        s   found")
+    rows: dict[str, list[float]] = {camera: [] for camera in CAMERAS}
+    for name in SCANNED:
+        for camera, model in CAMERAS.items():
+            scan = scanned(*_static(folder, name), model, SEED)
+            treatments = _treatments(scan.positions, scan.faces)
+            best = min(_best(treatments.iterates(rival), scan.angle) for rival in RIVALS.values())
+            start = time.process_time()
+            result, choice = denoise_automatically(scan.positions, scan.faces)
+            seconds = time.process_time() - start
+            ratio, left = scan.angle(result) / best, scan.rms(result) / scan.rms(scan.positions)
+            rows[camera].append(ratio)
+            print(
+                f"{name:18s} {camera:16s} {scan.angle(scan.positions):8.2f} {best:8.2f} {scan.angle(result):8.2f} "
+                f"{ratio:7.2f} {left:10.2f} {seconds:8.1f}   {choice.kind}",
+                flush=True,
+            )
+    means = {camera: [float(np.exp(np.mean(np.log(found)))), max(found)] for camera, found in rows.items()}
+    print("mean and worst ratio: " + ", ".join(f"{camera} {a:.2f}, {b:.2f}" for camera, (a, b) in means.items()))
+    return means
+
+
 TABLES: dict[str, Callable[[Path], object]] = {
     "automatic": automatic_table,
     "clean": clean_trials,
@@ -389,6 +425,8 @@ TABLES: dict[str, Callable[[Path], object]] = {
     "gaussian": gaussian_trials,
     "hard": hard_trials,
     "flicker": sequence_trials,
+    "scans": scan_trials,
+    "fused": lambda folder: scan_trials(folder, fused),
 }
 
 

@@ -30,8 +30,8 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_840,
-    "all Python, lines": 73_500,
+    "product Python, lines": 35_120,
+    "all Python, lines": 74_030,
     "product modules": 222,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

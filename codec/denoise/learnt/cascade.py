@@ -1,13 +1,60 @@
 """Denoising by learnt networks, one after the other: each sees the mesh that the one before it left."""
 
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.learnt.descriptors import descriptions, mirrored
-from bsm.codec.denoise.learnt.network import Network, read_networks
+from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, Singles, descriptions, mirrored
 from bsm.codec.denoise.surface import Floats, Topology, face_geometry, follow_normals
+
+FARTHEST = np.float32(6.0)  # bound of standardised numbers
+MOST_NEGATIVE = np.float32(80.0)
+WEIGHTS = Path(__file__).with_name("weights.npz")
+
+
+@dataclass(frozen=True, eq=False)
+class Network:
+    mean: Singles
+    scale: Singles
+    layers: tuple[tuple[Singles, Singles], ...]
+
+    def standardised(self, numbers: Singles) -> Singles:
+        """Numbers, shape (k, NUMBERS), brought to mean 0 and deviation 1, within bounds."""
+        return np.asarray(np.clip((numbers - self.mean) * self.scale, -FARTHEST, FARTHEST))
+
+    def __call__(self, numbers: Singles) -> Singles:
+        values = self.standardised(numbers)
+        for matrix, shift in self.layers[:-1]:
+            values = values @ matrix + shift
+            values = np.asarray(values * sigmoid(values))
+        matrix, shift = self.layers[-1]
+        normals = numbers[:, BASE] + values @ matrix + shift
+        return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.float32(1e-6)))
+
+
+def sigmoid(values: Singles) -> Singles:
+    return np.asarray(np.float32(1.0) / (np.float32(1.0) + np.exp(np.minimum(-values, MOST_NEGATIVE))))
+
+
+@cache
+def read_networks(path: Path = WEIGHTS) -> tuple[Network, ...]:
+    """The networks of a file, the one for the first pass first."""
+    networks: list[Network] = []
+    with np.load(path) as arrays:
+        while f"mean{len(networks)}" in arrays:
+            stage = len(networks)
+            layers: list[tuple[Singles, Singles]] = []
+            while f"matrix{stage}.{len(layers)}" in arrays:
+                key = f"{stage}.{len(layers)}"
+                layers.append((arrays[f"matrix{key}"].astype(np.float32), arrays[f"shift{key}"].astype(np.float32)))
+            networks.append(Network(arrays[f"mean{stage}"], arrays[f"scale{stage}"], tuple(layers)))
+    if not networks or any(len(network.mean) != NUMBERS for network in networks):
+        raise ValueError(f"{path}: made for other numbers of faces; train it again: python -m tools.train_denoiser")
+    return tuple(networks)
+
 
 VERTEX_ITERATIONS = 15
 IMAGES = ((False, False), (True, True))  # frames that are averaged over: nothing tells the two ends of an axis apart

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.probe import Probe, Windows
+from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.surface import Floats
 
 FEWEST_VALUES = 16  # different values of a coordinate without which a grid is not told from a few planes
@@ -79,6 +80,7 @@ class Finding:
     growth: Floats | None = None
     grid: Grid | None = None
     whiteness: float = 1.0
+    view: View | None = None
 
     @property
     def noisy(self) -> bool:

@@ -1,4 +1,7 @@
-"""Single vertices that stand out, on a mesh that else is clean: they are put back, and nothing else is touched.
+"""Single vertices that stand out: they are put back, and nothing else is touched.
+
+Those that lie outside the ring of their neighbours are known for it, beside other noise as well. Fainter ones only on a
+mesh that else is clean:
 
 A vertex off its place by a leaves ``K a`` behind the high-pass filter K: the vertex's own column of K, a pattern that
 nothing on a clean surface has (creases are lines, detail is everywhere). So the columns that explain most of what is
@@ -13,7 +16,7 @@ from scipy.sparse import linalg
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.probe import Probe
-from bsm.codec.denoise.surface import Floats
+from bsm.codec.denoise.surface import Floats, face_geometry
 from bsm.codec.geometry.graph import Rows
 from bsm.codec.geometry.metrics import mean_edge_length
 
@@ -31,6 +34,12 @@ LARGEST = 1.2
 """Less clear ones are no larger than the clear ones, of which nine in ten are smaller than this ratio says."""
 DISTINCT = 4.0  # displacement over what calm surroundings show
 CALM, CALM_BOUND = 0.5, 0.6745
+STRAY, PLAINLY, SPIKY = 1.2, 2.0, 0.75
+"""Distance from the middle of the neighbours, in theirs, of a vertex that may be far off, and of one that is; and the
+length of the mean normal around it below which it stands out."""
+STRAYS, STRAY_SHARE, STRAY_USUAL = 25, 0.0025, 1.1
+"""How many have to be plainly off, and how far nine tenths may be: clean meshes have 14 and .0013 at most."""
+STRAY_TURNS = 2
 ROUNDS = 40
 REFINEMENTS = 30
 
@@ -48,6 +57,61 @@ class Outliers:
 
 
 def find_outliers(positions: Positions, probe: Probe) -> Outliers:
+    """Those that lie far outside their neighbours, noise or not; then those that stand out of calm surroundings."""
+    back = put_strays_back(positions, probe)
+    back = _peeled(back, probe).put_back(back)
+    vertices = np.flatnonzero((back != positions).any(axis=1))
+    return Outliers(vertices, (positions - back)[vertices])
+
+
+def put_strays_back(positions: Positions, probe: Probe) -> Positions:
+    """Vertices far outside their neighbours, put in the middle of them, if there are many."""
+    if not probe.counted.any():
+        return positions
+    around, n = probe.topology.around, len(positions)
+    sizes = np.diff(around.starts)
+    owners = np.repeat(np.arange(n), sizes)
+    place, stray = positions, np.zeros(n, dtype=np.bool_)
+    for turn in range(STRAY_TURNS):
+        distance = _distances(place, probe)
+        usual = float(np.quantile(distance[probe.counted], 0.9))
+        normals = face_geometry(place, probe.topology.faces).normals[around.members]
+        together = np.stack([np.bincount(owners, column, n) for column in normals.T], axis=1)
+        spiky = probe.counted & (np.linalg.norm(together, axis=1) < SPIKY * sizes)
+        plain = int((spiky & (distance > PLAINLY)).sum())
+        if turn == 0 and (plain < max(STRAYS, STRAY_SHARE * n) or usual > STRAY_USUAL):
+            return positions
+        stray |= spiky & (distance > max(STRAY, 2.0 * usual))
+        if stray.sum() > MOST_SHARE * n:
+            return positions
+        known = np.where(stray, 0.0, 1.0)
+        weight = probe.average @ known
+        middle = (probe.average @ (known[:, None] * positions)) / np.maximum(weight, 1e-9)[:, None]
+        place = np.where((stray & (weight > 0.0))[:, None], middle, positions)
+    return place
+
+
+def _distances(positions: Positions, probe: Probe) -> Floats:
+    """Of vertices from the median of their neighbours, over the median of the neighbours' own, shape (n,)."""
+    starts, members = probe.topology.neighbours
+    owners = np.repeat(np.arange(len(positions)), np.diff(starts))
+
+    def medians(values: Floats) -> Floats:
+        ordered = values[np.lexsort((values, owners))]
+        first, last = (np.minimum(starts[:-1] + half, len(values) - 1) for half in _halves(np.diff(starts)))
+        return np.asarray(0.5 * (ordered[first] + ordered[last]))
+
+    middle = np.stack([medians(column) for column in positions[members].T], axis=1)
+    spread = medians(np.linalg.norm(positions[members] - middle[owners], axis=1))
+    off = np.linalg.norm(positions - middle, axis=1)
+    return np.where(probe.counted, off / np.maximum(spread, 1e-12 * off + 1e-300), 0.0)
+
+
+def _halves(sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return np.maximum(sizes - 1, 0) // 2, sizes // 2
+
+
+def _peeled(positions: Positions, probe: Probe) -> Outliers:
     edge = mean_edge_length(positions, probe.topology.faces)
     normals = probe.smooth_normals(positions, passes=1)
     operator, gain = probe.fine_operator

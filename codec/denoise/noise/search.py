@@ -6,13 +6,14 @@ and no value has a preference. Detail and creases are strong in some places and 
 noise in all these ways is taken for noise: the answer for anything else is "none", and "unknown" for small meshes.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.noise.finding import UNEVEN, Evidence, Finding, find_grid, is_random, look, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
+from bsm.codec.denoise.noise.view import find_view, pixel
 from bsm.codec.denoise.surface import Floats, Mask
 from bsm.codec.geometry.metrics import mean_edge_length
 
@@ -35,6 +36,11 @@ WHITE = 0.82  # the finest frequencies carry as much white noise as the fine one
 HEAVY = 1.25  # tails beyond the normal distribution's from which noise counts as impulses
 LOCAL_LEVEL, LOCAL_STEP, LOCAL_SHARE = 0.12, 1.5, 0.1
 """Noise that is only here and there: how strong at least, over the rest at least, in how much of the mesh at least."""
+SEEN_FAINT, SEEN_SURE, EVEN_SEEN = 0.12, 0.3, (0.24, 0.5)
+"""Levels of noise in a picture, in pixels' widths, and how uneven they may be there: slanted surfaces are seen with
+more of it. Clean surfaces read 0 to 0.2, and 0.3 and more of spread; cameras 0.35 to 0.7 and 0.1 to 0.4."""
+TERRACED = 0.05  # depths, over vertices, below which a camera tells only so many apart
+SMOOTH_VIEW = "what a camera saw, without its noise"
 NEARBY = 4  # rings about a vertex that decide whether it is in or out
 ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
 """Surfaces along an axis show nothing of rounding; so much of the mesh has to lie otherwise."""
@@ -51,7 +57,7 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
     evidence = look(positions, probe, edge, passes=2)
     if np.nanquantile(evidence.levels, 0.75) > HEAVY_LEVEL:
         evidence = look(positions, probe, edge, passes=8)
-    for test in (_rounded, _everywhere, _here_and_there, one_axis):
+    for test in (_rounded, _seen, _everywhere, _here_and_there, one_axis):
         finding = test(positions, evidence)
         if finding is not None:
             return finding
@@ -77,6 +83,36 @@ def _rounded(positions: Positions, evidence: Evidence) -> Finding | None:
         return None
     reason = f"positions rounded to a grid of {float(grid.steps.max()) / evidence.edge:.2f} mean edges"
     return Finding("grid", level * evidence.edge, expected * evidence.edge, evidence.edge, reason, grid=grid)
+
+
+def _seen(positions: Positions, evidence: Evidence) -> Finding | None:
+    """On a grid of pixels, and as strong in one place of the picture as in another."""
+    probe = evidence.probe
+    view = find_view(positions, probe)
+    if view is None:
+        return None
+    along = probe.fine(view.heights(positions, probe.topology)[:, None])[:, 0]
+    levels = probe.levels(along)[probe.windows.valid]
+    level = float(np.median(levels))
+    if level < FAINTEST:
+        return Finding("none", 0.0, np.zeros(probe.topology.n), evidence.edge, SMOOTH_VIEW)
+    allowed = np.interp(level, [SEEN_FAINT, SEEN_SURE], EVEN_SEEN)
+    if level < SEEN_FAINT or spread(levels, probe.windows) > allowed or not is_random(along[probe.counted] / level):
+        return None
+    rays = positions - view.eye
+    width = pixel(view.plane(positions), probe.topology) * (rays @ view.axis)
+    rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+    amount = level * width * np.abs(np.einsum("ij,ij->i", rays, evidence.normals))
+    terraced = min(len(np.unique(column)) for column in positions.T) < TERRACED * len(positions)
+    reason = f"noise of a camera, along its rays{', in steps of depth' if terraced else ''}"
+    return Finding(
+        "view",
+        float(np.median(amount)),
+        amount,
+        evidence.edge,
+        reason,
+        view=replace(view, level=level, terraced=terraced),
+    )
 
 
 def _everywhere(positions: Positions, evidence: Evidence) -> Finding | None:

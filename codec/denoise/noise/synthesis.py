@@ -61,6 +61,9 @@ def _high_pass(values: Floats, topology: Topology) -> Floats:
 
 
 MOST_STEPS = 12
+WINDOWED, SHARED = 12, (0.5, 0.75)
+"""Averagings that make what the pixels of a camera's window share, and how strong that is beside what they do not, of
+cameras that measure depth and of those that match windows, which are known by their steps."""
 
 
 class Synthesis:
@@ -80,7 +83,13 @@ class Synthesis:
         if finding.axis is not None:
             growth = 1.0 if finding.growth is None else finding.growth[:, None]
             return np.asarray(positions + finding.level * growth * white[:, :1] * finding.axis)
-        normals = surface_normals(positions, self._probe.topology)
+        topology = self._probe.topology
+        if finding.view is not None:
+            seen = finding.view.heights(positions, topology)
+            shared = self._probe.correlated(white[:, 1], WINDOWED)
+            noise = white[:, 0] + SHARED[finding.view.terraced] * shared / shared.std()
+            return finding.view.at(positions, seen, seen + finding.view.level * noise)
+        normals = surface_normals(positions, topology)
         along = np.einsum("ij,ij->i", white, normals)[:, None]
         amount = self._probe.correlated(along, self._steps)
         if self._steps:

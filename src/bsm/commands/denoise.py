@@ -225,7 +225,8 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
         if share > 0.0:
             recipe = step.recipe
             coarse = f"hand-over of {recipe.hand_over}, c = {100 * recipe.keep:g} % of a block"
-            begun = coarse if recipe.needs_coarse else "no hand-over"
+            along = "no hand-over" if recipe.hand_over == "none" else f"flattened along rays by {recipe.keep:g}"
+            begun = coarse if recipe.needs_coarse else along
             way = f"{step.iterations} iterations of the {_GUIDES[recipe.guide]} normal filter"
             lines.append(f"chosen     {100.0 * share:.0f} % {begun}; {way}, sigma_r {recipe.sigma_r:g}")
     if choice.learnt > 0.0:

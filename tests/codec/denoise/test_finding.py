@@ -6,7 +6,7 @@ import pytest
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise import denoise_automatically
 from bsm.codec.denoise.noise.finding import Finding, find_grid
-from bsm.codec.denoise.noise.outliers import find_outliers
+from bsm.codec.denoise.noise.outliers import find_outliers, put_strays_back
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
@@ -154,6 +154,26 @@ def test_single_vertices_that_stand_out_are_put_back_and_no_others_move(shape) -
     alone = np.setdiff1d(np.arange(len(clean)), outliers.vertices)
     assert (result[alone] == noisy[alone]).all()
     assert denoise_automatically(noisy, faces)[1].kind == "outliers"
+
+
+@pytest.mark.parametrize("noise", [gaussian_along_normals, correlated_along_normals])
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_far_ones_are_put_back_beside_other_noise(shape, noise) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(30)
+    edge, random = mean_edge_length(clean, faces), np.random.default_rng(3)
+    probe = Probe(Topology(faces, len(clean)))
+    noisy = noise(clean, faces, 0.25, 3)
+    assert len(find_outliers(noisy, probe).vertices) == 0
+    chosen = random.choice(len(clean), 100, replace=False)
+    noisy[chosen] += 2.0 * edge * random.normal(size=(100, 3))
+    outliers = find_outliers(noisy, probe)
+    assert np.linalg.norm((outliers.put_back(noisy) - clean)[chosen], axis=1).mean() < 0.35 * edge
+    assert len(np.setdiff1d(outliers.vertices, chosen)) < 10
+    alone = np.zeros((3, 3)), Probe(Topology(np.zeros((0, 3), np.int32), 3))
+    assert (put_strays_back(*alone) == alone[0]).all()
+    few = np.array(clean)
+    few[chosen[:10]] = noisy[chosen[:10]]
+    assert (put_strays_back(few, probe) == few).all()
 
 
 @pytest.mark.parametrize("shape", [cube, sphere])

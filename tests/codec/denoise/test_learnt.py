@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise import automatic, recipe
-from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt, regressed_normals
+from bsm.codec.denoise.learnt.cascade import WEIGHTS, Learnt, Network, joined, learnt, read_networks, regressed_normals
 from bsm.codec.denoise.learnt.descriptors import BASE, NUMBERS, descriptions, mirrored
-from bsm.codec.denoise.learnt.network import WEIGHTS, Network, read_networks
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.recipe import Patient
 from bsm.codec.denoise.rehearsal import LEARNT_SHARES

@@ -1,0 +1,88 @@
+"""Scans of depth cameras: what the generator makes, where the camera is, and what is done along its rays."""
+
+import numpy as np
+import pytest
+
+from bsm.codec.denoise import denoise_automatically
+from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.search import find_noise
+from bsm.codec.denoise.noise.view import View, bending, find_view
+from bsm.codec.denoise.surface import Topology
+from tests.codec.denoise.denoise_shapes import cube, grid, sphere
+from tools.scans import BASELINE_EIGHTHS, CAMERAS, Scan, fused, turning, view
+
+AWAY = turning(5)
+
+
+def scan(shape, camera: str, noisy: bool = True) -> Scan:  # type: ignore[no-untyped-def]
+    model = CAMERAS[camera]._replace(pixels=100)
+    return view(*shape(30), model if noisy else model._replace(noise=lambda depth, *_: depth), 3)
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_what_is_scanned_is_the_mesh_with_the_noise_of_the_camera(camera: str) -> None:
+    true, noisy = scan(sphere, camera, noisy=False), scan(sphere, camera)
+    assert true.rms(true.positions) < 1e-12 and true.angle(true.positions) < 1e-4
+    assert 0.0005 < noisy.rms(noisy.positions) < 0.005
+    eighths = CAMERAS[camera].focal * BASELINE_EIGHTHS / noisy.positions[:, 2]
+    assert (np.abs(eighths - np.round(eighths)).max() < 1e-6) == (camera == "structured light")
+
+
+def test_many_views_make_a_closed_mesh_near_the_truth() -> None:
+    pytest.importorskip("skimage")
+    made = fused(*sphere(20), CAMERAS["time of flight"], 3, cells=40)
+    assert not Topology(made.faces, len(made.positions)).boundary.any()
+    assert made.rms(made.positions) < 0.002 and made.angle(made.positions) < 20.0
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_the_eye_is_found_wherever_the_scan_is_put(shape, camera: str) -> None:  # type: ignore[no-untyped-def]
+    made = scan(shape, camera)
+    found = find_view(7.0 * made.positions @ AWAY.T + [3.0, 4.0, 5.0], Probe(Topology(made.faces, len(made.positions))))
+    assert found is not None and np.linalg.norm(found.eye - [3.0, 4.0, 5.0]) < 7.0 * 0.03 * CAMERAS[camera].far
+
+
+def test_closed_meshes_and_grids_that_fold_are_no_views() -> None:
+    for shape in (cube, sphere):
+        clean, faces = shape(20)
+        assert find_view(clean, Probe(Topology(faces, len(clean)))) is None
+    sheet, faces = grid(30)
+    sheet[:, 0] = np.abs(sheet[:, 0] - sheet[:, 0].mean())
+    assert find_view(sheet, Probe(Topology(faces, len(sheet)))) is None
+
+
+def test_planes_have_no_bends_and_a_roof_one_at_its_ridge() -> None:
+    plane, faces = grid(8)
+    bends, lengths = bending(plane[:, :2], Topology(faces, len(plane)))
+    assert np.abs(bends @ (2.0 * plane[:, 0] - 3.0 * plane[:, 1] + 5.0)).max() < 1e-12
+    middle = np.unique(plane[:, 0])[4]
+    roof = np.abs(bends @ np.abs(plane[:, 0] - middle))
+    assert np.unique(np.round(roof, 9)) == pytest.approx([0.0, 2.0])
+    assert (roof * lengths).sum() == pytest.approx(2.0 * np.ptp(plane[:, 1]))
+
+
+def test_flattening_moves_along_the_rays_and_keeps_creases() -> None:
+    roof, faces = grid(40)
+    roof[:, :2] -= roof[:, :2].mean(axis=0)
+    roof[:, 2] = 200.0 - 0.7 * np.abs(roof[:, 0])
+    topology = Topology(faces, len(roof))
+    camera = View(np.zeros(3), np.array([0.0, 0.0, 1.0]), 0.3)
+    noisy = roof * (1.0 + np.random.default_rng(0).normal(0.0, 0.3 / 200.0, (len(roof), 1)))
+    flat = camera.flattened(noisy, topology, 1.0)
+    assert np.abs(np.cross(flat, noisy)).max() < 1e-6 * 200.0**2
+    assert np.linalg.norm(flat - roof) < 0.35 * np.linalg.norm(noisy - roof)
+    ridge = np.abs(roof[:, 0]) < 1.0
+    assert np.linalg.norm((flat - roof)[ridge]) < 0.6 * np.linalg.norm((noisy - roof)[ridge])
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+def test_noise_of_a_camera_is_taken_away_and_what_it_saw_without_noise_stays(camera: str) -> None:
+    made = scan(cube, camera)
+    result, choice = denoise_automatically(made.positions, made.faces)
+    assert choice.kind == "view" and ("steps" in choice.reason) == (camera == "structured light")
+    assert made.angle(result) < 0.35 * made.angle(made.positions)
+    assert made.rms(result) < 0.9 * made.rms(made.positions)
+    clean = scan(cube, camera, noisy=False)
+    assert not find_noise(clean.positions, Probe(Topology(clean.faces, len(clean.positions)))).noisy
+    assert (denoise_automatically(clean.positions, clean.faces)[0] == clean.positions).all()
