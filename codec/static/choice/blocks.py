@@ -32,6 +32,7 @@ WIDEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
 are worth."""
 BASE = 0.36  # the step of blocks below a layer, over the square root of that of the layer
+ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units
 UNSEEN_RATIO = 2.0
 """How much coarser levels in the plane are than those along the normal, where it is flat: for distances alone."""
@@ -138,7 +139,7 @@ class Plain:
         self._spectral = Spectral(prepared, options, WIDEST)
         self._progress = progress
         self.least, self.most = 1.01 * smallest_step(prepared.size), COARSEST
-        self.first = bounds.first_step
+        self.first = ALONE * bounds.first_step
 
     def at(self, step: float) -> Candidate:
         """What a step of coefficients comes to."""

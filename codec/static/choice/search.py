@@ -84,7 +84,8 @@ class Search:
             on_grid = any(one.draft.places is not None for one in kept)
             if isinstance(way, Gridded) and not on_grid and way.guess() > DEARER * least:
                 continue
-            found = widest(way, bounds, least)
+            # Where a step of blocks alone should begin cannot be told, and so not what they take from their first one.
+            found = widest(way, bounds, math.inf if isinstance(way, Plain) else least)
             if found is not None:
                 kept.append(found)
                 made.append(way)
