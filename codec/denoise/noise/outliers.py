@@ -57,7 +57,7 @@ class Outliers:
 
 
 def find_outliers(positions: Positions, probe: Probe) -> Outliers:
-    """Those that lie far outside their neighbours, noise or not; then those that stand out of calm surroundings."""
+    """Find vertices that lie far outside their neighbours, noise or not; then what stands out of calm surroundings."""
     back = put_strays_back(positions, probe)
     back = _peeled(back, probe).put_back(back)
     vertices = np.flatnonzero((back != positions).any(axis=1))
@@ -92,7 +92,7 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
 
 
 def _distances(positions: Positions, probe: Probe) -> Floats:
-    """Of vertices from the median of their neighbours, over the median of the neighbours' own, shape (n,)."""
+    """Distance of each vertex from the median of its neighbours, over the median of theirs, shape (n,)."""
     starts, members = probe.topology.neighbours
     owners = np.repeat(np.arange(len(positions)), np.diff(starts))
 
