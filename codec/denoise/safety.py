@@ -16,6 +16,7 @@ from bsm.codec.denoise.surface import Mask
 MOST = 1.25  # movement along the normals over noise, from which on more has gone than noise
 MOST_CORRELATED = 3.0
 """Correlated noise is stronger than its finest frequencies, in a ratio that is the same everywhere: at most this."""
+MOST_SEEN = 1.9  # in scans of one view, whose noise is stronger on slanted surfaces and in broad steps
 FAINT = 0.02  # movements below, in mean edges, harm nobody
 DETAIL_SEEN, DETAIL_DROWNED = 0.15, 0.2
 """Levels of noise, in mean edges, below which it may be as faint as detail, and above which it drowns all detail."""
@@ -58,7 +59,7 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
     judged = windows.valid & (known > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0
-    most = MOST
+    most = MOST if finding.view is None else MOST_SEEN
     if finding.kind in ("correlated", "view"):
         most *= min(max(movement, 1.0), MOST_CORRELATED)
     bad = windows.valid & ~(ratio <= most)
