@@ -10,7 +10,7 @@
 #define COVERED 0.999f
 #define STEADY_MEAN 1e-4f
 #define STEADY_SPREAD 9e-4f
-enum { X, Y, XX, YY, XY, FIELDS };
+enum { X, Y, SQUARES, XY, FIELDS };
 
 INLINE bool covered(float a, float b) { return a < COVERED || b < COVERED; }
 
@@ -109,8 +109,7 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         int64_t place = (row + KEPT) % KEPT;
         take_row(first, second, row, x, y);
         for (int64_t i = 0; i < width; i++) {
-            padded[XX * stride + i] = x[i] * x[i];
-            padded[YY * stride + i] = y[i] * y[i];
+            padded[SQUARES * stride + i] = x[i] * x[i] + y[i] * y[i];
             padded[XY * stride + i] = x[i] * y[i];
             difference[i] = x[i] - y[i];
         }
@@ -126,18 +125,22 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         for (int64_t i = from; i < to; i++) {
             float mx = down[X * stride + i], my = down[Y * stride + i], product = mx * my;
             float squares = mx * mx + my * my, both = down[XY * stride + i] - product;
-            float spread = down[XX * stride + i] + down[YY * stride + i] - squares;
+            float spread = down[SQUARES * stride + i] - squares;
             float same = (2.0f * product + STEADY_MEAN) * (2.0f * both + STEADY_SPREAD);
             one_less[i] = 1.0f - same / ((squares + STEADY_MEAN) * (spread + STEADY_SPREAD));
         }
         const float *own = first.data + at * first.columns, *other = second.data + at * first.columns;
         const float *change = down + FIELDS * stride;
+        int32_t inside = 0, differ = 0;
         for (int64_t i = from; i < to; i++) {
-            bool inside = covered(own[i], other[i]);
-            dissimilar += inside ? (double)one_less[i] : 0.0;
-            seen += inside && (double)__builtin_fabsf(change[i]) > visible;
-            count += inside;
+            bool counts = covered(own[i], other[i]);
+            one_less[i] = counts ? one_less[i] : 0.0f;
+            differ += counts & ((double)__builtin_fabsf(change[i]) > visible);
+            inside += counts;
         }
+        for (int64_t i = from; i < to; i++) dissimilar += (double)one_less[i];
+        seen += differ;
+        count += inside;
         for (int64_t i = from; i < to && map.rows; i++) {
             float part = change[i] / (float)visible, soft = part * part < 1.0f ? part * part : 1.0f;
             map.data[at * first.columns + i] = covered(own[i], other[i]) ? one_less[i] + LOUD * soft : 0.0f;

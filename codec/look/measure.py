@@ -12,19 +12,9 @@ from bsm.codec.arrays import Faces, Mask, Matrix, Positions
 from bsm.codec.geometry.attributes import at_corners
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
-from bsm.codec.look.pictures import (
-    BACKGROUND,
-    SQUARE,
-    Normals,
-    Picture,
-    Shape,
-    difference,
-    difference_map,
-    draw,
-    draw_owned,
-)
+from bsm.codec.look.pictures import BACKGROUND, SQUARE, Canvas, Normals, Picture, Shape, difference
 from bsm.codec.look.sides import FEW, MOST_PIXELS, cameras, pixels_for
-from bsm.codec.threads import ordered_map
+from bsm.codec.threads import Result, ordered_map
 
 DISSIMILAR = 0.03  # 1 - SSIM at distance 1
 VISIBLE_SHARE = 0.005  # share of covered pixels that differ visibly, at distance 1
@@ -97,6 +87,7 @@ class LookMetric:
         self._shape = Shape.of(positions, mesh.faces)
         self.pixels = min(pixels_for(positions, mesh.faces), most_pixels)
         self._cameras = cameras(self._placed(used), self.pixels)
+        self._idle = list[Canvas]()
         self._pictures = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
         if not any(picture.min() < BACKGROUND for picture in self._pictures):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
@@ -175,13 +166,14 @@ class LookMetric:
         placed, faces = self._placed(positions), self._shape.faces
         normals = self._shape.normals(placed)
 
-        def blamed(side: int) -> tuple[int, Matrix]:
-            version, owner = draw_owned(placed, faces, normals, self._cameras[side], self.pixels)
-            unlike = difference_map(self._pictures[side], version)
-            shown = owner >= 0
-            return int(shown.sum()), np.bincount(owner[shown], unlike[shown], len(faces)).astype(np.float64)
+        def blamed(canvas: Canvas, side: int) -> tuple[int, Matrix]:
+            version, unlike = canvas.draw(placed, faces, normals, self._cameras[side]), canvas.unlike
+            unlike[:] = 0.0
+            difference(self._pictures[side], version, unlike)
+            shown = canvas.owner >= 0
+            return int(shown.sum()), np.bincount(canvas.owner[shown], unlike[shown], len(faces)).astype(np.float64)
 
-        counts, added = zip(*ordered_map(blamed, range(len(self._cameras)), self._threads), strict=True)
+        counts, added = zip(*self._each(blamed, range(len(self._cameras))), strict=True)
         return np.asarray(np.sum(added, axis=0) / max(sum(counts), 1))
 
     def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
@@ -194,13 +186,26 @@ class LookMetric:
     def _placed(self, positions: Positions) -> Positions:
         return np.ascontiguousarray((positions - self._middle) / self._diagonal)
 
+    def _each(self, work: Callable[[Canvas, int], Result], sides: Sequence[int]) -> list[Result]:
+        """Work on each side, on a canvas that nobody else draws on meanwhile."""
+
+        def done(side: int) -> Result:
+            try:
+                canvas = self._idle.pop()
+            except IndexError:
+                canvas = Canvas(self.pixels)
+            result = work(canvas, side)
+            self._idle.append(canvas)
+            return result
+
+        return list(ordered_map(done, sides, self._threads))
+
     def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:
         """From all sides."""
-
-        def drawn(camera: Matrix) -> Picture:
-            return draw(placed, faces, normals, camera, self.pixels)
-
-        return list(ordered_map(drawn, self._cameras, self._threads))
+        cameras = self._cameras
+        return self._each(
+            lambda canvas, side: canvas.draw(placed, faces, normals, cameras[side]).copy(), range(len(cameras))
+        )
 
     def _seen(self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals) -> Look:
         return summed(self._sums(pictures, placed, faces, normals, range(len(pictures))))
@@ -210,10 +215,10 @@ class LookMetric:
     ) -> Matrix:
         """What `difference` says of some sides, a row each."""
 
-        def sums(side: int) -> Matrix:
-            return difference(pictures[side], draw(placed, faces, normals, self._cameras[side], self.pixels))
+        def sums(canvas: Canvas, side: int) -> Matrix:
+            return difference(pictures[side], canvas.draw(placed, faces, normals, self._cameras[side]))
 
-        return np.array(list(ordered_map(sums, sides, self._threads)))
+        return np.array(self._each(sums, sides))
 
 
 def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = None) -> Look:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Indices, Matrix, Positions
+from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.welding import weld
 
@@ -25,7 +25,7 @@ SQUARE = 64.0  # pixels of such a square
 BACKGROUND = 1.0
 _GRID = 2.0**24
 _SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}
-_SCRATCH_ROWS, _TILE = 88, 8
+_SCRATCH_ROWS, _TILE = 75, 8
 _NOWHERE = np.empty((0, 0), np.float32)
 
 
@@ -63,39 +63,26 @@ class Shape:
         return normals
 
 
-def draw(positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int) -> Picture:
-    """A picture of a mesh, shape (pixels, pixels), lit alike on both sides of its faces; see `draw_owned`."""
-    return draw_owned(positions, faces, normals, camera, pixels)[0]
+class Canvas:
+    """Room for pictures, shape (pixels, pixels), one after another."""
+
+    def __init__(self, pixels: int) -> None:
+        self.picture, self.unlike, self._depth, self._lengths = (np.empty((pixels, pixels), np.float32) for _ in "1234")
+        self.owner = np.empty((pixels, pixels), np.int32)
+        self._tiles = np.empty((-(-pixels // _TILE),) * 2, np.float32)
+
+    def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix) -> Picture:
+        """A picture of a mesh, lit alike on both sides of its faces; `owner`: which face each pixel shows, -1: none."""
+        room = np.empty(positions.shape), self._depth, self._lengths, self._tiles
+        _kernels.draw_shaded(positions, faces, normals, camera, *room, self.picture, self.owner)
+        return self.picture
 
 
-def draw_owned(
-    positions: Positions, faces: Faces, normals: Normals, camera: Matrix, pixels: int
-) -> tuple[Picture, Indices]:
-    """A picture, and which face each pixel shows, -1: none; both of shape (pixels, pixels)."""
-    picture, depth, lengths = (np.empty((pixels, pixels), np.float32) for _ in range(3))
-    tiles, owner = np.empty((-(-pixels // _TILE),) * 2, np.float32), np.empty((pixels, pixels), np.int32)
-    _kernels.draw_shaded(
-        positions, faces, normals, camera, np.empty(positions.shape), depth, lengths, tiles, picture, owner
-    )
-    return picture, owner
-
-
-def difference(first: Picture, second: Picture) -> Matrix:
-    """Sums over pixels that either picture, shape (h, w), covers; shape (4,)."""
-    return _compared(first, second, _NOWHERE)
-
-
-def difference_map(first: Picture, second: Picture) -> Picture:
-    """How unlike each pixel is, shape (h, w)."""
-    found = np.zeros(first.shape, np.float32)
-    _compared(first, second, found)
-    return found
-
-
-def _compared(first: Picture, second: Picture, found: Picture) -> Matrix:
+def difference(first: Picture, second: Picture, unlike: Picture = _NOWHERE) -> Matrix:
+    """Sums over pixels that either picture, shape (h, w), covers; shape (4,). `unlike` gets how unlike each is."""
     sums = np.zeros(4)
     scratch = np.empty((_SCRATCH_ROWS, first.shape[1] + 2 * _SPREADS["wide"][1]), np.float32)
-    _kernels.likeness(first, second, _half("wide"), _half("narrow"), VISIBLE, PLAIN, scratch, sums, found)
+    _kernels.likeness(first, second, _WIDE, _NARROW, VISIBLE, PLAIN, scratch, sums, unlike)
     return sums
 
 
@@ -103,3 +90,6 @@ def _half(name: str) -> Picture:
     spread, reach = _SPREADS[name]
     weights = [math.exp(-0.5 * (k / spread) ** 2) for k in range(reach + 1)]
     return np.array([weight / (2 * sum(weights) - weights[0]) for weight in weights], np.float32)
+
+
+_WIDE, _NARROW = _half("wide"), _half("narrow")

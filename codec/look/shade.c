@@ -5,6 +5,7 @@
 #define DIFFUSE 0.78f
 #define BACKGROUND 1.0f
 #define TILE 8    /* pixels of the side of squares that faces may be hidden in */
+#define SAMPLE 4096 /* faces that tell which half is ahead */
 #define CAMERA 15 /* three rows of a rotation with an offset each, then the light in the mesh's own axes */
 
 /* The first pixel whose centre is at `x` or behind, in 0..size. */
@@ -163,7 +164,7 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
         owner.data[i] = -1;
     }
     double ahead = 0.0;
-    for (int64_t f = 0; f < faces.rows; f++) {
+    for (int64_t f = 0; f < faces.rows; f += 1 + faces.rows / SAMPLE) {
         Face face = face_at(placed.data, faces.data + 3 * f);
         ahead += face.area * (face.a[2] + face.b[2] + face.c[2]);
     }

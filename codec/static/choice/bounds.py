@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from hashlib import sha256
 
 import numpy as np
 
@@ -24,9 +23,9 @@ from bsm.codec.static.preamble_encoding import Prepared
 
 COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
 """Largest step, in BSM units; and the mean angle of normals, degrees, that rounding comes with at a look of 1."""
-SIDES, NEARLY = 1.25, (0.85, 1.08)
+SIDES, NEARLY, KNOWN = 3.0, (0.85, 1.08), (0.94, 1.03)
 """How much more, or less, may be seen from all sides than from a few; and shares of what is asked for outside of which
-a few sides are enough."""
+a few sides are enough, before and when it is known how much more that is."""
 LEAST = 1e-6  # share of a bound below which all is as good as it can be
 MARGIN = 1e-9  # of a bound on distances, for what rounding may add
 FINEST_PART = 0.1
@@ -95,28 +94,29 @@ class Bounds:
         self.contract = contract
         self.reaches = reaches(measures.prepared, contract) * (1.0 - MARGIN)
         self._best: tuple[float, ...] | None = None
-        self._seen: dict[bytes, tuple[float, float]] = {}
 
-    def excess(self) -> Callable[[Matrix], float]:
-        """The logarithm of the largest share of a bound, for one search: where a few sides tell enough, they are all
-        that is looked at, and what all of them tell beside these is about as it was the last time."""
-        skew = 1.0
+    def excess(self) -> Callable[[Matrix], tuple[float, float | None]]:
+        """The logarithm of the largest share of a bound, for one search, and the look from all sides where that was
+        looked at: a few of them tell enough elsewhere, for what all tell beside these is about as it was before."""
+        skew, near = 1.0, NEARLY
 
-        def excess(positions: Matrix) -> float:
-            nonlocal skew
-            few, whole = self._glance(positions, *(share * self.contract.look / skew for share in NEARLY))
+        def excess(positions: Matrix) -> tuple[float, float | None]:
+            nonlocal skew, near
+            few, whole = self._glance(positions, *(share * self.contract.look / skew for share in near))
             if whole is not None:
+                near = KNOWN
                 skew = min(max(whole / max(few, LEAST), 1.0 / SIDES), SIDES)
             look = skew * few if whole is None else whole
-            return math.log(max(*self._shares(positions), look / self.contract.look, LEAST))
+            return math.log(max(*self._shares(positions), look / self.contract.look, LEAST)), whole
 
         return excess
 
-    def keeps(self, positions: Matrix) -> bool:
-        """Whether all bounds are kept, from all sides."""
+    def keeps(self, positions: Matrix, look: float | None = None) -> bool:
+        """Whether all bounds are kept, from all sides, from which the look may be known."""
         shares = self._shares(positions)
-        whole = self._glance(positions, 0.0, math.inf)[1] if max(shares) <= 1.0 else math.inf
-        look = (whole or 0.0) / self.contract.look
+        if look is None:
+            look = self._glance(positions, 0.0, math.inf)[1] if max(shares) <= 1.0 else math.inf
+        look = (look or 0.0) / self.contract.look
         if self._best is None or (shares[0], look, *shares) < self._best:
             self._best = (shares[0], look, *shares)
         return max(*shares, look) <= 1.0
@@ -167,14 +167,8 @@ class Bounds:
         metric = None if self.contract.look == math.inf else self.measures.look
         if metric is None:
             return 0.0, 0.0
-        seen = self._decoded(positions)
-        name = sha256(seen.tobytes()).digest()
-        if name not in self._seen:
-            few, whole = metric.glance(seen, least, most)
-            if whole is None:
-                return few.distance, None
-            self._seen[name] = few.distance, whole.distance
-        return self._seen[name]
+        few, whole = metric.glance(self._decoded(positions), least, most)
+        return few.distance, None if whole is None else whole.distance
 
     def _decoded(self, positions: Matrix) -> Matrix:
         """As a decoder has them."""

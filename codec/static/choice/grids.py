@@ -24,6 +24,31 @@ FINEST_BITS, PARTS_OF_OCTAVE, WIDER, MOST_TRIED, APART = 16, 128, 1.4, 8, 1.02
 between one and twice it; how much coarser ones may be than one that is about right; how many are tried; and how far
 apart, at least, those are that are coarser."""
 MOST_PARTS = 256  # of models of few vertices: cells along the longest side
+MOST_CELLS, SOME = 1 << 14, 512  # of a grid that a mesh was made on; vertices by which most that were not are known
+
+
+def made_on(positions: Matrix) -> float | None:
+    """The step of the coarsest grid from the lower corner on that all positions are on, but for rounding to floats."""
+    extent = float(extent_of(positions).max())
+    noise = 4.0 * float(np.spacing(np.float32(np.abs(positions).max()))) / extent
+    for some in (positions[:: 1 + len(positions) // SOME], positions):
+        values = np.unique((some - some.min(axis=0)) / extent)
+        values = values[values > noise]
+        step = reach = float(values.min(initial=math.inf))
+        while len(values) and reach < 4.0 * values[-1]:
+            near = values[values <= reach]
+            counts = np.rint(near / step)
+            left = np.abs(near - counts * step)
+            if (left > step / 8.0).any():  # then the step divides that, too, as Euclid has it
+                step = float(left[left > step / 8.0].min())
+                reach = max(step, float(values[0]))
+            else:
+                step, reach = float(counts @ near / (counts @ counts)), 4.0 * reach
+            if step * MOST_CELLS < 1.0:
+                return None
+        if not len(values) or (np.abs(values - np.rint(values / step) * step) > noise).any():
+            return None
+    return step * extent
 
 
 class Gridded:
@@ -78,6 +103,12 @@ class Gridded:
             return None if turned is None else self._placed(held, turned)
 
         return replace(candidate, unfold=unfold)
+
+    def made(self) -> Iterator[Candidate]:
+        """The grid that the mesh was made on."""
+        step = made_on(self._prepared.mesh.positions)
+        if step is not None:
+            yield self.at(step / self._prepared.units.scale)
 
     def counted(self, step: float) -> Candidate:
         """A grid of this step with places that are counted from where the mesh's unit begins: shorter to write."""

@@ -78,8 +78,9 @@ class Search:
         """
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
-        bounds, kept = Bounds(self._measures, contract), list[Candidate]()
-        least, made = math.inf, list[Way]()
+        bounds = Bounds(self._measures, contract)
+        kept = [one for one in Gridded(self._prepared, bounds, 0.0).made() if bounds.keeps(one.positions)]
+        least, ways = min((one.draft.size for one in kept), default=math.inf), dict[Candidate, Way]()
         for way in self._ways(bounds, contract.look):
             on_grid = any(one.draft.places is not None for one in kept)
             if isinstance(way, Gridded) and not on_grid and way.guess() > DEARER * least:
@@ -88,20 +89,22 @@ class Search:
             found = widest(way, bounds, math.inf if isinstance(way, Plain) else least)
             if found is not None:
                 kept.append(found)
-                made.append(way)
+                ways[found] = way
                 least = min(least, found.draft.size)
         near = bounds.excess()
         for candidate in self._made_on(bounds, kept):
-            smaller = candidate.draft.size < least
-            if smaller and near(candidate.positions) <= 0.0 and bounds.keeps(candidate.positions):
-                kept.append(candidate)
-                least = candidate.draft.size
+            if candidate.draft.size < least:
+                over, look = near(candidate.positions)
+                if over <= 0.0 and bounds.keeps(candidate.positions, look):
+                    kept.append(candidate)
+                    least = candidate.draft.size
         if not kept:
             kept += self._last_resort(bounds)
         smallest = min(kept, key=lambda candidate: self._size(candidate.draft))
         turned = smallest.unfold()
         if turned is not None and not bounds.keeps(turned.positions):
-            turned = widest(Unfolding(made[kept.index(smallest)], smallest.step), bounds)
+            way = ways.get(smallest)
+            turned = None if way is None else widest(Unfolding(way, smallest.step), bounds)
             if turned is not None and turned.draft.size > DEARER * smallest.draft.size:
                 turned = None
         return (turned or smallest).draft
@@ -123,7 +126,8 @@ class Search:
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
         """The best stream of at most so many bytes that keeps a contract; None: there is none."""
-        bounds, found = Bounds(self._measures, contract), list[Candidate]()
+        bounds = Bounds(self._measures, contract)
+        found = list(Gridded(self._prepared, bounds, 0.0).made())
         for way in self._ways(bounds, min(contract.look, 1.0)):
             fitting: dict[float, Candidate] = {}
 
@@ -137,8 +141,8 @@ class Search:
             with suppress(LimitError):
                 secant(excess, 1.0 / way.first, 1.0 / way.most, 1.0 / way.least)
             found += [fitting[finest] for finest in sorted(fitting)[-1:]]
-        found += [one for one in self._made_on(bounds, found) if self._size(one.draft) <= most_bytes]
-        found = [one for one in found if bounds.keeps(one.positions)]
+        found += self._made_on(bounds, found)
+        found = [one for one in found if self._size(one.draft) <= most_bytes and bounds.keeps(one.positions)]
         return min(found, key=lambda one: bounds.quality(one.positions)).draft if found else None
 
     def seen(self, draft: Draft) -> str:
@@ -172,7 +176,7 @@ class Search:
 
 def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf) -> Candidate | None:
     """The smallest candidate that is found to keep bounds, unless it would not be smaller than so many bytes."""
-    kept, excess = list[Candidate](), bounds.excess()
+    kept, excess = list[tuple[Candidate, float | None]](), bounds.excess()
     begin = min(max(way.first, way.least), way.most)
     first = way.at(begin) if most_bytes < math.inf else None
     if first is not None and first.draft.size > DEARER * most_bytes:
@@ -180,9 +184,9 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf) -> Candidate 
 
     def at(step: float) -> float | None:
         candidate = first if first is not None and math.isclose(step, begin) else way.at(step)
-        over = excess(candidate.positions)
+        over, look = excess(candidate.positions)
         if over <= 0.0:
-            kept.append(candidate)
+            kept.append((candidate, look))
         # A step twice as wide saves three bits of a vertex at most; one half as wide costs about one at least.
         bits = -over / math.log(2.0) * (3.0 * STEEPEST if over < 0.0 else 1.0 / STEEPEST)
         if most_bytes < math.inf and candidate.draft.size - bits * len(candidate.positions) / 8.0 >= most_bytes:
@@ -191,5 +195,5 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf) -> Candidate 
 
     with suppress(LimitError):  # blocks that decoders would refuse
         secant(at, way.first, way.least, way.most)
-    kept.sort(key=lambda candidate: candidate.draft.size)
-    return next((one for one in kept if bounds.keeps(one.positions)), None)
+    kept.sort(key=lambda one: one[0].draft.size)
+    return next((one for one, look in kept if bounds.keeps(one.positions, look)), None)

@@ -9,7 +9,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric, judged, look
-from bsm.codec.look.pictures import CREASE, Shape, difference, draw, draw_owned
+from bsm.codec.look.pictures import CREASE, Canvas, Shape, difference
 from bsm.codec.look.sides import LEAST_PIXELS, MOST_PIXELS, axes, cameras, pixels_for
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, tetrahedron, together, torus
@@ -172,7 +172,7 @@ def test_a_square_from_above_has_one_shade():
     square = TriangleMesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
     camera = cameras(square.positions, 100)[4]
     normals = np.tile(np.array([0, 0, 1], np.float32), (2, 3))
-    picture = draw(square.positions, square.faces, normals, camera, 100)
+    picture = Canvas(100).draw(square.positions, square.faces, normals, camera)
     inside = picture < 1
     towards = axes((7, 0, 401))
     cosine = 0.35 * towards[0, 2] + 0.5 * towards[1, 2] + 0.79 * towards[2, 2]
@@ -321,7 +321,8 @@ def test_of_faces_at_one_place_the_brightest_is_shown():
         normals = np.zeros((4, 9), np.float32)
         normals[:, ::3], normals[[order.index(2), order.index(3)], 2::3] = 1.0, 0.5
         camera = cameras(square, 64)[0]
-        picture, owner = draw_owned(square, mine, normals, camera, 64)
+        canvas = Canvas(64)
+        picture, owner = canvas.draw(square, mine, normals, camera), canvas.owner
         assert set(owner[owner >= 0]) == {order.index(2), order.index(3)}
         assert np.ptp(picture[owner >= 0]) < 1e-6
 
