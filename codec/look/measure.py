@@ -21,6 +21,8 @@ VISIBLE_SHARE = 0.005  # share of covered pixels that differ visibly, at distanc
 MOVING = 0.05  # 1 - SSIM of a frame of a moving picture at distance 1; no pixel of it counts by itself
 POWER = 0.8  # of the larger of both over its bound: so that a distance is about linear in the step of a quantizer
 GONE, GONE_POWER = 0.5, 2.0  # the same of `Look.gone`: what is gone altogether is at distance 4, however small it is
+TURNED = 1.5  # degrees that normals may be turned, on average over the picture where that is most, at distance 1
+LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
 _LARGEST = 1e150
 
 Shading = Callable[[Positions], Normals]  # normals of corners, where vertices are known
@@ -130,11 +132,31 @@ class LookMetric:
         return seen or whole, whole
 
     def shaded(self, positions: Positions, normals: Normals) -> float:
-        """The distance of positions, shape (n, 3), with normals of corners, from pictures of the original's own."""
+        """The distance of positions, shape (n, 3), with normals of corners, from pictures of the original's own; or by
+        how much they are turned from these, where that is more: gloss shows what no picture here does."""
         assert self._own is not None
-        if np.mean((normals * self._own[1]).reshape(-1, 3).sum(axis=1) < 0.0) > VISIBLE_SHARE:
-            return math.inf  # turned over, which pictures do not show that are lit alike on both sides
-        return self._seen(self._own[0], self._placed(positions), self._shape.faces, normals).distance
+        pictures, own = self._own
+        cosines = (normals * own).reshape(-1, 3).astype(np.float64).sum(axis=1).clip(-1.0, 1.0)
+        turned, placed = np.degrees(np.arccos(cosines)).reshape(-1, 3).mean(axis=1), self._placed(positions)
+
+        def seen(canvas: Canvas, side: int) -> tuple[Matrix, float]:
+            picture = canvas.draw(placed, self._shape.faces, normals, self._cameras[side])
+            shown = canvas.owner[canvas.owner >= 0]
+            return difference(pictures[side], picture), float(turned[shown].mean()) if len(shown) else 0.0
+
+        found = self._each(seen, range(len(pictures)))
+        return max(summed(np.array([sums for sums, _ in found])).distance, max(angle for _, angle in found) / TURNED)
+
+    @property
+    def against_faces(self) -> bool:
+        """Whether the original has normals that point to the other side of their faces, or nowhere."""
+        assert self._own is not None
+        positions, faces = self._placed(self._mesh.positions), self._shape.faces
+        first, second, third = (positions[corner] for corner in faces.T)
+        sums = np.cross(second - first, third - first)
+        own = self._own[1].reshape(-1, 3, 3)
+        facing = np.einsum("fd,fcd->fc", sums, own) <= 0.0
+        return bool(facing[np.sqrt(np.square(sums).sum(axis=1)) > LEAST_AREA].any())
 
     def distance(self, positions: Positions) -> float:
         """The distance alone of `look` at `positions`, shape (n, 3)."""

@@ -222,7 +222,8 @@ class Encoder:
         def looks(carried: tuple[PreparedAttribute, ...], positions: Positions) -> bool:
             return metric.shaded(positions, carried[free].normals(positions)) <= contract.look
 
-        if looks(again, decoded):
+        may = not metric.against_faces
+        if may and looks(again, decoded):
             self._carried = again
             return self._dressed(bare)
         least, most = LEAST_NORMAL_BITS, int(self._wanted[free][1].amount)
@@ -234,11 +235,11 @@ class Encoder:
             else:
                 least = bits + 1
         kept = self._dressed(bare)
-        if looks(again, self._prepared.positions):  # finer ones are, too, perhaps
+        if may and looks(again, self._prepared.positions):  # finer ones are, too, perhaps
             with suppress(TargetError):
                 finer = self._search(contract, progress, again[free].normals).smallest(contract)
                 other = with_attributes(finer, again, self._given.metadata)
-                if other.size < kept.size:
+                if other.size < kept.size and looks(again, self._prepared.units.into(finer.decoded)):
                     self._carried, kept = again, other
         return kept
 

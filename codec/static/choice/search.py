@@ -103,8 +103,7 @@ class Search:
         smallest = min(kept, key=lambda candidate: self._size(candidate.draft))
         turned = smallest.unfold()
         if turned is not None and not bounds.keeps(turned.positions):
-            way = ways.get(smallest)
-            turned = None if way is None else widest(Unfolding(way, smallest.step), bounds)
+            turned = widest(Unfolding(ways[smallest], smallest.step), bounds) if smallest in ways else None
             if turned is not None and turned.draft.size > DEARER * smallest.draft.size:
                 turned = None
         return (turned or smallest).draft

@@ -147,6 +147,21 @@ def test_normals_that_a_mesh_has_are_looked_at_too():
     assert look(MESH, other).distance < 1e-3
 
 
+@pytest.mark.parametrize(("degrees", "enough"), [(1.2, True), (1.8, False)])
+def test_normals_that_are_turned_do_not_pass_where_pictures_show_little(degrees, enough):
+    smooth = Shape.of(MESH.positions, MESH.faces).normals(MESH.positions)
+    looker = LookMetric(
+        TriangleMesh(MESH.positions, MESH.faces, (Attribute("normal", smooth.reshape(-1, 3), "corner", "normal"),))
+    )
+    own = smooth.reshape(-1, 3)
+    aside = np.cross(own, np.random.default_rng(0).normal(size=3))
+    turned = own + math.tan(math.radians(degrees)) * aside / np.linalg.norm(aside, axis=1, keepdims=True)
+    turned /= np.linalg.norm(turned, axis=1, keepdims=True)
+    found = looker.shaded(MESH.positions, np.ascontiguousarray(turned.reshape(-1, 9), np.float32))
+    assert (found <= 1.0) == enough
+    assert not looker.against_faces
+
+
 def test_positions_are_looked_at_by_normals_that_the_original_has():
     shades = np.random.default_rng(0).normal(size=(len(MESH.faces), 3))  # every face shaded by itself
     own = Attribute("normal", np.repeat(shades, 3, axis=0), "corner", "normal")
