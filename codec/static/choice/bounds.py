@@ -23,9 +23,9 @@ from bsm.codec.static.preamble_encoding import Prepared
 
 COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
 """Largest step, in BSM units; and the mean angle of normals, degrees, that rounding comes with at a look of 1."""
-SIDES, NEARLY, KNOWN = 3.0, (0.85, 1.08), (0.94, 1.03)
-"""How much more, or less, may be seen from all sides than from a few; and shares of what is asked for outside of which
-a few sides are enough, before and when it is known how much more that is."""
+NEARLY = 0.87, 1.08
+"""Shares of what is asked for outside of which a few sides are enough; half as far where it is known how much more all
+sides tell."""
 LEAST = 1e-6  # share of a bound below which all is as good as it can be
 MARGIN = 1e-9  # of a bound on distances, for what rounding may add
 FINEST_PART = 0.1
@@ -104,8 +104,8 @@ class Bounds:
             nonlocal skew, near
             few, whole = self._glance(positions, *(share * self.contract.look / skew for share in near))
             if whole is not None:
-                near = KNOWN
-                skew = min(max(whole / max(few, LEAST), 1.0 / SIDES), SIDES)
+                near = math.sqrt(NEARLY[0]), math.sqrt(NEARLY[1])
+                skew = whole / max(few, LEAST)
             look = skew * few if whole is None else whole
             return math.log(max(*self._shares(positions), look / self.contract.look, LEAST)), whole
 

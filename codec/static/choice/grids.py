@@ -13,7 +13,7 @@ from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
 from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
 from bsm.codec.static.choice.lattices import grid_draft
-from bsm.codec.static.choice.shaping import Aim
+from bsm.codec.static.choice.shaping import SAMPLE, Aim
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid
@@ -24,14 +24,13 @@ FINEST_BITS, PARTS_OF_OCTAVE, WIDER, MOST_TRIED, APART = 16, 128, 1.4, 8, 1.02
 between one and twice it; how much coarser ones may be than one that is about right; how many are tried; and how far
 apart, at least, those are that are coarser."""
 MOST_PARTS = 256  # of models of few vertices: cells along the longest side
-MOST_CELLS, SOME = 1 << 14, 512  # of a grid that a mesh was made on; vertices by which most that were not are known
 
 
 def made_on(positions: Matrix) -> float | None:
     """The step of the coarsest grid from the lower corner on that all positions are on, but for rounding to floats."""
     extent = float(extent_of(positions).max())
     noise = 4.0 * float(np.spacing(np.float32(np.abs(positions).max()))) / extent
-    for some in (positions[:: 1 + len(positions) // SOME], positions):
+    for some in (positions[:: 1 + len(positions) // SAMPLE], positions):
         values = np.unique((some - some.min(axis=0)) / extent)
         values = values[values > noise]
         step = reach = float(values.min(initial=math.inf))
@@ -44,7 +43,7 @@ def made_on(positions: Matrix) -> float | None:
                 reach = max(step, float(values[0]))
             else:
                 step, reach = float(counts @ near / (counts @ counts)), 4.0 * reach
-            if step * MOST_CELLS < 1.0:
+            if step * 2.0**FINEST_BITS < 1.0:
                 return None
         if not len(values) or (np.abs(values - np.rint(values / step) * step) > noise).any():
             return None
