@@ -32,7 +32,7 @@ from bsm.codec.arrays import Matrix
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.look.pictures import Picture, Shape, difference, draw_owned
+from bsm.codec.look.pictures import Canvas, Picture, Shape, difference
 from bsm.codec.look.sides import cameras
 from bsm.console import Console
 from bsm.evaluation.curve import decode_draco, encode_draco
@@ -111,7 +111,9 @@ class Gallery:
             camera = self._cameras[side].copy()
             camera[:8] *= closer
             camera[[3, 7]] -= (closer - 1) * PIXELS / 2
-            _, owner = draw_owned(placed, faces, smooth, camera, PIXELS)
+            canvas = Canvas(PIXELS)
+            canvas.draw(placed, faces, smooth, camera)
+            owner = canvas.owner
             rows, columns = np.nonzero(owner >= 0)
             face = owner[rows, columns]
             ends = placed @ camera[:12].reshape(3, 4)[:2, :3].T + camera[[3, 7]]
