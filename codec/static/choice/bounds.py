@@ -102,12 +102,14 @@ class Bounds:
 
         def excess(positions: Matrix) -> tuple[float, float | None]:
             nonlocal skew, near
-            few, whole = self._glance(positions, *(share * self.contract.look / skew for share in near))
+            shares = self._shares(positions)
+            least = 0.0 if NEARLY[0] < max(shares) <= 1.0 else near[0]  # a search may end where another bound is near
+            few, whole = self._glance(positions, *(share * self.contract.look / skew for share in (least, near[1])))
             if whole is not None:
                 near = math.sqrt(NEARLY[0]), math.sqrt(NEARLY[1])
-                skew = whole / max(few, LEAST)
+                skew = max(whole, LEAST) / max(few, LEAST)
             look = skew * few if whole is None else whole
-            return math.log(max(*self._shares(positions), look / self.contract.look, LEAST)), whole
+            return math.log(max(*shares, look / self.contract.look, LEAST)), whole
 
         return excess
 

@@ -106,8 +106,9 @@ class Gridded:
     def made(self) -> Iterator[Candidate]:
         """The grid that the mesh was made on."""
         step = made_on(self._prepared.mesh.positions)
-        if step is not None:
-            yield self.at(step / self._prepared.units.scale)
+        if step is not None:  # wherever coarser ones are looked for, from what looks about right on
+            made = self.at(step / self._prepared.units.scale)
+            yield replace(made, step=max(made.step, self._bounds.rough_step))
 
     def counted(self, step: float) -> Candidate:
         """A grid of this step with places that are counted from where the mesh's unit begins: shorter to write."""

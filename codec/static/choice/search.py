@@ -92,7 +92,7 @@ class Search:
                 ways[found] = way
                 least = min(least, found.draft.size)
         near = bounds.excess()
-        for candidate in self._made_on(bounds, kept):
+        for candidate in self._made_on(bounds, list(ways) or kept):
             if candidate.draft.size < least:
                 over, look = near(candidate.positions)
                 if over <= 0.0 and bounds.keeps(candidate.positions, look):
