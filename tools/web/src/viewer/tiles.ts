@@ -33,6 +33,8 @@ class Tile {
     readonly radius: number;
     geometry?: BSMGeometry;
     asked = false;
+    /** Whether it has come, or failed to. */
+    tried = false;
 
     constructor(
         readonly told: Told,
@@ -147,12 +149,14 @@ export class TileSet {
 
     private load(): void {
         for (const tile of this.wanted) {
-            if (this.closed || this.loading >= AT_ONCE) return;
+            // The first picture has the link for itself.
+            if (this.closed || this.loading >= (this.tops.every(({ tried }) => tried) ? AT_ONCE : this.tops.length)) return;
             if (tile.asked) continue;
             tile.asked = true;
             this.loading++;
             void this.fetched(tile).finally(() => {
                 this.loading--;
+                tile.tried = true;
                 this.load();
                 if (!this.closed) this.changed();
             });
