@@ -162,7 +162,10 @@ def run_many(
     # A cluster may do a job once more whose worker died, and does not say so.
     tasks = ((number, task if run.dask is None else task.repeated()) for number, task in given)
     try:
-        with console.progress("files", "files") as progress, closing(_outcomes(run, console, work, tasks)) as outcomes:
+        with (
+            console.progress("files", "files") as progress,
+            closing(_outcomes(run, console, work, tasks, len(jobs))) as outcomes,
+        ):
             for count, (number, outcome) in enumerate(outcomes, 1):
                 done[number] = outcome.facts
                 if outcome.error is not None:
@@ -198,12 +201,14 @@ def task_of(asked: records.Task, job: records.Job, earlier: records.Earlier = re
     )
 
 
-def _outcomes(run: records.Run, console: Console, work: records.Work, tasks: records.Tasks) -> records.Outcomes:
+def _outcomes(
+    run: records.Run, console: Console, work: records.Work, tasks: records.Tasks, count: int
+) -> records.Outcomes:
     if run.jobs < 0:
         raise OptionError(f"-j {run.jobs}: at least one input at a time, or 0")
     from bsm.codec.threads import available_threads
 
-    processes = run.jobs or available_threads()
+    processes = min(run.jobs or available_threads(), count) or 1
     if run.dask is None and processes == 1:
         return ((number, records.outcome_of(work, task, console)) for number, task in tasks)
     # Where there is one process there is no need to load this.
