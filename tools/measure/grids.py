@@ -34,6 +34,14 @@ def welded(path: str) -> tuple[Positions, Faces]:
     return positions[used], faces.reshape(-1, 3).astype(np.int32)
 
 
+def rounded(positions: Positions, bits: int) -> Faces:
+    """Positions on Draco's grid: its arithmetic, in single precision."""
+    low = positions.min(axis=0)
+    inverse = np.float32((1 << bits) - 1) / np.float32((positions - low).max())
+    placed: Faces = np.floor((positions - low) * inverse + np.float32(0.5)).astype(np.int32)
+    return placed
+
+
 def encode(positions: Positions, faces: Faces, bits: int) -> tuple[bytes, float]:
     """A whole stream, once it is found to be exact, and the processor time per vertex in microseconds."""
     start = time.process_time()
