@@ -69,6 +69,7 @@ class Progress:
         if self._clock is not None:
             self._clock.join()
         if self._bar is not None:
+            self._bar.clear()  # which closing alone leaves out where nothing but refreshes have drawn it
             self._bar.close()
 
     def stage(self, name: str, share: float = 0.0) -> None:
@@ -85,7 +86,7 @@ class Progress:
         self._at((self._round + done / max(total, 1)) / rounds)
         if self._lines and time.monotonic() - self._said >= _SECOND:
             self._tell()
-        if self._shown and self._opened() is not None:
+        if self._shown and time.monotonic() - self._begun >= _PATIENCE and self._opened() is not None:
             self._draw(f"{self._what}, attempt {self._round + 1}" if self._round else self._what)
 
     def _at(self, share: float) -> None:

@@ -264,7 +264,7 @@ def test_one_bar_for_a_search_with_the_time_left(tmp_path):
     write_mesh(tmp_path / "a.npz", knot(80_000))
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=0.3", "--threads", "1"]
     shown = on_a_terminal(*words, "--theta", "4")
-    assert re.search(r"encoding, attempt [2-9]", shown) and "<00:" in shown and "blocks/s" in shown
+    assert re.search(r"encoding, attempt [2-9]", shown) and "<00:" in shown
     *frames, result = shown.replace("\r\n", "\n").rstrip("\n").split("\r")
     shares = [int(frame.partition("%")[0].rpartition(":")[2]) for frame in frames if "%|" in frame]
     assert len(shares) > 3 and max(shares) <= 100
@@ -281,7 +281,7 @@ def test_a_bar_for_sequences(tmp_path):
     np.savez(tmp_path / "a.npz", positions=frames, faces=faces)
     words = ["encode", tmp_path / "a.npz", "-o", tmp_path / "a.bsm", "--set", "keep=1", "--set", "block-size=200"]
     shown = on_a_terminal(*words, "--threads", "1")
-    assert "encoding:" in shown and "blocks/s" in shown and "KG error" in shown
+    assert re.search(r"encoding: +\d+%", shown) and "KG error" in shown
 
 
 def test_stages_are_named_while_a_mesh_is_denoised(tmp_path):

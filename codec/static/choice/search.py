@@ -80,19 +80,19 @@ class Search:
             return rounded(self._prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)
         kept = [one for one in Gridded(self._prepared, bounds, 0.0).made() if bounds.keeps(one.positions)]
-        least, ways = min((one.draft.size for one in kept), default=math.inf), dict[Candidate, Way]()
+        least, made = min((one.draft.size for one in kept), default=math.inf), list[Candidate]()
         for way in self._ways(bounds, contract.look):
-            on_grid = any(one.draft.places is not None for one in kept)
+            on_grid = any(one.draft.places is not None for one in (*kept, *made))
             if isinstance(way, Gridded) and not on_grid and way.guess() > DEARER * least:
                 continue
             # Where a step of blocks alone should begin cannot be told, and so not what they take from their first one.
             found = widest(way, bounds, math.inf if isinstance(way, Plain) else least)
             if found is not None:
-                kept.append(found)
-                ways[found] = way
-                least = min(least, found.draft.size)
+                made.append(unfolded(found, way, bounds))
+                least = min(least, made[-1].draft.size)
+        kept += made
         near = bounds.excess()
-        for candidate in self._made_on(bounds, list(ways) or kept):
+        for candidate in self._made_on(bounds, made or kept):
             if candidate.draft.size < least:
                 over, look = near(candidate.positions)
                 if over <= 0.0 and bounds.keeps(candidate.positions, look):
@@ -100,13 +100,7 @@ class Search:
                     least = candidate.draft.size
         if not kept:
             kept += self._last_resort(bounds)
-        smallest = min(kept, key=lambda candidate: self._size(candidate.draft))
-        turned = smallest.unfold()
-        if turned is not None and not bounds.keeps(turned.positions):
-            turned = widest(Unfolding(ways[smallest], smallest.step), bounds) if smallest in ways else None
-            if turned is not None and turned.draft.size > DEARER * smallest.draft.size:
-                turned = None
-        return (turned or smallest).draft
+        return min((candidate.draft for candidate in kept), key=self._size)
 
     def _last_resort(self, bounds: Bounds) -> list[Candidate]:
         """What grids do that are finer than where a search began, where it came to nothing."""
@@ -171,6 +165,16 @@ class Search:
             yield from Gridded(prepared, bounds, 0.0).fitting()
         elif steps and self._measures.shaper.character.is_sharp:
             yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
+
+
+def unfolded(found: Candidate, way: Way, bounds: Bounds) -> Candidate:
+    """What a way has found, with faces turned back where that keeps the bounds, or does at another step."""
+    turned = found.unfold()
+    if turned is not None and not bounds.keeps(turned.positions):
+        turned = widest(Unfolding(way, found.step), bounds)
+        if turned is not None and turned.draft.size > DEARER * found.draft.size:
+            turned = None
+    return turned or found
 
 
 def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf) -> Candidate | None:

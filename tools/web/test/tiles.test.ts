@@ -73,16 +73,21 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
     test("the page shows coarse tiles first, and as many more as there are pixels for", async () => {
         const page = await opened();
         const asked: (string | undefined)[] = [];
-        page.on("request", (request) => request.url().endsWith(".tiles") && asked.push(request.headers().range));
+        const events: string[] = [];
+        page.on("request", (request) => request.url().endsWith(".tiles") && events.push("asked") && asked.push(request.headers().range));
+        page.on("requestfinished", (request) => request.url().endsWith(".tiles") && events.push("came"));
         await page.addInitScript(() => {
             const seen: number[] = ((globalThis as unknown as { seen: number[] }).seen = []);
             new MutationObserver(() => seen.push(Number(document.body?.dataset.faces ?? 0))).observe(document, { attributes: true, subtree: true, attributeFilter: ["data-faces"] });
         });
         await page.goto(address);
         await page.waitForSelector("body[data-state=complete]", { timeout: 60_000 });
+        await page.waitForFunction("seen.some((faces) => faces > 0)");
         const seen = (await page.evaluate("seen.filter((faces) => faces > 0)")) as number[];
         const far = await page.locator("canvas").screenshot();
-        assert.equal(seen[0], coarsest, "the coarsest comes first");
+        // A busy machine may draw no frame before more has come.
+        assert.deepEqual(events.slice(0, 2), ["asked", "came"], "the coarsest comes first, and alone");
+        assert.ok(seen[0] >= coarsest && seen.every((faces, i) => i === 0 || faces >= seen[i - 1]), "never less is seen");
         assert.ok(asked.length > 2 && asked.every((range) => range?.startsWith("bytes=")), "by ranges");
         const { share } = silhouette(far);
         assert.ok(share > 0.05 && share < 0.9, `share ${share}`);
