@@ -239,13 +239,12 @@ LAW, LAW_OF_SEQUENCES = Paper(), Paper(iterations=2, shift=2.0**-5)
 
 def contradiction(header: Header) -> str | None:
     """Which two fields of a header exclude each other, or None."""
-    own = (
-        _grid_rules(header)
-        if header.grid
-        else _again_rules(header)
-        if header.again is not None
-        else _block_rules(header)
-    )
+    if header.grid:
+        own = _grid_rules(header)
+    elif header.again is not None:
+        own = _others("the mesh of another run", header, ("sequence", "run"))
+    else:
+        own = _block_rules(header)
     return next((problem for problem, broken in (_common_rules(header) | own).items() if broken), None)
 
 
@@ -277,10 +276,6 @@ def _grid_rules(header: Header) -> dict[str, bool]:
     } | _others("a grid", header, ("grid", "lattice", "center", "scale", "attributes", "corner", "light"))
 
 
-def _again_rules(header: Header) -> dict[str, bool]:
-    return _others("the mesh of another run", header, ("sequence", "run"))
-
-
 def _others(what: str, header: Header, fitting: tuple[str, ...]) -> dict[str, bool]:
     """Every field but those that fit must have its default."""
     return {
@@ -307,16 +302,6 @@ def _block_rules(header: Header) -> dict[str, bool]:
         "a ratio of a refinement that is not in 1/16..64": layer is not None and layer.ratio < 1 / 16,
         "a refinement of a sequence": bool(header.refinement) and bool(header.sequence),
     }
-
-
-def header_to_entries(header: Header) -> list[tuple[int, Any]]:
-    """(key, value) of every field that is not at its default, keys ascending."""
-    return entries_of(header)
-
-
-def header_from_entries(entries: list[tuple[Any, Any]]) -> Header:
-    """The header that `header_to_entries` came from; raises as `record_of`."""
-    return record_of(Header, "header", entries)
 
 
 def entries_of(record: Any) -> list[tuple[int, Any]]:

@@ -6,7 +6,7 @@ from dataclasses import fields
 from typing import Any
 
 from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.header import entries_of, header_from_entries, header_to_entries, record_of
+from bsm.bitstream.container.header import entries_of, record_of
 from bsm.bitstream.container.packets import (
     Attribute,
     Block,
@@ -33,14 +33,14 @@ LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "
 
 def write_header(header: Header) -> bytes:
     """A map from field keys to values."""
-    return write_map(header_to_entries(header))
+    return write_map(entries_of(header))
 
 
 def parse_header(payload: bytes, limits: Limits) -> Header:
     """Inverse of `write_header`; counts are checked against `limits`."""
     if len(payload) > MOST_HEADER:
         raise CorruptError(f"a header of {len(payload)} bytes, where {MOST_HEADER} are legal")
-    header = header_from_entries(parse_map(payload))
+    header = record_of(Header, "header", parse_map(payload))
     for name in LIMITED_FIELDS:
         limits.check(name, getattr(header, name))
     return header

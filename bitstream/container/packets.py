@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.header import Header
+from bsm.bitstream.container.declaration import Declaration as Declaration
+from bsm.bitstream.container.header import Header as Header
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import OptionError
 
@@ -122,22 +122,3 @@ class Damaged:
 Packet: TypeAlias = (
     Header | Metadata | Connectivity | Partition | Order | Attribute | Block | Gop | Grid | Refinement | Values | End
 )
-
-__all__ = [
-    "Attribute",
-    "Block",
-    "Connectivity",
-    "Damaged",
-    "Declaration",
-    "End",
-    "Gop",
-    "Grid",
-    "Header",
-    "Metadata",
-    "MetadataValue",
-    "Order",
-    "Packet",
-    "Partition",
-    "Refinement",
-    "Values",
-]

@@ -17,6 +17,7 @@ from bsm.bitstream.extras import imported
 from bsm.codec import _kernels
 from bsm.codec.arrays import Indices
 from bsm.codec.geometry.graph import Graph
+from bsm.codec.geometry.welding import group_rows
 from bsm.codec.threads import available_threads, side_by_side
 
 WORTH_A_THREAD = 8192  # vertices of a graph from which on a second thread gains more than it costs
@@ -59,10 +60,7 @@ class Partition:
 
 def partition_of_labels(labels: Indices) -> Partition:
     """Partition whose parts are the distinct labels, shape (n,), numbered by the first vertex that has them."""
-    _, first, compact = np.unique(labels, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), np.int32)
-    rank[np.argsort(first)] = np.arange(len(first), dtype=np.int32)
-    return _grouped(rank[compact])
+    return _grouped(group_rows(labels.astype(np.int64)[:, None]))
 
 
 def derive_partition(graph: Graph, parts: int, threads: int | None = 1) -> Partition:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Indices, Order
+from bsm.codec.arrays import Faces, Indices, Integers, Order
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,3 +69,15 @@ def mesh_edges(faces: Faces, n: int) -> Indices:
     first = np.repeat(np.arange(n, dtype=np.int32), np.diff(starts))
     once = first < members
     return np.stack([first[once], members[once]], axis=1)
+
+
+def canonical(faces: Integers) -> Integers:
+    """Faces as rows that begin with their least corner, sorted: equal for equal sets of oriented triangles."""
+    rows, corners = canonical_order(faces)
+    return np.take_along_axis(faces, corners, axis=1)[rows]
+
+
+def canonical_order(faces: Integers) -> tuple[Order, Order]:
+    corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3
+    turned = np.take_along_axis(faces, corners, axis=1)
+    return np.lexsort(turned.T[::-1]), corners

@@ -50,12 +50,7 @@ class SequenceDecoder(StreamDecoder[Item]):
     --------
     >>> import bsm
     >>> with bsm.SequenceDecoder() as decoder, open("dance.bsm", "rb") as file:
-    ...     decoder.receive_data(file.read())
-    ...     decoder.receive_eof()
-    ...     frames = 0
-    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-    ...         frames += isinstance(event, bsm.FrameEvent)
-    >>> frames
+    ...     sum(isinstance(event, bsm.FrameEvent) for event in decoder.events(file))
     6
     """
 
@@ -91,13 +86,7 @@ class SequenceDecoder(StreamDecoder[Item]):
         self._queue.clear()
 
     def next_event(self) -> Event:
-        """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`.
-
-        Raises
-        ------
-        BsmError
-            One of the stream's errors, with its place.
-        """
+        """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`; raises a `BsmError`."""
         while self._queue or self._read():
             if not self._queue:
                 continue

@@ -34,12 +34,8 @@ class FrameEvent:
     --------
     >>> import bsm
     >>> with bsm.SequenceDecoder(start=2) as decoder, open("dance.bsm", "rb") as file:
-    ...     decoder.receive_data(file.read())
-    ...     decoder.receive_eof()
-    ...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-    ...         if isinstance(event, bsm.FrameEvent):
-    ...             print(event.index, end=" ")
-    2 3 4 5
+    ...     [event.index for event in decoder.events(file) if isinstance(event, bsm.FrameEvent)]
+    [2, 3, 4, 5]
     """
 
     index: int

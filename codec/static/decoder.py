@@ -162,13 +162,9 @@ class Decoder(StreamDecoder[Item]):
     --------
     >>> import bsm
     >>> with bsm.Decoder() as decoder, open("bunny.bsm", "rb") as file:
-    ...     done = False
-    ...     while not done:
-    ...         event = decoder.next_event()
-    ...         if event is bsm.NEED_DATA:
-    ...             chunk = file.read(1000)
-    ...             decoder.receive_data(chunk) if chunk else decoder.receive_eof()
-    ...         done = event is bsm.END_OF_STREAM
+    ...     for event in decoder.events(iter(lambda: file.read(1000), b"")):
+    ...         if isinstance(event, bsm.BlockEvent):
+    ...             moved = event.vertices, event.positions
     """
 
     def __init__(
@@ -211,13 +207,7 @@ class Decoder(StreamDecoder[Item]):
         self._lanes.close()
 
     def next_event(self) -> Event:
-        """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`.
-
-        Raises
-        ------
-        BsmError
-            One of the stream's errors, with its place.
-        """
+        """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`; raises a `BsmError`."""
         match self._next_item():
             case PendingBlock() as block:
                 return self._block_event(block)

@@ -27,9 +27,7 @@ class HeaderEvent:
     Examples
     --------
     >>> import bsm
-    >>> with bsm.Decoder() as decoder:
-    ...     decoder.receive_data(bsm.encode("bunny.ply"))
-    ...     event = decoder.next_event()
+    >>> event = next(bsm.Decoder().events([bsm.encode("bunny.ply")]))
     >>> isinstance(event, bsm.HeaderEvent), event.header.vertices > 0
     (True, True)
     """
@@ -67,10 +65,9 @@ class ConnectivityEvent:
     Examples
     --------
     >>> import bsm
+    >>> data = bsm.encode("bunny.ply", step=0.002)
     >>> with bsm.Decoder() as decoder:
-    ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
-    ...     decoder.receive_eof()
-    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.ConnectivityEvent)]
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.ConnectivityEvent)]
     >>> found[0]
     ConnectivityEvent(... faces, ... vertices)
     """
@@ -99,10 +96,9 @@ class BlockEvent:
     Examples
     --------
     >>> import bsm
+    >>> data = bsm.encode("bunny.ply", step=0.002)
     >>> with bsm.Decoder() as decoder:
-    ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
-    ...     decoder.receive_eof()
-    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.BlockEvent)]
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.BlockEvent)]
     """
 
     layer: ClassVar[int] = 0
@@ -141,10 +137,9 @@ class RefinementEvent:
     Examples
     --------
     >>> import bsm
+    >>> data = bsm.encode("bunny.ply", step=0.002)
     >>> with bsm.Decoder() as decoder:
-    ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
-    ...     decoder.receive_eof()
-    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.RefinementEvent)]
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.RefinementEvent)]
     """
 
     layer: ClassVar[int] = 1
@@ -175,10 +170,9 @@ class AttributeEvent:
     Examples
     --------
     >>> import bsm
+    >>> data = bsm.encode("spot.obj", step=0.002)
     >>> with bsm.Decoder() as decoder:
-    ...     decoder.receive_data(bsm.encode("spot.obj", step=0.002))
-    ...     decoder.receive_eof()
-    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.AttributeEvent)]
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.AttributeEvent)]
     >>> found[0].name, found[0].domain
     ('texcoord', 'corner')
     """
@@ -211,9 +205,7 @@ class LossEvent:
     >>> damaged = bytearray(bsm.encode("bunny.ply", step=0.002))
     >>> damaged[-60] ^= 1
     >>> with bsm.Decoder(tolerant=True) as decoder:
-    ...     decoder.receive_data(damaged)
-    ...     decoder.receive_eof()
-    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.LossEvent)]
+    ...     found = [it for it in decoder.events([damaged]) if isinstance(it, bsm.LossEvent)]
     >>> isinstance(found[0].error, bsm.CorruptError)
     True
     """
@@ -252,10 +244,9 @@ class EndEvent:
     Examples
     --------
     >>> import bsm
+    >>> data = bsm.encode("bunny.ply", step=0.002)
     >>> with bsm.Decoder() as decoder:
-    ...     decoder.receive_data(bsm.encode("bunny.ply", step=0.002))
-    ...     decoder.receive_eof()
-    ...     found = [it for it in iter(decoder.next_event, bsm.END_OF_STREAM) if isinstance(it, bsm.EndEvent)]
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.EndEvent)]
     >>> found[0].losses
     Losses(0 vertices missing, 0 degraded)
     """

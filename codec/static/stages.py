@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Generic, Protocol, TypeAlias, TypeVar
@@ -91,6 +91,21 @@ class StreamDecoder(ABC, Generic[Item]):
     def receive_eof(self) -> None:
         """Take note that no more bytes will come."""
         self._reader.receive_eof()
+
+    def events(self, chunks: Iterable[Buffer]) -> Iterator[Any]:
+        """What comes of a stream that comes in chunks: each event as soon as its bytes are there, to the end."""
+        given = iter(chunks)
+        while (event := self.next_event()) is not END_OF_STREAM:
+            if event is not NEED_DATA:
+                yield event
+            elif (chunk := next(given, None)) is not None:
+                self.receive_data(chunk)
+            else:
+                self.receive_eof()
+
+    @abstractmethod
+    def next_event(self) -> Any:
+        """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`."""
 
     def _read(self) -> bool:
         """Take one packet in; False where there is none, or none can be any more."""

@@ -17,12 +17,8 @@ name of a file; instead of bytes any buffer, the name of a file, or a binary fil
 by its suffix, .bsm included. A stream that is still arriving is decoded block by block:
 
 >>> with bsm.Decoder() as decoder:
-...     decoder.receive_data(data)
-...     decoder.receive_eof()
-...     while (event := decoder.next_event()) is not bsm.END_OF_STREAM:
-...         if isinstance(event, bsm.BlockEvent):
-...             print(len(event.vertices), "vertices")
-4 vertices
+...     [len(event.vertices) for event in decoder.events([data]) if isinstance(event, bsm.BlockEvent)]
+[4]
 
 Every error is a `BsmError`. Only what is listed here is promised to stay; the packages `bsm.codec` and
 `bsm.bitstream` are where it lives.

@@ -19,7 +19,7 @@ from bsm.console import Console, watched
 from bsm.files.formats.metadata import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
-from bsm.files.stream import decode_whole, events
+from bsm.files.stream import decode_whole
 from bsm.lengths import LENGTHS, refuse_other_units
 from bsm.libraries import as_mesh, read_any, with_metadata
 
@@ -344,7 +344,7 @@ def decode_frames(
     from bsm.codec.sequence.events import FrameEvent
 
     with SequenceDecoder(limits, threads) as decoder:
-        for event in events(decoder, read_chunks(stream)):
+        for event in decoder.events(read_chunks(stream)):
             if isinstance(event, FrameEvent):
                 yield TriangleMesh(event.positions, event.faces, event.attributes, decoder.metadata)
 

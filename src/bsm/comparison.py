@@ -14,8 +14,9 @@ import numpy.typing as npt
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.bitstream.public import public
-from bsm.codec.arrays import Faces, Positions
+from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
+from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, compare
 from bsm.codec.static.joining import join
@@ -75,7 +76,7 @@ def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None
         by_decoder = encode_connectivity(original.faces, len(original.positions))
         if np.array_equal(by_decoder.faces, other.faces):
             return other.positions[np.argsort(by_decoder.vertex_order)]
-    if np.array_equal(_canonical(original.faces), _canonical(other.faces)):
+    if np.array_equal(canonical(original.faces), canonical(other.faces)):
         return other.positions
     if order is None:
         again = encode_connectivity(other.faces, len(other.positions))
@@ -91,7 +92,7 @@ def paired_corners(original: TriangleMesh, other: TriangleMesh, order: Order | N
     found = in_order_of(original, replace(other, positions=numbers, attributes=()), order)[:, 0].astype(np.int64)
     pairs = []
     for faces in (found[original.faces].astype(np.int32), other.faces):
-        rows, corners = _canonical_order(faces)
+        rows, corners = canonical_order(faces)
         pairs.append((3 * rows[:, None] + corners[rows]).reshape(-1))
     return pairs[0], pairs[1]
 
@@ -108,17 +109,6 @@ def unsplit(original: TriangleMesh, other: TriangleMesh) -> TriangleMesh | None:
     positions = other.positions[some]
     fits = np.array_equal(whole[other.faces], faces) and np.array_equal(positions[faces], other.positions[other.faces])
     return TriangleMesh(positions, faces) if fits else None
-
-
-def _canonical(faces: Faces) -> Faces:
-    rows, corners = _canonical_order(faces)
-    return np.take_along_axis(faces, corners, axis=1)[rows]
-
-
-def _canonical_order(faces: Faces) -> tuple[Order, Order]:
-    corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3
-    turned = np.take_along_axis(faces, corners, axis=1)
-    return np.lexsort(turned.T[::-1]), corners
 
 
 @public

@@ -30,8 +30,8 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 35_175,
-    "all Python, lines": 74_105,
+    "product Python, lines": 35_075,
+    "all Python, lines": 74_005,
     "product modules": 222,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

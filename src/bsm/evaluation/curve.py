@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
 from bsm.bitstream.errors import CorruptError, MeshError
 from bsm.bitstream.extras import imported
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.graph import canonical
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.sequence.encoder import SequenceEncoder
@@ -31,8 +31,6 @@ from bsm.evaluation.plots import MEASURES, draw_rates, points_of
 from bsm.evaluation.sample import knot
 from bsm.files.output import write_output
 from bsm.files.stream import inspect_stream
-
-Triangles = npt.NDArray[np.int64]
 
 
 def encode_draco(mesh: TriangleMesh, position_bits: int, level: int) -> bytes:
@@ -68,26 +66,15 @@ def positions_in_order(mesh: TriangleMesh, decoded: TriangleMesh, position_bits:
         raise MeshError("Draco dropped vertices; remove those that no face with area uses")
     a, b, c = mesh.faces.T
     cornered = mesh.faces[(a != b) & (b != c) & (c != a)]
-    if not np.array_equal(_canonical(original[numbered.faces]), _canonical(cornered)):
+    if not np.array_equal(canonical(original[numbered.faces]), canonical(cornered)):
         raise MeshError("Draco's numbered faces are not those of the original")
     _, identity = np.unique(np.concatenate([points, decoded.positions]), axis=0, return_inverse=True)
     first, second = identity[: len(points)], identity[len(points) :]
-    if not np.array_equal(_canonical(first[numbered.faces]), _canonical(second[decoded.faces])):
+    if not np.array_equal(canonical(first[numbered.faces]), canonical(second[decoded.faces])):
         raise MeshError("Draco decodes to different triangles with and without numbered vertices")
     positions = np.empty_like(mesh.positions)
     positions[original] = points
     return positions
-
-
-def _canonical(faces: npt.NDArray[np.integer]) -> Triangles:
-    """Faces as rows that begin with their least rotation, sorted: equal for equal sets of oriented triangles."""
-    corners = faces.astype(np.int64)
-    rotations = np.stack([corners, np.roll(corners, 1, axis=1), np.roll(corners, 2, axis=1)])
-    base = corners.max(initial=0) + 1
-    if base > 2_000_000:
-        raise MeshError(f"{base} vertices are too many for this comparison")
-    keys = (rotations[..., 0] * base + rotations[..., 1]) * base + rotations[..., 2]
-    return np.sort(keys.min(axis=0))
 
 
 def _draco() -> Any:

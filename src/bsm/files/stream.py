@@ -15,7 +15,7 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import frames_of_gop
 from bsm.bitstream.container.layout import write_attribute, write_metadata
 from bsm.bitstream.container.packets import Header
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, read_packets
+from bsm.bitstream.container.reader import NEED_DATA, Reader, read_packets
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -25,7 +25,6 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.pipes import Source, as_input, is_pipe
 
 if TYPE_CHECKING:
-    from bsm.codec.sequence.decoder import SequenceDecoder
     from bsm.codec.static.decoder import Decoder
     from bsm.codec.static.events import AttributeEvent
 
@@ -235,22 +234,11 @@ def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[A
     """Decode until an event is enough, or to the end; the faces whose vertices have all arrived."""
     part = _Part()
     with decoder:
-        for event in events(decoder, chunks):
+        for event in decoder.events(chunks):
             part.take(event)
             if enough(event):
                 break
     return replace(part.mesh(), metadata=decoder.metadata)
-
-
-def events(decoder: Decoder | SequenceDecoder, chunks: Iterator[bytes]) -> Iterator[Any]:
-    """What a decoder says while it is given bytes as it needs them, until the end of the stream."""
-    while (event := decoder.next_event()) is not END_OF_STREAM:
-        if event is not NEED_DATA:
-            yield event
-        elif chunk := next(chunks, b""):
-            decoder.receive_data(chunk)
-        else:
-            decoder.receive_eof()
 
 
 class _Part:
@@ -385,7 +373,7 @@ class SequenceStream:
         self._present: tuple[Attribute, ...] | None = None
         decoder = SequenceDecoder(limits, tolerant=note is not None, start=start)
         self._decoder = decoder
-        self._events = events(decoder, chunks)
+        self._events = decoder.events(chunks)
         for event in self._events:
             if isinstance(event, HeaderEvent):
                 self.header = event.header

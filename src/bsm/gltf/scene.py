@@ -8,7 +8,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.welding import row_numbers
+from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, painted_like, rate_of_times
@@ -331,14 +331,14 @@ class Scene:
             if joints.size and joints.max() >= len(skin.joints):
                 raise FormatError(f"a vertex of node {node} hangs on joint {joints.max()} of {len(skin.joints)}")
         columns = self._columns(given, count, corners.reshape(-1))
-        origin = _alike([base, *targets, joints, weights, *colors])
-        first = np.unique(origin, return_index=True)[1]
+        origin = group_rows(np.column_stack([base, *targets, joints, weights, *colors]))
+        first = first_of(origin)
         return Part(
             node,
             base[first],
             np.array(targets).reshape(len(targets), count, 3)[:, first],
             colors[:, first],
-            origin[corners],
+            origin[corners].astype(np.int64),
             skin,
             joints[first],
             weights[first],
@@ -386,19 +386,6 @@ class Scene:
             else:
                 found.append(shapes.Column(number.lower(), values, "corner", shapes.meaning_of(number), corners))
         return tuple(found)
-
-
-def _alike(tables: list[Array]) -> Ints:
-    """The number of each row, the same for rows that are alike in all tables, in the order in which they first come."""
-    numbers = row_numbers(np.asarray(tables[0]))
-    for table in tables[1:]:
-        if table.size:
-            numbers = row_numbers(np.column_stack([numbers, table]))
-    _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), np.int64)
-    rank[np.argsort(first)] = np.arange(len(first))
-    found: Ints = rank[inverse.reshape(-1)]
-    return found
 
 
 # --------------------------------------------------------------------------------------------------------------- frames

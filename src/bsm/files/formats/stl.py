@@ -7,6 +7,7 @@ import numpy as np
 from bsm.bitstream.errors import FormatError, MeshError, TruncatedError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats.metadata import Written, face_numbers, left_out
 from bsm.files.formats.polygons import Column, Polygons
 from bsm.files.rows import Doubles, Rows, single_suffices
@@ -22,22 +23,12 @@ def read_stl(data: bytes, limits: Limits) -> Polygons:
     claimed = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
     binary = len(data) == 84 + 50 * claimed or not data.lstrip().startswith(b"solid")
     soup = _soup_binary(data) if binary else _soup_text(data)
-    soup = soup + 0.0  # so that -0 equals 0 byte by byte too
-    order = np.lexsort(soup.T)
-    ordered = soup[order]
-    fresh = np.ones(len(soup), dtype=bool)
-    fresh[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
-    # lexsort is stable, so the first of each group is the one that appears first in the file.
-    first = order[fresh]
-    by_appearance = np.argsort(first)
-    rank = np.empty_like(by_appearance)
-    rank[by_appearance] = np.arange(len(first))
-    corners = np.empty(len(soup), dtype=np.int64)
-    corners[order] = rank[np.cumsum(fresh) - 1]
+    corners = group_rows(soup)
+    first = first_of(corners)
     note = f"STL knows no vertices: {len(soup)} corners with equal coordinates were joined to {len(first)} vertices"
     records = np.frombuffer(data, _RECORD, len(soup) // 3, 84)["attribute"] if binary else np.zeros(0, np.uint16)
     columns = (Column(_ATTRIBUTE, records[:, None], "face"),) if records.any() else ()
-    return Polygons(soup[first[by_appearance]], np.full(len(soup) // 3, 3), corners, (note,), (), columns)
+    return Polygons(soup[first], np.full(len(soup) // 3, 3), corners.astype(np.int64), (note,), (), columns)
 
 
 def _soup_binary(data: bytes) -> Doubles:
