@@ -26,7 +26,7 @@ bool following_dictionary(Context *context, const Header *header, const Patch *p
 bool factorize_patch(Context *context, const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor);
 /* Columns that follow from L, of a block of so many rows (M 8.7). */
 INLINE int64_t iterated_columns(const Header *header, int64_t rows) {
-    return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 2) / 3 : rows;
+    return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 1) / 2 : rows;
 }
 INLINE int64_t solving_space(int64_t rows, int64_t columns) { return (rows + 4) * (columns + 16) + 15; }
 Factor factor_room(Arena *arena, const Patch *patch);

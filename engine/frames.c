@@ -7,9 +7,9 @@ static const int LAG[LAGS] = {1, 2, 3, 5, 8, 13, 21, 34};
 static const double SQUARES = 0.5, CUBES = 0.3, SMALLEST_RADIUS = 0x1p-24, TRACK_MEMORY = 40;
 static const double QUARTERS[4] = {1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605};
 
-int64_t lags_of(int64_t kept, bool brief) {
+int64_t lags_of(int64_t kept) {
     int64_t count = 0;
-    while (count < (brief ? 1 : LAGS) && LAG[count] < kept) count++;
+    while (count < LAGS && LAG[count] < kept) count++;
     return count;
 }
 
@@ -180,7 +180,7 @@ static bool read_matrices(Context *context, Bank bank, Span payload, const Matri
         Ints2 levels = {m->levels, m->rows, columns};
         ConstInts2 reference = {m->reference, m->reference_rows, columns};
         if (m->lead > 0) code_matrix(reading.coder, bank, levels, reference, 0, least(m->lead, columns), least(stair, columns), m->rows, columns, slow);
-        else code_matrix(reading.coder, bank, levels, reference, 0, columns, 0, (m->rows + 2) / 3, 0, slow);
+        else code_matrix(reading.coder, bank, levels, reference, 0, columns, 0, (m->rows + 1) / 2, 0, slow);
     }
     return finish_reading(&reading);
 }
@@ -293,7 +293,7 @@ static void fill_base(const Track *track, const GopField *field, ConstDoubles2 t
 
 /* Columns that are known of low-delay frames, in some stacked rows (S 7.2). */
 static void fill_references(const Track *track, const GopField *field, int64_t first, Doubles2 known) {
-    int64_t width = track->width, lags = lags_of(track->kept, field->brief);
+    int64_t width = track->width, lags = lags_of(track->kept);
     const double *latest = kept_frame(track, 0);
     for (int64_t r = 0; r < known.rows; r++) {
         double *to = known.data + r * known.columns;
@@ -318,7 +318,7 @@ static bool decode_next_part(Gops *gops, const Telling *telling, int k, const Si
     Doubles2 own = rows_from(telling->found[k], part->first, m + c), inside = rows_from(own, m, c);
     fill_base(track, field, const_doubles2(telling->time), part->first, own);
     if (field->components > 0) {
-        int64_t wide = track->width * (2 + lags_of(track->kept, field->brief) + (field->back > 0));
+        int64_t wide = track->width * (2 + lags_of(track->kept) + (field->back > 0));
         Doubles2 known = take_doubles2(scratch, m + c, wide), changes = take_doubles2(scratch, m, columns);
         if (failed(gops->context)) return false;
         fill_references(track, field, part->first, known);

@@ -61,9 +61,7 @@ static bool parse_field(Context *context, Span data, const Gop *gop, Arena *aren
         if (!parse_exponents(&cursor, field->components, arena, &field->exponents)) return false;
         field->basis = take_span(&cursor, take_varint(&cursor));
     } else {
-        int64_t refers = gop->method == NEXT_FRAMES ? take_varint(&cursor) : 0;
-        field->back = refers / 2;
-        field->brief = refers % 2 > 0;
+        field->back = gop->method == NEXT_FRAMES ? take_varint(&cursor) : 0;
         field->components = field->width * gop->frames;
         if (field->back > 0 && field->back < gop->frames)
             return FAIL(context, CORRUPT, "# frames that start from those # before them", gop->frames, field->back);
@@ -153,7 +151,7 @@ static double gop_work(const Gops *gops, const Gop *gop) {
     for (int k = 0; k < gop->count; k++) {
         const GopField *field = gop->field + k;
         double width = (double)field->width, r = (double)field->components;
-        double known = width * (double)(2 + lags_of(gops->track[k].kept, field->brief) + (field->back > 0));
+        double known = width * (double)(2 + lags_of(gops->track[k].kept) + (field->back > 0));
         work += learnt ? t * width * r * (10 + 2 * r) : REFERRED * rows * known * known;
         work += t * width * (gops->given * SHOWN_WORK + (double)gops->graph->size * r / 15);
     }

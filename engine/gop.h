@@ -13,7 +13,6 @@ enum { BENDING = 19, INHERITED = 24, MOST_KEPT = 64, LAGS = 8, BATCH = 8 };
 typedef struct {
     int64_t width, components, back;
     double step;
-    bool brief;
     Ints exponents;
     Span basis, levels;
 } GopField;
@@ -38,7 +37,7 @@ typedef struct {
 bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const Mover *movers, int count, bool tolerant, Arena *arena, Gop *gop);
 double gop_memory(int64_t vertices, const Gop *gop, double around);
 /* How many changes between frames before help to predict those of a GOP, where so many are kept (S 7.2). */
-int64_t lags_of(int64_t kept, bool brief);
+int64_t lags_of(int64_t kept);
 
 /* A part of the mesh (S 3). */
 typedef struct {

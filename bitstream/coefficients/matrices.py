@@ -106,7 +106,7 @@ def _extent_of(matrix: Levels, lead: Lead | None) -> _Extent:
     if lead is not None:
         first, more = lead
         return min(first, columns), min(more, columns), rows, columns
-    turn = -(-rows // 3)
+    turn = -(-rows // 2)
     used = np.flatnonzero(matrix[turn:].any(axis=0))
     return columns, 0, turn, int(used[-1]) + 1 if len(used) else 0
 

@@ -90,7 +90,6 @@ class GopField:
     basis: bytes
     levels: bytes
     back: int = 0
-    brief: bool = False
 
     @property
     def size(self) -> int:
@@ -149,7 +148,7 @@ def _write_field(field: GopField, method: GopMethod) -> bytes:
         parts += [write_varint(2 * d if d >= 0 else -2 * d - 1) for d in differences]
         parts += [write_varint(len(field.basis)), field.basis]
     elif method is GopMethod.NEXT_FRAME:
-        parts.append(write_varint(2 * field.back + field.brief))
+        parts.append(write_varint(field.back))
     return b"".join([*parts, field.levels])
 
 
@@ -201,10 +200,10 @@ def _parse_field(data: bytes, body: GopBody, width: int) -> GopField:
     if not 0.0 < step < math.inf:
         raise CorruptError(f"a GOP with the step {step}")
     if not body.method.has_basis:
-        back, brief = divmod(cursor.varint() if body.method is GopMethod.NEXT_FRAME else 0, 2)
+        back = cursor.varint() if body.method is GopMethod.NEXT_FRAME else 0
         if 0 < back < body.frames:
             raise CorruptError(f"{body.frames} frames that start from those {back} before them")
-        return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest(), back, bool(brief))
+        return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest(), back)
     components = cursor.varint()
     if components > width * body.coded:
         raise CorruptError(f"{components} components for {body.coded} frames")

@@ -240,7 +240,7 @@ class GopDecoder:
         fields = list(zip(histories, body.fields, strict=True))
         read = []
         for history, field in fields:
-            history.expect(body.frames, field.back, brief=field.brief)
+            history.expect(body.frames, field.back)
             levels = self.setting.empty_levels(field.width * body.frames)
             if field.components:
                 decode_levels(history.bank, field.levels, levels, history.levels)

@@ -47,15 +47,13 @@ class FrameHistory:
         self._track = track
         self._cosines = np.empty((0, 0))
         self._back = 0
-        self._lags = lags(track.kept)
         self._kept = [track.start]  # the latest frame first
 
-    def expect(self, frames: int, back: int = 0, *, brief: bool = False) -> None:
+    def expect(self, frames: int, back: int = 0) -> None:
         """Get ready for so many frames, which start from those so far back, or with 0 all from the latest."""
         if back > len(self._kept):
             raise CorruptError(f"a frame refers to one {back} before it, where {len(self._kept)} are kept")
         self._back = back
-        self._lags = lags(self._track.kept)[: 1 if brief else None]
         if len(self._cosines) == frames:
             return
         self._cosines = time_cosines(frames)
@@ -64,7 +62,7 @@ class FrameHistory:
     def begin(self, block: int, ends: Matrix, step: float) -> tuple[Loop, Matrix, Matrix]:
         """What a block's change follows from, where the frames are `ends`, shape (k_i, dT), around it."""
         kept, base, count = [frame[block] for frame in self._kept], self.base(block), len(ends)
-        ages = [min(lag, len(kept) - 1) for lag in (0, *self._lags)]
+        ages = [min(lag, len(kept) - 1) for lag in (0, *lags(self._track.kept))]
         known = [self._track.first[block], kept[0], *(kept[late] - kept[early] for late, early in pairwise(ages))]
         if self._back:
             known.append(kept[self._back - 1] - kept[0])

@@ -137,7 +137,7 @@ class Setting:
     def _references(self, body: GopBody) -> Iterator[int]:
         """Columns that are known of the frames that low-delay ones refer to, of each field."""
         for track, field in zip(self.tracks, body.fields, strict=True):
-            yield field.width * (2 + (1 if field.brief else len(lags(track.kept))) + (field.back > 0))
+            yield field.width * (2 + len(lags(track.kept)) + (field.back > 0))
 
     def empty_levels(self, columns: int) -> list[Levels]:
         """Levels of all parts, each of shape (c_i, columns), to be read."""

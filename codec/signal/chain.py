@@ -61,7 +61,7 @@ class ChainRules:
 
     def iterated(self, rows: int) -> int:
         """Columns of a dictionary of so many rows, at most, that follow from its Laplacian."""
-        return -(-rows // 3) if rows <= self.whole else rows
+        return -(-rows // 2) if rows <= self.whole else rows
 
     def chain_starts(self, blocks: int) -> range:
         """Indices of the key blocks among `blocks` blocks."""

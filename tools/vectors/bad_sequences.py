@@ -78,7 +78,7 @@ def _stretches(*codes: int) -> Callable[[], bytes]:
 
 def _back(frames: int) -> Edit:
     """Next frames that start from those so far before them."""
-    return lambda data: data[:6] + bytes([2 * frames]) + data[7:]
+    return lambda data: data[:6] + bytes([frames]) + data[7:]
 
 
 def _headers_of(frames: Frames) -> list[int]:

@@ -112,7 +112,7 @@ BODIES = [
     GopBody(GopMethod.LEARNT, 4, (GopField(3, 0.5, 0, NONE, b"", b""),)),
     GopBody(GopMethod.KEY_FRAME, 1, (GopField(3, 2.0**-20, 3, NONE, b"", b"x"),)),
     GopBody(GopMethod.NEXT_FRAME, 1, (GopField(3, 1.0, 3, NONE, b"", b""),)),
-    GopBody(GopMethod.NEXT_FRAME, 2, (GopField(3, 1.0, 6, NONE, b"", b"x", 2, brief=True),)),
+    GopBody(GopMethod.NEXT_FRAME, 2, (GopField(3, 1.0, 6, NONE, b"", b"x", 2),)),
     GopBody(GopMethod.KEY_FRAME, 4, (GopField(3, 1.0, 12, NONE, b"", b"x"), GopField(2, 1.0, 8, NONE, b"", b"y"))),
     GopBody(GopMethod.LEARNT, 4, (MOVING, HEAT, still(2))),
     GopBody(GopMethod.LEARNT, 4, (MOVING, still(2)), np.array([0, 1, 0, 0])),
@@ -133,7 +133,7 @@ def test_bodies(body):
     for one, other in zip(parsed.fields, body.fields, strict=True):
         assert (one.width, one.step, one.components) == (other.width, other.step, other.components)
         assert np.array_equal(one.exponents, other.exponents)
-        assert (one.basis, one.levels, one.back, one.brief) == (other.basis, other.levels, other.back, other.brief)
+        assert (one.basis, one.levels, one.back) == (other.basis, other.levels, other.back)
 
 
 def test_known_bytes_of_a_body():
@@ -163,17 +163,17 @@ def test_places_that_are_not_coded_cost_nothing():
     assert (prices[~stairs, :, 1:] > prices[stairs].max()).all()
 
 
-def test_columns_behind_the_first_third_are_told_as_far_as_they_are_used():
+def test_columns_of_the_second_half_are_told_as_far_as_they_are_used():
     generator = np.random.default_rng(5)
     matrix = generator.integers(-2, 3, (60, 20), dtype=np.int32)
-    matrix[20:, 3:] = 0
+    matrix[30:, 3:] = 0
     payload = encode_levels(make_level_bank(), [matrix], [empty(20)])
     decoded = np.zeros_like(matrix)
     decode_levels(make_level_bank(), payload, [decoded], [empty(20)])
     assert np.array_equal(decoded, matrix)
     assert len(payload) < len(encode_levels(make_level_bank(), [matrix], [empty(20)], [(20, 0)]))
     prices = price_levels(make_level_bank(), matrix, empty(20))
-    assert (prices[20:, 3:, :, 1] > 0).all()
+    assert (prices[30:, 3:, :, 1] > 0).all()
     matrix[59, 19] = 1
     decode_levels(make_level_bank(), encode_levels(make_level_bank(), [matrix], [empty(20)]), [decoded], [empty(20)])
     assert decoded[59, 19] == 1
