@@ -14,7 +14,7 @@ fields      colours and fields that change in moving meshes, against zstd and Dr
 denoise     the scoreboard of denoising; `tables` writes it into docs/measured.md
 figures     the tables of docs/measured.md
 house       how large the repository is, beside its limits
-paper       every table and figure of the paper, as a report
+paper       the tables of the paper, beside the numbers that it prints
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ COMMANDS = {
     "figures": "figures:main",
     "speed": "speed:main",
     "house": "house:main",
-    "paper": "paper.command:main",
+    "paper": "paper:main",
 }
 """The function that does what a word asks for, and its module."""
 

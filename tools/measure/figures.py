@@ -35,7 +35,6 @@ from bsm.evaluation.curve import (
 )
 from bsm.files.mesh import read_mesh
 from tools.command import run_command
-from tools.measure.blocks import block_size_for
 
 Result = TypeVar("Result")
 
@@ -145,7 +144,7 @@ def basis_figure(source: Source) -> Figure:
         for keep in KEEPS:
             points = {
                 method: measure(
-                    Spectral(paper_options(keep=keep, block_size=block_size_for(mesh, blocks), **changes)),
+                    Spectral(paper_options(keep=keep, block_size=round(len(mesh.positions) / blocks), **changes)),
                     mesh,
                     reference,
                 )
