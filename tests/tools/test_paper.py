@@ -18,7 +18,7 @@ from tools.measure import paper
 def test_every_table_stands_beside_the_paper_s_numbers():
     ran = tool("paper", "--quick", "--json")
     assert ran.returncode == 0, ran.stderr
-    tables = json.loads(ran.stdout)
+    tables = json.loads(ran.stdout)["tables"]
     assert len(tables) == 22
     assert sum(other is not None for table in tables for _, _, theirs in table["rows"] for other in theirs) > 80
     assert all(len(ours) == len(table["columns"]) for table in tables for _, ours, _ in table["rows"])

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
 from itertools import islice
@@ -80,7 +80,7 @@ class Table:
     """Rows of numbers; of each column, by how much of the paper's ours may differ, if they compare at all."""
 
     title: str
-    columns: dict[str, float | None]
+    columns: Mapping[str, float | None]
     rows: list[Row]
     remarks: tuple[str, ...] = ()
     claims: tuple[Claim, ...] = ()
@@ -90,8 +90,8 @@ class Table:
         _, ours, theirs = row
         found = []
         for number, other, most in zip(ours, (*theirs, *[None] * (len(ours) - len(theirs))), self.columns.values()):
-            asked = other is not None and most is not None
-            found.append((number, other, abs(number - other) <= most * abs(other) if asked else None))  # type: ignore[operator]
+            near = None if other is None or most is None else abs(number - other) <= most * abs(other)
+            found.append((number, other, near))
         return found
 
     def score(self) -> tuple[int, int]:
@@ -715,8 +715,8 @@ def companions(study: Study) -> Iterable[Table]:
     """Every companion alone and behind the coarse step."""
     model = study.model("fandisk")
     coarse = model.coarse(10)(model.noisy)
-    rows: list[Row] = []
-    for name, step in {"none": lambda positions, faces: positions, **FINE_STEPS}.items():
+    rows: list[Row] = [("none", (model.reference.theta(model.noisy), model.reference.theta(coarse)), ())]
+    for name, step in FINE_STEPS.items():
         study.note(f"{model.name}: {name}")
         rows.append((name, tuple(model.reference.theta(step(p, model.faces)) for p in (model.noisy, coarse)), ()))
     gains = sum(after < alone for _, (alone, after), _ in rows[1:])
@@ -822,22 +822,10 @@ def powers(study: Study) -> Iterable[Table]:
         yield Table(f"8.2 Powers of R: {role}, 10 segments, c = 10 %", columns, rows, (remark,))
 
 
+_SIX = (segmentation, boundary, transition, number_of_segments, overlap, coherence)
+_SEVEN_AND_EIGHT = (normals, sequences, rates, dynamic, coarse_to_fine, companions, hand, times, powers)
 TABLES: dict[str, Callable[[Study], Iterable[Table]]] = {
-    "segmentation": segmentation,
-    "boundary": boundary,
-    "transition": transition,
-    "segments": number_of_segments,
-    "overlap": overlap,
-    "coherence": coherence,
-    "normals": normals,
-    "sequences": sequences,
-    "rates": rates,
-    "dynamic": dynamic,
-    "coarse-to-fine": coarse_to_fine,
-    "companions": companions,
-    "hand": hand,
-    "times": times,
-    "powers": powers,
+    made.__name__.replace("_", "-"): made for made in (*_SIX, *_SEVEN_AND_EIGHT)
 }
 
 
@@ -855,7 +843,7 @@ def work(args: argparse.Namespace, console: Console) -> None:
         raise OptionError(f"{folder} has no folder static/")
     tables = make_tables(Study(folder, args.quick, console.note), args.only.split(",") if args.only else [*TABLES])
     if args.json:
-        print_json([asdict(table) for table in tables])
+        print_json({"tables": [asdict(table) for table in tables]})
         return
     print("\n".join(table.text() for table in tables))
     if folder is None:
