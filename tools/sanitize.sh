@@ -20,4 +20,4 @@ cd "$root"
 unset PYTHONPATH PYTHONMALLOC
 LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
     "$python" -m tests.engine.mutants 5000 ci --exact --tolerant --seconds 15 \
-    --flags="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -DKERNEL_ONE_TARGET"
+    --flags="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -DKERNEL_ONE_TARGET"
