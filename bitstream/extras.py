@@ -35,13 +35,9 @@ def how_to_install(extra: str) -> str:
         url = f"{source['vcs_info']['vcs']}+{url}@{source['vcs_info']['commit_id']}"
     editable = "-e " if source.get("dir_info", {}).get("editable") else ""
     if url.startswith("file://") and "dir_info" in source:
-        return f"pip install {editable}'{_path(url)}[{extra}]'"
+        # The folder behind a file's URL.
+        from urllib.parse import urlsplit
+        from urllib.request import url2pathname
+
+        return f"pip install {editable}'{url2pathname(urlsplit(url).path)}[{extra}]'"
     return f"pip install '{DISTRIBUTION}[{extra}] @ {url}'"
-
-
-def _path(url: str) -> str:
-    """The folder behind a file's URL."""
-    from urllib.parse import urlsplit
-    from urllib.request import url2pathname
-
-    return url2pathname(urlsplit(url).path)

@@ -207,14 +207,10 @@ def _parse_field(data: bytes, body: GopBody, width: int) -> GopField:
     components = cursor.varint()
     if components > width * body.coded:
         raise CorruptError(f"{components} components for {body.coded} frames")
-    exponents = _parse_exponents(cursor, components)
-    basis = cursor.take(cursor.varint())
-    return GopField(width, step, components, exponents, basis, cursor.rest())
-
-
-def _parse_exponents(cursor: Cursor, count: int) -> npt.NDArray[np.int32]:
-    codes = np.array([cursor.varint() for _ in range(count)], np.int64)
+    codes = np.array([cursor.varint() for _ in range(components)], np.int64)
     exponents = np.cumsum(np.where(codes % 2 == 0, codes // 2, -(codes + 1) // 2))
     if len(exponents) and not 0 <= exponents.min() <= exponents.max() <= MAX_EXPONENT:
         raise CorruptError(f"a basis with step exponents outside 0..{MAX_EXPONENT}")
-    return exponents.astype(np.int32)
+    exponents = exponents.astype(np.int32)
+    basis = cursor.take(cursor.varint())
+    return GopField(width, step, components, exponents, basis, cursor.rest())

@@ -47,7 +47,12 @@ def encode_order(faces: npt.ArrayLike, encoded: EncodedConnectivity, splits: Spl
             coder = code_column(code_rotations(coder, kinds), back.astype(np.int32))
         if copied:
             visits, counts, _ = _corners(source[splits.faces].ravel(), len(used), source)
-            ranks = _ranks(source)[splits.faces].ravel()
+            # Which of the given vertices at its place each is, in their order.
+            order = np.argsort(source, kind="stable")
+            ordered = source[order]
+            ranks = np.empty(len(source), np.int32)
+            ranks[order] = np.arange(len(source)) - np.searchsorted(ordered, ordered)
+            ranks = ranks[splits.faces].ravel()
             coder = code_column(coder, ((ranks - visits) % counts).astype(np.int32))
     numbers = write_varint(copied) + write_varint(len(loose))
     return numbers + np.ascontiguousarray(loose, "<f8").tobytes() + finish_writing(coder)
@@ -70,35 +75,27 @@ def decode_order(data: bytes, faces: Ints, vertices: int, limits: Limits) -> tup
         kinds, back = np.zeros(vertices + copies + count, np.int32), np.zeros(copies, np.int32)
         code_rotations(coder, kinds)
         code_column(coder, back)
-        source = _sources(kinds, back, vertices)
+        # The vertex that each given one is, numbered as they are met; -1 for loose ones.
+        if (np.bincount(kinds, minlength=3)[[FIRST, COPY]] != (vertices, len(back))).any():
+            raise CorruptError("the kinds of given vertices are not as many as announced")
+        source = np.full(len(kinds), -1, np.int64)
+        source[kinds == FIRST] = np.arange(vertices)
+        known = np.cumsum(kinds == FIRST)[kinds == COPY]
+        source[kinds == COPY] = known - 1 - back
+        if ((source[kinds == COPY] < 0) | (back < 0)).any():
+            raise CorruptError("a given vertex is a copy of one that does not come before it")
+        source = source.astype(np.int32)
         steps = np.zeros(3 * len(faces), np.int32)
         if copies:
             code_column(coder, steps)
-        splits = Splits(source, _named(arrangement.faces, steps, source, vertices), loose)
+        # The given vertex of each corner, shape (m, 3).
+        order = np.argsort(np.where(source < 0, vertices, source), kind="stable")
+        visits, counts, starts = _corners(arrangement.faces.ravel(), vertices, source)
+        if ((steps < 0) | (steps >= counts)).any():
+            raise CorruptError("a corner names a copy that there is not")
+        splits = Splits(source, order[starts + (steps + visits) % counts].reshape(-1, 3).astype(np.int32), loose)
     finish_reading(coder)
     return arrangement, splits
-
-
-def _sources(kinds: Ints, back: Ints, vertices: int) -> Ints:
-    """The vertex that each given one is, numbered as they are met; -1 for loose ones."""
-    if (np.bincount(kinds, minlength=3)[[FIRST, COPY]] != (vertices, len(back))).any():
-        raise CorruptError("the kinds of given vertices are not as many as announced")
-    source = np.full(len(kinds), -1, np.int64)
-    source[kinds == FIRST] = np.arange(vertices)
-    known = np.cumsum(kinds == FIRST)[kinds == COPY]
-    source[kinds == COPY] = known - 1 - back
-    if ((source[kinds == COPY] < 0) | (back < 0)).any():
-        raise CorruptError("a given vertex is a copy of one that does not come before it")
-    return source.astype(np.int32)
-
-
-def _named(faces: Ints, steps: Ints, source: Ints, vertices: int) -> Ints:
-    """The given vertex of each corner, shape (m, 3)."""
-    order = np.argsort(np.where(source < 0, vertices, source), kind="stable")
-    visits, counts, starts = _corners(faces.ravel(), vertices, source)
-    if ((steps < 0) | (steps >= counts)).any():
-        raise CorruptError("a corner names a copy that there is not")
-    return order[starts + (steps + visits) % counts].reshape(-1, 3).astype(np.int32)
 
 
 def _corners(vertices: Ints, count: int, source: Ints) -> tuple[Ints, Ints, Ints]:
@@ -112,12 +109,3 @@ def _corners(vertices: Ints, count: int, source: Ints) -> tuple[Ints, Ints, Ints
     begins = np.cumsum(counts) - counts
     at = counts[vertices]
     return (visits % at).astype(np.int32), at.astype(np.int32), begins[vertices].astype(np.int32)
-
-
-def _ranks(source: Ints) -> Ints:
-    """Which of the given vertices at its place each is, in their order."""
-    order = np.argsort(source, kind="stable")
-    ordered = source[order]
-    ranks = np.empty(len(source), np.int32)
-    ranks[order] = np.arange(len(source)) - np.searchsorted(ordered, ordered)
-    return ranks

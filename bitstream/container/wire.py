@@ -281,19 +281,15 @@ def _after(payload: bytes, start: int) -> int:
 
 def _pack(value: Any) -> bytes:
     if isinstance(value, float):
-        return _pack_float(value)
+        # Single precision where that is exact, double otherwise.
+        if abs(value) <= _FLOAT32_MAX:
+            single = struct.pack(">f", value)
+            if struct.unpack(">f", single)[0] == value:
+                return b"\xca" + single
+        return b"\xcb" + struct.pack(">d", value)
     if isinstance(value, list | tuple):
         return bytes(msgpack.Packer().pack_array_header(len(value))) + b"".join(map(_pack, value))
     return bytes(msgpack.packb(value))
-
-
-def _pack_float(value: float) -> bytes:
-    """Single precision where that is exact, double otherwise."""
-    if abs(value) <= _FLOAT32_MAX:
-        single = struct.pack(">f", value)
-        if struct.unpack(">f", single)[0] == value:
-            return b"\xca" + single
-    return b"\xcb" + struct.pack(">d", value)
 
 
 def _check(value: Any, nested: bool) -> None:

@@ -175,15 +175,10 @@ def compare_values(original: npt.NDArray[Any], decoded: npt.NDArray[Any], *, nor
     spread = float(np.ptp(before))
     if not normals:
         return AttributeComparison(float(error.max()), float(error.mean()), spread)
-    angles = _angles(before, after)
-    turned = float(angles.max(initial=0.0)), float(angles.mean()) if len(angles) else 0.0
-    return AttributeComparison(float(error.max()), float(error.mean()), spread, *turned)
-
-
-def _angles(before: Matrix, after: Matrix) -> Matrix:
-    """Between vectors, in degrees; by half angles, which keeps small ones exact."""
+    # Between vectors, in degrees; by half angles, which keeps small ones exact.
     lengths = [np.linalg.norm(vectors, axis=1, keepdims=True) for vectors in (before, after)]
     known = ((lengths[0] > 0) & (lengths[1] > 0))[:, 0]
     a, b = before[known] / lengths[0][known], after[known] / lengths[1][known]
     angles: Matrix = np.degrees(2 * np.arctan2(np.linalg.norm(a - b, axis=1), np.linalg.norm(a + b, axis=1)))
-    return angles
+    turned = float(angles.max(initial=0.0)), float(angles.mean()) if len(angles) else 0.0
+    return AttributeComparison(float(error.max()), float(error.mean()), spread, *turned)

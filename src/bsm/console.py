@@ -130,7 +130,11 @@ class Progress:
                 bars.tqdm.monitor_interval = 0
                 more: dict[str, Any] = {"delay": _PATIENCE, "leave": False, "miniters": 0, "bar_format": _RUNNING}
                 if not widgets:
-                    more["ncols"], more["nrows"] = _shape()
+                    # Columns and lines of the terminal; the usual ones where it knows none, and tqdm would draw nothing.
+                    size = (0, 0)
+                    with suppress(OSError, ValueError):
+                        size = os.get_terminal_size(sys.stderr.fileno())
+                    more["ncols"], more["nrows"] = size[0] or _USUAL_SHAPE[0], size[1] or _USUAL_SHAPE[1]
                 self._bar = bars.tqdm(desc=self._what, unit=f" {self._unit}", **more)
             return self._bar
 
@@ -141,14 +145,6 @@ class Progress:
                 self._tell()
             if self._shown and self._opened() is not None:
                 self._draw()
-
-
-def _shape() -> tuple[int, int]:
-    """Columns and lines of the terminal; the usual ones where it knows none, and tqdm would draw nothing."""
-    size = (0, 0)
-    with suppress(OSError, ValueError):
-        size = os.get_terminal_size(sys.stderr.fileno())
-    return size[0] or _USUAL_SHAPE[0], size[1] or _USUAL_SHAPE[1]
 
 
 def printable(text: str) -> str:

@@ -47,7 +47,8 @@ class Playback:
         self._here: Positions = np.empty((0, 3))
         self._faces: Faces | None = None  # of the frame that was split last
         self.positions(0)
-        self.rate = _rate(self._stream.metadata)
+        rate = self._stream.metadata.get("frame_rate")
+        self.rate = float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else USUAL_RATE
 
     def _opened(self, start: int) -> tuple[SequenceStream, Iterator[tuple[int, Positions]]]:
         stream = SequenceStream(read_chunks(self._path), start=start)
@@ -84,11 +85,6 @@ class Playback:
 
     def number_at(self, time: float) -> int:
         return min(max(round(time * self.rate), 0), self.count - 1)
-
-
-def _rate(metadata: Metadata) -> float:
-    rate = metadata.get("frame_rate")
-    return float(rate) if isinstance(rate, int | float) and 0 < rate < float("inf") else USUAL_RATE
 
 
 def fill(output: Any, mesh: TriangleMesh) -> None:

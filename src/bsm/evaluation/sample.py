@@ -14,17 +14,14 @@ _ASPECT = 10.0  # length of the knot over the circumference of its tube, about
 
 def knot(vertices: int = 20_000, seed: int = 1) -> TriangleMesh:
     """A closed tube along a trefoil, twisted like a rope, with dents and grain: detail at three scales."""
-    places = _scattered(vertices, np.random.default_rng(seed))
-    return TriangleMesh(_tube(*places.T), _periodic_triangles(places))
-
-
-def _scattered(count: int, random: np.random.Generator) -> Doubles:
-    """Points in the unit square, one in each cell of a brick wall whose bricks are square on the tube."""
-    across = max(4, round((count / _ASPECT) ** 0.5))
-    along = max(12, round(count / across))
+    random = np.random.default_rng(seed)
+    # Points in the unit square, one in each cell of a brick wall whose bricks are square on the tube.
+    across = max(4, round((vertices / _ASPECT) ** 0.5))
+    along = max(12, round(vertices / across))
     cells = np.stack(np.meshgrid(np.arange(along), np.arange(across), indexing="ij"), axis=-1).reshape(-1, 2)
     bricks = cells + (0.0, 0.5) * (cells[:, :1] % 2)
-    return np.asarray((bricks + random.uniform(0.25, 0.75, cells.shape)) / (along, across) % 1.0)
+    places = np.asarray((bricks + random.uniform(0.25, 0.75, cells.shape)) / (along, across) % 1.0)
+    return TriangleMesh(_tube(*places.T), _periodic_triangles(places))
 
 
 def _periodic_triangles(places: Doubles) -> npt.NDArray[np.int32]:

@@ -204,7 +204,8 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     indices = [mesh.faces]
     for keyword, attribute in (("vt", texcoord), ("vn", normal)):
         if attribute is not None:
-            parts.append(_values(keyword, attribute))
+            number = " {!r}" if attribute.values.dtype == np.float64 else " {:.9g}"
+            parts.append(text_table(f"{keyword}{number * attribute.components}\n", attribute.values).decode())
             indices.append(mesh.faces if attribute.indices is None else attribute.indices)
     corner = "{}/{}/{}" if texcoord and normal else "{}//{}" if normal else "{}/{}" if texcoord else "{}"
     columns = np.stack(indices, axis=2).reshape(len(mesh.faces), -1) + 1
@@ -261,8 +262,3 @@ def _points(mesh: TriangleMesh, color: Attribute | None) -> str:
     most = np.iinfo(color.values.dtype).max if color.values.dtype.kind == "u" else 1
     row = row.replace("\n", " {:.6g}" * _COLORS + "\n")
     return text_table(row, np.hstack([mesh.positions, color.values[:, :_COLORS] / most])).decode()
-
-
-def _values(keyword: str, attribute: Attribute) -> str:
-    number = " {!r}" if attribute.values.dtype == np.float64 else " {:.9g}"
-    return text_table(f"{keyword}{number * attribute.components}\n", attribute.values).decode()
