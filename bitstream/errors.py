@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import importlib
+import json
+from pathlib import Path
+from typing import Any, TypeVar
+
 
 class BsmError(Exception):
     """Base of all errors of this project.
@@ -208,3 +213,48 @@ class DependencyError(BsmError, ImportError):
 for _error in (BsmError, *BsmError.__subclasses__()):
     _error.__module__ = __name__.partition(".")[0]
 del _error
+
+
+Kind = TypeVar("Kind", bound=type)
+
+
+def public(kind: Kind) -> Kind:
+    """Let a type be printed and pickled by the name that users import it by, ``bsm.TriangleMesh`` for instance."""
+    kind.__module__ = __name__.partition(".")[0]
+    return kind
+
+
+DISTRIBUTION = "bsm-codec"
+
+
+def imported(module: str, why: str, extra: str) -> Any:
+    """A module that an extra installs; `DependencyError` says why it is needed, and how it is installed."""
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise DependencyError(f"{why}; run: {how_to_install(extra)}") from error
+
+
+def how_to_install(extra: str) -> str:
+    """The command that installs an extra of this package from where the package itself came."""
+    from importlib import metadata
+
+    try:
+        origin = metadata.distribution(DISTRIBUTION).read_text("direct_url.json")
+    except metadata.PackageNotFoundError:  # run from a checkout that is not installed
+        checkout = Path(__file__).resolve().parents[1]
+        return f"pip install '{checkout}[{extra}]'"
+    if origin is None:
+        return f"pip install '{DISTRIBUTION}[{extra}]'"
+    source = json.loads(origin)
+    url = source["url"]
+    if "vcs_info" in source:
+        url = f"{source['vcs_info']['vcs']}+{url}@{source['vcs_info']['commit_id']}"
+    editable = "-e " if source.get("dir_info", {}).get("editable") else ""
+    if url.startswith("file://") and "dir_info" in source:
+        # The folder behind a file's URL.
+        from urllib.parse import urlsplit
+        from urllib.request import url2pathname
+
+        return f"pip install {editable}'{url2pathname(urlsplit(url).path)}[{extra}]'"
+    return f"pip install '{DISTRIBUTION}[{extra}] @ {url}'"

@@ -6,8 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 
-from bsm.bitstream.errors import ArgumentError, LimitError, OptionError
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import ArgumentError, LimitError, OptionError, public
 
 
 @public

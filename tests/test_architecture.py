@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 KNOW_BYTES = ("bsm.codec.static", "bsm.codec.sequence")
-KNOWN_TO_ALL = tuple(f"bsm.bitstream.{name}" for name in ("errors", "extras", "limits", "once", "public"))
+KNOWN_TO_ALL = tuple(f"bsm.bitstream.{name}" for name in ("errors", "limits", "once"))
 FLOORS = {
     "bsm": (
         ("bitstream", "__version__", "_kernels"),
@@ -37,8 +37,8 @@ FLOORS = {
         ("sequence",),
     ),
     "bsm.bitstream": (
-        ("_kernels", "errors", "once", "public"),
-        ("extras", "limits"),
+        ("_kernels", "errors", "once"),
+        ("limits",),
         ("entropy",),
         ("connectivity", "coefficients", "fields"),
         ("attributes",),
@@ -59,7 +59,7 @@ FLOORS = {
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # Of these, only numpy is there wherever a mesh or a sequence is encoded.
-CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.partition"}
+CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis": "bsm.codec.blocks.overlap"}
 
 
 # Where each room is, and the name that it is imported by.

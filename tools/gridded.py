@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
 from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.layout import PARSERS
+from bsm.bitstream.container.packets import PARSERS
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
 from bsm.bitstream.fields.corners import MOST_LARGEST, FieldDecoder, FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, light_field

@@ -25,7 +25,7 @@ from scipy import ndimage, spatial
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import Floats, Mask, face_geometry
-from bsm.codec.geometry.surface_distance import distances_to_surface
+from bsm.codec.geometry.metrics import distances_to_surface
 
 BASELINE_EIGHTHS = 8.0 * 0.075  # metres between projector and camera, by the eighths of a pixel that are told apart
 WINDOW_SPREAD, LATERAL, SHAPED = 2.5, 0.5, 0.5  # pixels: of the window that is matched, of places, of flight's filter

@@ -7,8 +7,15 @@ from typing import Any
 
 import msgpack
 
-from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, Paper, fields_of
+from bsm.bitstream.container.header import (
+    HEADER_DEFAULTS,
+    HEADER_FIELDS,
+    LAW,
+    LAW_OF_SEQUENCES,
+    Declaration,
+    Paper,
+    fields_of,
+)
 from bsm.bitstream.container.wire import (
     Cursor,
     FrameType,

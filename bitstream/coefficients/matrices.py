@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.coefficients.rate_distortion import COSTS
+from bsm.bitstream.coefficients.adaptive import COSTS
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.errors import TruncatedError
 

@@ -5,8 +5,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import CorruptError, OptionError
-from bsm.bitstream.extras import imported
+from bsm.bitstream.errors import CorruptError, OptionError, imported
 
 _MAGIC = b"\x28\xb5\x2f\xfd"
 _LEVEL = 19

@@ -1,8 +1,8 @@
 """Which packet may follow which, and what a packet must have to agree with the header; one table for both sides."""
 
-from bsm.bitstream.container.declaration import CORNER, RECOMPUTED, Declaration
-from bsm.bitstream.container.layout import FRAME_TYPES
+from bsm.bitstream.container.header import CORNER, RECOMPUTED, Declaration
 from bsm.bitstream.container.packets import (
+    FRAME_TYPES,
     Attribute,
     Block,
     End,

@@ -1,13 +1,16 @@
 """What a stream consists of, once it is no longer bytes."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TypeAlias
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any, TypeAlias
 
-from bsm.bitstream.container.declaration import Declaration as Declaration
+from bsm.bitstream.container.header import Declaration as Declaration
 from bsm.bitstream.container.header import Header as Header
-from bsm.bitstream.container.wire import FrameType
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.container.header import entries_of, record_of
+from bsm.bitstream.container.wire import MAX_ENTRIES, Cursor, FrameType, parse_map, write_map, write_varint
+from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.limits import Limits
 
 MetadataValue: TypeAlias = str | int | float | bytes
 
@@ -122,3 +125,116 @@ class Damaged:
 Packet: TypeAlias = (
     Header | Metadata | Connectivity | Partition | Order | Attribute | Block | Gop | Grid | Refinement | Values | End
 )
+
+
+MOST_HEADER = 1 << 16
+MOST_DECLARATION = 1 << 16  # bytes of their maps
+LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes")
+
+
+def write_header(header: Header) -> bytes:
+    """A map from field keys to values."""
+    return write_map(entries_of(header))
+
+
+def parse_header(payload: bytes, limits: Limits) -> Header:
+    """Inverse of `write_header`; counts are checked against `limits`."""
+    if len(payload) > MOST_HEADER:
+        raise CorruptError(f"a header of {len(payload)} bytes, where {MOST_HEADER} are legal")
+    header = record_of(Header, "header", parse_map(payload))
+    for name in LIMITED_FIELDS:
+        limits.check(name, getattr(header, name))
+    return header
+
+
+def write_metadata(metadata: Metadata) -> bytes:
+    """A map from names to values; raises `OptionError` for what a stream cannot hold."""
+    if len(metadata.entries) > MAX_ENTRIES:
+        raise OptionError(
+            f"{len(metadata.entries)} entries of metadata are more than the {MAX_ENTRIES} that a stream holds; "
+            "leave some out, or put several into one text"
+        )
+    for name, value in metadata.entries.items():
+        if isinstance(value, float) and not math.isfinite(value):
+            raise OptionError(f"metadata {name!r} is {value}; only finite numbers can be stored")
+    try:
+        return write_map(metadata.entries.items())
+    except (ValueError, OverflowError) as error:
+        raise OptionError(f"metadata cannot be stored: {error}") from error
+
+
+def parse_metadata(payload: bytes, limits: Limits) -> Metadata:
+    limits.check("metadata_bytes", len(payload))
+    try:
+        return Metadata(dict(parse_map(payload)))
+    except OptionError as error:
+        raise CorruptError(error.message) from error
+
+
+def write_plain(packet: Any) -> bytes:
+    """Varints, as many as the packet has numbers, then its data."""
+    *numbers, data = vars(packet).values()
+    return bytes(b"".join(map(write_varint, numbers)) + data)
+
+
+def parse_plain(kind: type[Any]) -> Callable[[bytes, Limits], Any]:
+    numbers = len(fields(kind)) - 1
+
+    def parse(payload: bytes, limits: Limits) -> Any:
+        cursor = Cursor(payload)
+        return kind(*(cursor.varint() for _ in range(numbers)), cursor.rest())
+
+    return parse
+
+
+def write_attribute(attribute: Attribute) -> bytes:
+    """Varint index, varint length of a map from field keys to values, this map, coded seams."""
+    entries = write_map(entries_of(attribute.declaration))
+    return write_varint(attribute.index) + write_varint(len(entries)) + entries + attribute.seams
+
+
+def parse_attribute(payload: bytes, limits: Limits) -> Attribute:
+    """Inverse of `write_attribute`; counts are checked against `limits`."""
+    cursor = Cursor(payload)
+    index, length = cursor.varint(), cursor.varint()
+    if length > MOST_DECLARATION:
+        raise CorruptError(f"a declaration of {length} bytes, where {MOST_DECLARATION} are legal")
+    declaration = record_of(Declaration, "attribute", parse_map(cursor.take(length)))
+    limits.check("attribute_values", declaration.rows * max(1, declaration.words))
+    return Attribute(index, declaration, cursor.rest())
+
+
+def write_end(end: End) -> bytes:
+    """Varint number of frames, CRC-32 of bytes and, if it is known, of positions, little-endian."""
+    sums = [end.crc] if end.positions is None else [end.crc, end.positions]
+    return write_varint(end.frames) + b"".join(one.to_bytes(4, "little") for one in sums)
+
+
+def parse_end(payload: bytes, limits: Limits) -> End:
+    cursor = Cursor(payload)
+    frames, crc = cursor.varint(), int.from_bytes(cursor.take(4), "little")
+    positions = None if cursor.ended else int.from_bytes(cursor.take(4), "little")
+    cursor.finish()
+    return End(frames, crc, positions)
+
+
+_PLAIN: dict[FrameType, type[Any]] = {
+    FrameType.CONNECTIVITY: Connectivity,
+    FrameType.PARTITION: Partition,
+    FrameType.ORDER: Order,
+    FrameType.BLOCK: Block,
+    FrameType.GOP: Gop,
+    FrameType.GRID: Grid,
+    FrameType.REFINEMENT: Refinement,
+    FrameType.VALUES: Values,
+}
+_OTHERS: dict[FrameType, tuple[type[Any], Callable[[Any], bytes], Callable[[bytes, Limits], Packet]]] = {
+    FrameType.HEADER: (Header, write_header, parse_header),
+    FrameType.METADATA: (Metadata, write_metadata, parse_metadata),
+    FrameType.ATTRIBUTE: (Attribute, write_attribute, parse_attribute),
+    FrameType.END: (End, write_end, parse_end),
+}
+_LAYOUTS = {kind: (made, write_plain, parse_plain(made)) for kind, made in _PLAIN.items()} | _OTHERS
+FRAME_TYPES: dict[type, FrameType] = {made: kind for kind, (made, _, _) in _LAYOUTS.items()}
+WRITERS: dict[FrameType, Callable[[Any], bytes]] = {kind: write for kind, (_, write, _) in _LAYOUTS.items()}
+PARSERS: dict[FrameType, Callable[[bytes, Limits], Packet]] = {kind: parse for kind, (_, _, parse) in _LAYOUTS.items()}

@@ -9,8 +9,7 @@ from typing import Any, TypeAlias
 import numpy.typing as npt
 
 from bsm.bitstream.container.grammar import Grammar
-from bsm.bitstream.container.layout import PARSERS
-from bsm.bitstream.container.packets import Damaged, End, Header, Metadata, Packet
+from bsm.bitstream.container.packets import PARSERS, Damaged, End, Header, Metadata, Packet
 from bsm.bitstream.container.wire import (
     SKIPPABLE_TYPES,
     Frame,
@@ -20,9 +19,16 @@ from bsm.bitstream.container.wire import (
     parse_tag,
     write_preamble,
 )
-from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionError, TruncatedError, UnsupportedError
+from bsm.bitstream.errors import (
+    ArgumentError,
+    BsmError,
+    CorruptError,
+    OptionError,
+    TruncatedError,
+    UnsupportedError,
+    public,
+)
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
-from bsm.bitstream.public import public
 
 
 @public

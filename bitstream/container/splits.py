@@ -78,13 +78,12 @@ def decode_order(data: bytes, faces: Ints, vertices: int, limits: Limits) -> tup
         # The vertex that each given one is, numbered as they are met; -1 for loose ones.
         if (np.bincount(kinds, minlength=3)[[FIRST, COPY]] != (vertices, len(back))).any():
             raise CorruptError("the kinds of given vertices are not as many as announced")
-        source = np.full(len(kinds), -1, np.int64)
+        source = np.full(len(kinds), -1, np.int32)
         source[kinds == FIRST] = np.arange(vertices)
         known = np.cumsum(kinds == FIRST)[kinds == COPY]
         source[kinds == COPY] = known - 1 - back
         if ((source[kinds == COPY] < 0) | (back < 0)).any():
             raise CorruptError("a given vertex is a copy of one that does not come before it")
-        source = source.astype(np.int32)
         steps = np.zeros(3 * len(faces), np.int32)
         if copies:
             code_column(coder, steps)

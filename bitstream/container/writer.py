@@ -3,8 +3,7 @@
 import zlib
 
 from bsm.bitstream.container.grammar import Grammar
-from bsm.bitstream.container.layout import FRAME_TYPES, PARSERS, WRITERS
-from bsm.bitstream.container.packets import End, Packet
+from bsm.bitstream.container.packets import FRAME_TYPES, PARSERS, WRITERS, End, Packet
 from bsm.bitstream.container.wire import write_frame, write_preamble
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits

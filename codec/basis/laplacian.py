@@ -1,25 +1,47 @@
 """The Laplacian of a block, L = D - W, and the solver behind R = (L + delta I)^-1 (paper, sections 3 and 4).
 
 Equation 2 of the paper weighs edges by geometry; the decoder of a mesh has only connectivity, so all weights are one
-there, while the frames of a sequence have a first one to weigh them by (`codec.basis.weighted`).
+there, while the frames of a sequence have a first one to weigh them by (`codec.basis.laplacian`).
 
 The order of elimination is nested dissection along the bisection that ordered the rows. The rows before a cut that see
 across it separate the two halves; they are eliminated after both. The rows of a separator, or of a half that is not cut
 further, make a front: its own steps, and the later steps to which they lead, its border. A front is kept as a dense
 matrix, one row for each of its own steps, own steps first and then the border; this costs some fill and buys vector
 instructions (C. Ashcraft, R. Grimes, "The influence of relaxed supernode partitions on the multifrontal method", 1989).
+
+What dictionaries cost, in nanoseconds of a processor core and in bytes, before anything is done for them.
+
+Mathematics states prices, stages pay them: `Steps` is how a price travels.
+
+The numbers are those of one machine, an x86-64 server with AVX-512; `python -m tools.attack charges` says how true they
+are of another. What they are for is to refuse what would take much longer than it is worth, so that a factor of two is
+close enough; what counts is that nothing is left out.
+
+Edges weighed by geometry that both sides already know: the decoded first frame of a sequence.
+
+The paper's Laplacian is the binary one because a decoder knows connectivity only. The frames of a sequence are
+different: once one of them is decoded, the others may be transformed in a basis that knows the shape of the triangles.
+Decoders know that frame to rounding, so that the weights are smooth functions of it which make little of little: soft
+cotangents, whose denominators stay away from zero, within soft bounds above zero (cotangents may be negative, and L
+indefinite, where a triangle is obtuse).
+
+References
+----------
+U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates", 1993, section 4.
 """
 
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import LimitError
+from bsm.bitstream.errors import LimitError, NumericError
 from bsm.codec import _kernels
-from bsm.codec.arrays import Basis, Matrix
+from bsm.codec.arrays import Basis, Faces, Indices, Matrix, Positions
 from bsm.codec.blocks.overlap import Block
+from bsm.codec.geometry.graph import Graph
 
 LEAF = 8  # halves of at most so many rows are not cut further
 
@@ -141,3 +163,146 @@ def dense_laplacian(block: Block) -> Matrix:
     laplacian[np.repeat(np.arange(block.size), block.degrees), block.neighbours] = -1.0
     np.fill_diagonal(laplacian, block.degrees)
     return laplacian
+
+
+ONCE = 5.0  # of each number of a dictionary, however often it is iterated
+CARE = 6.0  # of each row and pair of columns of which one is made orthonormal by itself
+
+Spend: TypeAlias = Callable[[float], None]
+"""Is told of work before it is done, and may refuse it by raising `LimitError`."""
+
+
+Price: TypeAlias = Callable[[int], float]  # work of one step for so many columns, nanoseconds
+Steps: TypeAlias = Generator[Price, None, Basis]
+"""A computation that yields the price of each step before it takes it, and returns its columns."""
+
+
+def settle(steps: Steps, pay: Callable[[Price], None]) -> Basis:
+    """The columns, shape (n, c), that `steps` lead to; each price is handed to `pay` before the step is taken."""
+    while True:
+        try:
+            price = next(steps)
+        except StopIteration as end:
+            columns: Basis = end.value
+            return columns
+        pay(price)
+
+
+def unpaid(steps: Steps) -> Basis:
+    """The columns, shape (n, c), that `steps` lead to, whatever they cost."""
+    return settle(steps, lambda price: None)
+
+
+def up_to(most: int, steps: Steps) -> Steps:
+    """`steps` of which nobody wants more than so many columns, whatever number they are priced for."""
+
+    def cut(price: Price) -> Price:
+        return lambda columns: price(min(columns, most))
+
+    while True:
+        try:
+            price = next(steps)
+        except StopIteration as end:
+            columns: Basis = end.value
+            return columns
+        yield cut(price)
+
+
+def free(work: float) -> None:
+    """Encoders of one's own meshes have no allowance to spend."""
+
+
+def factor_cost(fronts: Fronts) -> float:
+    """Work of one factorisation, nanoseconds."""
+    return float(fronts.sums[1]) / 6.0 + 50.0 * len(fronts.rows) + 4000.0
+
+
+def solve_cost(fronts: Fronts, columns: int) -> float:
+    """Work of one solution for so many columns, which are solved in panels of 64, a panel in vectors of 16."""
+    return 50.0 + float(fronts.sums[0]) * (0.3 * -(-columns // 64) + 0.02 * _whole(columns))
+
+
+def onorm_cost(rows: int, columns: int) -> float:
+    """Work of one orthonormalisation, nanoseconds."""
+    whole = _whole(columns)
+    return rows * (3.0 + 0.4 * whole + whole * whole / 80.0) + 3000.0
+
+
+def dictionary_cost(fronts: Fronts, columns: int, solutions: int) -> float:
+    """Work of making a dictionary of columns that need no care."""
+    rows = len(fronts.rows)
+    rounds = solutions * solve_cost(fronts, columns) + (solutions + 1) * onorm_cost(rows, columns)
+    return ONCE * rows * _whole(columns) + rounds
+
+
+def careful_cost(fronts: Fronts, columns: int, solutions: int, care: int) -> float:
+    """Work of making it anew, with so many columns, at most, made orthonormal one by one."""
+    return dictionary_cost(fronts, columns, solutions) + CARE * len(fronts.rows) * columns * care
+
+
+def completion_cost(rows: int, first: int, columns: int) -> float:
+    """Work of completing so many first columns to more."""
+    more = max(0, columns - first)
+    return (first**3 / 3.0 + more * first * (first + rows)) / 15.0 + 2.0 * rows * columns + 1500.0
+
+
+def iteration_memory(fronts: Fronts, columns: int) -> int:
+    """Bytes for finding a dictionary, at most, that itself included."""
+    rows, whole = len(fronts.rows), _whole(columns)
+    return 8 * (6 * rows * whole + 2 * whole * whole + int(fronts.places[-1])) + 500 * rows
+
+
+def _whole(columns: int) -> int:
+    return -(-columns // 16) * 16
+
+
+FLATNESS = 2.0**-12  # share of the squared sum of squared sides that is added to a triangle's squared doubled area
+SMALLNESS = 2.0**-48  # what else is added to it: the square of the area that counts as none, in BSM units
+SMALLEST_WEIGHT, LARGEST_WEIGHT = 2.0**-5, 8.0  # soft bounds of a weight: it is above the first, and below their sum
+BEND = 2.0**-6  # how softly negative sums of cotangents become zero
+
+
+def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matrix:
+    """Weight of every entry of `graph.neighbours`: half the cotangents opposite to the edge, softly bounded."""
+    if positions.shape != (graph.size, 3):
+        raise ValueError(f"positions of shape {positions.shape} for {graph.size} vertices")
+    sums = np.zeros(len(graph.neighbours))
+    positions = np.ascontiguousarray(positions)
+    _kernels.cotangents(graph.offsets, graph.neighbours, faces, positions, FLATNESS, SMALLNESS, sums)
+    if not np.isfinite(sums).all():
+        raise NumericError("the first frame is too large for weights of its edges")
+    positive = 0.5 * (sums + np.sqrt(sums * sums + BEND))
+    return SMALLEST_WEIGHT + LARGEST_WEIGHT * positive / (LARGEST_WEIGHT + positive)
+
+
+@dataclass(frozen=True, eq=False)
+class Held:
+    """A part that hangs, by springs, on what is known before it: its edges to those parts."""
+
+    laplacian: Laplacian
+    springs: Matrix
+    starts: Indices
+    around: Indices
+    outer: Indices
+    stiffness: Matrix
+
+    def pulls(self, ends: Matrix) -> Matrix:
+        """Sum of stiffness times what a field is at the other end, for each row: shape (n_i, m)."""
+        pulls = np.empty((len(self.springs), ends.shape[1]))
+        _kernels.pull(self.starts, self.outer, self.stiffness, np.ascontiguousarray(ends), pulls)
+        return pulls
+
+
+def hold(graph: Graph, weights: Matrix, rank: Indices, block: Block) -> Held:
+    """Hang a part on the parts before it."""
+    if len(weights) != len(graph.neighbours) or len(rank) != graph.size:
+        raise ValueError(f"{len(weights)} weights and {len(rank)} ranks for a graph of {graph.size} vertices")
+    vertices = block.vertices
+    room = int((graph.offsets[vertices + 1] - graph.offsets[vertices]).sum())
+    inner, springs = np.empty(len(block.neighbours)), np.empty(block.size)
+    starts, outer, stiffness = np.empty(block.size + 1, np.int32), np.empty(room, np.int32), np.empty(room)
+    given = graph.offsets, graph.neighbours, weights, rank, vertices, block.offsets, block.neighbours
+    count = _kernels.hold(*given, inner, springs, starts, outer, stiffness)
+    around, ends = np.unique(outer[:count], return_inverse=True)
+    laplacian = weighted_laplacian(block, inner)
+    return Held(laplacian, springs, starts, around, ends.astype(np.int32), stiffness[:count].copy())

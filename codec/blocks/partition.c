@@ -1,4 +1,4 @@
-/* Recursive bisection of a graph (specification, M 3): `codec/blocks/partition.py` says what it is for.
+/* Recursive bisection of a graph (specification, M 3): `codec/blocks/overlap.py` says what it is for.
  *
  * A segment lies between a low and a high end. Its vertices are sorted by distance to the low end minus distance to the
  * high end, and cut in two; each half keeps one end and the distances to it. */

@@ -1,7 +1,6 @@
 """Denoising: a coarse spectral step, a hand-over, a fine step on face normals, and a mode that chooses by itself."""
 
-from bsm.bitstream.errors import DependencyError
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import DependencyError, how_to_install
 
 try:
     import scipy.sparse  # noqa: F401  # the one library that nothing else in `codec` needs

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.blocks.partition import metis_partition
+from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
 from bsm.codec.denoise.learnt.cascade import joined
 from bsm.codec.denoise.noise.finding import Finding

@@ -11,8 +11,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Indices
-from bsm.codec.blocks.overlap import Block, Blocks, block_size, degree_weights, grow_blocks
-from bsm.codec.blocks.partition import metis_partition
+from bsm.codec.blocks.overlap import Block, Blocks, block_size, degree_weights, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain, ChainRules
 from bsm.codec.threads import ordered_map

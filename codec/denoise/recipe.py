@@ -6,9 +6,8 @@ from itertools import islice
 
 import numpy as np
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError, public
 from bsm.bitstream.once import cached_property
-from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter

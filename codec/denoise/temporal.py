@@ -7,8 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec.arrays import Faces
-from bsm.codec.blocks.overlap import block_size, grow_blocks
-from bsm.codec.blocks.partition import metis_partition
+from bsm.codec.blocks.overlap import block_size, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.threads import ordered_map
 

@@ -9,8 +9,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import ArgumentError, MeshError
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import ArgumentError, MeshError, public
 from bsm.codec.arrays import Faces, Indices, Matrix, Order
 
 Domain = Literal["vertex", "corner", "face"]

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import ArgumentError, MeshError
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import ArgumentError, MeshError, public
 from bsm.codec.arrays import Faces, Matrix, Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.bitstream.errors import MeshError
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import MeshError, public
 from bsm.codec.arrays import Faces, Mask, Matrix, Positions
 from bsm.codec.geometry.attributes import at_corners
 from bsm.codec.geometry.mesh import TriangleMesh, box_around

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bsm.bitstream.container.declaration import Declaration
 from bsm.bitstream.container.gop import GopBody, GopField, GopMethod, still
+from bsm.bitstream.container.header import Declaration
 from bsm.bitstream.errors import NumericError, OptionError, TargetError
 from bsm.codec.arrays import Matrix, Order
 from bsm.codec.geometry.attributes import Attribute

@@ -8,9 +8,8 @@ import numpy as np
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.reader import END_OF_STREAM, Signal
-from bsm.bitstream.errors import BsmError, CorruptError, FormatError, MeshError, UnsupportedError
+from bsm.bitstream.errors import BsmError, CorruptError, FormatError, MeshError, UnsupportedError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.bitstream.public import public
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.events import Course, DecoderRequest, Event, FrameEvent, Item

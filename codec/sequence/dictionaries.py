@@ -9,12 +9,9 @@ import numpy as np
 
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Faces, Indices, Matrix, Positions
-from bsm.codec.basis.cost import Price, Steps, factor_cost, settle
-from bsm.codec.basis.laplacian import Factor, Fronts
-from bsm.codec.basis.weighted import Held, cotangent_weights, hold
+from bsm.codec.basis.laplacian import Factor, Fronts, Held, Price, Steps, cotangent_weights, factor_cost, hold, settle
 from bsm.codec.blocks.overlap import Blocks
-from bsm.codec.signal.chain import ChainRules, key_steps
-from bsm.codec.signal.predict import Suspended, continued
+from bsm.codec.signal.chain import ChainRules, Suspended, continued, key_steps
 from bsm.codec.signal.transform import project, reconstruct
 from bsm.codec.static.work import Allowance, block_cost, block_memory
 from bsm.codec.threads import ordered_map

@@ -15,9 +15,8 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import write_gop_body
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.writer import Writer
-from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
+from bsm.bitstream.errors import ArgumentError, MeshError, OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.bitstream.public import public
 from bsm.codec.arrays import Matrix, Order
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute, has

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from bsm.bitstream.container.reader import Signal
-from bsm.bitstream.errors import BsmError, CorruptError
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import BsmError, CorruptError, public
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.static.events import AttributeEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.bitstream.public import public
 from bsm.codec.choices import check_options
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.codec.static.attributes.quality import checked_qualities

@@ -7,7 +7,7 @@ from typing import ClassVar, TypeAlias
 
 import numpy as np
 
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import public
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.targets import Target

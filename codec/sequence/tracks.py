@@ -12,7 +12,7 @@ import numpy as np
 
 from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.codec.arrays import Faces, Levels, Matrix, sum_in_order
-from bsm.codec.basis.cost import solve_cost
+from bsm.codec.basis.laplacian import solve_cost
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.temporal import BATCH
 from bsm.codec.static.rules import Scheme

@@ -7,7 +7,7 @@ import numpy as np
 
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Mask, Matrix, Order
-from bsm.codec.basis.cost import Spend, free
+from bsm.codec.basis.laplacian import Spend, free
 from bsm.codec.blocks.overlap import Blend, Blocks
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.smooth import DEGREE, LocalFilter, Rings, smooth

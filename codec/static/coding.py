@@ -7,13 +7,19 @@ from typing import ClassVar, Protocol
 
 import numpy as np
 
-from bsm.bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel, decode_coefficients, encode_coefficients
+from bsm.bitstream.coefficients.adaptive import (
+    MAX_LEVEL,
+    TARGET_UNIT,
+    CoefficientModel,
+    choose_levels,
+    decode_coefficients,
+    encode_coefficients,
+)
 from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
-from bsm.bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Integers, Matrix
-from bsm.codec.basis.dynamic_size import DynamicSize
+from bsm.codec.basis.orthogonal_iteration import DynamicSize
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.signal.transform import (
     BIT_WORTH,

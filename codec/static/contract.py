@@ -3,8 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from bsm.bitstream.errors import OptionError
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import OptionError, public
 from bsm.codec.geometry.metrics import decibel
 
 ANY_ANGLE = 180.0

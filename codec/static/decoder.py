@@ -8,9 +8,8 @@ from typing import TypeAlias, TypeVar
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.reader import END_OF_STREAM, Signal
-from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionError, UnsupportedError
+from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, OptionError, UnsupportedError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.bitstream.public import public
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
 from bsm.codec.static.assembly import Assembly, DecodedBlock

@@ -9,10 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.errors import OptionError, TargetError
+from bsm.bitstream.errors import OptionError, TargetError, public
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
-from bsm.bitstream.public import public
 from bsm.codec.arrays import Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh

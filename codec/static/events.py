@@ -8,8 +8,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Damaged
-from bsm.bitstream.errors import BsmError, CorruptError
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import BsmError, CorruptError, public
 from bsm.codec.arrays import Faces, Indices, Mask, Positions
 from bsm.codec.geometry.attributes import Domain, Semantic
 

@@ -5,9 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from bsm.bitstream.errors import ArgumentError, OptionError
+from bsm.bitstream.errors import ArgumentError, OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.bitstream.public import public
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
 from bsm.codec.static.contract import Contract

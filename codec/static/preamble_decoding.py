@@ -18,8 +18,7 @@ from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces
-from bsm.codec.blocks.overlap import grow_blocks
-from bsm.codec.blocks.partition import Partition, derive_partition, partition_of_labels
+from bsm.codec.blocks.overlap import Partition, derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
 from bsm.codec.static.attributes.decoding import Declarations

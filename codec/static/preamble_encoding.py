@@ -14,11 +14,10 @@ from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix, Order
-from bsm.codec.blocks.overlap import Blocks, block_size, grow_blocks
-from bsm.codec.blocks.partition import Partition, derive_partition, metis_partition
+from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.bandwidth import MeasuredSpectrum
+from bsm.codec.signal.transform import MeasuredSpectrum
 from bsm.codec.static.units import Units, units_of
 
 FEW_VERTICES = 300  # meshes of fewer have no low frequencies worth speaking of

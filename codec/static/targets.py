@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any, ClassVar, Protocol, TypeVar
 
-from bsm.bitstream.errors import OptionError, TargetError
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import OptionError, TargetError, public
 
 SIZES = ("bpv", "bpvf", "size")
 UNITS = {

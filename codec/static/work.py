@@ -10,8 +10,7 @@ from bsm.bitstream.attributes.values import values_charge
 from bsm.bitstream.fields.grid import grid_charge
 from bsm.bitstream.fields.levels import AXES, levels_charge
 from bsm.bitstream.limits import Limits, as_limits
-from bsm.codec.basis.cost import factor_cost, iteration_memory, solve_cost
-from bsm.codec.basis.laplacian import Laplacian
+from bsm.codec.basis.laplacian import Laplacian, factor_cost, iteration_memory, solve_cost
 from bsm.codec.geometry.graph import Graph
 
 BLOCK = 1.45e5  # of a block, whatever its size

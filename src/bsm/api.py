@@ -141,8 +141,7 @@ def encode_many(
     [(False, 'streams/a.bsm'), (False, 'streams/b.bsm')]
     """
     from bsm.jobs.encode import EncodeJob, encode_one
-    from bsm.jobs.report import Run
-    from bsm.jobs.run import plan, run_many
+    from bsm.jobs.run import Run, plan, run_many
 
     keywords_to.encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):

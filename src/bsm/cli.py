@@ -37,7 +37,7 @@ _WITHOUT_FILES = ("info", "compare", "verify", "bench", "completion", "curve")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; the return value is the exit code of the table in `bsm.exits`."""
+    """Run a command; the return value is the exit code of the table of `bsm.exits`."""
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
         if not words or words[0] not in COMMANDS:

@@ -12,8 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.errors import FormatError, MeshError
-from bsm.bitstream.public import public
+from bsm.bitstream.errors import FormatError, MeshError, public
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order

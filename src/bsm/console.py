@@ -130,7 +130,7 @@ class Progress:
                 bars.tqdm.monitor_interval = 0
                 more: dict[str, Any] = {"delay": _PATIENCE, "leave": False, "miniters": 0, "bar_format": _RUNNING}
                 if not widgets:
-                    # Columns and lines of the terminal; the usual ones where it knows none, and tqdm would draw nothing.
+                    # The usual columns and lines where the terminal knows none, and tqdm would draw nothing.
                     size = (0, 0)
                     with suppress(OSError, ValueError):
                         size = os.get_terminal_size(sys.stderr.fileno())

@@ -20,8 +20,7 @@ from typing import Any
 import numpy as np
 
 from bsm.api import decode, save
-from bsm.bitstream.errors import OptionError
-from bsm.bitstream.extras import imported
+from bsm.bitstream.errors import OptionError, imported
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.libraries import as_mesh

@@ -26,11 +26,10 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, CorruptError, FormatError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.blocks.partition import Partition, partition_of_labels
+from bsm.codec.blocks.overlap import Partition, partition_of_labels
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.chain import Columns, Overrides
-from bsm.codec.signal.predict import Surroundings
+from bsm.codec.signal.chain import Columns, Overrides, Surroundings
 from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.draft import Draft

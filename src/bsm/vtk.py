@@ -21,7 +21,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import SequenceStream, decode_through, decode_whole, peek_header

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bsm.bitstream.extras import how_to_install
+from bsm.bitstream.errors import how_to_install
 
 
 class Installed:

@@ -6,8 +6,7 @@ import pytest
 from bsm.bitstream.errors import NumericError
 from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.basis.orthogonal_iteration import cosine_columns, hash_columns
-from bsm.codec.blocks.overlap import grow_blocks
-from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.evaluation.bench import EXACT, POWERS, SHIFT, Solver, bench_tables, check_lowest, iterated, run_bench
 from bsm.files.mesh import format_mesh

@@ -20,6 +20,7 @@ from bsm.evaluation.curve import (
     measure,
     our_curve,
     paper_options,
+    points_of,
     rate_curve,
     rate_ratio,
     read_results,
@@ -27,7 +28,6 @@ from bsm.evaluation.curve import (
     table,
     write_result,
 )
-from bsm.evaluation.plots import points_of
 from bsm.files.mesh import write_mesh
 from tests.shapes import patch, torus
 
@@ -163,7 +163,7 @@ class TestResults:
 class TestPictures:
     def test_drawn_from_json_alone(self, tmp_path):
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
-        from bsm.evaluation.plots import draw_all
+        from bsm.evaluation.curve import draw_all
 
         def point(bpv, db, theta, settings):
             numbers = {"bpv_total": bpv, "bpv_paper": bpv, "nmsve_db": db, "theta_deg": theta, "decode_seconds": bpv}

@@ -20,8 +20,7 @@ from bsm.console import Console
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.output import open_output
-from bsm.jobs.report import Job, Run, Task
-from bsm.jobs.run import run_many
+from bsm.jobs.run import Job, Run, Task, run_many
 from tests.bsm.deadly import deadly
 from tests.bsm.program import ROOT
 from tests.bsm.program import bsm as program

@@ -10,12 +10,11 @@ from contextlib import suppress
 import pytest
 
 from bsm.files.output import open_output
-from bsm.jobs.report import Task
-from bsm.jobs.run import plan, task_of
+from bsm.jobs.run import Task, plan, task_of
 
 PROGRAM = """
 import os, sys, time
-from bsm.jobs.report import Task
+from bsm.jobs.run import Task
 from bsm.jobs.workers import in_processes
 
 def sleeping(task, console):

@@ -15,7 +15,7 @@ import bsm
 from bsm.bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.surface_distance import distances_to_surface
+from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.commands import tile as command
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.tiles.cutting import Lattice

@@ -7,8 +7,7 @@ import pytest
 
 from bsm.codec.basis.laplacian import factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
-from bsm.codec.blocks.overlap import grow_blocks
-from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from bsm.codec.blocks.partition import partition_of_labels
+from bsm.codec.blocks.overlap import partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.evaluation.curve import paper_options
 from tests.shapes import patch, torus

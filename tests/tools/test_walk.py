@@ -2,8 +2,7 @@
 
 from pathlib import Path
 
-from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.header import HEADER_FIELDS, fields_of
+from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, fields_of
 from bsm.bitstream.container.wire import FrameType
 from tools.attack.walk import bases, cases
 

@@ -20,7 +20,7 @@ from typing import get_type_hints
 
 from bsm.bitstream.container.gop import GopBody, GopField, GopMethod
 from bsm.bitstream.container.grammar import FOLLOWERS, _reachable
-from bsm.bitstream.container.layout import LIMITED_FIELDS
+from bsm.bitstream.container.packets import LIMITED_FIELDS
 from bsm.bitstream.limits import NAMED_LIMITS
 from tools.attack.streams import BOMBS
 from tools.attack.taken import (

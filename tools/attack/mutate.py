@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
+from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, Field, fields_of
 from bsm.bitstream.container.wire import Cursor, FrameType, parse_map, write_map, write_varint
 from bsm.bitstream.errors import BsmError
 from tools.surgery import Frames, frames_of, header_entries, stream_of

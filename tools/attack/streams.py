@@ -28,17 +28,15 @@ from bsm.bitstream.connectivity.faces import (
 )
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.declaration import AS_CODED, CORNER, FACE, OTHERWISE, RECOMPUTED, Declaration
 from bsm.bitstream.container.gop import METHODS, RUNS, GopBody, GopField, GopMethod, write_gop_body
-from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
+from bsm.bitstream.container.header import AS_CODED, CORNER, FACE, HEADER_FIELDS, OTHERWISE, RECOMPUTED, Declaration
+from bsm.bitstream.container.packets import FRAME_TYPES, WRITERS
 from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
 from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
 from bsm.bitstream.fields.corners import FieldEncoder, corners_of
 from bsm.bitstream.fields.levels import levels_field
-from bsm.codec.blocks.overlap import grow_blocks
-from bsm.codec.blocks.partition import derive_partition, partition_of_labels
+from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.gop import level_references
 from bsm.codec.static.attributes.levels import PieceEncoder

@@ -16,9 +16,13 @@ from random import Random
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients, encode_coefficients
+from bsm.bitstream.coefficients.adaptive import (
+    CoefficientModel,
+    choose_levels,
+    decode_coefficients,
+    encode_coefficients,
+)
 from bsm.bitstream.coefficients.matrices import decode_levels, encode_levels, make_level_bank
-from bsm.bitstream.coefficients.rate_distortion import choose_levels
 from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
 from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
 from bsm.bitstream.container.splits import decode_order, encode_order

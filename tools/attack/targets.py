@@ -17,7 +17,7 @@ from bsm.bitstream.connectivity.faces import decode_connectivity
 from bsm.bitstream.connectivity.order import code_permutation, code_rotations
 from bsm.bitstream.connectivity.partition import decode_labels
 from bsm.bitstream.container.gop import parse_gop_body
-from bsm.bitstream.container.layout import PARSERS
+from bsm.bitstream.container.packets import PARSERS
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, TolerantReader
 from bsm.bitstream.container.splits import decode_order
 from bsm.bitstream.container.wire import FrameType

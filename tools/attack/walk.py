@@ -12,8 +12,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.header import HEADER_FIELDS, Field, fields_of
+from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, Field, fields_of
 from bsm.bitstream.container.wire import MAX_ENTRIES, SKIPPABLE_TYPES, FrameType, write_map, write_varint
 from tools.surgery import Frames, frames_of, stream_of, with_declaration, with_header
 

@@ -26,8 +26,17 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.basis.laplacian import Laplacian, dense_laplacian, laplacian_of
-from bsm.codec.blocks.overlap import Blend, Block, Blocks, block_size, degree_weights, grow_blocks
-from bsm.codec.blocks.partition import Partition, derive_partition, metis_partition
+from bsm.codec.blocks.overlap import (
+    Blend,
+    Block,
+    Blocks,
+    Partition,
+    block_size,
+    degree_weights,
+    derive_partition,
+    grow_blocks,
+    metis_partition,
+)
 from bsm.codec.denoise import FINE_STEPS, denoise_automatically
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, OVERLAP, RULES, CoarseFilter
 from bsm.codec.denoise.frames import GROUP, filter_frames
@@ -36,8 +45,7 @@ from bsm.codec.denoise.surface import Topology
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference, decibel, theta
-from bsm.codec.signal.chain import Chain, ChainRules
-from bsm.codec.signal.predict import unheld
+from bsm.codec.signal.chain import Chain, ChainRules, unheld
 from bsm.codec.static.choice.plan import Planner
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder

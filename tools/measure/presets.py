@@ -25,8 +25,7 @@ import numpy as np
 from bsm.bitstream.errors import BsmError, MeshError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Original, Reference, decibel, theta
-from bsm.codec.geometry.surface_distance import surface_distance
+from bsm.codec.geometry.metrics import Original, Reference, decibel, surface_distance, theta
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.joining import join

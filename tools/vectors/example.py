@@ -12,8 +12,7 @@ from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.packets import Header
 from bsm.bitstream.container.reader import Reader
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
-from bsm.codec.blocks.overlap import grow_blocks
-from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain
 from bsm.codec.static.decoder import decode

@@ -14,7 +14,7 @@ from scipy import sparse
 
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Positions
-from bsm.codec.blocks.partition import metis_partition
+from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.denoise.surface import Floats, Mask, Topology, surface_normals
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 

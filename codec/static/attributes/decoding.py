@@ -11,7 +11,7 @@ import numpy as np
 
 from bsm.bitstream.attributes.seams import Joins, decode_seams
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.declaration import CORNER, FACE, RECOMPUTED, Declaration
+from bsm.bitstream.container.header import CORNER, FACE, RECOMPUTED, Declaration
 from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.errors import BsmError, CorruptError
 from bsm.bitstream.fields.corners import Corners, corners_of

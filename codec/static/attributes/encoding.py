@@ -7,8 +7,16 @@ import numpy as np
 
 from bsm.bitstream.attributes.seams import Joins, encode_seams, find_seams
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.declaration import AS_CODED, CORNER, FACE, OTHERWISE, RECOMPUTED, VERTEX, Declaration
-from bsm.bitstream.container.header import MOST_ATTRIBUTES
+from bsm.bitstream.container.header import (
+    AS_CODED,
+    CORNER,
+    FACE,
+    MOST_ATTRIBUTES,
+    OTHERWISE,
+    RECOMPUTED,
+    VERTEX,
+    Declaration,
+)
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.fields.corners import Corners, corners_of

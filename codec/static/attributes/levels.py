@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.attributes import values as coders
-from bsm.bitstream.container.declaration import BITS, COLOR, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration
+from bsm.bitstream.container.header import BITS, COLOR, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import CorruptError, OptionError, TargetError
 from bsm.bitstream.fields.corners import Field, FieldDecoder, FieldEncoder

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.bitstream.attributes.seams import Joins
-from bsm.bitstream.container.declaration import FACE, VERTEX, Declaration
+from bsm.bitstream.container.header import FACE, VERTEX, Declaration
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order
 from bsm.codec.geometry.attributes import Domain
 from bsm.codec.static.numbering import Numbering

@@ -12,8 +12,7 @@ from bsm.codec.arrays import Indices, Matrix
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.graph import component_sizes
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Original, Reference
-from bsm.codec.geometry.surface_distance import distances_to_surface
+from bsm.codec.geometry.metrics import Original, Reference, distances_to_surface
 from bsm.codec.look.measure import LookMetric, Shading
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.choice.shaping import Shaper

@@ -5,12 +5,11 @@ import numpy as np
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Matrix
-from bsm.codec.basis.cost import settle
+from bsm.codec.basis.laplacian import settle
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.signal.bandwidth import MeasuredSpectrum
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import smoothing_spectrum
-from bsm.codec.signal.transform import packed_range, project, smallest_step
+from bsm.codec.signal.transform import MeasuredSpectrum, packed_range, project, smallest_step
 from bsm.codec.static.coding import Adaptive, Packed
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Prepared

@@ -13,11 +13,10 @@ from bsm.bitstream.errors import BsmError, CorruptError, LimitError, NumericErro
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Matrix
-from bsm.codec.basis.cost import Price, Spend, free, settle
-from bsm.codec.basis.dynamic_size import DynamicSize
+from bsm.codec.basis.laplacian import Price, Spend, free, settle
+from bsm.codec.basis.orthogonal_iteration import DynamicSize
 from bsm.codec.blocks.overlap import degree_weights
-from bsm.codec.signal.chain import Chain
-from bsm.codec.signal.predict import Surroundings
+from bsm.codec.signal.chain import Chain, Surroundings
 from bsm.codec.static.assembly import DecodedBlock
 from bsm.codec.static.coding import Coding, Ground
 from bsm.codec.static.preamble_encoding import Prepared

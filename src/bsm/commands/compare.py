@@ -16,8 +16,7 @@ from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge
-from bsm.codec.geometry.surface_distance import surface_distance
+from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.comparison import compare_meshes, in_order_of, pair, read_permutation
@@ -221,7 +220,7 @@ def _compared_sequences(
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
     of_frames = [found for one, two, _ in runs for found in _of_frames(one, two)]
     if args.picture:
-        from bsm.evaluation.plots import frame_errors
+        from bsm.evaluation.curve import frame_errors
 
         refuse_to_overwrite(args.picture, args.force)
         write_output(args.picture, frame_errors(of_frames, Path(args.decoded).name), overwrite=args.force)

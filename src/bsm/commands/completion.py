@@ -5,7 +5,7 @@ The script is written once and knows everything, so that completing starts no Py
 
 import argparse
 
-from bsm.bitstream.extras import imported
+from bsm.bitstream.errors import imported
 from bsm.console import Console
 
 SHELLS = ("bash", "zsh", "fish")

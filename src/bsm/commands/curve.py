@@ -34,8 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
-    from bsm.evaluation.curve import compare_curves, read_results, run_curve, write_result
-    from bsm.evaluation.plots import draw_all
+    from bsm.evaluation.curve import compare_curves, draw_all, read_results, run_curve, write_result
 
     folder = Path(args.output)
     if folder.suffix.lower() in (".png", ".svg", ".json", ".pdf"):

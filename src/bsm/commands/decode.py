@@ -21,8 +21,7 @@ from bsm.files.motion.frames import Shared
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
-from bsm.jobs.report import Facts, Run, Task
-from bsm.jobs.run import anywhere, came_to, plan, run_jobs
+from bsm.jobs.run import Facts, Run, Task, anywhere, came_to, plan, run_jobs
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -23,8 +23,7 @@ from bsm.files.motion.frames import Frames
 from bsm.files.output import output_inside, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
-from bsm.jobs.report import Facts, Run, Task
-from bsm.jobs.run import plan, run_jobs
+from bsm.jobs.run import Facts, Run, Task, plan, run_jobs
 from bsm.lengths import length, unit_of
 
 if TYPE_CHECKING:

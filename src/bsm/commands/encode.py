@@ -10,8 +10,7 @@ from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
 from bsm.files.sequence import SEQUENCES_READ
 from bsm.jobs.encode import EncodeJob, encode_one
-from bsm.jobs.report import Run
-from bsm.jobs.run import plan, plan_trees, refuse_collisions, run_jobs
+from bsm.jobs.run import Run, plan, plan_trees, refuse_collisions, run_jobs
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

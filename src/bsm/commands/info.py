@@ -11,8 +11,7 @@ from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import MOST_SAID, Loops, SequenceStream, StreamInfo, inspect_stream, said_of_runs
-from bsm.jobs.report import Facts, Job, Run, Task
-from bsm.jobs.run import input_names, run_jobs
+from bsm.jobs.run import Facts, Job, Run, Task, input_names, run_jobs
 from bsm.tiles.shards import is_tiles, open_tiles
 
 

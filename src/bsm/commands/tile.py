@@ -12,8 +12,7 @@ from bsm.console import Console, print_json
 from bsm.exits import tell
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
-from bsm.jobs.report import Facts, Job, Outcome, Run
-from bsm.jobs.run import came_to, run_many
+from bsm.jobs.run import Facts, Job, Outcome, Run, came_to, run_many
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
 from bsm.tiles.joining import write_tileset
 from bsm.tiles.making import TileJob, simplifier, tile_one

@@ -8,8 +8,7 @@ from bsm.console import Console
 from bsm.exits import worded
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_through, decode_whole, inspect_stream
-from bsm.jobs.report import Facts, Job, Run, Task
-from bsm.jobs.run import input_names, run_jobs
+from bsm.jobs.run import Facts, Job, Run, Task, input_names, run_jobs
 from bsm.tiles.shards import is_tiles, open_tiles
 
 

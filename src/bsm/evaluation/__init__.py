@@ -1,5 +1,5 @@
 """Evaluation as data: codecs are run and written down as JSON, and everything shown is drawn from the JSON alone."""
 
-from bsm.bitstream.extras import imported
+from bsm.bitstream.errors import imported
 
 imported("scipy", "evaluation needs scipy", "eval")

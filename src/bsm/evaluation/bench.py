@@ -20,8 +20,7 @@ from bsm.bitstream.errors import NumericError
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, hash_columns, orthogonal_iteration
-from bsm.codec.blocks.overlap import Blend, Block, block_size, degree_weights, grow_blocks
-from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.blocks.overlap import Blend, Block, block_size, degree_weights, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference

@@ -20,8 +20,7 @@ from typing import Any
 import numpy as np
 
 from bsm.bitstream.container.wire import MAGIC
-from bsm.bitstream.errors import FormatError, OptionError
-from bsm.bitstream.extras import imported
+from bsm.bitstream.errors import FormatError, OptionError, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.metadata import Written, fetched

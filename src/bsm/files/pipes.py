@@ -23,8 +23,8 @@ from bsm.bitstream.errors import (
     LimitError,
     OptionError,
     TruncatedError,
+    imported,
 )
-from bsm.bitstream.extras import imported
 
 _URL = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+)(?:::|://)")
 _PIECE, _IN_MEMORY = 1 << 20, 1 << 26

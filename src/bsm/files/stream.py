@@ -13,8 +13,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import frames_of_gop
-from bsm.bitstream.container.layout import write_attribute, write_metadata
-from bsm.bitstream.container.packets import Header
+from bsm.bitstream.container.packets import Header, write_attribute, write_metadata
 from bsm.bitstream.container.reader import NEED_DATA, Reader, read_packets
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, MeshError, OptionError, TruncatedError

@@ -16,8 +16,7 @@ from urllib.parse import quote
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import BsmError, FormatError, OptionError
-from bsm.bitstream.extras import imported
+from bsm.bitstream.errors import BsmError, FormatError, OptionError, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh

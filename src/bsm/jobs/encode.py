@@ -24,8 +24,7 @@ from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
 from bsm.files.stream import Loops, said_of_runs
-from bsm.jobs.report import Facts, Task
-from bsm.jobs.run import came_to
+from bsm.jobs.run import Facts, Task, came_to
 from bsm.lengths import LENGTHS, refuse_other_units
 from bsm.libraries import with_metadata
 from bsm.options import encode_options, sequence_options

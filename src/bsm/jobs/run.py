@@ -1,19 +1,285 @@
 """Many jobs: what is written where, who does them, what may be written over, and what is said of them."""
 
+import errno
+import json
 import os
+import tempfile
 import time
-from collections.abc import Callable, Sequence
+import traceback
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing, suppress
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Any, TypeAlias, TypeVar
 
-from bsm.bitstream.errors import OptionError
+from bsm import __version__
+from bsm.bitstream.errors import FormatError, OptionError
 from bsm.console import Console, print_json
-from bsm.exits import exit_of, tell, worded
-from bsm.files.output import default_output, output_inside, refuse_to_overwrite
-from bsm.files.pipes import about, expanded, files_behind, is_url, state_of_remote, without_scheme_of_files
-from bsm.jobs import report as records
+from bsm.exits import behind, exit_of, is_expected, tell, worded
+from bsm.files.output import default_output, output_inside, refuse_to_overwrite, write_output
+from bsm.files.pipes import (
+    about,
+    expanded,
+    files_behind,
+    is_url,
+    read_bytes,
+    read_chunks,
+    state_of,
+    state_of_remote,
+    without_scheme_of_files,
+)
+
+_Same = TypeVar("_Same", bound="Task")
+Facts = dict[str, Any]  # what came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up
+
+
+@dataclass(frozen=True)
+class Job:
+    input: str
+    output: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """What is asked for an input; each command adds fields of its own."""
+
+    input: str = ""
+    output: str = ""
+    force: bool = False
+    quiet: bool = False
+    before: Facts | None = None  # what an earlier report says of it
+    replaceable: frozenset[str] = frozenset()  # files that are as that report says
+    doubtful: frozenset[str] = frozenset()  # files that it names and that are not
+    fresh: frozenset[str] = frozenset()  # files that were not there when the run began
+
+    def repeated(self: _Same) -> _Same:
+        """This task after an attempt that was cut off."""
+        return replace(self, replaceable=self.replaceable | self.fresh)
+
+    def may_replace(self, path: str) -> bool:
+        return self.force or path in self.replaceable
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """How many jobs are done at a time, where, and what is written of them."""
+
+    jobs: int = 1
+    dask: str | None = None
+    report: str | None = None
+    resume: bool = False
+    json: bool = False
+
+    @property
+    def side_by_side(self) -> bool:
+        return self.jobs != 1 or self.dask is not None
+
+
+Work: TypeAlias = Callable[[Any, Console], Facts]
+"""What a command does with a `Task` of its own; a function of a module, so that processes find it."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    facts: Facts
+    error: Exception | None = None
+    notes: tuple[str, ...] = ()
+
+
+class UnexpectedError(Exception):
+    """A fault of the program, with its traceback."""
+
+
+Numbered: TypeAlias = tuple[int, Task]
+Tasks: TypeAlias = Iterable[Numbered]  # made as they are needed
+Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]  # numbers of jobs and what came of them, as they end
+
+
+def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
+    """Do one job; whatever fails is an outcome too, but for signals and for pipes that nobody reads."""
+    try:
+        with about(task.input):
+            return Outcome(work(task, console), notes=tuple(console.kept or ()))
+    except Exception as error:
+        if behind(error) is not error or isinstance(error, BrokenPipeError):
+            raise
+        failure = error
+        if not is_expected(error):
+            text = "".join(traceback.format_exception(error)).rstrip()
+            failure = UnexpectedError(f"{task.input}: unexpected error, please report it: {text}")
+        return Outcome({}, failure, tuple(console.kept or ()))
+
+
+def far_outcome(work: Work, task: Task) -> Outcome:
+    """`outcome_of` in another process."""
+    return outcome_of(work, task, Console(task.quiet, kept=[]))
+
+
+# ----------------------------------------------------------------------------------------------------------- the record
+
+
+_OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
+_EVERY = 1.0  # seconds between two versions of a report, at least
+_SHARE = 0.02  # of all time that goes into writing them, at most
+_ROWS = 60
+
+
+def options_of(task: Task) -> Facts:
+    """What outputs depend on beside their inputs."""
+    given = {name: value for name, value in asdict(task).items() if name not in _OF_ONE_RUN}
+    options: Facts = json.loads(json.dumps({"version": __version__, **given}, default=str, sort_keys=True))
+    return options
+
+
+class Report:
+    """The record of a run, rewritten as a whole while it goes on."""
+
+    def __init__(
+        self, path: str, command: str, options: Facts, jobs: Sequence[Job], earlier: Mapping[str, Facts]
+    ) -> None:
+        self._path = path
+        self._head = {"command": command, "options": options}
+        self._files = [earlier.get(job.output) or {"input": job.input, "output": job.output} for job in jobs]
+        self._open = set(range(len(jobs)))
+        self._begin = time.perf_counter()
+        self._next = 0.0
+        self.write()
+
+    def take(self, number: int, facts: Facts) -> None:
+        self._files[number] = facts
+        self._open.discard(number)
+        if time.perf_counter() >= self._next:
+            self.write()
+
+    def write(self) -> None:
+        begin = time.perf_counter()
+        state = {"complete": not self._open, "seconds": begin - self._begin, "totals": totals(self._files)}
+        text = json.dumps({**self._head, **state, "files": self._files}, indent=1, allow_nan=False)
+        write_output(self._path, text.encode() + b"\n", overwrite=True)
+        end = time.perf_counter()
+        self._next = end + max(_EVERY, (end - begin) / _SHARE)
+
+
+@dataclass(frozen=True)
+class Earlier:
+    outputs: Mapping[str, str | None]
+    files: Mapping[str, Facts]
+
+
+NOTHING = Earlier({}, {})
+
+
+def read_report(path: str, command: str, options: Facts) -> Earlier:
+    """Read a report to go on from; nothing is known where there is none."""
+    try:
+        report = json.loads(read_bytes(path))
+        files = {entry["output"]: entry for entry in map(_entry, report["files"])}
+        same = (report["command"], report["options"]) == (command, options)
+        json.dumps({**report, "totals": totals(list(files.values()))}, allow_nan=False)
+    except FileNotFoundError:
+        return NOTHING
+    except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
+        raise FormatError(f"{path}: this is no report of ours to go on from; name another with --report") from error
+    return Earlier({name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {})
+
+
+_MOST_BYTES = 1 << 63
+_FIELDS: Mapping[str, Callable[[Any], bool]] = {
+    **dict.fromkeys(("input_bytes", "output_bytes"), lambda value: type(value) is int and 0 <= value < _MOST_BYTES),
+    **dict.fromkeys(("seconds", "max_error_relative", "kg"), lambda value: type(value) in (int, float)),
+    **dict.fromkeys(("input", "output", "output_sha256"), lambda value: isinstance(value, str)),
+    "error": lambda value: isinstance(value, str) and bool(value.strip()),
+    "exit": lambda value: type(value) is int and 0 < value < 256,
+}
+
+
+def _entry(given: Any) -> Facts:
+    """What a report says of a file; raises as `read_report` catches."""
+    entry = dict(given)
+    needed = ("input", "output", *(("error", "exit") if "error" in entry else ()))
+    for name, fits in _FIELDS.items():
+        if (name in needed or entry.get(name) is not None) and not fits(entry[name]):
+            raise ValueError(f"{name} is {entry[name]!r}")
+    _cells(entry)
+    return entry
+
+
+def recorded(work: Work, task: Task, console: Console) -> Facts:
+    """Work that says what it read and wrote; it is not done again where both are still as `task.before` says."""
+    state, before = state_of(task.input), task.before
+    as_before = before is not None and state is not None and before.get("input_state") == state
+    if before and as_before and before.get("output_sha256") == digest_of(before["output"]):
+        console.note(f"{task.input} -> {before['output']}: as it was")
+        return {**before, "resumed": True}
+    facts = _compared(work, task, console) if task.output in task.doubtful else work(task, console)
+    return {**facts, "input_state": state, "output_sha256": digest_of(facts["output"])}
+
+
+def _compared(work: Work, task: Task, console: Console) -> Facts:
+    """Work whose output is there already: it may be what a run wrote that was killed before it said so."""
+    path = Path(task.output)
+    refuse = FileExistsError(
+        errno.EEXIST, "the output is not what the report says was written; -f overwrites it", task.output
+    )
+    if not path.is_file() or path.is_symlink():
+        raise refuse
+    with tempfile.TemporaryDirectory() as folder:
+        again = str(Path(folder, path.name))
+        facts = work(replace(task, output=again), console)
+        if digest_of(again) != digest_of(task.output):
+            raise refuse
+    return {**facts, "output": task.output}
+
+
+def digest_of(path: str) -> str | None:
+    from hashlib import sha256
+
+    found = sha256()
+    try:
+        for file in files_behind(path):
+            for chunk in read_chunks(file):
+                found.update(chunk)
+    except OSError:
+        return None
+    return found.hexdigest()
+
+
+def totals(files: Sequence[Facts]) -> Facts:
+    done = [facts for facts in files if "output_sha256" in facts]
+    taken, given = (sum(facts.get(key) or 0 for facts in done) for key in ("input_bytes", "output_bytes"))
+    return {
+        "files": len(files),
+        "done": len(done),
+        "resumed": sum("resumed" in facts for facts in done),
+        "failed": sum("error" in facts for facts in files),
+        "input_bytes": taken,
+        "output_bytes": given,
+        "ratio": taken / given if given else None,
+    }
+
+
+def table(files: Sequence[Facts]) -> Iterator[str]:
+    """Bytes, ratio, error and time of each file, failures first; lines of text."""
+    rows = sorted(files, key=lambda facts: "error" not in facts)[:_ROWS]
+    width = max([len(facts["input"]) for facts in rows] + [5])
+    yield f"{'input':{width}} {'bytes':>12} {'to':>12} {'ratio':>7} {'error':>10} {'seconds':>8}"
+    for facts in rows:
+        yield f"{facts['input']:{width}} {_cells(facts)}"
+    if len(files) > len(rows):
+        yield f"... and {len(files) - len(rows)} more"
+
+
+def _cells(facts: Facts) -> str:
+    if "error" in facts:
+        return f"failed: {facts['error'].splitlines()[-1]}"
+    taken, given, farthest, kg = map(facts.get, ("input_bytes", "output_bytes", "max_error_relative", "kg"))
+    sizes = " ".join(f"{'' if size is None else size:>12}" for size in (taken, given))
+    ratio = f"{taken / given:.2f}" if taken and given else ""
+    error = f"{100 * farthest:.3g} %" if farthest is not None else f"KG {kg:.3g} %" if kg is not None else ""
+    seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds') or 0.0:.2f}"
+    return f"{sizes} {ratio:>7} {error:>10} {seconds:>8}"
+
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae")
 """Of files that are taken for meshes where a folder is searched."""
@@ -22,7 +288,7 @@ _STANDARD = {"/dev/stdin": "-", "/dev/fd/0": "-", "/dev/stdout": "-", "/dev/fd/1
 
 def plan(
     inputs: Sequence[str], output: str | None, suffix: Callable[[str], str], *, sole_folder: bool = False
-) -> list[records.Job]:
+) -> list[Job]:
     """What is written where."""
     names = input_names(inputs)
     output = without_scheme_of_files(_STANDARD.get(output, output)) if output else None
@@ -33,18 +299,18 @@ def plan(
         if output and not folder:
             raise OptionError(f"{len(names)} inputs are written to a folder: -o {output}/")
     if output is None:
-        jobs = [records.Job(name, default_output(name, suffix(name))) for name in names]
+        jobs = [Job(name, default_output(name, suffix(name))) for name in names]
     elif folder and not (sole_folder and len(names) == 1):
-        jobs = [records.Job(name, output_inside(output, name, suffix(name))) for name in names]
+        jobs = [Job(name, output_inside(output, name, suffix(name))) for name in names]
     else:
-        jobs = [records.Job(name, output) for name in names]
+        jobs = [Job(name, output) for name in names]
     refuse_collisions(names, [job.output for job in jobs])
     if output and folder and not is_url(output):
         Path(output).mkdir(parents=True, exist_ok=True)
     return jobs
 
 
-def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[records.Job]:
+def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[Job]:
     """What is written where, for all mesh files in folders and below: the same folders again in `output`."""
     jobs = []
     for folder in folders:
@@ -53,7 +319,7 @@ def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[
         for path in sorted(Path(folder).rglob("*")):
             if path.suffix.lower() in MESH_SUFFIXES and path.is_file():
                 place = path if output is None else Path(output, path.relative_to(folder))
-                jobs.append(records.Job(str(path), str(place.with_suffix(suffix))))
+                jobs.append(Job(str(path), str(place.with_suffix(suffix))))
     if not jobs:
         raise OptionError(f"there are no mesh files in {' or '.join(folders)}, or below ({', '.join(MESH_SUFFIXES)})")
     refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
@@ -95,12 +361,7 @@ def _identity(path: str) -> tuple[int, int] | str | None:
 
 
 def run_jobs(
-    run: records.Run,
-    asked: records.Task,
-    console: Console,
-    work: records.Work,
-    jobs: Sequence[records.Job],
-    show: Callable[[records.Facts], str] | None = None,
+    run: Run, asked: Task, console: Console, work: Work, jobs: Sequence[Job], show: Callable[[Facts], str] | None = None
 ) -> int:
     """Do all jobs of a command and say what came of them; returns the exit code."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
@@ -113,7 +374,7 @@ def run_jobs(
         return 0
     begin = time.perf_counter()
 
-    def ended(job: records.Job, outcome: records.Outcome) -> None:
+    def ended(job: Job, outcome: Outcome) -> None:
         for line in outcome.notes:
             console.note(line)
         if outcome.error is not None:
@@ -125,7 +386,7 @@ def run_jobs(
     good = [facts for facts in done if "error" not in facts]
     taken, given = (sum(facts.get(key) or 0 for facts in good) for key in ("input_bytes", "output_bytes"))
     sizes = f", {came_to(taken, given)}" if taken and given else ""
-    for line in records.table(done) if run.report is not None else ():
+    for line in table(done) if run.report is not None else ():
         console.note(line)
     console.note(f"{len(good)} of {len(done)} files{sizes}, {time.perf_counter() - begin:.2f} s")
     if run.json:
@@ -134,29 +395,29 @@ def run_jobs(
 
 
 def run_many(
-    run: records.Run,
-    asked: records.Task,
+    run: Run,
+    asked: Task,
     console: Console,
-    work: records.Work,
-    jobs: Sequence[records.Job],
-    ended: Callable[[records.Job, records.Outcome], None] = lambda job, outcome: None,
-) -> list[records.Facts]:
+    work: Work,
+    jobs: Sequence[Job],
+    ended: Callable[[Job, Outcome], None] = lambda job, outcome: None,
+) -> list[Facts]:
     """Do all jobs; one that fails stops no other. They are told of in their order."""
     if run.dask is not None:
         if any("-" in (job.input, job.output) for job in jobs):
             raise OptionError("a pipe does not reach a cluster: name files")
-        jobs = [records.Job(anywhere(job.input), anywhere(job.output)) for job in jobs]
-    earlier, report = records.NOTHING, None
+        jobs = [Job(anywhere(job.input), anywhere(job.output)) for job in jobs]
+    earlier, report = NOTHING, None
     if run.report is not None:
         refuse_to_overwrite(run.report, asked.force or run.resume)
-        command, options = work.__name__, records.options_of(asked)
-        earlier = records.read_report(run.report, command, options) if run.resume else records.NOTHING
-        report = records.Report(run.report, command, options, jobs, earlier.files)
-        work = partial(records.recorded, work)
+        command, options = work.__name__, options_of(asked)
+        earlier = read_report(run.report, command, options) if run.resume else NOTHING
+        report = Report(run.report, command, options, jobs, earlier.files)
+        work = partial(recorded, work)
     elif run.resume:
         raise OptionError("--resume goes on from what --report FILE.json says: name it")
-    done: list[records.Facts] = [{} for _ in jobs]
-    waiting: dict[int, records.Outcome] = {}
+    done: list[Facts] = [{} for _ in jobs]
+    waiting: dict[int, Outcome] = {}
     following = 0
     given = ((number, task_of(asked, job, earlier)) for number, job in enumerate(jobs))
     # A cluster may do a job once more whose worker died, and does not say so.
@@ -184,12 +445,12 @@ def run_many(
     return done
 
 
-def task_of(asked: records.Task, job: records.Job, earlier: records.Earlier = records.NOTHING) -> records.Task:
+def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     before = earlier.files.get(job.output)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
     there = {n for n in replaceable if (state_of_remote(n) is not None if is_url(n) else os.path.lexists(n))}
     named = replaceable & earlier.outputs.keys()
-    mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == records.digest_of(name))
+    mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == digest_of(name))
     return replace(
         asked,
         input=job.input,
@@ -201,16 +462,14 @@ def task_of(asked: records.Task, job: records.Job, earlier: records.Earlier = re
     )
 
 
-def _outcomes(
-    run: records.Run, console: Console, work: records.Work, tasks: records.Tasks, count: int
-) -> records.Outcomes:
+def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, count: int) -> Outcomes:
     if run.jobs < 0:
         raise OptionError(f"-j {run.jobs}: at least one input at a time, or 0")
     from bsm.codec.threads import available_threads
 
     processes = min(run.jobs or available_threads(), count) or 1
     if run.dask is None and processes == 1:
-        return ((number, records.outcome_of(work, task, console)) for number, task in tasks)
+        return ((number, outcome_of(work, task, console)) for number, task in tasks)
     # Where there is one process there is no need to load this.
     from bsm.jobs.workers import in_processes, on_cluster
 

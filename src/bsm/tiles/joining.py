@@ -18,7 +18,7 @@ from bsm.console import Console
 from bsm.files.output import by_its_own_name, open_output, write_output
 from bsm.files.pipes import inside, is_url
 from bsm.gltf.write import write_glb
-from bsm.jobs.report import Facts
+from bsm.jobs.run import Facts
 from bsm.tiles.cutting import Ints
 from bsm.tiles.making import keys_of
 from bsm.tiles.reading import CARRIED

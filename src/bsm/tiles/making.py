@@ -11,18 +11,17 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import KDTree
 
-from bsm.bitstream.errors import NumericError, TargetError
-from bsm.bitstream.extras import imported
+from bsm.bitstream.errors import NumericError, TargetError, imported
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.surface_distance import farthest_from_surface
+from bsm.codec.geometry.metrics import farthest_from_surface
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.console import Console
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output, write_output
-from bsm.jobs.report import Facts, Task
+from bsm.jobs.run import Facts, Task
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, load_plan
 from bsm.tiles.reading import mapped
 

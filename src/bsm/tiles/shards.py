@@ -13,16 +13,15 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError
+from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.bitstream.public import public
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.output import open_output, write_output
 from bsm.files.pipes import about, inside, is_url, read_bytes, read_range
 from bsm.files.stream import decode_whole
-from bsm.jobs.report import Facts
+from bsm.jobs.run import Facts
 from bsm.tiles.cutting import Lattice, Plan, Root
 from bsm.tiles.making import Faces
 from bsm.tiles.reading import CARRIED, Kinds

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bsm.api import encode, encode_sequence
-from bsm.bitstream.errors import OptionError
-from bsm.bitstream.extras import imported
+from bsm.bitstream.errors import OptionError, imported
 from bsm.files.pipes import Input
 from bsm.files.stream import is_stream
 from bsm.libraries import as_mesh

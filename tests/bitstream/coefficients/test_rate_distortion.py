@@ -9,8 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.coefficients.adaptive import MAX_LEVEL, CoefficientModel, encode_coefficients, points_of_levels
-from bsm.bitstream.coefficients.rate_distortion import TARGET_UNIT, choose_levels
+from bsm.bitstream.coefficients.adaptive import (
+    MAX_LEVEL,
+    TARGET_UNIT,
+    CoefficientModel,
+    choose_levels,
+    encode_coefficients,
+    points_of_levels,
+)
 from bsm.bitstream.errors import OptionError
 
 UNITS = st.integers(-5, 5) | st.integers(-3000, 3000) | st.sampled_from([MAX_LEVEL * TARGET_UNIT])

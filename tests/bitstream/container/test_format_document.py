@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.header import HEADER_FIELDS, Header, Paper, defaults_of, fields_of
+from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, Header, Paper, defaults_of, fields_of
 from bsm.bitstream.container.wire import SHORT, SKIPPABLE_TYPES, FrameType, checksum
 
 SPEC = Path(__file__).parents[3] / "spec"

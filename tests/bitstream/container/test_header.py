@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.bitstream.container.header import HEADER_DEFAULTS, HEADER_FIELDS, LAW, LAW_OF_SEQUENCES, Header, Paper
-from bsm.bitstream.container.layout import parse_header, write_header
+from bsm.bitstream.container.packets import parse_header, write_header
 from bsm.bitstream.container.wire import write_map
 from bsm.bitstream.errors import CorruptError, LimitError, OptionError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits

@@ -2,8 +2,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.container.layout import FRAME_TYPES, PARSERS, WRITERS
-from bsm.bitstream.container.packets import Block, Connectivity, End, Gop, Metadata, Order, Partition
+from bsm.bitstream.container.packets import (
+    FRAME_TYPES,
+    PARSERS,
+    WRITERS,
+    Block,
+    Connectivity,
+    End,
+    Gop,
+    Metadata,
+    Order,
+    Partition,
+)
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits

@@ -4,7 +4,7 @@ import tracemalloc
 
 import pytest
 
-from bsm.bitstream.container.layout import MOST_DECLARATION, MOST_HEADER, parse_attribute, parse_header
+from bsm.bitstream.container.packets import MOST_DECLARATION, MOST_HEADER, parse_attribute, parse_header
 from bsm.bitstream.container.wire import parse_map, write_map, write_varint
 from bsm.bitstream.errors import CorruptError
 from bsm.bitstream.limits import DEFAULT_LIMITS

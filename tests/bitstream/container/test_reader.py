@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.container import wire
-from bsm.bitstream.container.declaration import Declaration
-from bsm.bitstream.container.layout import write_metadata
+from bsm.bitstream.container.header import Declaration
 from bsm.bitstream.container.packets import (
     Attribute,
     Block,
@@ -21,6 +20,7 @@ from bsm.bitstream.container.packets import (
     Partition,
     Refinement,
     Values,
+    write_metadata,
 )
 from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA, Reader, TolerantReader
 from bsm.bitstream.container.wire import write_frame, write_preamble, write_varint
@@ -281,7 +281,7 @@ UNANNOUNCED = [
 
 
 def frames_of(packets) -> list[bytes]:
-    from bsm.bitstream.container.layout import FRAME_TYPES, WRITERS
+    from bsm.bitstream.container.packets import FRAME_TYPES, WRITERS
 
     return [write_frame(FRAME_TYPES[type(packet)], WRITERS[FRAME_TYPES[type(packet)]](packet)) for packet in packets]
 

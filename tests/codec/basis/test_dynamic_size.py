@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from bsm.codec.basis.dynamic_size import dynamic_size, residual_norms
-from bsm.codec.basis.orthogonal_iteration import hash_columns
+from bsm.codec.basis.orthogonal_iteration import dynamic_size, hash_columns, residual_norms
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed

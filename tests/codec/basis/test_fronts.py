@@ -7,8 +7,7 @@ from hypothesis.extra import numpy as hnp
 from bsm.bitstream.errors import LimitError
 from bsm.codec.basis.laplacian import LEAF, WORK, dense_laplacian, factorize, find_fronts, laplacian_of, solve
 from bsm.codec.basis.orthogonal_iteration import hash_columns
-from bsm.codec.blocks.overlap import Block, grow_blocks
-from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.blocks.overlap import Block, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from tests.shapes import patch, torus
 

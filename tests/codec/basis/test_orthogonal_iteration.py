@@ -3,8 +3,7 @@ import pytest
 import scipy.linalg
 
 from bsm.bitstream.errors import NumericError
-from bsm.codec.basis.cost import completion_cost, settle
-from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
+from bsm.codec.basis.laplacian import completion_cost, dense_laplacian, factorize, laplacian_of, settle
 from bsm.codec.basis.orthogonal_iteration import (
     completed,
     completed_steps,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import NumericError
-from bsm.codec.basis.weighted import LARGEST_WEIGHT, SMALLEST_WEIGHT, cotangent_weights, hold
+from bsm.codec.basis.laplacian import LARGEST_WEIGHT, SMALLEST_WEIGHT, cotangent_weights, hold
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
 

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.codec.blocks.partition import WORTH_A_THREAD, bisect, derive_partition, metis_partition, partition_of_labels
+from bsm.codec.blocks.overlap import WORTH_A_THREAD, bisect, derive_partition, metis_partition, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
 from tests.shapes import grid_faces, patch, together, torus
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from bsm.codec.geometry.surface_distance import distances_to_surface, sample_surface, surface_distance
+from bsm.codec.geometry.metrics import distances_to_surface, sample_surface, surface_distance
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 TWO = np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)

@@ -10,9 +10,8 @@ import pytest
 from bsm.bitstream.errors import LimitError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Matrix
-from bsm.codec.basis.weighted import cotangent_weights
-from bsm.codec.blocks.overlap import Blocks, grow_blocks
-from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.basis.laplacian import cotangent_weights
+from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.dictionaries import SPARE, Dictionaries, Part, find_sites

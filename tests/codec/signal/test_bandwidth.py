@@ -7,10 +7,9 @@ import pytest
 
 from bsm.codec.basis.laplacian import factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
-from bsm.codec.blocks.overlap import Blocks, grow_blocks
-from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.signal.bandwidth import MeasuredSpectrum
+from bsm.codec.signal.transform import MeasuredSpectrum
 from tests.shapes import patch
 
 SHIFT = 2.0**-5

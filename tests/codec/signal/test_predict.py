@@ -7,7 +7,7 @@ from bsm.codec.basis.laplacian import dense_laplacian, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import exact_basis, first_columns
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.signal.predict import Known, Surroundings, unheld
+from bsm.codec.signal.chain import Known, Surroundings, unheld
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
 from tests.shapes import patch, torus

@@ -7,11 +7,9 @@ import pytest
 
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.basis.cost import careful_cost, dictionary_cost, settle, solve_cost
-from bsm.codec.basis.laplacian import factorize, laplacian_of
+from bsm.codec.basis.laplacian import careful_cost, dictionary_cost, factorize, laplacian_of, settle, solve_cost
 from bsm.codec.basis.orthogonal_iteration import first_columns, iteration_steps
-from bsm.codec.blocks.overlap import grow_blocks
-from bsm.codec.blocks.partition import derive_partition
+from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.decoder import Decoder, decode

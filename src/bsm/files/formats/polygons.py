@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import MeshError
+from bsm.bitstream.errors import MeshError, public
 from bsm.bitstream.limits import Limits
-from bsm.bitstream.public import public
 from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import fitting, named

@@ -10,8 +10,7 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError
-from bsm.bitstream.extras import how_to_install, imported
+from bsm.bitstream.errors import BsmError, FormatError, how_to_install, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.metadata import Material, Value, described, kind_of_image

@@ -15,8 +15,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from bsm.bitstream.errors import FormatError, LimitError, MeshError
-from bsm.bitstream.extras import imported
+from bsm.bitstream.errors import FormatError, LimitError, MeshError, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Semantic

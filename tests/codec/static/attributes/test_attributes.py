@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.declaration import RECOMPUTED
+from bsm.bitstream.container.header import RECOMPUTED
 from bsm.bitstream.errors import BsmError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
