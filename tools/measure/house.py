@@ -30,9 +30,9 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 35_075,
+    "product Python, lines": 34_900,
     "all Python, lines": 74_005,
-    "product modules": 222,
+    "product modules": 208,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "header fields": 19,
@@ -41,7 +41,7 @@ LIMITS = {
     "words of spec/*.md": 25_000,
     "words of the core": 11_125,
     "tuned constants of the search": 60,
-    "files that encoding a mesh walks through": 72,
+    "files that encoding a mesh walks through": 67,
 }
 
 
