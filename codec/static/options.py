@@ -286,7 +286,7 @@ PRESETS: dict[str, EncodeOptions] = {
     "near-lossless": EncodeOptions(contract=Contract(0.0005, look=0.25, by_part=0.005)),
     "grid14": EncodeOptions(grid=14),
     "lossless": EncodeOptions(exact=True, attributes={"*": "exact"}),
-    "none": EncodeOptions(contract=None),
+    "none": EncodeOptions(block_size=1500, overlap=1.0, contract=None),
 }
 """Names for what most users want, each a promise; "balanced" is the default, and "none" promises nothing but what is
 asked for beside it. Larger blocks are smaller files and slower

@@ -29,7 +29,7 @@ from bsm.codec.geometry.metrics import Original, Reference, decibel, surface_dis
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.joining import join
-from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.options import PRESETS
 from bsm.codec.static.targets import Target
 from bsm.evaluation.curve import encode_draco
 from bsm.files.mesh import read_mesh
@@ -92,7 +92,7 @@ def thetas(path: Path, args: argparse.Namespace) -> Iterator[Row]:
     if args.draco_bits:
         wanted.append(curve[args.draco_bits - 6][0])
     for angle in wanted:
-        attempt = Encoder(mesh, EncodeOptions(contract=None, target=Target("theta_deg", angle), threads=1)).search()
+        attempt = Encoder(mesh, replace(PRESETS["none"], target=Target("theta_deg", angle), threads=1)).search()
         begin = time.process_time()
         decode(b"".join(attempt.frames), threads=1)
         seconds = time.process_time() - begin
@@ -113,7 +113,7 @@ def visuals(path: Path, args: argparse.Namespace) -> Iterator[Row]:
         (decibel(reference.nmsve(draco_positions(mesh, bits))), len(draco_bytes(mesh, bits))) for bits in range(5, 18)
     )
     for wanted in args.db:
-        attempt = Encoder(mesh, EncodeOptions(contract=None, target=Target("nmsve_db", wanted), threads=1)).search()
+        attempt = Encoder(mesh, replace(PRESETS["none"], target=Target("nmsve_db", wanted), threads=1)).search()
         reached = attempt.comparison.nmsve_db
         levels, sizes = np.array(curve).T
         size = float(np.interp(reached, levels, sizes))
