@@ -4,7 +4,7 @@ import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 
 import { dirname, join, relative } from "node:path";
 import { build } from "esbuild";
 import { minify } from "terser";
-import { compileKernels, compiler, KERNEL_BUILDS, WEB } from "./kernels.mjs";
+import { compileKernels, compiler, fingerprint, KERNEL_BUILDS, WEB } from "./kernels.mjs";
 
 const VIEWER = join(WEB, "../../src/bsm/viewer");
 const SOURCES = join(WEB, "src");
@@ -124,9 +124,10 @@ async function products() {
     ];
 }
 
-/** Built kernels that differ, where the compiler is the one that the committed bytes are of. */
+/** Built kernels that differ, where the compiler is the one that the committed bytes are of; what was built of these very sources is not built again. */
 function staleKernels() {
-    const [theirs, ours] = [readFileSync(join(WEB, "built/compiler.txt"), "utf8").trim(), compiler()];
+    const [[theirs, sources], ours] = [readFileSync(join(WEB, "built/compiler.txt"), "utf8").split("\n"), compiler()];
+    if (sources === fingerprint()) return [];
     if (theirs !== ours) {
         console.log(`kernels are not compared: they were built by ${theirs}; here is ${ours ?? "no clang"}`);
         return [];

@@ -1,5 +1,6 @@
 // The kernels of `bitstream` and `codec` as WebAssembly, with and without vector instructions: `npm run kernels`.
 import { execFileSync, spawnSync } from "node:child_process";
+import { createHash } from "node:crypto";
 import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { delimiter, dirname, join } from "node:path";
@@ -46,6 +47,15 @@ const LEAN = /connectivity|attributes|fields|codec\/blocks|fronts\.c|geometry|en
 export function compiler() {
     const { stdout } = spawnSync("clang", ["--version"], { encoding: "utf8" });
     return stdout?.split("\n")[0];
+}
+
+/** What tells the built kernels and all that they are built of, but for the compiler: where it is as written, they are not compiled again to compare. */
+export function fingerprint() {
+    const hash = createHash("sha256");
+    const headers = ["bitstream", "codec", "engine", "tools/web/src"].flatMap((folder) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".h")).map((name) => join(folder, name))).sort();
+    const own = ["package-lock.json", "scripts/kernels.mjs", ...Object.keys(KERNEL_BUILDS)].map((name) => join("tools/web", name));
+    for (const path of [...SOURCES, ...TABLES, ...headers, "spec/priors.bin", ...own]) hash.update(path).update(readFileSync(join(ROOT, path)));
+    return hash.digest("hex");
 }
 
 /** Where programs are, but for those of packages: clang would call a wasm-opt of its own accord, with other options. */
@@ -173,5 +183,5 @@ export function compileKernels({ vectors, exported = PAGE, without, fast }) {
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
     for (const [path, options] of Object.entries(KERNEL_BUILDS)) writeFileSync(join(WEB, path), compileKernels(options));
-    writeFileSync(join(WEB, "built/compiler.txt"), `${compiler()}\n`);
+    writeFileSync(join(WEB, "built/compiler.txt"), `${compiler()}\n${fingerprint()}\n`);
 }
