@@ -80,11 +80,6 @@ def test_many_and_large_streams_are_made_of_all_that_there_can_be_many_of():
     assert all(many != large for many, large in THINGS.values())
 
 
-@pytest.mark.parametrize("name", dict.fromkeys(many for many, _ in THINGS.values()))
-def test_streams_of_many_small_things_are_sound(name):
-    assert decode_all(BOMBS[name](), "events", Limits.wide()).outcome == "decoded"
-
-
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
 def test_the_command_ends_with_a_verdict():

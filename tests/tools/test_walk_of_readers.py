@@ -3,15 +3,14 @@
 import json
 import os
 import sys
-from random import Random
 
 import pytest
 
 from bsm.bitstream.limits import Limits
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.sequence import SEQUENCES_READ
+from tools.attack.growth import growth
 from tools.attack.readers import Case, Sample, _grown, _json_of, numbers, problems, read_all, samples, warm_up
-from tools.attack.search import KINDS, Repeated, growth, searched, words
 from tools.attack.taken import Taken
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="memory is measured as Linux tells it")
@@ -51,25 +50,18 @@ def test_a_usd_file_that_is_nested_too_deep_is_refused_before_its_library_sees_i
 
 
 @linux
-def test_files_that_are_slow_for_their_bytes_are_found():
-    warm_up()
-    assert set(KINDS) - {"gltf"} <= set(samples()) and {b"<AppendedData", b"usemtl"} <= set(words())
-    seen = [taken for _, taken in searched("obj", 2, Random(0))]
-    assert len(seen) == 96 and not any(taken.escaped for taken in seen)
-    assert {taken.outcome == "read" for taken in seen} == {True, False}
-
-
-@linux
 def test_what_takes_longer_than_its_size_grows_is_found(monkeypatch):
-    spaces = Repeated(samples()["off"], b"OFF", b"\n", b"x")
-    assert growth(spaces.of) is None
+    def spaces(size):
+        return Sample("off", b"OFF" + b"\n" * size + b"x")
+
+    assert growth(spaces) is None
 
     def quadratic(path, limits):
         size = path.stat().st_size
         return (sum(range((size >> 6) ** 2)), Taken("read"))[1]
 
     monkeypatch.setattr("tools.attack.readers.read_all", quadratic)
-    assert "times as long" in growth(spaces.of)
+    assert "times as long" in growth(spaces)
 
 
 @linux

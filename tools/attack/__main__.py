@@ -6,7 +6,7 @@ bombs    streams that cost as much as they can, held against what they may take
 charges  many small and few large of all that can be many: time by what was charged
 walk     every frame type and field as large as its bytes allow, held against the law
 readers  every reader of files, with every number as large as it can be, held against the law
-search   files that make readers slow for their bytes, found step by step, and read at four times the size
+growth   files that are large in one place, read at four times the size
 proof    mutants and random streams by all decoders, on all processors, in all environments
 """
 
@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from tools.command import dispatch
 
-COMMANDS = {name: f"{name}:main" for name in ("fuzz", "sweep", "readers", "search", "proof")}
+COMMANDS = {name: f"{name}:main" for name in ("fuzz", "sweep", "readers", "growth", "proof")}
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 
 if __name__ == "__main__":

@@ -172,7 +172,8 @@ def charges() -> int:
             taken = min((taken_by(stream, how, "wide") for _ in range(args.times)), key=lambda taken: taken.seconds)
             ratio = taken.seconds / max(taken.work / 1e9, 1e-9) / (BROWSER if how == "browser" else 1.0)
             slowness = max(slowness, ratio) if name == YARDSTICK else slowness
-            wrong = taken.escaped or (ratio > args.most * slowness and taken.seconds > LEAST_SECONDS)
+            unsound = taken.escaped or (args.small and taken.outcome != "decoded")
+            wrong = unsound or (ratio > args.most * slowness and taken.seconds > LEAST_SECONDS)
             failed += [f"{name} ({how})"] * wrong
             print(
                 f"{name:22} {how:8} {taken.work / 1e9:8.3f} s charged, {taken.seconds:8.3f} s taken, ratio "

@@ -268,7 +268,7 @@ LEGAL = [
     [REFINED[0], CONNECTIVITY, B0, Refinement(0, 3, b"")],
     [REFINED[0], CONNECTIVITY, B0, Refinement(0, 3, b""), Refinement(3, 2, b"")],
     [REFINED[0], CONNECTIVITY, Refinement(0, 100, b"")],
-    [HEADER, META, CONNECTIVITY, META, B1, META, B2, META],
+    [HEADER, META, CONNECTIVITY, META, PARTITION, META, ORDER, META, B1, META, B2, META],
     [GRID[0], CONNECTIVITY, META, Grid(0, 100, b""), META],
     [COLOURED, CONNECTIVITY, META, COLOUR, B0, B1, B2, COLOURS],
 ]
@@ -317,14 +317,6 @@ def test_metadata_may_be_many_and_are_bounded_together():
         read_all(data, reader=Reader(Limits(metadata_bytes=2 * size - 1)))
     with pytest.raises(CorruptError, match="'a' again"):
         read_all(stream_of(*frames_of([*packets, Metadata({"c": 1, "a": 2})])))
-
-
-@pytest.mark.parametrize("place", [1, 2, 3, 4, 5])
-def test_metadata_may_stand_anywhere_behind_the_header(place):
-    packets = [HEADER, CONNECTIVITY, PARTITION, ORDER, B0]
-    packets.insert(place, META)
-    assert read_all(write_stream(packets))[:-1] == packets
-    assert write_stream(packets) == stream_of(*frames_of(packets))
 
 
 def test_end_must_agree():

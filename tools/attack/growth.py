@@ -1,0 +1,51 @@
+"""`python -m tools.attack growth`: files that are large in one place, read at four times the size.
+
+Of the files of `readers` that grow; they must not take longer by more than `MOST_GROWTH`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from bsm.bitstream.limits import Limits
+from tools.attack.readers import Sample, _grown, reading, warm_up
+from tools.attack.taken import taken_by_each
+
+SIZE = 1 << 16
+"""Bytes of files before they grow."""
+MOST_GROWTH, LEAST_SECONDS = 4.5, 0.1
+"""How much longer four times the bytes may take, and how long that is before it is asked."""
+
+
+def growth(make: Callable[[int], Sample], most: float = MOST_GROWTH, times: int = 4) -> str | None:
+    """How much longer a file takes at four times its size, if that is too much every time."""
+    least = [float("inf")] * 2
+    for _ in range(times):
+        with tempfile.TemporaryDirectory() as folder:
+            works = [partial(reading, partial(make, size), Path(folder), Limits()) for size in (SIZE, 4 * SIZE)]
+            for number, taken in enumerate(taken_by_each(works, seconds=30)):
+                least[number] = min(least[number], float("inf") if taken.escaped else taken.seconds)
+        if least[1] < max(LEAST_SECONDS, most * least[0]):
+            return None
+    return f"{least[0]:.3f} s at {SIZE} bytes, {least[1]:.3f} s at {4 * SIZE}: {least[1] / least[0]:.1f} times as long"
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--most", type=float, default=MOST_GROWTH, help="growth at four times (default: %(default)s)")
+    most = parser.parse_args().most
+    warm_up()
+    found = {name: growth(lambda size, name=name: _grown(size)[name](), most) for name in _grown(1)}  # type: ignore[misc]
+    problems = [f"{name}: {problem}" for name, problem in found.items() if problem]
+    print("\n".join([*problems, f"{len(found)} files, {len(problems)} findings"]))
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
