@@ -58,7 +58,7 @@ async function look() {
             if (pictures) writeFileSync(join(pictures, `${name}.png`), picture);
             const { drawn, red, blue } = await page.evaluate(coloured, `data:image/png;base64,${picture.toString("base64")}`);
             await page.close();
-            if (drawn < SEEN || (kind === "textured" && Math.min(red, blue) < SEEN / 2)) wrong.push(`only ${drawn} of it is drawn, ${red} red, ${blue} blue`);
+            if (drawn < SEEN || (kind === "textured" && Math.min(red, blue) < SEEN / 3)) wrong.push(`only ${drawn} of it is drawn, ${red} red, ${blue} blue`);
             if (wrong.length > 0) throw new Error(`example ${name}: ${wrong.join("; ")}`);
             console.log(`example ${name}: ${(100 * drawn).toFixed(0)} % of the page is drawn on`);
         }
