@@ -20,7 +20,6 @@ Result = TypeVar("Result")
 
 
 def available_threads() -> int:
-    """Cores this process may run on."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

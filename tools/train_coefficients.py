@@ -41,9 +41,9 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.reader import Reader, Signal
 from bsm.bitstream.entropy.range_coder import Bank, make_bank
+from bsm.codec.static.coding import chain_rules
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.rules import chain_rules
 from bsm.files.mesh import read_mesh
 
 TRAINING_MESHES = (

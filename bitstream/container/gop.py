@@ -70,7 +70,6 @@ class GopMethod(IntEnum):
 
     @property
     def has_basis(self) -> bool:
-        """Whether a temporal basis is sent."""
         return self in (GopMethod.LEARNT, GopMethod.LEARNT_NEXT)
 
     @property

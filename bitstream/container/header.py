@@ -86,7 +86,6 @@ def integers(key: int, low: int, high: int, lengths: tuple[int, int], default: t
 
 
 def text(key: int, low: int, high: int) -> Any:
-    """Declare a text of so many bytes of UTF-8."""
     return field(metadata={"wire": Field(key, str, low, high)})
 
 
@@ -175,7 +174,6 @@ class Header:
 
     @property
     def law(self) -> Paper:
-        """The constants that hold without `paper`."""
         return LAW_OF_SEQUENCES if self.sequence else LAW
 
     @property
@@ -198,7 +196,6 @@ class Header:
 
     @property
     def run_number(self) -> int:
-        """Number of the run of a sequence that begins here."""
         return self.run[0] if self.run else 0
 
     @property
@@ -212,7 +209,6 @@ def fields_of(kind: Kind) -> dict[str, Field]:
 
 
 def defaults_of(kind: Kind) -> dict[str, Any]:
-    """The defaults of those that have one."""
     return {item.name: item.default for item in fields(kind) if item.default is not MISSING}
 
 

@@ -133,7 +133,6 @@ LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "
 
 
 def write_header(header: Header) -> bytes:
-    """A map from field keys to values."""
     return write_map(entries_of(header))
 
 

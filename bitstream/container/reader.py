@@ -53,7 +53,6 @@ METADATA_COST, ENTRY_COST = 2e4, 8e3  # the same for metadata besides, and for e
 
 
 def reading_cost(size: int) -> float:
-    """Work of reading a frame of so many bytes, nanoseconds."""
     return FRAME_COST + BYTE_COST * size
 
 

@@ -50,7 +50,6 @@ class Frame:
 
 
 def write_preamble() -> bytes:
-    """The bytes every stream begins with: magic and version."""
     return MAGIC + bytes([VERSION])
 
 
@@ -120,12 +119,10 @@ class Tag:
 
     @property
     def checksum(self) -> int:
-        """Offset of the checksum."""
         return self.payload + self.length
 
     @property
     def end(self) -> int:
-        """Offset behind the frame."""
         return self.checksum + checksum_size(self.type, self.length)
 
 

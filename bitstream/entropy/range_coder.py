@@ -56,7 +56,6 @@ def make_bank(
 
 
 def copy_bank(bank: Bank) -> Bank:
-    """Return an independent snapshot of `bank`."""
     return Bank(bank.slots.copy(), bank.weights.copy(), bank.settings.copy())
 
 
@@ -76,7 +75,6 @@ def make_room(coder: Coder, capacity: int) -> Coder:
 
 
 def is_reading(coder: Coder) -> bool:
-    """Whether the coder reads."""
     return bool(coder.state[_READING])
 
 

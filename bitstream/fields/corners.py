@@ -95,7 +95,6 @@ class _FieldCoder:
 
     @property
     def coded(self) -> int:
-        """How many of them are coded."""
         return self._next
 
     def _take(self, count: int) -> slice:

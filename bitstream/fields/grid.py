@@ -169,7 +169,6 @@ class Floats:
 
     @staticmethod
     def charge(largest: tuple[int, ...]) -> int:
-        """Bytes of memory that it takes."""
         return 24 * (max(largest) + 1)
 
     def encode(self, values: Ints, cells: Cells, floats: Numbers) -> bytes:

@@ -147,7 +147,6 @@ def solve(factor: Factor, columns: Matrix) -> Matrix:
 
 
 def solving_room(rows: int, columns: int) -> Basis:
-    """Scratch that a solution takes."""
     return np.empty((rows + 4) * (columns + 16) + PADDING, np.float32)
 
 
@@ -213,7 +212,6 @@ def free(work: float) -> None:
 
 
 def factor_cost(fronts: Fronts) -> float:
-    """Work of one factorisation, nanoseconds."""
     return float(fronts.sums[1]) / 6.0 + 50.0 * len(fronts.rows) + 4000.0
 
 

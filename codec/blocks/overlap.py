@@ -140,7 +140,6 @@ class Blocks:
         return int(self.edges[index])
 
     def block(self, index: int) -> Block:
-        """Order the rows of one block."""
         return _ordered(self.graph, self.members_of(index))
 
     def core(self, index: int) -> Indices:

@@ -240,7 +240,6 @@ class Original:
         return _kernels.farthest_apart(self.positions, np.ascontiguousarray(decoded, np.float64))
 
     def closeness(self, decoded: Positions) -> Closeness:
-        """Farthest distance and mean angle of a decoded mesh, shape (n, 3)."""
         return Closeness(self.farthest(decoded), self.angle(decoded))
 
 

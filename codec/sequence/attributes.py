@@ -125,7 +125,6 @@ class Bound:
 
     @property
     def first_step(self) -> float:
-        """A step to try first."""
         return self.reach * (FIRST_STEP_RMS if self._is_rms else FIRST_STEP)
 
     def off(self, values: Values, first: Values, change: Matrix) -> float:
@@ -151,7 +150,6 @@ class Bound:
 
 
 def moved(one: PreparedAttribute) -> PreparedAttribute:
-    """An attribute as one that moves."""
     return replace(one, declaration=replace(one.declaration, moves=1))
 
 

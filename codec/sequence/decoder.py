@@ -16,9 +16,9 @@ from bsm.codec.sequence.events import Course, DecoderRequest, Event, FrameEvent,
 from bsm.codec.sequence.run_decoding import FirstFrameStage, GopStage
 from bsm.codec.sequence.runs import Shelf
 from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
+from bsm.codec.static.coding import chain_rules
 from bsm.codec.static.events import ConnectivityEvent
 from bsm.codec.static.preamble_decoding import DecoderSetup, HeaderStage
-from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import Arrival, Ended, Stage, StreamDecoder
 from bsm.codec.static.work import Allowance, run_cost
 from bsm.codec.threads import threads_of

@@ -40,12 +40,10 @@ class Site:
 
     @property
     def fronts(self) -> Fronts:
-        """How its Laplacian is factorised."""
         return self.held.laplacian.fronts
 
     @property
     def memory(self) -> float:
-        """Bytes of its dictionary."""
         return 8.0 * len(self.vertices) * self.width
 
     @property
@@ -63,7 +61,6 @@ class Site:
         return continued(self.factor, self.held.springs, self.held.pulls(ends))
 
     def steps(self, rules: ChainRules) -> Steps:
-        """Its dictionary, that of a key block, with the price of each step."""
         return key_steps(rules, Suspended(self.held.laplacian, self.held.springs, rules.shift), self.width)
 
 
@@ -109,7 +106,6 @@ class Dictionaries:
 
     @property
     def largest(self) -> int:
-        """Rows of the largest part."""
         return max(len(site.vertices) for site in self.sites)
 
     @cached_property

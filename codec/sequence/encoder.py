@@ -33,8 +33,7 @@ from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import PROMISED_SIZES
-from bsm.codec.static.joining import JoinedMesh
-from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
+from bsm.codec.static.preamble_encoding import JoinedMesh, Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
 from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
@@ -51,7 +50,6 @@ class SequenceAttempt:
 
     @property
     def bpvf(self) -> float:
-        """Bits of the whole stream per vertex and frame."""
         return 8.0 * sum(map(len, self.chunks)) / self.samples
 
 

@@ -127,7 +127,6 @@ class GopEncoder:
 
     @property
     def low_delay(self) -> bool:
-        """Whether frames are sent as they come."""
         return self._options.low_delay > 0
 
     def is_key(self, number: int, vertices: int) -> bool:
@@ -223,7 +222,6 @@ class GopDecoder:
         self._inherited = inherited
 
     def forget(self) -> None:
-        """Take note that frames are missing here."""
         self._histories = self._inherited = None
 
     def decode(self, body: GopBody) -> Iterator[Fields]:

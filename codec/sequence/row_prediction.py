@@ -149,5 +149,4 @@ class LevelWriter:
         return decoded
 
     def finish(self) -> bytes:
-        """All levels, coded."""
         return encode_levels(self._bank, self.levels, self._references, self._leads)

@@ -16,7 +16,7 @@ from bsm.codec.arrays import Indices, Matrix, Order
 from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
-from bsm.codec.static.joining import JoinedMesh, joined
+from bsm.codec.static.preamble_encoding import JoinedMesh, joined
 from bsm.codec.static.work import Allowance
 
 KEPT_MESHES = 8  # of the meshes so far, those that runs have had last; a run can have one of them again
@@ -133,7 +133,6 @@ class Shelf(Generic[Mesh]):
         return run in self._places
 
     def put(self, run: int, mesh: Mesh) -> None:
-        """Keep a mesh that a run has brought."""
         self._places[run] = _Place(mesh)
 
     def take(self, run: int) -> Mesh | None:
@@ -257,12 +256,10 @@ class _Beginning:
 
     @property
     def vertices(self) -> int:
-        """How many vertices there are."""
         return len(self._frames[-1][0])
 
     @property
     def merges(self) -> bool:
-        """Whether any are one."""
         return self.vertices < len(self.index)
 
     def add(self, frame: Matrix) -> None:

@@ -15,7 +15,7 @@ from bsm.codec.arrays import Faces, Levels, Matrix, sum_in_order
 from bsm.codec.basis.laplacian import solve_cost
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.temporal import BATCH
-from bsm.codec.static.rules import Scheme
+from bsm.codec.static.coding import Scheme
 from bsm.codec.static.work import LEVEL, Allowance
 
 KEPT, MOST_KEPT, LEAST_KEPT = 1 << 19, 64, 2
@@ -99,15 +99,12 @@ class Setting:
 
     @property
     def sites(self) -> tuple[Site, ...]:
-        """The parts of the mesh."""
         return self.dictionaries.sites
 
     def fits(self, body: GopBody, received: int) -> bool:
-        """Whether there is room for a GOP of so many bytes."""
         return self.dictionaries.fits(*self._memory(body), received)
 
     def reserve(self, body: GopBody) -> float:
-        """Make room for a GOP; its work."""
         return self.dictionaries.reserve(*self._memory(body)) + self._work(body)
 
     def _memory(self, body: GopBody) -> tuple[float, float]:

@@ -192,7 +192,6 @@ def key_steps(rules: ChainRules, around: Suspended, width: int) -> Steps:
 
 
 def in_pieces(block: Block) -> bool:
-    """Whether a block has several components."""
     return not is_connected(Graph(block.offsets, block.neighbours))
 
 

@@ -55,7 +55,6 @@ half of it costs 1.8 %, twice 2.5 %.
 
 
 def dequantize(levels: Integers, step: float) -> Matrix:
-    """Coefficients of `levels`, shape (c, 3)."""
     return np.asarray(levels * step, dtype=np.float64)
 
 

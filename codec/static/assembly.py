@@ -57,7 +57,6 @@ class Assembly:
 
     @cached_property
     def _missing(self) -> Order:
-        """Copies of each vertex that have not come yet."""
         return np.bincount(self._blocks.members, minlength=self._graph.size)
 
     @cached_property
@@ -86,11 +85,9 @@ class Assembly:
         return self._filter.smoothed(self._blended, self._rings(vertices, DEGREE))
 
     def add(self, block: DecodedBlock) -> None:
-        """Blend one block in."""
         self._blend.add(block.vertices, block.positions, block.weights)
 
     def lose(self, number: int) -> None:
-        """Take note that the block with a number will not come."""
         self._lost.append(number)
 
     def mesh(self, checksum: int | None = None) -> TriangleMesh:
@@ -101,7 +98,6 @@ class Assembly:
 
     @property
     def whole(self) -> bool:
-        """Whether no block was lost."""
         return not self._lost
 
     def solid(self) -> Solid | None:

@@ -14,6 +14,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
 from bsm.codec.static.assembly import Assembly, DecodedBlock
 from bsm.codec.static.attributes.decoding import Complete, PendingValues, ValuesStage, completed
+from bsm.codec.static.coding import chain_rules
 from bsm.codec.static.events import (
     AttributeEvent,
     BlockEvent,
@@ -25,7 +26,6 @@ from bsm.codec.static.events import (
     unreadable,
 )
 from bsm.codec.static.preamble_decoding import DecoderSetup, HeaderStage, Structure
-from bsm.codec.static.rules import chain_rules
 from bsm.codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
 from bsm.codec.static.ways.block_coder import ChainDecoder
 from bsm.codec.static.ways.grid import GridStage

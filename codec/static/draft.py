@@ -23,12 +23,10 @@ class Draft:
 
     @cached_property
     def frames(self) -> tuple[bytes, ...]:
-        """The stream, frame by frame."""
         return tuple(self._write())
 
     @property
     def size(self) -> int:
-        """Bytes of the whole stream."""
         return sum(map(len, self.frames))
 
     @property

@@ -23,15 +23,13 @@ from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, Quality, qualities
 from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.choice.bounds import Measures
-from bsm.codec.static.choice.lattices import exact, rounded, rounded_to_cells
+from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.choice.search import Search
-from bsm.codec.static.contract import WIDEST, Contract
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.draft import Draft
-from bsm.codec.static.joining import JoinedMesh, join
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.preamble_encoding import Parts, Prepared, prepare
-from bsm.codec.static.targets import Target, search_step
+from bsm.codec.static.preamble_encoding import JoinedMesh, Parts, Prepared, join, prepare
+from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
 from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
 
 
@@ -44,27 +42,22 @@ class Attempt:
 
     @property
     def frames(self) -> tuple[bytes, ...]:
-        """The stream, frame by frame."""
         return self.draft.frames
 
     @property
     def header(self) -> Header:
-        """The header of the stream."""
         return self.draft.header
 
     @property
     def coefficients(self) -> tuple[int, ...]:
-        """c_i of each block."""
         return self.draft.coefficients
 
     @property
     def size(self) -> int:
-        """Bytes of the whole stream."""
         return sum(map(len, self.frames))
 
     @property
     def bpv(self) -> float:
-        """Bits of the whole stream per vertex."""
         return 8.0 * self.size / self.header.vertices
 
 
@@ -138,7 +131,6 @@ class Encoder:
         return self._joined.kept[self._prepared.face_order]
 
     def encode(self) -> bytes:
-        """The whole stream."""
         return b"".join(self.chunks())
 
     def chunks(self, progress: Progress | None = None) -> Iterator[bytes]:
@@ -373,5 +365,4 @@ class Encoder:
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:
-    """Encode a mesh to a complete stream."""
     return Encoder(mesh, options).encode()

@@ -9,9 +9,8 @@ from bsm.bitstream.errors import ArgumentError, OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.choices import check_options
 from bsm.codec.static.attributes.quality import Grade, checked_qualities
-from bsm.codec.static.contract import Contract
-from bsm.codec.static.rules import KEY_SEEDS
-from bsm.codec.static.targets import Target
+from bsm.codec.static.coding import KEY_SEEDS
+from bsm.codec.static.targets import Contract, Target
 
 CHOICES = {
     "key_seed": KEY_SEEDS,

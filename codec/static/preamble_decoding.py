@@ -22,9 +22,9 @@ from bsm.codec.blocks.overlap import Partition, derive_partition, grow_blocks, p
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
 from bsm.codec.static.attributes.decoding import Declarations
+from bsm.codec.static.coding import Scheme, scheme_of
 from bsm.codec.static.events import HeaderEvent, LossEvent, unreadable
 from bsm.codec.static.numbering import Numbering
-from bsm.codec.static.rules import Scheme, scheme_of
 from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.units import Units
 from bsm.codec.static.work import (
@@ -53,12 +53,10 @@ class Structure:
 
     @property
     def allowance(self) -> Allowance:
-        """What may still be done."""
         return self.setup.allowance
 
     @property
     def units(self) -> Units:
-        """What the header says of them."""
         return Units(self.header.center, self.header.scale)
 
     @cached_property

@@ -36,7 +36,6 @@ def checksum_of(positions: Positions, before: int = 0) -> int:
 
 
 def unlike_the_encoders() -> CorruptError:
-    """The error where that is another than the stream has."""
     return CorruptError("the checksum of decoded positions is wrong: they are not those that the encoder saw")
 
 

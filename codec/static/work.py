@@ -41,7 +41,6 @@ def partition_cost(graph: Graph, blocks: int, copies: int) -> float:
 
 
 def run_cost(*, mesh: bool) -> float:
-    """Work of beginning a run of a sequence, which may bring a mesh."""
     return RUN + MESH * mesh
 
 
@@ -60,12 +59,10 @@ def ground_cost(laplacian: Laplacian, columns: int) -> float:
 
 
 def chain_cost(vertices: int) -> float:
-    """Work of beginning a chain that knows where vertices are."""
     return min(FRESH * vertices, MOST_FRESH)
 
 
 def mesh_memory(vertices: int, faces: int) -> float:
-    """Bytes of faces, graph, partition and blended positions."""
     return 200.0 * vertices + 60.0 * faces
 
 
@@ -75,7 +72,6 @@ def order_memory(vertices: int, faces: int) -> float:
 
 
 def block_memory(laplacian: Laplacian, columns: int) -> int:
-    """Bytes that a block takes while it is decoded."""
     return iteration_memory(laplacian.fronts, columns)
 
 
@@ -170,7 +166,6 @@ class Allowance:
 
     @property
     def vertices(self) -> int:
-        """Vertices that the stream really has."""
         return self._vertices
 
     @property

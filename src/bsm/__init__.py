@@ -64,7 +64,6 @@ if TYPE_CHECKING:
     from bsm.codec.sequence.events import FrameEvent as FrameEvent
     from bsm.codec.sequence.options import SequenceOptions as SequenceOptions
     from bsm.codec.sequence.targets import SequenceTarget as SequenceTarget
-    from bsm.codec.static.contract import Contract as Contract
     from bsm.codec.static.decoder import Decoder as Decoder
     from bsm.codec.static.encoder import Encoder as Encoder
     from bsm.codec.static.events import (
@@ -72,7 +71,7 @@ if TYPE_CHECKING:
         EndEvent as EndEvent, HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
     )
     from bsm.codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions, Paper as Paper
-    from bsm.codec.static.targets import Target as Target
+    from bsm.codec.static.targets import Contract as Contract, Target as Target
 # isort: on
 # fmt: on
 
@@ -115,14 +114,13 @@ _ROOMS = {
     "bsm.codec.sequence.events": "FrameEvent",
     "bsm.codec.sequence.options": "SequenceOptions",
     "bsm.codec.sequence.targets": "SequenceTarget",
-    "bsm.codec.static.contract": "Contract",
     "bsm.codec.static.decoder": "Decoder",
     "bsm.codec.static.encoder": "Encoder",
     "bsm.codec.static.events": (
         "AttributeEvent BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent RefinementEvent"
     ),
     "bsm.codec.static.options": "PRESETS EncodeOptions Paper",
-    "bsm.codec.static.targets": "Target",
+    "bsm.codec.static.targets": "Contract Target",
 }
 _HOMES = {name: room for room, names in _ROOMS.items() for name in names.split()}
 

@@ -18,7 +18,7 @@ from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compa
 from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, compare
-from bsm.codec.static.joining import join
+from bsm.codec.static.preamble_encoding import join
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output
 from bsm.files.pipes import read_bytes

@@ -45,7 +45,7 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
 
 def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Keywords, `max_error` and `look` among them as the contract that they are beside that of a preset."""
-    from bsm.codec.static.contract import WIDEST, Contract
+    from bsm.codec.static.targets import WIDEST, Contract
 
     given = dict(keywords)
     farthest, look = given.pop("max_error", None), given.pop("look", None)

@@ -121,7 +121,6 @@ class StreamSource(VTKPythonAlgorithmBase):  # type: ignore[misc]
             self.Modified()
 
     def GetFileName(self) -> str:
-        """The name of the stream."""
         return self._name
 
     def GetTimestepValues(self) -> list[float] | None:

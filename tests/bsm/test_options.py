@@ -9,9 +9,8 @@ from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.denoise import DenoiseOptions
 from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget
-from bsm.codec.static.contract import Contract
 from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions
-from bsm.codec.static.targets import Target
+from bsm.codec.static.targets import Contract, Target
 from bsm.commands import flags
 from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
 

@@ -24,7 +24,7 @@ from bsm.evaluation.sample import knot
 
 ROOT = Path(__file__).parents[2]
 PRODUCT = ("src", "codec", "bitstream")
-SEARCH = ("choice/", "encoder.py", "targets.py", "contract.py", "rules.py")
+SEARCH = ("choice/", "encoder.py", "targets.py")
 """Of codec/static: what finds the smallest stream that keeps a promise."""
 CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""

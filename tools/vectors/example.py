@@ -15,8 +15,8 @@ from bsm.bitstream.container.wire import FrameType, write_frame, write_map, writ
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain
+from bsm.codec.static.coding import chain_rules
 from bsm.codec.static.decoder import decode
-from bsm.codec.static.rules import chain_rules
 from tools.surgery import frames_of, header_entries
 from tools.vectors.store import FOLDER
 

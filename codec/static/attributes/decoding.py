@@ -197,7 +197,6 @@ class AttributeDecoder:
 
     @cached_property
     def arrangement(self) -> surface.Arrangement:
-        """How it is given to the user."""
         return surface.arrangement_of(self.declaration, self._surface, self._structure.numbering, self._rows)
 
     @cached_property
@@ -213,7 +212,6 @@ class AttributeDecoders:
 
     @property
     def recomputed(self) -> bool:
-        """Whether some are made from positions."""
         return any(one.declaration.coding == RECOMPUTED for one in self._valued.values())
 
     def add(self, packet: packets.Values, places: Callable[[], Levels]) -> AttributeEvent:
@@ -250,11 +248,9 @@ class AttributedMesh:
         self._carried = AttributeDecoders(structure)
 
     def add(self, packet: packets.Values) -> AttributeEvent:
-        """Decode a chunk of values."""
         return self._carried.add(packet, lambda: self._places)
 
     def attributes(self) -> tuple[Attribute, ...]:
-        """The attributes that are whole."""
         return self._carried.attributes(self._whole.solid() if self._carried.recomputed else None)
 
     @cached_property

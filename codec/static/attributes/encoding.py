@@ -30,8 +30,7 @@ from bsm.codec.static.attributes.levels import KINDS, PieceEncoder, Words, leans
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.attributes.surface import Surface, recomputed, surface_of
 from bsm.codec.static.draft import Draft
-from bsm.codec.static.joining import JoinedMesh
-from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.preamble_encoding import JoinedMesh, Prepared
 
 CHUNK = 1 << 15  # values of a frame
 AGAIN = Quality("bits", 8)  # normals that are the same so are made as one
@@ -80,7 +79,6 @@ class PreparedAttribute:
 
     @cached_property
     def plain(self) -> tuple[bytes, ...]:
-        """The chunks of its values, predicted without positions."""
         return self.chunks(None, CHUNK)
 
     def chunks(self, places: Levels | None, size: int) -> tuple[bytes, ...]:

@@ -310,7 +310,6 @@ class PieceDecoder:
 
     @property
     def coded(self) -> int:
-        """How many values are decoded."""
         return min(coder.coded for coder in self._coders)
 
     def chunk(self, payload: bytes, count: int) -> tuple[Indices, Levels]:

@@ -16,9 +16,9 @@ from bsm.codec.geometry.metrics import Original, Reference, distances_to_surface
 from bsm.codec.look.measure import LookMetric, Shading
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.choice.shaping import Shaper
-from bsm.codec.static.contract import ANY_ANGLE, Contract
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.targets import ANY_ANGLE, Contract
 
 COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
 """Largest step, in BSM units; and the mean angle of normals, degrees, that rounding comes with at a look of 1."""
@@ -55,7 +55,6 @@ class Measures:
 
     @cached_property
     def reference(self) -> Reference:
-        """The original, prepared for comparing."""
         return Reference(self.prepared.positions, self.prepared.mesh.faces)
 
     @cached_property
@@ -81,7 +80,6 @@ class Candidate:
 
     @cached_property
     def draft(self) -> Draft:
-        """The stream, written when it is asked for."""
         return self.make()
 
 

@@ -10,13 +10,11 @@ from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
-from bsm.codec.static.choice.grids import Gridded
-from bsm.codec.static.choice.lattices import rounded
-from bsm.codec.static.contract import Contract
+from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES
-from bsm.codec.static.targets import STEEPEST, secant
+from bsm.codec.static.targets import STEEPEST, Contract, secant
 from bsm.codec.static.ways.block_coder import Progress
 
 DEARER = 1.08  # a way is left alone whose first step takes, or is guessed to, so many times the bytes of what was found

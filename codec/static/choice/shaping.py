@@ -141,7 +141,6 @@ class Shaper:
 
     @cached_property
     def character(self) -> Character:
-        """Measures of the surface."""
         return Character(self._original, self._flaps[0])
 
     def levels(self, base: Positions, wanted: Levels, directions: Matrix, aim: Aim) -> Levels:

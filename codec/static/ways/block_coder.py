@@ -18,9 +18,8 @@ from bsm.codec.basis.orthogonal_iteration import DynamicSize
 from bsm.codec.blocks.overlap import degree_weights
 from bsm.codec.signal.chain import Chain, Surroundings
 from bsm.codec.static.assembly import DecodedBlock
-from bsm.codec.static.coding import Coding, Ground
+from bsm.codec.static.coding import Coding, Ground, Scheme
 from bsm.codec.static.preamble_encoding import Prepared
-from bsm.codec.static.rules import Scheme
 from bsm.codec.static.work import (
     Allowance,
     block_cost,

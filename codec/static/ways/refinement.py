@@ -155,7 +155,6 @@ class Refined:
         return self._structure.numbering.mesh(decoded, checksum if self._whole else None)
 
     def lose(self) -> None:
-        """Take note that levels are lost, and not just none were sent."""
         self._lossy = True
 
     def solid(self) -> Solid | None:

@@ -93,7 +93,6 @@ class StreamInfo:
         return 8 * self.sizes["total"] / samples if samples else None
 
     def bpv(self, carried: str = "total") -> float:
-        """Bits per vertex of one of `sizes`."""
         return 8 * self.sizes[carried] / self.header.vertices
 
     @property

@@ -54,7 +54,6 @@ class Task:
     fresh: frozenset[str] = frozenset()  # files that were not there when the run began
 
     def repeated(self: _Same) -> _Same:
-        """This task after an attempt that was cut off."""
         return replace(self, replaceable=self.replaceable | self.fresh)
 
     def may_replace(self, path: str) -> bool:
@@ -112,7 +111,6 @@ def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
 
 
 def far_outcome(work: Work, task: Task) -> Outcome:
-    """`outcome_of` in another process."""
     return outcome_of(work, task, Console(task.quiet, kept=[]))
 
 

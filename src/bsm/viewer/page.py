@@ -186,7 +186,7 @@ def compared(name: str, stream: bytes, original: TriangleMesh, limits: Limits = 
     used, kept = decoded.without_isolated_vertices()
     source = original.without_isolated_vertices()[0]
     if len(source.positions) != len(used.positions):
-        from bsm.codec.static.joining import join
+        from bsm.codec.static.preamble_encoding import join
 
         source = join(source, keep=False).mesh
     positions = decoded.positions.copy()

@@ -18,11 +18,10 @@ from bsm.codec.geometry.metrics import Original
 from bsm.codec.look.measure import LookMetric, look
 from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.search import Search
-from bsm.codec.static.contract import Contract
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
-from bsm.codec.static.targets import Target
+from bsm.codec.static.targets import Contract, Target
 from tests.shapes import patch, tetrahedron, together, torus
 
 

@@ -13,8 +13,8 @@ from bsm.codec.geometry.metrics import Original, face_normals, folded_edges
 from bsm.codec.static.choice.shaping import Character, Shaper
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.joining import join
 from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.preamble_encoding import join
 from bsm.files.mesh import read_mesh
 from tests.shapes import curved, grid_faces, patch, torus
 

@@ -12,8 +12,8 @@ from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.joining import join
 from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble_encoding import join
 from tests.shapes import patch, torus
 
 

@@ -119,7 +119,6 @@ def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
 
 
 def polygons_of(mesh: Any) -> Polygons:
-    """A `trimesh.Trimesh` with what it shows, as ours."""
     return _polygons([_Part(mesh, "", np.eye(4))], {})
 
 
