@@ -30,9 +30,9 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_900,
+    "product Python, lines": 34_765,
     "all Python, lines": 74_005,
-    "product modules": 208,
+    "product modules": 203,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "header fields": 19,
@@ -40,8 +40,8 @@ LIMITS = {
     "settings of --set": 12,
     "words of spec/*.md": 25_000,
     "words of the core": 11_000,
-    "tuned constants of the search": 60,
-    "files that encoding a mesh walks through": 67,
+    "tuned constants of the search": 59,
+    "files that encoding a mesh walks through": 62,
 }
 
 
