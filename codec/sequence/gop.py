@@ -17,18 +17,10 @@ from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
 from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Levels, Matrix
+from bsm.codec.sequence import temporal
 from bsm.codec.sequence.dictionaries import Part
 from bsm.codec.sequence.history import FrameHistory, Inherited, begin_part, held_cosines
 from bsm.codec.sequence.row_prediction import ROUNDS, WEIGHT, LevelWriter, Loop
-from bsm.codec.sequence.temporal import (
-    basis_leads,
-    basis_of,
-    frames_of,
-    learn_basis,
-    projection,
-    spectrum_of,
-    trajectories,
-)
 from bsm.codec.sequence.tracks import Setting, Track, split_columns
 from bsm.codec.static.ways.block_coder import Progress
 
@@ -53,8 +45,8 @@ def decode_basis(field: GopField, frames: int) -> Matrix:
     """Temporal basis of a field of a GOP that tells of so many frames, shape (dT, r)."""
     levels = np.zeros((field.width, frames, field.components), np.int32)
     references = level_references(list(levels), field.components)
-    decode_levels(make_level_bank(), field.basis, list(levels), references, basis_leads(field.width))
-    return basis_of(levels, field.exponents)
+    decode_levels(make_level_bank(), field.basis, list(levels), references, temporal.basis_leads(field.width))
+    return temporal.basis_of(levels, field.exponents)
 
 
 def silent(done: int, blocks: int) -> None:
@@ -143,7 +135,7 @@ class GopEncoder:
         back = self._nearest(frames)
         history.expect(len(frames), back)
         basis = held_cosines(width, len(frames))
-        wanted = trajectories(frames) @ basis.reshape(-1, columns)
+        wanted = temporal.trajectories(frames) @ basis.reshape(-1, columns)
         field = np.zeros_like(wanted)
         writer, coded = LevelWriter(history.bank, columns, self.rounds), []
         for k, part in enumerate(self._parts):
@@ -155,7 +147,7 @@ class GopEncoder:
             progress(k + 1, len(self._parts))
         payload = writer.finish()
         history.commit(writer.levels, coded)
-        self.latest = np.array(list(frames_of(field, 0, basis)))
+        self.latest = np.array(list(temporal.frames_of(field, 0, basis)))
         self._kept = [*self.latest[::-1], *self._kept][: self._track.kept]
         return GopField(width, self._step, columns, np.empty(0, np.int32), b"", payload, back)
 
@@ -164,11 +156,11 @@ class GopEncoder:
     ) -> tuple[GopField, float]:
         """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them."""
         weights = np.tile(weights, self._track.width)
-        motion = trajectories(frames)
+        motion = temporal.trajectories(frames)
         motion *= weights
         body = self._basis(motion, weights)
         basis = decode_basis(body, len(frames)) * weights[:, None]
-        wanted = motion @ projection(basis)
+        wanted = motion @ temporal.projection(basis)
         energy = np.vdot(motion, motion)
         del motion  # as large as the frames
         field = np.zeros_like(wanted)
@@ -201,11 +193,11 @@ class GopEncoder:
     def _basis(self, motion: Matrix, weights: Matrix) -> GopField:
         """The temporal basis of weighted trajectories, shape (n, dT), without the levels of parts."""
         width = self._track.width
-        basis = learn_basis(motion, self._step, MAX_EXPONENT)
-        spectrum = spectrum_of(basis.columns / weights[:, None], basis.exponents, width)
+        basis = temporal.learn_basis(motion, self._step, MAX_EXPONENT)
+        spectrum = temporal.spectrum_of(basis.columns / weights[:, None], basis.exponents, width)
         _, frames, columns = spectrum.shape
         writer = LevelWriter(make_level_bank(), columns, self.rounds)
-        for matrix, lead in zip(spectrum, basis_leads(width), strict=True):
+        for matrix, lead in zip(spectrum, temporal.basis_leads(width), strict=True):
             writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0, lead=lead)
         return GopField(width, self._step, columns, basis.exponents, writer.finish(), b"")
 
@@ -262,7 +254,7 @@ class GopDecoder:
             history.commit(levels, own)
         self._histories = histories
         batches = (
-            frames_of(placed, int(place), held_cosines(track.width, body.frames))
+            temporal.frames_of(placed, int(place), held_cosines(track.width, body.frames))
             for track, place in zip(self._tracks, places, strict=True)
         )
         return zip(*batches, strict=True)
@@ -300,7 +292,9 @@ class GopDecoder:
         components, places = setting.field(sum(widths), decoded), np.cumsum([0, *widths[:-1]])
         self._inherited = found
         batches = (
-            frames_of(components, int(first), basis.reshape(own.width, body.coded, own.components)[:, body.places])
+            temporal.frames_of(
+                components, int(first), basis.reshape(own.width, body.coded, own.components)[:, body.places]
+            )
             for own, first, basis in zip(body.fields, places, bases, strict=True)
         )
         return zip(*batches, strict=True)

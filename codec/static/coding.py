@@ -7,32 +7,15 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from bsm.bitstream.coefficients.adaptive import (
-    MAX_LEVEL,
-    TARGET_UNIT,
-    CoefficientModel,
-    choose_levels,
-    decode_coefficients,
-    encode_coefficients,
-)
+from bsm.bitstream.coefficients import adaptive
 from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
 from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, Paper
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Integers, Matrix
 from bsm.codec.basis.orthogonal_iteration import DynamicSize
 from bsm.codec.blocks.overlap import Block, Blocks
+from bsm.codec.signal import transform
 from bsm.codec.signal.chain import AS_SPECIFIED, ChainRules, Overrides
-from bsm.codec.signal.transform import (
-    BIT_WORTH,
-    dequantize,
-    levels_to_unsigned,
-    placed,
-    project,
-    quantize_packed,
-    reconstruct,
-    targets,
-    unsigned_to_levels,
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,11 +28,11 @@ class Ground:
 
     def coefficients(self, values: Matrix, width: int) -> Matrix:
         """U^T of `values`, shape (n, ...), for at most `width` columns."""
-        return project(self.dictionary, values, min(width, self.block.size))
+        return transform.project(self.dictionary, values, min(width, self.block.size))
 
     def add(self, coefficients: Matrix) -> Matrix:
         """The prediction, and U times coefficients, shape (c_i, 3)."""
-        return self.prediction + reconstruct(self.dictionary, coefficients)
+        return self.prediction + transform.reconstruct(self.dictionary, coefficients)
 
 
 class Coding(Protocol):
@@ -100,16 +83,16 @@ class Packed:
         return self
 
     def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> Integers:
-        return quantize_packed(_offered(ground, wanted, self.width, sizes), self.step, self.coarser)
+        return transform.quantize_packed(_offered(ground, wanted, self.width, sizes), self.step, self.coarser)
 
     def write(self, levels: Integers) -> bytes:
-        return pack_coefficients(levels_to_unsigned(levels, self.bits, self.coarser), self.bits)
+        return pack_coefficients(transform.levels_to_unsigned(levels, self.bits, self.coarser), self.bits)
 
     def read(self, payload: bytes, count: int) -> Integers:
-        return unsigned_to_levels(unpack_coefficients(payload, 3 * count, self.bits), self.bits, self.coarser)
+        return transform.unsigned_to_levels(unpack_coefficients(payload, 3 * count, self.bits), self.bits, self.coarser)
 
     def positions(self, ground: Ground, levels: Integers) -> Matrix:
-        return ground.add(dequantize(levels, self.step))
+        return ground.add(transform.dequantize(levels, self.step))
 
 
 @dataclass(eq=False)
@@ -123,25 +106,29 @@ class Adaptive:
     step: float
 
     @cached_property
-    def model(self) -> CoefficientModel:
-        return CoefficientModel(self.width)
+    def model(self) -> adaptive.CoefficientModel:
+        return adaptive.CoefficientModel(self.width)
 
     def begin(self) -> Adaptive:
         return replace(self)
 
     def choose(self, ground: Ground, wanted: Matrix, sizes: DynamicSize | None) -> Integers:
         offered = _offered(ground, wanted, self.width, sizes)
-        choice = choose_levels(self.model, targets(offered, self.step, TARGET_UNIT, MAX_LEVEL), BIT_WORTH)
+        choice = adaptive.choose_levels(
+            self.model,
+            transform.targets(offered, self.step, adaptive.TARGET_UNIT, adaptive.MAX_LEVEL),
+            transform.BIT_WORTH,
+        )
         return choice.levels if sizes is not None else choice.levels[: choice.width]
 
     def write(self, levels: Integers) -> bytes:
-        return encode_coefficients(self.model, np.asarray(levels, np.int32))
+        return adaptive.encode_coefficients(self.model, np.asarray(levels, np.int32))
 
     def read(self, payload: bytes, count: int) -> Integers:
-        return decode_coefficients(self.model, payload, count)
+        return adaptive.decode_coefficients(self.model, payload, count)
 
     def positions(self, ground: Ground, levels: Integers) -> Matrix:
-        return placed(ground.prediction, ground.dictionary, np.asarray(levels, np.int32), self.step)
+        return transform.placed(ground.prediction, ground.dictionary, np.asarray(levels, np.int32), self.step)
 
 
 def coding_of(header: Header) -> Coding:

@@ -21,22 +21,13 @@ from bsm.codec.arrays import Faces
 from bsm.codec.blocks.overlap import Partition, derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.graph import Graph, graph_of_faces
 from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
+from bsm.codec.static import work
 from bsm.codec.static.attributes.decoding import Declarations
 from bsm.codec.static.coding import Scheme, scheme_of
 from bsm.codec.static.events import HeaderEvent, LossEvent, unreadable
 from bsm.codec.static.numbering import Numbering
 from bsm.codec.static.stages import Arrival, Stage, misplaced
 from bsm.codec.static.units import Units
-from bsm.codec.static.work import (
-    COPY_MEMORY,
-    Allowance,
-    labels_cost,
-    mesh_cost,
-    mesh_memory,
-    order_cost,
-    order_memory,
-    partition_cost,
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +43,7 @@ class Structure:
     declarations: Declarations
 
     @property
-    def allowance(self) -> Allowance:
+    def allowance(self) -> work.Allowance:
         return self.setup.allowance
 
     @property
@@ -63,8 +54,8 @@ class Structure:
     def scheme(self) -> Scheme:
         header, setup = self.header, self.setup
         copies = header.blocks * header.block_size
-        self.allowance.keep(COPY_MEMORY * copies)
-        self.allowance.spend(partition_cost(self.graph, header.blocks, copies))
+        self.allowance.keep(work.COPY_MEMORY * copies)
+        self.allowance.spend(work.partition_cost(self.graph, header.blocks, copies))
         partition = self.partition or derive_partition(self.graph, header.blocks, setup.threads)
         largest = int(np.diff(partition.bounds).max())
         if largest > header.block_size:
@@ -76,7 +67,7 @@ class Structure:
 class DecoderSetup:
     """Which headers a decoder takes, what it may spend, which stage comes behind, and what is tried."""
 
-    allowance: Allowance
+    allowance: work.Allowance
     check: Callable[[Header], None]
     begin: Callable[[Structure], Stage[Any]]
     tolerant: bool = False
@@ -107,8 +98,8 @@ class ConnectivityStage:
         header, allowance, received = self.header, self.setup.allowance, len(arrival.data)
         faces = decode_connectivity(arrival.data, header.vertices, header.faces, allowance.limits)
         allowance.grant(header.vertices)
-        allowance.keep(mesh_memory(header.vertices, header.faces), received)
-        allowance.spend(mesh_cost(header.vertices, header.faces, received), received)
+        allowance.keep(work.mesh_memory(header.vertices, header.faces), received)
+        allowance.spend(work.mesh_cost(header.vertices, header.faces, received), received)
         graph = graph_of_faces(faces, header.vertices)
         return PreambleStage(self.setup, header, faces, graph, Numbering(faces), Declarations(faces, header.vertices))
 
@@ -129,7 +120,7 @@ class PreambleStage:
         match arrival:
             case packets.Partition(data):
                 graph = self.graph
-                self.setup.allowance.spend(labels_cost(graph, len(data)), len(data))
+                self.setup.allowance.spend(work.labels_cost(graph, len(data)), len(data))
                 labels = decode_labels(data, graph.offsets, graph.neighbours, self.header.blocks)
                 return replace(self, partition=partition_of_labels(labels))
             case packets.Order(data):
@@ -163,8 +154,8 @@ class PreambleStage:
 
     def _numbering(self, data: bytes) -> Numbering:
         header, allowance = self.header, self.setup.allowance
-        allowance.keep(order_memory(header.vertices, header.faces), len(data))
-        allowance.spend(order_cost(header.vertices, header.faces, len(data)), len(data))
+        allowance.keep(work.order_memory(header.vertices, header.faces), len(data))
+        allowance.spend(work.order_cost(header.vertices, header.faces, len(data)), len(data))
         order, splits = decode_order(data, self.faces, header.vertices, allowance.limits)
         source = np.empty(header.vertices, np.int32)
         source[order.vertex_order] = np.arange(len(source), dtype=np.int32)

@@ -15,16 +15,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple, TypeAlias, Union, cast
 
-from bsm.bitstream.errors import (
-    ArgumentError,
-    BsmError,
-    DependencyError,
-    FormatError,
-    LimitError,
-    OptionError,
-    TruncatedError,
-    imported,
-)
+from bsm.bitstream import errors
 
 _URL = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+)(?:::|://)")
 _PIECE, _IN_MEMORY = 1 << 20, 1 << 26
@@ -76,16 +67,16 @@ def beside(url: str, name: str) -> str:
 def file_beside(folder: Path, name: str) -> Path:
     """The regular file in a folder, or below, that a file there names; why there is none as a `FormatError`."""
     if len(name) > _LONGEST_NAME:
-        raise FormatError(f"its name has {len(name)} characters")
+        raise errors.FormatError(f"its name has {len(name)} characters")
     try:
         path = Path(folder, name).resolve()
         inside, is_file = path.is_relative_to(folder.resolve()), path.is_file()
     except (OSError, RuntimeError, ValueError) as error:  # of a loop of links, or a NUL
-        raise FormatError(f"it cannot be opened: {error}") from error
+        raise errors.FormatError(f"it cannot be opened: {error}") from error
     if not inside:
-        raise FormatError("it is not in the folder of the mesh")
+        raise errors.FormatError("it is not in the folder of the mesh")
     if not is_file:
-        raise FormatError("there is no such file beside the mesh")
+        raise errors.FormatError("there is no such file beside the mesh")
     return path
 
 
@@ -112,10 +103,10 @@ def _errors_of(url: str) -> Iterator[None]:
         yield
     except FileNotFoundError as error:
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), url) from error
-    except (BsmError, MemoryError):
+    except (errors.BsmError, MemoryError):
         raise
     except NotImplementedError as error:
-        raise OptionError(f"{_scheme(url)}:// cannot be written to; name another place with -o") from error
+        raise errors.OptionError(f"{_scheme(url)}:// cannot be written to; name another place with -o") from error
     except OSError as error:
         if error.filename == url:
             raise
@@ -166,7 +157,7 @@ def _send(whole: BinaryIO, url: str) -> None:
 
 def refuse_to_replace(url: str, overwrite: bool) -> None:
     if _scheme(url) in _WEB:
-        raise OptionError(f"{_scheme(url)}:// cannot be written to; name another place with -o")
+        raise errors.OptionError(f"{_scheme(url)}:// cannot be written to; name another place with -o")
     if not overwrite and state_of_remote(url) is not None:
         raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", url)
 
@@ -210,17 +201,19 @@ def _path(url: str) -> str:
 def _system(url: str) -> tuple[Any, str]:
     """The file system of fsspec behind a URL, and the path there."""
     scheme = _scheme(url)
-    fsspec = imported("fsspec", f"{scheme}:// needs fsspec", "remote")
+    fsspec = errors.imported("fsspec", f"{scheme}:// needs fsspec", "remote")
     try:
         return cast("tuple[Any, str]", fsspec.url_to_fs(url))
     except ImportError as error:
-        known = imported("fsspec.registry", "", "remote").known_implementations  # the name itself is that of a table
+        known = errors.imported(
+            "fsspec.registry", "", "remote"
+        ).known_implementations  # the name itself is that of a table
         package = known.get(scheme, {}).get("class", "fsspec.").partition(".")[0]
         if package == "fsspec":
             package = f"fsspec[{'http' if scheme in _WEB else scheme}]"
-        raise DependencyError(f"{scheme}:// needs a package that is missing: pip install '{package}'") from error
+        raise errors.DependencyError(f"{scheme}:// needs a package that is missing: pip install '{package}'") from error
     except ValueError as error:
-        raise OptionError(f"{url}: {error}") from error
+        raise errors.OptionError(f"{url}: {error}") from error
 
 
 Source: TypeAlias = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview, BinaryIO, "Input"]
@@ -234,7 +227,7 @@ def named(path: str | os.PathLike[str]) -> str:
     """A path as a text; `ArgumentError` for what no file can be called."""
     name = without_scheme_of_files(os.fsdecode(path))
     if "\0" in name:
-        raise ArgumentError(f"no file can be called {name!r}: there is a NUL in it")
+        raise errors.ArgumentError(f"no file can be called {name!r}: there is a NUL in it")
     return name
 
 
@@ -255,7 +248,7 @@ class Input:
             try:
                 self._file = io.BytesIO(source if isinstance(source, bytes) else memoryview(source).tobytes())
             except TypeError:
-                raise ArgumentError(
+                raise errors.ArgumentError(
                     f"bytes, a path or a binary file are expected, not {type(source).__name__}"
                 ) from None
 
@@ -291,7 +284,7 @@ class Input:
             pieces.append(piece)
             size += len(piece)
             if size > _MAX_BYTES:
-                raise LimitError(f"the file is larger than {_MAX_BYTES} bytes")
+                raise errors.LimitError(f"the file is larger than {_MAX_BYTES} bytes")
         return b"".join(pieces)
 
     def _hold(self, size: int) -> None:
@@ -305,7 +298,7 @@ class Input:
         """What comes next, waiting for it if need be; nothing at the end."""
         if self._file is None:
             if os.path.isdir(self.name):
-                raise FormatError("this is a folder, not a file")
+                raise errors.FormatError("this is a folder, not a file")
             self._opened = self.name != "-"  # closed at its end, or where `chunks` ends
             if self._opened:
                 self._file = open_remote(self.name) if is_url(self.name) else open(self.name, "rb")  # noqa: SIM115
@@ -316,12 +309,14 @@ class Input:
         read = getattr(self._file, "read1", self._file.read)
         piece = read(_CHUNK)
         if isinstance(piece, str):
-            raise ArgumentError("a binary file is expected, not one of text; open it with mode 'rb'")
+            raise errors.ArgumentError("a binary file is expected, not one of text; open it with mode 'rb'")
         if not piece:
             self.close()
             return b""
         if not isinstance(piece, (bytes, bytearray, memoryview)):
-            raise ArgumentError(f"a binary file is expected, whose read() gives bytes, not {type(piece).__name__}")
+            raise errors.ArgumentError(
+                f"a binary file is expected, whose read() gives bytes, not {type(piece).__name__}"
+            )
         return bytes(piece)
 
     def close(self) -> None:
@@ -364,7 +359,7 @@ def read_range(name: str, first: int, size: int) -> bytes:
             file.seek(first)
             data = file.read(size)
     if len(data) != size:
-        raise TruncatedError(f"{name}: there are {len(data)} bytes of {size} from byte {first} on")
+        raise errors.TruncatedError(f"{name}: there are {len(data)} bytes of {size} from byte {first} on")
     return data
 
 
@@ -379,7 +374,7 @@ def about(path: str) -> Iterator[None]:
     """Put the name of the file that it is about before the message of whatever is raised inside."""
     try:
         yield
-    except BsmError as error:
+    except errors.BsmError as error:
         error.message = f"{path}: {error.message}"
         raise
 

@@ -17,18 +17,8 @@ from bsm import __version__
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.console import Console, print_json
 from bsm.exits import behind, exit_of, is_expected, tell, worded
+from bsm.files import pipes
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite, write_output
-from bsm.files.pipes import (
-    about,
-    expanded,
-    files_behind,
-    is_url,
-    read_bytes,
-    read_chunks,
-    state_of,
-    state_of_remote,
-    without_scheme_of_files,
-)
 
 _Same = TypeVar("_Same", bound="Task")
 Facts = dict[str, Any]  # what came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up
@@ -98,7 +88,7 @@ Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]  # numbers of j
 def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
     """Do one job; whatever fails is an outcome too, but for signals and for pipes that nobody reads."""
     try:
-        with about(task.input):
+        with pipes.about(task.input):
             return Outcome(work(task, console), notes=tuple(console.kept or ()))
     except Exception as error:
         if behind(error) is not error or isinstance(error, BrokenPipeError):
@@ -171,7 +161,7 @@ NOTHING = Earlier({}, {})
 def read_report(path: str, command: str, options: Facts) -> Earlier:
     """Read a report to go on from; nothing is known where there is none."""
     try:
-        report = json.loads(read_bytes(path))
+        report = json.loads(pipes.read_bytes(path))
         files = {entry["output"]: entry for entry in map(_entry, report["files"])}
         same = (report["command"], report["options"]) == (command, options)
         json.dumps({**report, "totals": totals(list(files.values()))}, allow_nan=False)
@@ -205,7 +195,7 @@ def _entry(given: Any) -> Facts:
 
 def recorded(work: Work, task: Task, console: Console) -> Facts:
     """Work that says what it read and wrote; it is not done again where both are still as `task.before` says."""
-    state, before = state_of(task.input), task.before
+    state, before = pipes.state_of(task.input), task.before
     as_before = before is not None and state is not None and before.get("input_state") == state
     if before and as_before and before.get("output_sha256") == digest_of(before["output"]):
         console.note(f"{task.input} -> {before['output']}: as it was")
@@ -235,8 +225,8 @@ def digest_of(path: str) -> str | None:
 
     found = sha256()
     try:
-        for file in files_behind(path):
-            for chunk in read_chunks(file):
+        for file in pipes.files_behind(path):
+            for chunk in pipes.read_chunks(file):
                 found.update(chunk)
     except OSError:
         return None
@@ -289,8 +279,8 @@ def plan(
 ) -> list[Job]:
     """What is written where."""
     names = input_names(inputs)
-    output = without_scheme_of_files(_STANDARD.get(output, output)) if output else None
-    folder = output is not None and (output.endswith("/") or (not is_url(output) and Path(output).is_dir()))
+    output = pipes.without_scheme_of_files(_STANDARD.get(output, output)) if output else None
+    folder = output is not None and (output.endswith("/") or (not pipes.is_url(output) and Path(output).is_dir()))
     if len(names) > 1:
         if "-" in names or output == "-":
             raise OptionError("a pipe holds one mesh: name files, or one input alone")
@@ -303,7 +293,7 @@ def plan(
     else:
         jobs = [Job(name, output) for name in names]
     refuse_collisions(names, [job.output for job in jobs])
-    if output and folder and not is_url(output):
+    if output and folder and not pipes.is_url(output):
         Path(output).mkdir(parents=True, exist_ok=True)
     return jobs
 
@@ -312,7 +302,7 @@ def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[
     """What is written where, for all mesh files in folders and below: the same folders again in `output`."""
     jobs = []
     for folder in folders:
-        if is_url(folder) or not Path(folder).is_dir():
+        if pipes.is_url(folder) or not Path(folder).is_dir():
             raise OptionError(f"{folder} is no folder, and --recursive takes folders of this machine")
         for path in sorted(Path(folder).rglob("*")):
             if path.suffix.lower() in MESH_SUFFIXES and path.is_file():
@@ -328,21 +318,21 @@ def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[
 
 def input_names(inputs: Sequence[str]) -> list[str]:
     """Inputs under the names that we use; URLs with ``*`` name as many as there are."""
-    names = [without_scheme_of_files(_STANDARD.get(name, name)) for name in inputs]
-    return [found for name in names for found in (expanded(name) if is_url(name) else [name])]
+    names = [pipes.without_scheme_of_files(_STANDARD.get(name, name)) for name in inputs]
+    return [found for name in names for found in (pipes.expanded(name) if pipes.is_url(name) else [name])]
 
 
 def refuse_collisions(inputs: Sequence[str], outputs: Sequence[str]) -> None:
     """Raise `OptionError` if an output would replace another one or an input, under whatever name or link."""
     found: set[str] = set()
     for output in outputs:
-        path = output if is_url(output) else os.path.realpath(output)
+        path = output if pipes.is_url(output) else os.path.realpath(output)
         if path in found and output not in ("", "-"):
             raise OptionError(
                 f"two outputs would have the name {path}; write them to different folders, or name their folder with -r"
             )
         found.add(path)
-    taken = {_identity(file) for name in inputs for file in files_behind(name)} - {None}
+    taken = {_identity(file) for name in inputs for file in pipes.files_behind(name)} - {None}
     for output in outputs:
         if _identity(output) in taken:
             raise OptionError(f"the output would replace the input {output}; name another with -o")
@@ -350,7 +340,7 @@ def refuse_collisions(inputs: Sequence[str], outputs: Sequence[str]) -> None:
 
 def _identity(path: str) -> tuple[int, int] | str | None:
     """What is equal for one file under all its names; None: there is no such file."""
-    if is_url(path):
+    if pipes.is_url(path):
         return path
     with suppress(OSError):
         found = os.stat(path)
@@ -363,7 +353,7 @@ def run_jobs(
 ) -> int:
     """Do all jobs of a command and say what came of them; returns the exit code."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
-        with about(jobs[0].input):
+        with pipes.about(jobs[0].input):
             facts = work(task_of(asked, jobs[0]), console)
         if run.json:
             print_json(facts)
@@ -446,7 +436,9 @@ def run_many(
 def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     before = earlier.files.get(job.output)
     replaceable = {job.output, *([before["output"]] if before else [])} - {"", "-"}
-    there = {n for n in replaceable if (state_of_remote(n) is not None if is_url(n) else os.path.lexists(n))}
+    there = {
+        n for n in replaceable if (pipes.state_of_remote(n) is not None if pipes.is_url(n) else os.path.lexists(n))
+    }
     named = replaceable & earlier.outputs.keys()
     mine = frozenset(name for name in named if name not in there or earlier.outputs[name] == digest_of(name))
     return replace(
@@ -476,7 +468,7 @@ def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, count: int) 
 
 def anywhere(name: str) -> str:
     """A name that means the same in every folder of a machine, and on every machine that has the same folders."""
-    return name if not name or is_url(name) else os.path.abspath(name)
+    return name if not name or pipes.is_url(name) else os.path.abspath(name)
 
 
 def came_to(taken: int | None, given: int) -> str:
