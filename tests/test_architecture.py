@@ -47,7 +47,7 @@ FLOORS = {
     "bsm.codec.static": (
         ("work",),
         ("coding", "events", "stages", "targets", "units"),
-        ("draft", "numbering", "preamble_encoding"),
+        ("numbering", "preamble_encoding"),
         ("attributes",),
         ("assembly", "options"),
         ("preamble_decoding",),

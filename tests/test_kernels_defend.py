@@ -19,7 +19,7 @@ from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.signal.frames import local_frames
+from bsm.codec.signal.smooth import local_frames
 from bsm.codec.static.choice.settling import Sensitivity
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode

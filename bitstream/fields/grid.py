@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
+from bsm.bitstream.entropy.range_coder import make_bank
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.fields import corners as shared
 
@@ -188,3 +189,44 @@ class Floats:
         return lambda coder, first, _: _kernels.code_floats(
             coder, self._state, given[first:], *(each[first:] for each in numbers)
         )
+
+
+MOST_LEVEL = 1 << 20
+
+_LEVEL_INPUTS, _CONTEXT_SIZE, _NODES, _SORTS = 5, 512, 32, 2
+_LEVEL_SLOTS = _SORTS * _LEVEL_INPUTS * _CONTEXT_SIZE * _NODES
+_RATE = 16
+MODEL_BYTES = 4 * _LEVEL_SLOTS  # about what a model takes
+
+
+class _Levels(NamedTuple):
+    """The struct `Levels` of `fields.h`."""
+
+    levels: Ints
+    gaps: Ints
+    means: Ints
+    learners: npt.NDArray[np.int64]
+
+
+def levels_charge(vertices: int, faces: int) -> int:
+    """Bytes of memory that coding levels takes at most; its work is linear in `vertices` + `faces`, 1 µs per level."""
+    return (shared.BYTES_PER_VERTEX + 12 * AXES) * vertices + shared.BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 17)
+
+
+def levels_field(faces: npt.ArrayLike, vertices: int) -> shared.Field:
+    """Levels, vertices in the order of their numbers."""
+    top = np.full(AXES, MOST_LEVEL, np.int32)
+    weights = np.zeros((3, 4, shared.TERMS), np.int64)  # at the start, for each axis by the number of flaps (V 11)
+    weights[:, :, 0] = 52000
+    weights[:, 1:, 1] = 28000
+
+    def start() -> shared.State:
+        corners = shared.corners_of(faces, vertices)
+        model = make_bank(_LEVEL_SLOTS, _SORTS * _NODES, _LEVEL_INPUTS, rate=_RATE)
+        given, gaps, means = np.zeros((3, vertices, AXES), np.int32)
+        levels = _Levels(given, gaps, means, shared.make_learners(weights.reshape(12, shared.TERMS)))
+        return shared.State(
+            lambda coder, *rows: _kernels.code_levels(coder, model, corners, levels, *rows), corners.rank, levels.levels
+        )
+
+    return shared.Field(-top, top, levels_charge(vertices, len(np.asarray(faces))), start)

@@ -31,9 +31,8 @@ from bsm.codec.sequence.runs import Cutter, Frame, JoinedRun, Run, Shelf, joined
 from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import qualities
-from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import PROMISED_SIZES
-from bsm.codec.static.preamble_encoding import JoinedMesh, Parts, Prepared, prepare
+from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
 from bsm.codec.static.ways.block_coder import Progress, as_of_decoders

@@ -26,9 +26,8 @@ from bsm.codec.static.choice.bounds import Measures
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.choice.search import Search
 from bsm.codec.static.decoder import decode
-from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.preamble_encoding import JoinedMesh, Parts, Prepared, join, prepare
+from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
 from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
 from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
 

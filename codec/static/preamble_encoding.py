@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -9,17 +10,19 @@ import numpy as np
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES
+from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES, Header
+from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.splits import Splits, encode_order
+from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Order
+from bsm.codec.arrays import Faces, Indices, Levels, Mask, Matrix, Order, Positions
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
 from bsm.codec.geometry.graph import Graph, component_sizes, graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import weld
 from bsm.codec.signal.transform import MeasuredSpectrum
-from bsm.codec.static.units import Units, units_of
+from bsm.codec.static.units import Units, checksum_of, units_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,3 +232,33 @@ def prepare(
         joined_faces=mesh.faces,
         light=light,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class Draft:
+    """A stream that might be written."""
+
+    header: Header
+    body: tuple[Packet, ...]
+    decoded: Positions
+    places: Levels | None = None
+
+    @cached_property
+    def frames(self) -> tuple[bytes, ...]:
+        return tuple(self._write())
+
+    @property
+    def size(self) -> int:
+        return sum(map(len, self.frames))
+
+    @property
+    def coefficients(self) -> tuple[int, ...]:
+        """c_i of each block."""
+        return tuple(packet.coefficients for packet in self.body if isinstance(packet, packets.Block))
+
+    def _write(self) -> Iterator[bytes]:
+        writer = Writer()
+        yield writer.start()
+        for packet in (self.header, *self.body):
+            yield writer.write(packet)
+        yield writer.end(checksum_of(self.decoded))

@@ -7,8 +7,7 @@ from contextlib import contextmanager
 from threading import Condition, RLock
 
 from bsm.bitstream.attributes.values import values_charge
-from bsm.bitstream.fields.grid import grid_charge
-from bsm.bitstream.fields.levels import AXES, levels_charge
+from bsm.bitstream.fields.grid import AXES, grid_charge, levels_charge
 from bsm.bitstream.limits import Limits, as_limits
 from bsm.codec.basis.laplacian import Laplacian, factor_cost, iteration_memory, solve_cost
 from bsm.codec.geometry.graph import Graph

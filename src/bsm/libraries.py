@@ -20,7 +20,7 @@ from bsm.files.formats.polygons import Array, Column, MeshFile, Polygons, color_
 from bsm.files.formats.with_trimesh import joined, polygons_of
 from bsm.files.mesh import read_mesh
 from bsm.files.pipes import Input
-from bsm.files.rows import Ints, ranges
+from bsm.files.room import Ints, ranges
 from bsm.files.stream import decode_whole, is_stream
 
 if TYPE_CHECKING:

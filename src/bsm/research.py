@@ -32,9 +32,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import Columns, Overrides, Surroundings
 from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.decoder import Decoder
-from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions, changed
-from bsm.codec.static.preamble_encoding import Parts, Prepared, join, prepare
+from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, prepare
 from bsm.files.pipes import Source, read_chunks
 from bsm.libraries import as_mesh
 

@@ -20,8 +20,7 @@ from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connect
 from bsm.bitstream.entropy.range_coder import code_unsigned, finish_writing, make_bank, start_writing, unsigned_span
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.fields.corners import MOST_LARGEST, FieldDecoder
-from bsm.bitstream.fields.grid import grid_field, spread
-from bsm.bitstream.fields.levels import MOST_LEVEL, levels_field
+from bsm.bitstream.fields.grid import MOST_LEVEL, grid_field, levels_field, spread
 from bsm.codec.geometry.graph import graph_of_faces
 from spec import reference_integers as reference
 from tests.bitstream.connectivity.test_faces import compact

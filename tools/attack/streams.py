@@ -35,7 +35,7 @@ from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_varint
 from bsm.bitstream.entropy.range_coder import finish_writing, make_room, start_writing
 from bsm.bitstream.fields.corners import FieldEncoder, corners_of
-from bsm.bitstream.fields.levels import levels_field
+from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.gop import level_references

@@ -24,8 +24,7 @@ from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.entropy.range_coder import finish_reading, start_reading
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.fields.corners import Field, FieldDecoder, FieldEncoder, corners_of
-from bsm.bitstream.fields.grid import grid_field, light_field
-from bsm.bitstream.fields.levels import levels_field
+from bsm.bitstream.fields.grid import grid_field, levels_field, light_field
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.decoder import SequenceDecoder

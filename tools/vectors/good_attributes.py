@@ -11,16 +11,16 @@ from bsm.bitstream.container.packets import Attribute as Declared
 from bsm.bitstream.container.packets import Packet, Refinement, Values
 from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.fields.corners import FieldEncoder
-from bsm.bitstream.fields.levels import levels_field
+from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.geometry.attributes import Attribute, Domain
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.static.attributes.encoding import ranges
 from bsm.codec.static.choice.blocks import Spectral
-from bsm.codec.static.draft import Draft
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.preamble_encoding import Draft
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import LAYER, soup
 from tools.vectors.good_sequences import BASE as MOVING

@@ -10,8 +10,7 @@ from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
 from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.fields.corners import FieldEncoder
-from bsm.bitstream.fields.grid import grid_field
-from bsm.bitstream.fields.levels import levels_field
+from bsm.bitstream.fields.grid import grid_field, levels_field
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.blocks import Base, Spectral
 from bsm.codec.static.encoder import Encoder, encode

@@ -29,8 +29,7 @@ from bsm.codec.look.pictures import Normals
 from bsm.codec.static.attributes.levels import KINDS, PieceEncoder, Words, leans, quantized, restored, to_pieces
 from bsm.codec.static.attributes.quality import Quality
 from bsm.codec.static.attributes.surface import Surface, recomputed, surface_of
-from bsm.codec.static.draft import Draft
-from bsm.codec.static.preamble_encoding import JoinedMesh, Prepared
+from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
 
 CHUNK = 1 << 15  # values of a frame
 AGAIN = Quality("bits", 8)  # normals that are the same so are made as one

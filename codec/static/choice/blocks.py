@@ -14,17 +14,15 @@ from bsm.codec.arrays import Faces, Indices, Levels, Matrix
 from bsm.codec.basis.laplacian import settle
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
-from bsm.codec.signal.frames import in_frames, local_frames, raised, slide, tangent_steps
-from bsm.codec.signal.smooth import smooth, smoothing_spectrum
+from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
 from bsm.codec.signal.transform import MeasuredSpectrum, packed_range, project, smallest_step
 from bsm.codec.static.assembly import blended
 from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
 from bsm.codec.static.choice.settling import RATIO, Sensitivity
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import STIFFNESS, Adaptive, Packed, Scheme
-from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import EncodeOptions
-from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import ANY_ANGLE
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import Progress, admit, encode_blocks, patience

@@ -16,8 +16,7 @@ from bsm.codec.geometry.metrics import Original, Reference, distances_to_surface
 from bsm.codec.look.measure import LookMetric, Shading
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.choice.shaping import Shaper
-from bsm.codec.static.draft import Draft
-from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import ANY_ANGLE, Contract
 
 COARSEST, ANGLE_OF_LOOK = 0.05, 1.3

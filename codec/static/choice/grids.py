@@ -18,8 +18,7 @@ from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
 from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
 from bsm.codec.static.choice.shaping import SAMPLE, Aim
-from bsm.codec.static.draft import Draft
-from bsm.codec.static.preamble_encoding import Prepared
+from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid, encode_exact, encode_grid
 

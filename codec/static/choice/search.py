@@ -11,9 +11,8 @@ from bsm.codec.look.measure import LookMetric
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
-from bsm.codec.static.draft import Draft
 from bsm.codec.static.options import RANGES, EncodeOptions
-from bsm.codec.static.preamble_encoding import FEW_VERTICES
+from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import STEEPEST, Contract, secant
 from bsm.codec.static.ways.block_coder import Progress
 

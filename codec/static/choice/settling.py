@@ -20,7 +20,7 @@ from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph, vertex_faces
 from bsm.codec.look.measure import DISSIMILAR, POWER, LookMetric
 from bsm.codec.look.pictures import CREASE, MOST_AROUND
-from bsm.codec.signal.frames import in_frames, local_frames, tangent_steps
+from bsm.codec.signal.smooth import in_frames, local_frames, tangent_steps
 
 PULL = 0.8  # a level is expected at so much of the mean of its neighbours'
 AROUND, SIZES = 10, 16

@@ -15,11 +15,11 @@ from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import CorruptError
 from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
-from bsm.bitstream.fields.levels import AXES, levels_field
+from bsm.bitstream.fields.grid import AXES, levels_field
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Mask, Matrix
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.frames import lift, local_frames, raised, slide, tangent_steps
+from bsm.codec.signal.smooth import lift, local_frames, raised, slide, tangent_steps
 from bsm.codec.static.assembly import Assembly
 from bsm.codec.static.attributes.decoding import Complete, ValuesStage, completed
 from bsm.codec.static.attributes.surface import Solid

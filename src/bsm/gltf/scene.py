@@ -12,8 +12,7 @@ from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats import polygons as shapes
 from bsm.files.formats.metadata import Material, Value, described
 from bsm.files.motion.frames import LIKELY_RATES, Frames, Wanted, checked_frames, painted_like, rate_of_times
-from bsm.files.room import require_count
-from bsm.files.rows import Doubles, Ints
+from bsm.files.room import Doubles, Ints, require_count
 from bsm.gltf.document import MOST_NUMBERS, PER_NUMBER, Array, Document, Tree, as_format_error, read_document
 
 TRIANGLES = 4

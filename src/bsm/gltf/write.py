@@ -19,7 +19,7 @@ from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats import metadata as formats
 from bsm.files.motion.frames import FrameWriter, Shared
-from bsm.files.rows import Doubles, Ints, single_suffices
+from bsm.files.room import Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream, numbered, numbers_of
 from bsm.gltf.compress import drawn
 from bsm.gltf.document import COMPONENTS, EXTENSION, VECTORS, WEBP, Array, Tree, bounds_of, head_of_glb

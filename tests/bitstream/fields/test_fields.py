@@ -16,8 +16,7 @@ from bsm.bitstream.attributes.values import face_values_field, values_field
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.fields.corners import MOST_LARGEST, Field, FieldDecoder, FieldEncoder, corners_of, traverse
-from bsm.bitstream.fields.grid import find_lattice, grid_field, light_field, spread
-from bsm.bitstream.fields.levels import MOST_LEVEL, levels_field
+from bsm.bitstream.fields.grid import MOST_LEVEL, find_lattice, grid_field, levels_field, light_field, spread
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import (
     COLUMNS,

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.signal.frames import in_frames, local_frames, raised, slide, tangent_steps
+from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, tangent_steps
 from tests.shapes import tetrahedron, torus
 
 

@@ -9,7 +9,7 @@ from bsm.codec.geometry.graph import graph_of_faces, vertex_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import CREASE
-from bsm.codec.signal.frames import local_frames
+from bsm.codec.signal.smooth import local_frames
 from bsm.codec.static.choice import settling
 from bsm.codec.static.choice.settling import WITHIN, Creases, Sensitivity, creases_of
 from tests.shapes import torus

@@ -6,7 +6,7 @@ import pytest
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.signal.frames import in_frames, local_frames, tangent_steps
+from bsm.codec.signal.smooth import in_frames, local_frames, tangent_steps
 from bsm.codec.static.choice.settling import RATIO, Sensitivity
 from tests.shapes import patch, together, torus
 

@@ -14,7 +14,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats import metadata as materials
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact
-from bsm.files.rows import Doubles, Ints, Rows, as_integers, point_row, text_table, without_comments
+from bsm.files.room import Doubles, Ints, Rows, as_integers, point_row, text_table, without_comments
 
 STATES = {"material": "usemtl", "group": "g", "object": "o", "smoothing": "s"}
 """What holds for all faces behind a keyword, and the keyword."""

@@ -11,7 +11,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.metadata import Written, first, left_out, parse_remarks, remarks
 from bsm.files.formats.polygons import Column, Polygons, color_column, compact
-from bsm.files.rows import Doubles, Ints, Rows, point_row, require_lines, text_table, without_comments
+from bsm.files.room import Doubles, Ints, Rows, point_row, require_lines, text_table, without_comments
 
 _OFF_HEADER = re.compile(
     rb"\s*(?P<extras>(?:ST|C|N)*)(?P<dimension>4?n?)OFF(?P<binary>[ \t]+BINARY)?"

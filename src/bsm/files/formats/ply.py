@@ -26,7 +26,7 @@ from bsm.files.formats.metadata import (
     remarks,
 )
 from bsm.files.formats.polygons import Array, Column, Polygons, color_column, unused_name
-from bsm.files.rows import Ints, Rows, as_integers, ranges, require_lines, single_suffices
+from bsm.files.room import Ints, Rows, as_integers, ranges, require_lines, single_suffices
 
 _TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",

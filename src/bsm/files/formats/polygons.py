@@ -14,8 +14,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import MOST_NAME_BYTES, Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import fitting, named
-from bsm.files.room import require_count
-from bsm.files.rows import Doubles, Ints, single_suffices
+from bsm.files.room import Doubles, Ints, require_count, single_suffices
 
 Array = npt.NDArray[Any]
 PLURALS = {"color": "colours", "normal": "normals", "texcoord": "texture coordinates"}

@@ -10,7 +10,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats.metadata import Written, face_numbers, left_out
 from bsm.files.formats.polygons import Column, Polygons
-from bsm.files.rows import Doubles, Rows, single_suffices
+from bsm.files.room import Doubles, Rows, single_suffices
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _ATTRIBUTE = "attribute"

@@ -25,8 +25,7 @@ from bsm.files.formats.polygons import (
     sorted_into_parts,
 )
 from bsm.files.pipes import file_beside
-from bsm.files.room import require_count
-from bsm.files.rows import Doubles
+from bsm.files.room import Doubles, require_count
 
 _ARCHIVES = ("zip", "gz", "bz2", "xz", "tar", "tar.gz", "tar.bz2", "tgz")
 PER_TRIANGLE, PER_PART = 150, 2000  # bytes that parts take while they are joined: for each triangle, and for each part

@@ -21,8 +21,7 @@ from bsm.codec.arrays import Positions
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames, Wanted, checked_frames, rate_of_times
 from bsm.files.pipes import about
-from bsm.files.room import require_count
-from bsm.files.rows import Doubles
+from bsm.files.room import Doubles, require_count
 
 CACHES = ("pc2", "mdd")
 MESHES_BESIDE = ("obj", "ply", "off", "glb", "gltf", "stl", "npz")

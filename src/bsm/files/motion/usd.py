@@ -23,8 +23,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
 from bsm.files.motion.frames import Frames, Shared, Wanted, checked_frames, painted_like
-from bsm.files.room import require_count
-from bsm.files.rows import Doubles, Ints, single_suffices
+from bsm.files.room import Doubles, Ints, require_count, single_suffices
 from bsm.lengths import metres
 
 _SURFACE, _TEXTURE, _READER = "UsdPreviewSurface", "UsdUVTexture", "UsdPrimvarReader_float2"
