@@ -11,8 +11,6 @@
 | differential | mutants and random streams by both decoders |
 | encodes | random meshes and sequences with random options: threads, pieces, tolerance, every kind of processor |
 | surroundings | the same in environments of every kind |
-| readers | every reader of files with every number as large as it can be: memory and time are within the law, too |
-| walk | every frame type and field as large as its bytes allow: memory and time are within the law |
 
 Work is cut into shards, each a process of its own that follows from the seed alone. Streams that led to findings are
 kept under `.cache/proof`.
@@ -37,10 +35,6 @@ from tools.attack.tally import Tally
 SHARD_SECONDS = 1800
 MUTANTS, DIFFERENTIAL, ENCODES, SURROUNDINGS = 4000, 1000, 50, 12
 """Inputs of one shard."""
-WALKS = 8
-"""Shards of the walk, which together do all of it."""
-READERS = 8
-"""Shards of the walk over readers."""
 
 
 @dataclass(frozen=True)
@@ -101,8 +95,6 @@ def plan(args: argparse.Namespace) -> list[Part]:
         [Part("differential", *cut) for cut in cuts(args.differential, DIFFERENTIAL)],
         [Part("encodes", *cut) for cut in cuts(args.encodes, ENCODES)],
         [Part("surroundings", number, SURROUNDINGS) for number in places],
-        [Part("walk", number, WALKS) for number in range(2 if args.short else WALKS)],
-        [Part("readers", number, READERS) for number in range(2 if args.short else READERS)],
     ]
     shares = [(place / len(queue), part) for queue in queues for place, part in enumerate(queue)]
     return [part for _, part in sorted(shares, key=lambda share: share[0])]

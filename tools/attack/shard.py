@@ -10,7 +10,6 @@ import argparse
 import hashlib
 import json
 import subprocess
-import sys
 import time
 import traceback
 from collections.abc import Callable, Iterator
@@ -27,15 +26,12 @@ from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError
 from tests.engine.decoding import build, decode, of_sequence
 from tests.engine.mutants import STATUS
-from tools.attack import readers as of_files
-from tools.attack.bombs import walk_problems
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.encodes import random_streams, stored
 from tools.attack.inputs import mutant, random_stream, unencoded_stream, vector_seeds
 from tools.attack.places import Place, environments, processors
 from tools.attack.tally import Outcome, Tally
 from tools.attack.targets import LIMITS
-from tools.attack.walk import cases
 from tools.web_constants import limits_there
 
 WEB = Path(__file__).parents[2] / "tools" / "web"
@@ -43,10 +39,6 @@ SECONDS = 3.0
 """Of processor time that one input may take under `LIMITS`."""
 FRESH = 3
 """Streams of new options that each shard mutates beside the vectors."""
-
-
-SHORT_CASE, LONG_CASE = 20_000, 1 << 20
-"""Bytes of what is made large in the suite `walk`."""
 
 
 class Shard:
@@ -250,35 +242,8 @@ def in_c(stream: bytes) -> Outcome:
     return arrays.pop("positions"), arrays.pop("faces"), arrays
 
 
-def walk(shard: Shard, number: int, size: int) -> None:
-    """Frames and fields, each as large as its bytes allow: what decoding takes is within the law.
-
-    Shard `number` of `size`, which together do all of it.
-    """
-    if sys.platform != "linux":
-        return
-    every = list(cases(SHORT_CASE if shard.short else LONG_CASE))[number::size]
-    shard.tally.inputs += 4 * len(every)
-    for problem in walk_problems({case.name: case.make() for case in every}, ("whole", "tolerant")):
-        shard.found(b"", problem)
-
-
-def readers(shard: Shard, number: int, size: int) -> None:
-    """Mesh files and sequences of every kind, each number as large as it can be; as `walk` in all else."""
-    if sys.platform != "linux":
-        return
-    of_files.warm_up()
-    grown = list(of_files.grown(SHORT_CASE if shard.short else LONG_CASE))
-    numbers = list(of_files.numbers())[:: 40 if shard.short else 1]
-    some = [*grown, *numbers][number::size]
-    for limits in ("default", "service"):
-        shard.tally.inputs += len(some)
-        for problem in of_files.problems(some, limits):
-            shard.found(b"", problem)
-
-
 SUITES: dict[str, Callable[[Shard, int, int], None]] = {
-    suite.__name__: suite for suite in (mutants, browser, differential, encodes, surroundings, walk, readers)
+    suite.__name__: suite for suite in (mutants, browser, differential, encodes, surroundings)
 }
 
 

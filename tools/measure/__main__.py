@@ -8,7 +8,6 @@ contract    what presets give, checked by themselves and by surfaces, against Dr
 grids       whole files with exact positions on a grid, against Draco's
 attributes  what attributes take, against Draco's
 speed       links on which it is there first
-large       not a measurement: a mesh of any size to measure tiles with, made of a scan
 sequences   moving meshes, against Draco frame by frame and principal components
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
 denoise     the scoreboard of denoising; `tables` writes it into docs/measured.md
@@ -29,7 +28,6 @@ COMMANDS = {
     "contract": "presets:contract_command",
     "grids": "grids:main",
     "attributes": "attributes:main",
-    "large": "large:main",
     "sequences": "sequences:main",
     "fields": "fields:main",
     "denoise": "denoise:main",
