@@ -434,14 +434,12 @@ def test_what_an_animation_uses_stays(source):
     assert found.coded == 2 and after.tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"] != kept
 
 
-@pytest.mark.parametrize(
-    ("number", "normalized"), [(-0.0, 0), (0.06499999761581421, 0.065), (0.1, 0.1), (3.0, 3), (1e300, 1e300)]
-)
-def test_numbers_are_as_short_as_single_precision_allows(source, tmp_path, number, normalized):
+def test_numbers_are_as_short_as_single_precision_allows(source, tmp_path):
     document = read_document(str(source))
-    document.tree["extras"] = {"number": number}
+    document.tree["extras"] = {"numbers": [-0.0, 0.06499999761581421, 0.1, 3.0, 1e300]}
     (tmp_path / "small.glb").write_bytes(compress(document, CODE).data)
-    assert json.dumps(read_document(str(tmp_path / "small.glb")).tree["extras"]["number"]) == json.dumps(normalized)
+    short = read_document(str(tmp_path / "small.glb")).tree["extras"]["numbers"]
+    assert json.dumps(short) == json.dumps([0, 0.065, 0.1, 3, 1e300])
 
 
 WRONG = (-1, 0, 2**31 - 1, 2**63, -(2**40), 1.5, 1e308, float("nan"), None, True, "x", "data:,a\0", [], {}, [[]], 5125)

@@ -63,11 +63,11 @@ def test_a_look_holds_by_the_normals_that_are_sent(preset):
     "mesh",
     [
         tetrahedron(),
-        patch(40, 50),
-        torus(80, 40),
-        noisy(torus(80, 40), 0.002),
-        noisy(torus(60, 40), 0.01),
-        together(*(torus(8, 6) for _ in range(20)), torus(60, 30)),
+        patch(24, 30),
+        torus(48, 30),
+        noisy(torus(48, 30), 0.002),
+        noisy(torus(40, 30), 0.01),
+        together(*(torus(8, 6) for _ in range(20)), torus(40, 30)),
         TriangleMesh(torus(30, 20).positions * (1.0, 1.0, 0.0), torus(30, 20).faces),
         TriangleMesh(torus(30, 20).positions + 1e7, torus(30, 20).faces),
         TriangleMesh(torus(30, 20).positions * 1e-12, torus(30, 20).faces),
@@ -100,7 +100,7 @@ def test_any_bounds_are_kept(seed: int, farthest: float, angle: float) -> None:
 
 
 @pytest.mark.parametrize("preset", ["small", "balanced", "fine", "near-lossless"])
-@pytest.mark.parametrize("mesh", [torus(80, 40), noisy(torus(80, 40), 0.002)], ids=["torus", "noise"])
+@pytest.mark.parametrize("mesh", [torus(48, 30), noisy(torus(48, 30), 0.002)], ids=["torus", "noise"])
 def test_what_is_quick_to_decode_is_on_a_grid_and_as_good(mesh: TriangleMesh, preset: str) -> None:
     contract = PRESETS[preset].contract
     assert contract is not None
