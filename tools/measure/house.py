@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 34_765,
-    "all Python, lines": 74_005,
+    "all Python, lines": 72_200,
     "product modules": 203,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
