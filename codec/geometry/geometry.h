@@ -60,4 +60,40 @@ INLINE void sort_ascending(int32_t *values, int64_t size) {
     }
 }
 
+INLINE double square(double x) { return x * x; }
+
+INLINE double to_segment(const double *p, const double *a, const double *b) {
+    double length = 0.0, along = 0.0, total = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        length += square(b[axis] - a[axis]);
+        along += (b[axis] - a[axis]) * (p[axis] - a[axis]);
+    }
+    double t = length > 0.0 ? along / length : 0.0;
+    t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+    for (int axis = 0; axis < 3; axis++) total += square(a[axis] + t * (b[axis] - a[axis]) - p[axis]);
+    return total;
+}
+
+/* Squared distance: to the plane where the foot lies inside, otherwise to the nearest edge. */
+INLINE double to_triangle(const double *p, const double *triangle) {
+    const double *a = triangle, *b = triangle + 3, *c = triangle + 6;
+    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    double wx = p[0] - a[0], wy = p[1] - a[1], wz = p[2] - a[2];
+    double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    double squared = nx * nx + ny * ny + nz * nz;
+    if (squared > 0.0) {
+        /* Barycentric coordinates of the foot, times the square. */
+        double at_c = (uy * wz - uz * wy) * nx + (uz * wx - ux * wz) * ny + (ux * wy - uy * wx) * nz;
+        double at_b = (wy * vz - wz * vy) * nx + (wz * vx - wx * vz) * ny + (wx * vy - wy * vx) * nz;
+        if (at_b >= 0.0 && at_c >= 0.0 && at_b + at_c <= squared) {
+            double height = wx * nx + wy * ny + wz * nz;
+            return height * height / squared;
+        }
+    }
+    double nearest = to_segment(p, a, b), second = to_segment(p, b, c), third = to_segment(p, c, a);
+    nearest = second < nearest ? second : nearest;
+    return third < nearest ? third : nearest;
+}
+
 #endif

@@ -19,7 +19,7 @@ from bsm.codec.geometry.metrics import distances_to_surface
 from bsm.commands import tile as command
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.tiles.cutting import Lattice
-from bsm.tiles.making import simplified, welded
+from bsm.tiles.making import farthest_near, simplified, welded
 from tests.bsm.program import bsm as program
 from tests.shapes import curved, torus
 
@@ -34,7 +34,6 @@ def mesh():
 
 @pytest.fixture(scope="module")
 def folder(mesh, tmp_path_factory):
-    pytest.importorskip("fast_simplification")
     return made(mesh, tmp_path_factory.mktemp("tiles") / "out")
 
 
@@ -227,11 +226,40 @@ def test_a_tileset_says_where_tiles_are_and_how_far_off(mesh, folder, tmp_path):
 def test_locked_vertices_stay_where_nothing_else_holds_them():
     mesh = torus(60, 40)
     places = Lattice(CELL).places(mesh.positions)
-    pytest.importorskip("fast_simplification")
-    locked = np.arange(0, len(places), 37)
-    new, faces = simplified(places, mesh.faces, locked, 900)
-    assert len(faces) <= 1000
-    assert set(map(tuple, places[locked].tolist())) <= set(map(tuple, new.tolist()))
+    locked = np.arange(len(places)) % 37 == 0
+    new, faces, owners = simplified(places, mesh.faces, locked, 900)
+    assert len(faces) <= 1000 and (edges(faces)[1] == 2).all()
+    assert np.array_equal(new[owners[locked]], places[locked])
+
+
+def test_borders_stay_and_what_is_no_surface_is_left_alone():
+    mesh = torus(60, 40)
+    places = Lattice(CELL).places(mesh.positions)
+    open_ones = mesh.faces[(mesh.faces < 1200).all(axis=1)]
+    nothing = np.zeros(len(places), bool)
+    new, faces, _ = simplified(places, open_ones, nothing, 300)
+    known, counts = edges(open_ones)
+    border = places[np.unique(known[counts == 1])]
+    left, number = edges(faces)
+    assert len(faces) < 600 < len(open_ones)
+    assert set(map(tuple, border.tolist())) == set(map(tuple, new[np.unique(left[number == 1])].tolist()))
+    soup = np.random.default_rng(0).integers(0, 40, (3000, 3)).astype(np.int32)
+    soup = soup[(soup != np.roll(soup, 1, axis=1)).all(axis=1)]
+    assert len(simplified(places, soup, nothing, 10)[1]) == len(soup)
+    corner = np.array([(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9)], np.int32)
+    solid = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)], np.int32)
+    assert len(simplified(corner, solid, np.zeros(4, bool), 1)[1]) == 4
+
+
+def test_how_far_what_is_simplified_is_off():
+    mesh = torus(60, 40)
+    places = Lattice(CELL).places(mesh.positions)
+    new, faces, owners = simplified(places, mesh.faces, np.zeros(len(places), bool), 600)
+    points = places.astype(float)
+    exact = distances_to_surface(points, new.astype(float), faces).max()
+    assert exact <= farthest_near(points, owners, new.astype(float), faces) <= 1.5 * exact
+    lost = np.where(owners == 7, np.int32(-1), owners)
+    assert farthest_near(points, lost, new.astype(float), faces) == exact
 
 
 @pytest.mark.slow

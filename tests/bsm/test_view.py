@@ -224,7 +224,6 @@ def test_what_is_still_being_written_is_watched(way, tmp_path):
 @pytest.mark.slow
 @needs_packages
 def test_tiles_are_seen_coarse_first_and_fine_from_near(tmp_path):
-    pytest.importorskip("fast_simplification")
     bsm.save(curved(torus(300, 200)), tmp_path / "a.ply")
     folder = tmp_path / "tiles"
     options = ["--grid-cell", "1e-5", "--triangles", "4000", "--tileset"]

@@ -15,7 +15,7 @@ from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
 from bsm.jobs.run import Facts, Job, Outcome, Run, came_to, run_many
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
 from bsm.tiles.joining import write_tileset
-from bsm.tiles.making import TileJob, simplifier, tile_one
+from bsm.tiles.making import TileJob, tile_one
 from bsm.tiles.reading import read_big
 from bsm.tiles.shards import MANIFEST, open_tiles, write_shards
 
@@ -48,8 +48,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     if args.triangles < 64:
         raise OptionError(f"--triangles {args.triangles}: tiles have 64 triangles or more")
-    if not args.finest:
-        simplifier()
     refuse_to_overwrite(inside(args.output, MANIFEST), args.force)
     if not is_url(args.output):
         os.makedirs(args.output, exist_ok=True)

@@ -36,6 +36,13 @@ _SPREAD = (
 """How 21 bits come to stand three apart."""
 
 
+def along_curve(places: Ints) -> Ints:
+    """A number for each place, of 21 bits an axis; consecutive ones are near each other."""
+    for step, mask in _SPREAD:
+        places = (places | places << step) & mask
+    return np.asarray(places[:, 0] << 2 | places[:, 1] << 1 | places[:, 2])
+
+
 @dataclass(frozen=True)
 class Lattice:
     """Where places are in the mesh's unit."""
@@ -119,10 +126,7 @@ class Plan(Root):
 
     def codes(self, places: npt.NDArray[Any]) -> Ints:
         """The node of the deepest level that holds each place, in their order along the octree's curve."""
-        shifted = (places.astype(np.int64) - np.array(self.low)) >> (self.bits - self.depth)
-        for step, mask in _SPREAD:
-            shifted = (shifted | shifted << step) & mask
-        return np.asarray(shifted[:, 0] << 2 | shifted[:, 1] << 1 | shifted[:, 2])
+        return along_curve((places.astype(np.int64) - np.array(self.low)) >> (self.bits - self.depth))
 
     @property
     def carried(self) -> tuple[str, ...]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -11,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import KDTree
 
-from bsm.bitstream.errors import NumericError, TargetError, imported
+from bsm import _kernels
+from bsm.bitstream.errors import TargetError
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -22,13 +22,12 @@ from bsm.console import Console
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output, write_output
 from bsm.jobs.run import Facts, Task
-from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, load_plan
+from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, along_curve, load_plan
 from bsm.tiles.reading import mapped
 
 Faces: TypeAlias = npt.NDArray[np.int32]
 _KEPT = 4  # of so many triangles one stays from level to level
-_SAMPLE = 10_000
-_ONE_AT_A_TIME = threading.Lock()  # the library that simplifies keeps its mesh in one place
+_TERMS, _BUCKETS = 10, 1 << 15  # of what simplifying takes for scratch
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +88,7 @@ def _of_vertices(one: Attribute, mesh: TriangleMesh) -> npt.NDArray[Any]:
 
 
 def welded(places: npt.NDArray[np.int32]) -> tuple[Places, Faces]:
-    """Different places, in order, and which of them each of the given ones is."""
+    """Different places, along a curve, and which of them each of the given ones is."""
     first, keys = np.unique(keys_of(places), return_index=True, return_inverse=True)[1:]
     return places[first], keys.astype(np.int32)
 
@@ -101,8 +100,7 @@ def keys_of(places: npt.NDArray[np.int32], low: Ints | None = None) -> Ints:
         raise TargetError(
             f"a tile is larger than {MOST_LARGEST} cells, for it has long triangles; choose a larger --grid-cell"
         )
-    keys: Ints = (shifted[:, 0] << 40) | (shifted[:, 1] << 20) | shifted[:, 2]
-    return keys
+    return along_curve(shifted)
 
 
 def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMesh, float]:
@@ -138,10 +136,8 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     low = places.min(axis=0).astype(np.int64)
     inside = ((rows[:, 1:4] >= low) & (rows[:, 1:4] <= places.max(axis=0))).all(axis=1)
     locked |= np.isin(keys_of(places, low), keys_of(rows[inside, 1:4], low))
-    new, smaller = simplified(places, faces, np.flatnonzero(locked), max(len(faces) // _KEPT, min(COARSEST, most) // 2))
-    # In the order of a curve consecutive places are near each other.
-    order = np.argsort(plan.codes(places), kind="stable")
-    apart = farthest_from_surface(places[order].astype(np.float64), new.astype(np.float64), smaller)
+    new, smaller, owners = simplified(places, faces, locked, max(len(faces) // _KEPT, min(COARSEST, most) // 2))
+    apart = farthest_near(places.astype(np.float64), owners, new.astype(np.float64), smaller)
     near = KDTree(places).query(new)[1] if tables else np.zeros(0, np.int64)
     return TriangleMesh(new.astype(np.float64), smaller, carried(near)), before + apart * plan.lattice.cell
 
@@ -152,34 +148,36 @@ def solid(faces: Faces) -> Faces:
     return np.asarray(faces[(a != b) & (b != c) & (c != a)])
 
 
-def simplifier() -> Any:
-    why = "coarser levels need fast-simplification, and --finest goes without"
-    return imported("fast_simplification", why, "tiles").simplify
+def simplified(
+    places: Places, faces: Faces, locked: npt.NDArray[np.bool_], target: int
+) -> tuple[Places, Faces, npt.NDArray[np.int32]]:
+    """Fewer triangles, about so many, and what vertices have become; those that are locked, and open borders, stay."""
+    count, low = len(places), places.min(axis=0).astype(np.float64)
+    positions, left, sides = places - low, faces.copy(), 3 * len(faces)
+    starts, ends, marks, owners = (np.empty(count + more, np.int32) for more in (1, 0, 0, 0))
+    scratch = np.empty((count, _TERMS)), starts, np.empty(sides, np.int32), ends, marks
+    buckets = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
+    size = _kernels.simplify(positions, left, locked.astype(np.uint8), *scratch, owners, *buckets, target)
+    kept, corners, first = compact(positions, left[:size])
+    new, numbers = welded(np.rint(kept + low).astype(np.int32))
+    new, smaller, second = compact(new, solid(numbers[corners]))
+    if not len(smaller):
+        return places, faces, np.arange(count, dtype=np.int32)
+    return new, smaller, np.append(second[numbers], np.int32(-1))[first[owners]]
 
 
-def simplified(places: Places, faces: Faces, locked: Ints, target: int) -> tuple[Places, Faces]:
-    """Fewer triangles, about so many; places that are locked, and open borders, stay."""
-    if target >= len(faces):
-        return places, faces
-    # The library keeps borders: each locked vertex gets a triangle that nothing else touches, and so is of one.
-    fins = len(places) + np.arange(2 * len(locked), dtype=np.int32).reshape(-1, 2)
-    # In a unit that edges have about one of, as its thresholds expect, and that changes no digit.
-    low = places.min(axis=0).astype(np.float64)
-    points = places - low
-    some = points[faces[:: 1 + len(faces) // _SAMPLE]]
-    unit = 2.0 ** np.round(np.log2(np.median(np.ptp(some, axis=1).max(axis=1))))
-    points /= unit
-    beside = np.stack([points[locked] + (1.0, 0.0, 0.0), points[locked] + (0.0, 1.0, 0.0)], axis=1).reshape(-1, 3)
-    given = np.concatenate([faces, np.column_stack([locked, fins])]).astype(np.int32)
-    with _ONE_AT_A_TIME:
-        found, triangles = simplifier()(
-            np.concatenate([points, beside]), given, target_count=target + len(locked), preserve_border=True
-        )
-    kept = triangles[len(triangles) - len(locked) :, 0]
-    if not np.array_equal(found[kept], points[locked]):
-        raise NumericError("a border has moved while a tile was simplified; please report it")
-    triangles = triangles[: len(triangles) - len(locked)]
-    new, numbers = welded(np.rint(found * unit + low).astype(np.int32))
-    smaller = solid(numbers[triangles])
-    used, corners = np.unique(smaller, return_inverse=True)
-    return (new[used], corners.reshape(-1, 3).astype(np.int32)) if len(smaller) else (places, faces)
+def compact(rows: npt.NDArray[Any], faces: Faces) -> tuple[npt.NDArray[Any], Faces, npt.NDArray[np.int32]]:
+    """Vertices that faces have, those faces, and the new number of each vertex, or -1."""
+    used = np.zeros(len(rows), bool)
+    used[faces] = True
+    numbers = np.where(used, np.cumsum(used, dtype=np.int32) - 1, -1).astype(np.int32)
+    return rows[used], numbers[faces], numbers
+
+
+def farthest_near(
+    points: npt.NDArray[np.float64], owners: npt.NDArray[np.int32], new: npt.NDArray[np.float64], faces: Faces
+) -> float:
+    """How far points are from a surface at most: looked for near their owners, or everywhere where one has none."""
+    scratch = np.empty(len(new) + 1, np.int32), np.empty(3 * len(faces), np.int32)
+    found = float(_kernels.farthest_near(points, owners, new, faces, *scratch))
+    return found if np.isfinite(found) else farthest_from_surface(points, new, faces)

@@ -1,0 +1,285 @@
+/* Fewer triangles: edges that cost least become points, by quadric errors, many of them in each pass. */
+#include "codec/geometry/geometry.h"
+
+enum { TERMS = 10, BUCKETS = 1 << 15, PASSES = 64, FIXED = 1, TOUCHED = 2 };
+static const double SHAPE = 1e-4; /* What it costs to move along the surface, beside leaving it. */
+static const double TURN = 0.2;   /* The least cosine between what a triangle was and becomes. */
+
+typedef struct {
+    double *positions;
+    int32_t *faces;
+    uint8_t *states;
+    double *quadrics;
+    const int32_t *starts, *around;
+    int32_t *ends, *marks; /* Where each vertex went in this pass. */
+    int32_t mark;
+} Surface;
+
+INLINE void cross_of(const double *a, const double *b, const double *c, double *n) {
+    double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2], vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    n[0] = uy * vz - uz * vy;
+    n[1] = uz * vx - ux * vz;
+    n[2] = ux * vy - uy * vx;
+}
+
+/* The quadric of an area: xx, xy, xz, yy, yz, zz, then the linear terms, then the constant. */
+INLINE void add_plane(double *q, const double *n, double weight, const double *at) {
+    double away = n[0] * at[0] + n[1] * at[1] + n[2] * at[2];
+    int term = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = i; j < 3; j++) q[term++] += weight * n[i] * n[j];
+    for (int i = 0; i < 3; i++) q[6 + i] -= weight * away * n[i];
+    q[9] += weight * away * away;
+}
+
+INLINE void add_point(double *q, double weight, const double *at) {
+    q[0] += weight;
+    q[3] += weight;
+    q[5] += weight;
+    for (int i = 0; i < 3; i++) q[6 + i] -= weight * at[i];
+    q[9] += weight * (at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+}
+
+/* Half of the gradient at a point. */
+INLINE void gradient(const double *q, const double *p, double *g) {
+    g[0] = q[0] * p[0] + q[1] * p[1] + q[2] * p[2] + q[6];
+    g[1] = q[1] * p[0] + q[3] * p[1] + q[4] * p[2] + q[7];
+    g[2] = q[2] * p[0] + q[4] * p[1] + q[5] * p[2] + q[8];
+}
+
+/* Where the vertex of an edge goes, and what that costs. */
+static double placed(const Surface *surface, int32_t a, int32_t b, double *p) {
+    const double *pa = surface->positions + 3 * (int64_t)a, *pb = surface->positions + 3 * (int64_t)b;
+    const double *qa = surface->quadrics + TERMS * (int64_t)a, *qb = surface->quadrics + TERMS * (int64_t)b;
+    double q[TERMS], g[3];
+    for (int i = 0; i < TERMS; i++) q[i] = qa[i] + qb[i];
+    bool fixed = (surface->states[a] | surface->states[b]) & FIXED;
+    const double *stays = surface->states[a] & FIXED ? pa : pb;
+    for (int i = 0; i < 3; i++) p[i] = fixed ? stays[i] : 0.5 * (pa[i] + pb[i]);
+    gradient(q, p, g);
+    if (!fixed) {
+        double xx = q[3] * q[5] - q[4] * q[4], xy = q[2] * q[4] - q[1] * q[5], xz = q[1] * q[4] - q[2] * q[3];
+        double yy = q[0] * q[5] - q[2] * q[2], yz = q[1] * q[2] - q[0] * q[4], zz = q[0] * q[3] - q[1] * q[1];
+        double volume = q[0] * xx + q[1] * xy + q[2] * xz;
+        if (volume > 0.0) {
+            p[0] -= (xx * g[0] + xy * g[1] + xz * g[2]) / volume;
+            p[1] -= (xy * g[0] + yy * g[1] + yz * g[2]) / volume;
+            p[2] -= (xz * g[0] + yz * g[1] + zz * g[2]) / volume;
+            gradient(q, p, g);
+        }
+    }
+    double cost = q[9];
+    for (int i = 0; i < 3; i++) cost += p[i] * (g[i] + q[6 + i]);
+    return cost > 0.0 ? cost : 0.0;
+}
+
+/* The corners of a triangle as they are now; false if it is gone. */
+INLINE bool corners_now(const Surface *surface, int64_t face, int32_t *corners) {
+    for (int i = 0; i < 3; i++) corners[i] = surface->ends[surface->faces[3 * face + i]];
+    return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
+}
+
+/* Whether the triangles around `a` keep their sides when it goes to `p`; counts those with `b`, and neighbours that have
+ * one mark, which get the other. */
+static bool turns_around(Surface *surface, int32_t a, int32_t b, const double *p, int32_t had, int32_t given, int *shared,
+                         int *others, int *common) {
+    for (int64_t k = surface->starts[a]; k < surface->starts[a + 1]; k++) {
+        int32_t corners[3];
+        if (!corners_now(surface, surface->around[k], corners)) continue;
+        bool with = corners[0] == b || corners[1] == b || corners[2] == b;
+        const double *before[3], *after[3];
+        for (int i = 0; i < 3; i++) {
+            int32_t corner = corners[i];
+            before[i] = after[i] = surface->positions + 3 * (int64_t)corner;
+            if (corner == a) {
+                after[i] = p;
+            } else if (corner != b) {
+                *common += surface->marks[corner] == had;
+                surface->marks[corner] = given;
+            }
+        }
+        if (with) {
+            ++*shared;
+            continue;
+        }
+        ++*others;
+        double old[3], new[3], along = 0.0, olds = 0.0, news = 0.0;
+        cross_of(before[0], before[1], before[2], old);
+        cross_of(after[0], after[1], after[2], new);
+        for (int i = 0; i < 3; i++) {
+            along += old[i] * new[i];
+            olds += old[i] * old[i];
+            news += new[i] * new[i];
+        }
+        if (olds > 0.0 && (along <= 0.0 || along * along < TURN * TURN * olds * news)) return true;
+    }
+    return false;
+}
+
+/* Whether an edge of two triangles may become a point: what was a surface is one, and none of it turns around. */
+static bool may_collapse(Surface *surface, int32_t a, int32_t b, const double *p) {
+    int shared = 0, others = 0, common = 0, none = 0;
+    surface->mark += 2;
+    if (turns_around(surface, a, b, p, -1, surface->mark, &shared, &others, &none)) return false;
+    if (shared != 2) return false;
+    if (turns_around(surface, b, a, p, surface->mark, surface->mark + 1, &none, &others, &common)) return false;
+    return common == 2 && others > 2;
+}
+
+/* Which triangles are around each vertex. */
+static void arrange(const int32_t *faces, int64_t count, Ints starts, int32_t *around) {
+    int64_t size = starts.size - 1;
+    for (int64_t v = 0; v <= size; v++) starts.data[v] = 0;
+    for (int64_t k = 0; k < 3 * count; k++) starts.data[faces[k]]++;
+    for (int64_t v = 1; v <= size; v++) starts.data[v] += starts.data[v - 1];
+    for (int64_t k = 3 * count; k-- > 0;) around[--starts.data[faces[k]]] = (int32_t)(k / 3);
+}
+
+/* Fix vertices at open borders, and where more than two triangles meet at an edge. */
+static void fix_borders(Surface *surface, int64_t size) {
+    for (int64_t v = 0; v < size; v++) {
+        bool closed = true;
+        for (int turn = 0; turn < 2; turn++) {
+            for (int64_t k = surface->starts[v]; k < surface->starts[v + 1]; k++) {
+                for (int i = 0; i < 3; i++) {
+                    int32_t other = surface->faces[3 * (int64_t)surface->around[k] + i];
+                    if (turn)
+                        closed = closed && (other == v || surface->marks[other] == 2);
+                    else
+                        surface->marks[other] = 0;
+                }
+            }
+            for (int64_t k = surface->starts[v]; !turn && k < surface->starts[v + 1]; k++)
+                for (int i = 0; i < 3; i++) surface->marks[surface->faces[3 * (int64_t)surface->around[k] + i]]++;
+        }
+        if (!closed) surface->states[v] |= FIXED;
+    }
+}
+
+/* Whether the k-th side of a triangle is one of the edges that may become points, each of which is one side so. */
+INLINE bool is_edge(const Surface *surface, int64_t k, int32_t *a, int32_t *b) {
+    *a = surface->faces[k];
+    *b = surface->faces[k % 3 == 2 ? k - 2 : k + 1];
+    return *a < *b && !(surface->states[*a] & surface->states[*b] & FIXED);
+}
+
+INLINE int64_t bucket_of(float cost) {
+    union {
+        float number;
+        uint32_t bits;
+    } told = {cost};
+    return told.bits >> 16;
+}
+
+/* Make fewer of triangles with three different corners, about `target`; `states` is 1 for vertices that stay where they
+ * are. Returns how many there are, which stand first; `owners` are what vertices have become. Scratch: quadrics, `ends` and `marks` for each vertex, one
+ * more of `starts`, three of `around` for each triangle, and as many costs as there are edges. */
+int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadrics, Ints starts, Ints around, Ints ends,
+                 Ints marks, Ints owners, Singles costs, Ints buckets, int64_t target) {
+    int64_t size = positions.rows, count = faces.rows;
+    if (states.size != size || quadrics.rows != size || quadrics.columns != TERMS || starts.size != size + 1 ||
+        around.size < 3 * count || ends.size != size || marks.size != size || owners.size != size ||
+        buckets.size != BUCKETS || positions.columns != 3 || faces.columns != 3)
+        return MISUSED;
+    for (int64_t k = 0; k < 3 * count; k++)
+        if (faces.data[k] < 0 || faces.data[k] >= size) return MISUSED;
+    Surface surface = {positions.data, faces.data, states.data, quadrics.data, starts.data,
+                       around.data,    ends.data,  marks.data,  0};
+    arrange(faces.data, count, starts, around.data);
+    for (int64_t v = 0; v < size; v++) marks.data[v] = 0;
+    fix_borders(&surface, size);
+    for (int64_t v = 0; v < size; v++) {
+        marks.data[v] = 0;
+        owners.data[v] = (int32_t)v;
+        for (int i = 0; i < TERMS; i++) quadrics.data[TERMS * v + i] = 0.0;
+    }
+    for (int64_t f = 0; f < count; f++) {
+        const int32_t *face = faces.data + 3 * f;
+        const double *at[3];
+        for (int i = 0; i < 3; i++) at[i] = positions.data + 3 * (int64_t)face[i];
+        double n[3], squared = 0.0;
+        cross_of(at[0], at[1], at[2], n);
+        for (int i = 0; i < 3; i++) squared += n[i] * n[i];
+        double area = __builtin_sqrt(squared);
+        for (int i = 0; area > 0.0 && i < 3; i++) {
+            add_plane(quadrics.data + TERMS * (int64_t)face[i], n, 1.0 / area, at[0]);
+            add_point(quadrics.data + TERMS * (int64_t)face[i], SHAPE * area, at[i]);
+        }
+    }
+    for (int pass = 0; pass < PASSES && count > target; pass++) {
+        int32_t a, b;
+        double p[3];
+        if (pass > 0) arrange(faces.data, count, starts, around.data);
+        for (int64_t v = 0; v < size; v++) {
+            ends.data[v] = (int32_t)v;
+            states.data[v] &= FIXED;
+        }
+        for (int64_t k = 0; k < BUCKETS; k++) buckets.data[k] = 0;
+        int64_t found = 0, made = 0, wanted = (count - target + 1) / 2, most = 0, last = 0, next = 0;
+        for (int64_t k = 0; k < 3 * count && found < costs.size; k++) {
+            if (!is_edge(&surface, k, &a, &b)) continue;
+            costs.data[found] = (float)placed(&surface, a, b, p);
+            buckets.data[bucket_of(costs.data[found++])]++;
+        }
+        /* The cheapest, in the order of memory. */
+        while (last < BUCKETS && most < 2 * wanted) most += buckets.data[last++];
+        for (int64_t k = 0; next < found && made < wanted; k++) {
+            if (!is_edge(&surface, k, &a, &b) || bucket_of(costs.data[next++]) >= last) continue;
+            if ((states.data[a] | states.data[b]) & TOUCHED) continue;
+            placed(&surface, a, b, p);
+            if (!may_collapse(&surface, a, b, p)) continue;
+            int32_t stays = states.data[b] & FIXED ? b : a, goes = stays == a ? b : a;
+            for (int i = 0; i < TERMS; i++)
+                quadrics.data[TERMS * (int64_t)stays + i] += quadrics.data[TERMS * (int64_t)goes + i];
+            for (int i = 0; i < 3; i++) positions.data[3 * (int64_t)stays + i] = p[i];
+            ends.data[goes] = stays;
+            states.data[a] |= TOUCHED;
+            states.data[b] |= TOUCHED;
+            made++;
+        }
+        for (int64_t v = 0; v < size; v++) owners.data[v] = ends.data[owners.data[v]];
+        int64_t kept = 0;
+        for (int64_t f = 0; f < count; f++) {
+            int32_t corners[3];
+            if (!corners_now(&surface, f, corners)) continue;
+            for (int i = 0; i < 3; i++) faces.data[3 * kept + i] = corners[i];
+            kept++;
+        }
+        count = kept;
+        if (!made) break;
+    }
+    return count;
+}
+
+/* How far points are from a surface at most: each from where the triangles around the vertex that owns it lead to. */
+double farthest_near(ConstDoubles2 points, ConstInts owners, ConstDoubles2 positions, ConstInts2 faces, Ints starts,
+                     Ints around) {
+    if (owners.size != points.rows || starts.size != positions.rows + 1 || around.size < 3 * faces.rows)
+        return __builtin_inf();
+    arrange(faces.data, faces.rows, starts, around.data);
+    double farthest = 0.0;
+    for (int64_t v = 0; v < points.rows; v++) {
+        double nearest = __builtin_inf(), before = nearest;
+        int32_t ways[3] = {owners.data[v], owners.data[v], owners.data[v]};
+        if (ways[0] < 0 || ways[0] >= positions.rows) return nearest;
+        do {
+            before = nearest;
+            const int32_t *face = ways;
+            for (int way = 0; way < 3; way++) {
+                for (int64_t k = starts.data[ways[way]]; k < starts.data[ways[way] + 1] && nearest > farthest; k++) {
+                    const int32_t *other = faces.data + 3 * (int64_t)around.data[k];
+                    double corners[9];
+                    for (int i = 0; i < 9; i++) corners[i] = positions.data[3 * (int64_t)other[i / 3] + i % 3];
+                    double apart = to_triangle(points.data + 3 * v, corners);
+                    if (apart < nearest) {
+                        nearest = apart;
+                        face = other;
+                    }
+                }
+            }
+            for (int i = 0; i < 3; i++) ways[i] = face[i];
+        } while (nearest > farthest && nearest < before);
+        if (nearest > farthest) farthest = nearest;
+    }
+    return __builtin_sqrt(farthest);
+}
