@@ -31,7 +31,7 @@ class Comparison:
     Attributes
     ----------
     nmsve : float
-        Normalised mean square visual error, see `nmsve`.
+        Normalised mean square visual error, see `Reference.nmsve`.
     nmsve_db : float
         ``10 * log10(nmsve)``; minus infinity where the meshes are equal.
     theta_deg : float
@@ -81,7 +81,7 @@ class Reference:
         self._shares: Floats = np.asarray(counted / max(1, int(counted.sum())), np.float64)
 
     def nmsve(self, decoded: Positions) -> float:
-        """The function `nmsve` of `decoded`, shape (n, 3), against this original."""
+        """Normalised mean square visual error, with un-squared norms as in section 8 of Arvanitis, Lalos, Moustakas."""
         decoded = self._checked(decoded)
         detail = _length(self._laplacian - geometric_laplacian(decoded, self._neighbours))
         return (_length(self.positions - decoded) + detail) / (2 * len(decoded) * self.scale)
@@ -131,11 +131,6 @@ def compare(original: Positions, decoded: Positions, faces: Faces) -> Comparison
     return Reference(original, faces).compare(decoded)
 
 
-def nmsve(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """Normalised mean square visual error, with un-squared norms as in section 8 of Arvanitis, Lalos and Moustakas."""
-    return Reference(original, faces).nmsve(decoded)
-
-
 def theta(original: Positions, decoded: Positions, faces: Faces) -> float:
     """Mean angle between corresponding face normals, in degrees, every face counted alike."""
     return Reference(original, faces).theta(decoded)
@@ -156,20 +151,6 @@ def mean_edge_length(positions: Positions, faces: Faces) -> float:
     a, b = mesh_edges(faces, len(positions)).T
     length = float(np.linalg.norm(positions[a] - positions[b], axis=1).mean()) if len(a) else 0.0
     return length or 1.0
-
-
-def kg_error(original: Floats, decoded: Floats) -> float:
-    """Error of a sequence after Karni and Gotsman, in percent: ``100 * ||P - P~|| / ||P - E(P)||``.
-
-    Z. Karni, C. Gotsman, "Compression of soft-body animation sequences", Computers & Graphics 28, 2004.
-    """
-    if original.shape != decoded.shape:
-        raise MeshError(f"decoded frames have shape {decoded.shape}, the original's {original.shape}")
-    error = float(np.linalg.norm(original - decoded))
-    extent = float(np.linalg.norm(original - original.mean(axis=1, keepdims=True)))
-    if error == 0.0:
-        return 0.0
-    return 100.0 * error / extent if extent > 0.0 else math.inf
 
 
 def decibel(value: float) -> float:
@@ -212,12 +193,6 @@ def _length(values: Floats) -> float:
 LOST = math.pi  # angle of a face without area; no rounding of its vertices can give it a normal that is farther off
 
 
-@dataclass(frozen=True)
-class Closeness:
-    farthest: float
-    angle: float
-
-
 class Original:
     """An original, prepared so that one decoded version after another is measured in one pass over the faces."""
 
@@ -238,9 +213,6 @@ class Original:
     def farthest(self, decoded: Positions) -> float:
         """Largest distance of a vertex of `decoded`, shape (n, 3), from its place."""
         return _kernels.farthest_apart(self.positions, np.ascontiguousarray(decoded, np.float64))
-
-    def closeness(self, decoded: Positions) -> Closeness:
-        return Closeness(self.farthest(decoded), self.angle(decoded))
 
 
 SAMPLES = 100_000

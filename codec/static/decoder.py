@@ -13,7 +13,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import AS_SPECIFIED, Overrides
 from bsm.codec.static.assembly import Assembly, DecodedBlock
-from bsm.codec.static.attributes.decoding import Complete, PendingValues, ValuesStage, completed
+from bsm.codec.static.attributes.decoding import BodyStage, Complete, PendingValues
 from bsm.codec.static.coding import chain_rules
 from bsm.codec.static.events import (
     AttributeEvent,
@@ -23,7 +23,6 @@ from bsm.codec.static.events import (
     HeaderEvent,
     LossEvent,
     RefinementEvent,
-    unreadable,
 )
 from bsm.codec.static.preamble_decoding import DecoderSetup, HeaderStage, Structure
 from bsm.codec.static.stages import Arrival, Stage, StreamDecoder, misplaced
@@ -61,7 +60,7 @@ class DecoderRequest:
     refined: bool
 
 
-class BlockStage:
+class BlockStage(BodyStage):
     """The faces are known; blocks come."""
 
     def __init__(self, structure: Structure, request: DecoderRequest, lanes: Lanes) -> None:
@@ -79,7 +78,7 @@ class BlockStage:
         )
         self._chain = ChainDecoder(self._scheme, 0, structure.allowance)
         self._next = 0
-        self._complete: Complete | None = None
+        super().__init__(self._assembly, structure, request.tolerant)
 
     def accept(self, arrival: Arrival, queue: deque[Item]) -> Stage[Item]:
         match arrival:
@@ -87,28 +86,15 @@ class BlockStage:
                 self._skip_to(arrival.index, queue)
                 self._decode(arrival, queue)
                 if self._next == self._blocks and self._structure.header.refinement and not self._request.refined:
-                    complete = completed(self._assembly, self._structure)
-                    queue.append(complete)
-                    return complete
-            case packets.Damaged():
-                queue.append(LossEvent(None, unreadable(arrival)))
+                    return self._end(queue)
+                return self
             case packets.Refinement():
-                self._skip_to(self._blocks, queue)
+                self._give_up(queue)
                 if not self._request.refined:
                     return self._end(queue)
                 refinement = RefinementStage(self._assembly, self._structure, self._lanes, self._request.tolerant)
                 return refinement.accept(arrival, queue)
-            case packets.Values():
-                self._skip_to(self._blocks, queue)
-                values = ValuesStage(self._assembly, self._structure, self._request.tolerant)
-                return values.accept(arrival, queue)
-            case packets.End():
-                self._end(queue, arrival.positions)
-            case Signal.END_OF_STREAM:
-                return self._complete or self._end(queue)  # a tolerant reader may find no END
-            case _:
-                raise misplaced(arrival)
-        return self
+        return super().accept(arrival, queue)
 
     def _decode(self, packet: packets.Block, queue: deque[Item]) -> None:
         number = self._scheme.chain_of(packet.index)
@@ -128,11 +114,8 @@ class BlockStage:
             queue.append(LossEvent(lost, error))
         self._next = index
 
-    def _end(self, queue: deque[Item], checksum: int | None = None) -> Complete:
+    def _give_up(self, queue: deque[Item]) -> None:
         self._skip_to(self._blocks, queue)
-        self._complete = completed(self._assembly, self._structure, checksum)
-        queue.append(self._complete)
-        return self._complete
 
 
 @public

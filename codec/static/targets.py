@@ -40,7 +40,7 @@ class Contract:
     alike : bool
         In `angle` all faces count alike, whatever their area.
     visual : float
-        Normalised mean visual error (`codec.geometry.metrics.nmsve`); infinite: any.
+        Normalised mean visual error (`codec.geometry.metrics.Reference.nmsve`); infinite: any.
     by_part : float
         The same as `farthest`, always over diagonals, and each connected part by its own: down to a tenth of what it is
         for the whole; parts near each other keep their order in depth. Infinite: no such bound.

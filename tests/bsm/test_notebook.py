@@ -51,7 +51,6 @@ def test_what_is_encoded_is_not_encoded_again():
 
 def test_missing_anywidget_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
-    monkeypatch.delitem(sys.modules, "bsm.viewer.widget", raising=False)
     with pytest.raises(bsm.DependencyError, match=r"pip install .*\[notebook\]"):
         bsm.show(bsm.encode(MESH))
 

@@ -288,26 +288,22 @@ class Complete(Ended):
         return replace(mesh, attributes=self.attributed.attributes()) if self.attributed else mesh
 
 
-def completed(whole: Whole, structure: MeshContext, checksum: int | None = None) -> Complete:
-    """The end of a decoder's way, where no values came."""
-    return Complete(whole, AttributedMesh(whole, structure) if structure.declarations.known else None, checksum)
-
-
-class ValuesStage:
-    """All positions are there, or known to be lost; values of attributes come."""
+class BodyStage:
+    """Positions come, or values: how these follow, and how a stream ends, is the same for all ways."""
 
     def __init__(self, whole: Whole, structure: MeshContext, tolerant: bool) -> None:
         self._whole = whole
-        self._attributed = AttributedMesh(whole, structure)
+        self._context = structure
         self._tolerant = tolerant
         self._complete: Complete | None = None
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
         match arrival:
             case packets.Values():
-                queue.append(PendingValues(arrival, self._attributed))
+                self._give_up(queue)
+                return ValuesStage(self._whole, self._context, self._tolerant).accept(arrival, queue)
             case packets.Damaged():
-                queue.append(LossEvent(None, unreadable(arrival)))
+                self._lose(arrival, queue)
             case packets.End():
                 self._end(queue, arrival.positions)
             case Signal.END_OF_STREAM:
@@ -316,7 +312,32 @@ class ValuesStage:
                 raise misplaced(arrival)
         return self
 
+    def _give_up(self, queue: deque[Any]) -> None:
+        """Say which positions will not come."""
+
+    def _lose(self, damaged: packets.Damaged, queue: deque[Any]) -> None:
+        queue.append(LossEvent(None, unreadable(damaged)))
+
+    @property
+    def _attributed(self) -> AttributedMesh | None:
+        return AttributedMesh(self._whole, self._context) if self._context.declarations.known else None
+
     def _end(self, queue: deque[Any], checksum: int | None = None) -> Complete:
+        self._give_up(queue)
         self._complete = Complete(self._whole, self._attributed, checksum)
         queue.append(self._complete)
         return self._complete
+
+
+class ValuesStage(BodyStage):
+    """All positions are there, or known to be lost; values of attributes come."""
+
+    @cached_property
+    def _attributed(self) -> AttributedMesh:
+        return AttributedMesh(self._whole, self._context)
+
+    def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
+        if not isinstance(arrival, packets.Values):
+            return super().accept(arrival, queue)
+        queue.append(PendingValues(arrival, self._attributed))
+        return self

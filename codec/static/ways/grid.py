@@ -9,18 +9,17 @@ import numpy as np
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import EXACT, Header
-from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import Cursor, write_varint
 from bsm.bitstream.errors import BsmError, CorruptError, NumericError
 from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
 from bsm.bitstream.fields.grid import Cells, Floats, Numbers, cells_of, floats_of, grid_field, light_field, spread
 from bsm.codec.arrays import Indices, Levels, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.attributes.decoding import Complete, ValuesStage, completed
+from bsm.codec.static.attributes.decoding import BodyStage
 from bsm.codec.static.attributes.surface import Solid
-from bsm.codec.static.events import BlockEvent, Changes, Losses, LossEvent, unreadable
+from bsm.codec.static.events import BlockEvent, Changes, Losses, LossEvent
 from bsm.codec.static.preamble_decoding import Structure
-from bsm.codec.static.stages import Arrival, Stage, misplaced
+from bsm.codec.static.stages import Arrival, Stage
 from bsm.codec.static.work import floats_cost, grid_chunk_cost, grid_cost, grid_memory, light_chunk_cost, light_cost
 
 FIRST, CHUNK = 1 << 12, 1 << 13
@@ -87,7 +86,7 @@ FULL = grid_field, grid_cost, grid_chunk_cost
 LIGHT = light_field, light_cost, light_chunk_cost  # how values are decoded, and what that and each frame cost
 
 
-class GridStage:
+class GridStage(BodyStage):
     """The faces are known; chunks of positions come."""
 
     def __init__(self, structure: Structure, tolerant: bool) -> None:
@@ -97,7 +96,6 @@ class GridStage:
         field, cost, self._chunk_cost = LIGHT if self._grid.light else FULL
         allowance.spend(cost(size, faces))
         self._structure = structure
-        self._tolerant = tolerant
         self._decoder = FieldDecoder(field(structure.faces, size, self._grid.largest), allowance.limits)
         self._floats: Floats | None = None
         if self._grid.exact:
@@ -106,23 +104,13 @@ class GridStage:
             self._floats = Floats(self._grid.largest)
         self._chunks = 0
         self._broken = False
-        self._complete: Complete | None = None
         self._result = OnGrid(structure, np.zeros((size, 3)), np.zeros((size, 3), np.int32), np.zeros(size, np.bool_))
+        super().__init__(self._result, structure, tolerant)
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
-        match arrival:
-            case packets.Grid():
-                self._decode(arrival, queue)
-            case packets.Values():
-                return ValuesStage(self._result, self._structure, self._tolerant).accept(arrival, queue)
-            case packets.Damaged():
-                self._lose(unreadable(arrival), queue)
-            case packets.End():
-                self._end(queue, arrival.positions)
-            case Signal.END_OF_STREAM:
-                return self._complete or self._end(queue)  # a tolerant reader may find no END
-            case _:
-                raise misplaced(arrival)
+        if not isinstance(arrival, packets.Grid):
+            return super().accept(arrival, queue)
+        self._decode(arrival, queue)
         return self
 
     def _decode(self, packet: packets.Grid, queue: deque[Any]) -> None:
@@ -136,7 +124,8 @@ class GridStage:
         except BsmError as error:
             if not self._tolerant:
                 raise
-            self._lose(error, queue)
+            self._broken = True
+            queue.append(LossEvent(None, error))
             return
         self._result.positions[vertices] = positions
         self._result.places[vertices] = coded
@@ -158,14 +147,9 @@ class GridStage:
             raise NumericError("positions are not finite in the unit of the mesh")
         return vertices, coded, positions
 
-    def _lose(self, error: BsmError, queue: deque[Any]) -> None:
+    def _lose(self, damaged: packets.Damaged, queue: deque[Any]) -> None:
         self._broken = True
-        queue.append(LossEvent(None, error))
-
-    def _end(self, queue: deque[Any], checksum: int | None = None) -> Complete:
-        self._complete = completed(self._result, self._structure, checksum)
-        queue.append(self._complete)
-        return self._complete
+        super()._lose(damaged, queue)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,6 @@ import numpy as np
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Layer
-from bsm.bitstream.container.reader import Signal
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import CorruptError
 from bsm.bitstream.fields.corners import FieldDecoder, FieldEncoder
@@ -21,11 +20,11 @@ from bsm.codec.arrays import Indices, Levels, Mask, Matrix
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.smooth import lift, local_frames, raised, slide, tangent_steps
 from bsm.codec.static.assembly import Assembly
-from bsm.codec.static.attributes.decoding import Complete, ValuesStage, completed
+from bsm.codec.static.attributes.decoding import BodyStage
 from bsm.codec.static.attributes.surface import Solid
-from bsm.codec.static.events import Losses, LossEvent, RefinementEvent, unreadable
+from bsm.codec.static.events import Losses, RefinementEvent
 from bsm.codec.static.preamble_decoding import Structure
-from bsm.codec.static.stages import Arrival, Stage, misplaced
+from bsm.codec.static.stages import Arrival, Stage
 from bsm.codec.static.work import chunk_cost, layer_cost, layer_memory
 from bsm.codec.threads import Lanes, Pending
 
@@ -47,40 +46,26 @@ class PendingLevels:
     refined: Refined
 
 
-class RefinementStage:
+class RefinementStage(BodyStage):
     """All blocks are there, or known to be lost; levels come."""
 
     def __init__(self, assembly: Assembly, structure: Structure, lanes: Lanes, tolerant: bool) -> None:
         self._lanes = lanes
-        self._tolerant = tolerant
-        self._complete: Complete | None = None
-        self._structure = structure
         self._refined = Refined(assembly, structure)
+        super().__init__(self._refined, structure, tolerant)
         self._decoder = LayerDecoder(structure)
 
     def accept(self, arrival: Arrival, queue: deque[Any]) -> Stage[Any]:
-        match arrival:
-            case packets.Refinement():
-                decode = partial(self._decoder.decode, arrival)
-                queue.append(PendingLevels(self._lanes.submit(-1, decode), self._refined))
-            case packets.Damaged():
-                if arrival.type is not FrameType.VALUES:
-                    self._refined.lose()
-                queue.append(LossEvent(None, unreadable(arrival)))
-            case packets.Values():
-                return ValuesStage(self._refined, self._structure, self._tolerant).accept(arrival, queue)
-            case packets.End():
-                self._end(queue, arrival.positions)
-            case Signal.END_OF_STREAM:
-                return self._complete or self._end(queue)
-            case _:
-                raise misplaced(arrival)
+        if not isinstance(arrival, packets.Refinement):
+            return super().accept(arrival, queue)
+        decode = partial(self._decoder.decode, arrival)
+        queue.append(PendingLevels(self._lanes.submit(-1, decode), self._refined))
         return self
 
-    def _end(self, queue: deque[Any], checksum: int | None = None) -> Complete:
-        self._complete = completed(self._refined, self._structure, checksum)
-        queue.append(self._complete)
-        return self._complete
+    def _lose(self, damaged: packets.Damaged, queue: deque[Any]) -> None:
+        if damaged.type is not FrameType.VALUES:
+            self._refined.lose()
+        super()._lose(damaged, queue)
 
 
 class LayerDecoder:

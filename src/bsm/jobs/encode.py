@@ -223,7 +223,7 @@ class Echo:
 
     @property
     def kg(self) -> float:
-        """Karni and Gotsman's error so far, in percent, see `codec.geometry.metrics.kg_error`."""
+        """Karni and Gotsman's error so far, in percent, see `codec.sequence.targets.SequenceComparison`."""
         if self._squares == 0.0:
             return 0.0
         return 100.0 * math.sqrt(self._squares / self._extent) if self._extent else math.inf

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,13 +13,10 @@ from bsm.bitstream.errors import OptionError, imported
 from bsm.files.pipes import Input
 from bsm.files.stream import is_stream
 from bsm.libraries import as_mesh
-from bsm.viewer.page import Content, compared
-
-if TYPE_CHECKING:
-    from bsm.viewer.widget import StreamWidget
+from bsm.viewer.page import Content, built, compared
 
 
-def show(source: Any, *, original: Any = None, height: int = 480, **keywords: Any) -> StreamWidget:
+def show(source: Any, *, original: Any = None, height: int = 480, **keywords: Any) -> Any:
     """Show a mesh, a sequence or a stream in a notebook, as it arrives and block by block.
 
     Parameters
@@ -52,9 +49,19 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
     >>> widget = bsm.show("bunny.ply", preset="fine")
     """
     imported("anywidget", "a notebook needs the package anywidget", "notebook")
-    from bsm.viewer.widget import StreamWidget
+    import anywidget
+    import traitlets
 
-    return StreamWidget(_content(source, original, keywords), height)
+    class StreamWidget(anywidget.AnyWidget):
+        _esm = built("viewer.js")
+        name = traitlets.Unicode().tag(sync=True)
+        stream = traitlets.Bytes().tag(sync=True)
+        original = traitlets.Bytes().tag(sync=True)
+        height = traitlets.Int().tag(sync=True)
+
+    content = _content(source, original, keywords)
+    beside = b"" if content.original is None else content.original.astype("<f4").tobytes()
+    return StreamWidget(name=content.name, stream=content.stream, original=beside, height=height)
 
 
 def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:

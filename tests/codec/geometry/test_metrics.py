@@ -12,13 +12,12 @@ from bsm.codec.geometry.metrics import (
     compare,
     folded_edges,
     geometric_laplacian,
-    kg_error,
     mean_edge_length,
     mnd,
-    nmsve,
     rms_over_edge,
     theta,
 )
+from bsm.codec.sequence.targets import compare_sequences
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 TWO = np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)
@@ -63,7 +62,7 @@ def test_the_laplacian_weighs_neighbours_by_inverse_distance() -> None:
 def test_coincident_neighbours_give_the_limit_and_no_nan() -> None:
     near, exact = SQUARE.copy(), SQUARE.copy()
     near[1], exact[1] = [1e-9, 0, 0], [0, 0, 0]
-    assert nmsve(SQUARE, near, TWO) == pytest.approx(nmsve(SQUARE, exact, TWO), rel=1e-6)
+    assert compare(SQUARE, near, TWO).nmsve == pytest.approx(compare(SQUARE, exact, TWO).nmsve, rel=1e-6)
     collapsed = np.zeros_like(SQUARE)
     assert math.isfinite(compare(collapsed, SQUARE, TWO).nmsve)
     assert compare(collapsed, collapsed, TWO).rms_relative == 0
@@ -94,13 +93,11 @@ def test_rms_over_the_mean_edge() -> None:
 def test_kg_error_is_relative_to_the_extent() -> None:
     square = SQUARE - SQUARE.mean(axis=0)
     frames = np.stack([square, square + np.array([2.0, 0, 0])])  # where a frame is does not count
-    assert kg_error(frames, frames) == 0
+    assert compare_sequences(frames, frames, TWO).kg == 0
     offset = 0.1 * math.sqrt(np.square(square).sum() / len(square))
-    assert kg_error(frames, frames + np.array([0.0, offset, 0])) == pytest.approx(10.0)
+    assert compare_sequences(frames, frames + np.array([0.0, offset, 0]), TWO).kg == pytest.approx(10.0)
     points = np.zeros((2, 4, 3))
-    assert kg_error(points, points + 1) == math.inf
-    with pytest.raises(MeshError):
-        kg_error(frames, frames[:1])
+    assert compare_sequences(points, points + 1, TWO).kg == math.inf
 
 
 def test_wrong_shapes_are_refused() -> None:

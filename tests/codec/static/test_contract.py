@@ -33,8 +33,8 @@ def noisy(mesh: TriangleMesh, amount: float) -> TriangleMesh:
 
 def kept(encoder: Encoder, data: bytes) -> tuple[float, float]:
     """Farthest vertex over the diagonal, and mean angle, of what a stream decodes to."""
-    closeness = Original(encoder.mesh.positions, encoder.mesh.faces).closeness(decode(data).positions)
-    return closeness.farthest / (encoder.mesh.diagonal or 1.0), closeness.angle
+    original, decoded = Original(encoder.mesh.positions, encoder.mesh.faces), decode(data).positions
+    return original.farthest(decoded) / (encoder.mesh.diagonal or 1.0), original.angle(decoded)
 
 
 def looks(encoder: Encoder, data: bytes) -> float:
