@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import gc
+import tracemalloc
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from bsm.bitstream.container.reader import END_OF_STREAM, Reader, Signal
@@ -58,3 +60,14 @@ def without(data: bytes, packet: type, index: int, how: str) -> bytes:
     if how == "removed":
         return data[:offset] + data[offset + length :]
     return data[:middle] + bytes([data[middle] ^ 0xFF]) + data[middle + 1 :]
+
+
+def peak_of(work: Callable[[], object]) -> int:
+    """Most bytes held while `work` runs."""
+    gc.collect()
+    tracemalloc.start()
+    try:
+        work()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()

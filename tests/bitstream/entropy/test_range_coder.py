@@ -84,16 +84,21 @@ def _entropy(counts: np.ndarray) -> float:
     return float(-(p * np.log2(p)).sum())
 
 
+def _comes_back(kernel, make, values: list[int]) -> bytes:
+    """The payload of values behind an argument that is made anew each time, once it is found to decode to them."""
+    array = np.array(values, np.int64)
+    payload = _write(kernel, make(), array)
+    coder, decoded = start_reading(payload), np.zeros_like(array)
+    kernel(coder, make(), decoded)
+    finish_reading(coder)
+    np.testing.assert_array_equal(decoded, array)
+    return payload
+
+
 @given(st.lists(st.tuples(st.integers(1, entropy.ONE - 1), st.integers(0, 1)), max_size=300))
 def test_bits_of_any_probability_round_trip(pairs: list[tuple[int, int]]) -> None:
-    probabilities = np.array([p for p, _ in pairs], np.int64)
-    bits = np.array([b for _, b in pairs], np.int64)
-    payload = _write(_code_bits, probabilities, bits)
-    coder = start_reading(payload)
-    decoded = np.zeros_like(bits)
-    _code_bits(coder, probabilities, decoded)
-    finish_reading(coder)
-    np.testing.assert_array_equal(decoded, bits)
+    probabilities, bits = np.array(pairs, np.int64).reshape(-1, 2).T.copy()
+    payload = _comes_back(_code_bits, lambda: probabilities, bits)
     chosen = np.where(bits == 1, probabilities, entropy.ONE - probabilities) / entropy.ONE
     assert len(payload) <= -np.log2(chosen).sum() / 8 + 1.01 + 1e-4 * len(bits)
     assert len(payload) <= 2 * len(bits) + 1
@@ -101,34 +106,17 @@ def test_bits_of_any_probability_round_trip(pairs: list[tuple[int, int]]) -> Non
 
 @given(st.lists(st.integers(1, 1 << 32).flatmap(lambda c: st.tuples(st.just(c), st.integers(0, c - 1))), max_size=50))
 def test_uniform_integers_round_trip(pairs: list[tuple[int, int]]) -> None:
-    counts = np.array([c for c, _ in pairs], np.int64)
-    values = np.array([v for _, v in pairs], np.int64)
-    payload = _write(_code_uniforms, counts, values)
-    coder = start_reading(payload)
-    decoded = np.zeros_like(values)
-    _code_uniforms(coder, counts, decoded)
-    finish_reading(coder)
-    np.testing.assert_array_equal(decoded, values)
+    _comes_back(_code_uniforms, lambda: np.array([c for c, _ in pairs], np.int64), [v for _, v in pairs])
 
 
 @given(st.lists(st.one_of(st.integers(0, 10), st.integers(0, (1 << 24) - 2)), max_size=100))
 def test_unsigned_integers_round_trip(values: list[int]) -> None:
-    array = np.array(values, np.int64)
-    payload = _write(_code_order_one, _order_one_bank(), array)
-    coder = start_reading(payload)
-    decoded = np.zeros_like(array)
-    _code_order_one(coder, _order_one_bank(), decoded)
-    finish_reading(coder)
-    np.testing.assert_array_equal(decoded, array)
+    _comes_back(_code_order_one, _order_one_bank, values)
 
 
 @given(st.lists(st.one_of(st.integers(-4, 4), st.integers(1 - (1 << 24), (1 << 24) - 1)), max_size=100))
 def test_signed_integers_round_trip(values: list[int]) -> None:
-    array = np.array(values, np.int64)
-    payload = _write(_code_signeds, make_bank(SIGNED, SIGNED, 1), array)
-    decoded = np.zeros_like(array)
-    _code_signeds(start_reading(payload), make_bank(SIGNED, SIGNED, 1), decoded)
-    np.testing.assert_array_equal(decoded, array)
+    _comes_back(_code_signeds, lambda: make_bank(SIGNED, SIGNED, 1), values)
 
 
 def test_learning_goes_on_over_several_payloads() -> None:

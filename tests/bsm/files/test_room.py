@@ -2,7 +2,6 @@
 
 import gzip
 import io
-import tracemalloc
 import zipfile
 
 import numpy as np
@@ -12,6 +11,7 @@ from bsm.bitstream.errors import CorruptError, LimitError, MeshError, TruncatedE
 from bsm.bitstream.limits import Limits
 from bsm.files.mesh import format_mesh, format_of_bytes, read_mesh
 from bsm.files.room import gunzipped
+from tests.streams import peak_of
 from tools.vectors.meshes import torus
 
 MIB = 1 << 20
@@ -26,15 +26,6 @@ TEXTS = {
     "ply": ("ply", b"ply\nformat ascii 1.0\nelement vertex 1\nend_header\n" + b"1\n" * 300_000),
     "stl": ("stl", b"solid\n" + b"x\n" * 300_000),
 }
-
-
-def peak_of(work):
-    tracemalloc.start()
-    try:
-        work()
-        return tracemalloc.get_traced_memory()[1]
-    finally:
-        tracemalloc.stop()
 
 
 @pytest.mark.parametrize("name", TEXTS)

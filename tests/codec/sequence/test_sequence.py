@@ -1,6 +1,4 @@
-import gc
 import math
-import tracemalloc
 
 import numpy as np
 import pytest
@@ -19,7 +17,7 @@ from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
 from bsm.codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
-from tests.streams import frames_in, moving_events_of, packets_of, without
+from tests.streams import frames_in, moving_events_of, packets_of, peak_of, without
 
 SMALL = {"block_size": 100, "step": 0.002, "gop": 8}
 WAYS: list[dict[str, int]] = [{}, {"low_delay": 1}, {"low_delay": 3}]
@@ -113,17 +111,6 @@ def test_chunks_come_as_frames_do(way):
     seen = [len(given) for chunk in chunks if chunk[0] & 15 == 7]
     held = way.get("low_delay", 4)
     assert list(dict.fromkeys(seen)) == [*range(held, 10, held), 10]
-
-
-def peak_of(work):
-    """Most bytes held while `work` runs."""
-    gc.collect()
-    tracemalloc.start()
-    try:
-        work()
-        return tracemalloc.get_traced_memory()[1]
-    finally:
-        tracemalloc.stop()
 
 
 @pytest.mark.parametrize("way", [{}, {"low_delay": 1}])
