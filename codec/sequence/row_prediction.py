@@ -42,16 +42,8 @@ class Loop:
         """Learn, before the first row, from vertices around: what is known there, shape (m, k), and a field, (m, r)."""
         if known.shape != (len(field), self._known) or field.shape[1] != self._moments.shape[1] - self._known:
             raise ValueError(f"{known.shape} known and {field.shape} columns, of {self._moments.shape[1]}")
-        width = self._moments.shape[1]
-        _kernels.learn_around(
-            np.ascontiguousarray(known),
-            np.ascontiguousarray(field),
-            self._moments,
-            step,
-            RULES,
-            np.empty(width),
-            np.empty(width),
-        )
+        given = np.ascontiguousarray(known), np.ascontiguousarray(field)
+        _kernels.learn_around(*given, self._moments, step, RULES, *self._rows())
         return self
 
     def search(
@@ -61,23 +53,10 @@ class Loop:
         levels, decoded = np.zeros(targets.shape, np.int32), np.empty(targets.shape)
         coded, width = targets.shape[1], self._moments.shape[1]
         self._check(known, levels)
-        _kernels.search_rows(
-            np.ascontiguousarray(known),
-            np.ascontiguousarray(targets),
-            prices.reshape(-1),
-            weight,
-            levels,
-            decoded,
-            self._moments,
-            step,
-            RULES,
-            np.zeros(self._moments.shape),
-            np.empty(width),
-            np.empty((2 * STATES + 1, width)),
-            np.empty((coded, STATES)),
-            np.empty((coded, STATES), np.int32),
-            np.zeros((coded, STATES), np.uint8),
-        )
+        given = np.ascontiguousarray(known), np.ascontiguousarray(targets), prices.reshape(-1), weight
+        scratch = np.zeros(self._moments.shape), np.empty(width), np.empty((2 * STATES + 1, width))
+        tables = np.empty((coded, STATES)), np.empty((coded, STATES), np.int32), np.zeros((coded, STATES), np.uint8)
+        _kernels.search_rows(*given, levels, decoded, self._moments, step, RULES, *scratch, *tables)
         if levels.size and max(levels.max(), -levels.min()) >= LARGEST_LEVEL:
             raise OptionError(f"a step of {step:g} is too fine for motion that far; choose a coarser one")
         return levels, decoded
@@ -85,18 +64,8 @@ class Loop:
     def decode(self, known: Matrix, levels: Levels, step: float) -> Matrix:
         """What the levels, shape (c, r), stand for."""
         self._check(known, levels)
-        decoded, width = np.empty(levels.shape), self._moments.shape[1]
-        _kernels.follow_rows(
-            np.ascontiguousarray(known),
-            np.ascontiguousarray(levels),
-            decoded,
-            self._moments,
-            step,
-            RULES,
-            np.zeros(self._moments.shape),
-            np.empty(width),
-            np.empty(width),
-        )
+        given, decoded = (np.ascontiguousarray(known), np.ascontiguousarray(levels)), np.empty(levels.shape)
+        _kernels.follow_rows(*given, decoded, self._moments, step, RULES, np.zeros(self._moments.shape), *self._rows())
         if not np.isfinite(decoded).all():
             raise NumericError("the levels reconstruct to coefficients that are not finite")
         return decoded
@@ -106,6 +75,9 @@ class Loop:
         twin = Loop(self._known, 0)
         twin._moments = self._moments.copy()
         return twin
+
+    def _rows(self) -> tuple[Matrix, Matrix]:
+        return np.empty(self._moments.shape[1]), np.empty(self._moments.shape[1])
 
     def _check(self, known: Matrix, levels: Levels) -> None:
         if known.shape != (len(levels), self._known) or levels.shape[1] != self._moments.shape[1] - self._known:

@@ -35,16 +35,11 @@ def to_pyvista(mesh: Any) -> Any:
     the active ones.
     """
     pyvista = imported("pyvista", "pyvista is not installed", "pyvista")
+    from bsm.vtk import fill
+
     mesh = split_by_attributes(as_mesh(mesh))
-    found = pyvista.PolyData.from_regular_faces(np.array(mesh.positions), mesh.faces)
-    for attribute in mesh.attributes:
-        data = found.cell_data if attribute.domain == "face" else found.point_data
-        values = attribute.values
-        data.set_array(np.array(values[:, 0] if attribute.components == 1 else values), attribute.name)
-        if attribute.domain == "vertex" and attribute.semantic == "texcoord" and attribute.components == 2:
-            data.active_texture_coordinates_name = attribute.name
-        if attribute.domain == "vertex" and attribute.semantic == "normal" and attribute.components == 3:
-            data.active_normals_name = attribute.name
+    found = pyvista.PolyData()
+    fill(found, mesh)
     for name, value in mesh.metadata.items():
         found.field_data[name] = np.frombuffer(value, np.uint8) if isinstance(value, bytes) else [value]
     return found

@@ -102,8 +102,10 @@ def fill(output: Any, mesh: TriangleMesh) -> None:
         array = numpy_to_vtk(np.ascontiguousarray(attribute.values), deep=True)
         array.SetName(attribute.name)
         data.AddArray(array)
-        if attribute.domain == "vertex" and attribute.semantic == "texcoord":
+        if attribute.domain == "vertex" and attribute.semantic == "texcoord" and attribute.components == 2:
             data.SetActiveTCoords(attribute.name)
+        if attribute.domain == "vertex" and attribute.semantic == "normal" and attribute.components == 3:
+            data.SetActiveNormals(attribute.name)
 
 
 class StreamSource(VTKPythonAlgorithmBase):  # type: ignore[misc]

@@ -22,17 +22,7 @@ _PIECE, _IN_MEMORY = 1 << 20, 1 << 26
 """Bytes that are sent at a time, and those that wait in memory and not on the disk."""
 _LONGEST_NAME = 1024  # of a file beside another: resolving takes the square of it
 _WEB = ("http", "https")
-_VERSIONS = [
-    "ETag",
-    "etag",
-    "Last-Modified",
-    "LastModified",
-    "last_modified",
-    "mtime",
-    "updated",
-    "created",
-    "checksum",
-]
+_STAMPS = ("ETag", "etag", "Last-Modified", "LastModified", "last_modified", "mtime", "updated", "created", "checksum")
 """What file systems call what changes with a file."""
 
 
@@ -170,7 +160,7 @@ def state_of_remote(url: str) -> RemoteState | None:
             about = files.info(path)
     except FileNotFoundError:
         return None
-    version = next((str(about[name]) for name in _VERSIONS if about.get(name)), "")
+    version = next((str(about[name]) for name in _STAMPS if about.get(name)), "")
     return RemoteState(about.get("size"), version)
 
 
