@@ -11,8 +11,22 @@ from bsm.codec.arrays import Faces, Mask, Matrix, Positions
 from bsm.codec.geometry.attributes import at_corners
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
-from bsm.codec.look.pictures import BACKGROUND, SQUARE, Canvas, Normals, Picture, Shape, difference
-from bsm.codec.look.sides import FEW, MOST_PIXELS, cameras, pixels_for
+from bsm.codec.look.pictures import (
+    BACKGROUND,
+    FEW,
+    LEAST_PIXELS,
+    MOST_PIXELS,
+    SQUARE,
+    TOWARDS,
+    Canvas,
+    Checker,
+    Normals,
+    Picture,
+    Shape,
+    cameras,
+    difference,
+    pixels_for,
+)
 from bsm.codec.threads import Result, ordered_map
 
 DISSIMILAR = 0.03  # 1 - SSIM at distance 1
@@ -242,6 +256,44 @@ class LookMetric:
         return np.array(self._each(sums, sides))
 
 
+class Worn:
+    """Pictures of an original under a checker, at texture coordinates of corners, shape (m, 6): `spec/look.md`, L 7."""
+
+    def __init__(self, mesh: TriangleMesh, places: Matrix, *, threads: int | None = None) -> None:
+        self._metric = LookMetric(mesh.bare, threads=threads, most_pixels=LEAST_PIXELS)
+        self._faces = self._metric._shape.faces
+        self._checker = Checker.on(places, self._metric._placed(mesh.positions), self._faces)
+        self._pictures = self._drawn(self._checker, mesh.positions, self._faces, places, range(len(TOWARDS)))
+
+    def distance(self, positions: Positions, places: Matrix, sides: Sequence[int] = range(len(TOWARDS))) -> float:
+        """How far other positions, and what corners have then, look from the original."""
+        return self._far(self._drawn(self._checker, positions, self._faces, places, sides), sides)
+
+    def compare(self, other: TriangleMesh) -> float | None:
+        """How far another mesh looks, of whatever faces; None: it has no texture coordinates."""
+        places, faces = texture_places(other), np.ascontiguousarray(other.faces, np.int32)
+        if places is None:
+            return None
+        checker, sides = Checker.on(places, self._metric._placed(other.positions), faces), range(len(TOWARDS))
+        return self._far(self._drawn(checker, other.positions, faces, places, sides), sides)
+
+    def _far(self, drawn: Sequence[Picture], sides: Sequence[int]) -> float:
+        pairs = ((self._pictures[side], picture) for side, picture in zip(sides, drawn, strict=True))
+        return math.pow(summed(np.array([difference(*pair) for pair in pairs])).dissimilarity / DISSIMILAR, POWER)
+
+    def _drawn(
+        self, checker: Checker, positions: Positions, faces: Faces, places: Matrix, sides: Sequence[int]
+    ) -> list[Picture]:
+        metric, placed = self._metric, self._metric._placed(np.ascontiguousarray(positions, np.float64))
+        normals = Shape.of(placed, faces).normals(placed)
+
+        def drawn(canvas: Canvas, side: int) -> Picture:
+            canvas.draw(placed, faces, normals, metric._cameras[side])
+            return checker.over(canvas, placed, faces, metric._cameras[side], places)
+
+        return metric._each(drawn, sides)
+
+
 def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = None) -> Look:
     """How much alike two meshes look, of whatever vertices and faces."""
     return LookMetric(original, threads=threads).compare(other)
@@ -274,4 +326,12 @@ def own_normals(mesh: TriangleMesh) -> Normals | None:
             lengths = np.sqrt(np.square(corners).sum(axis=-1, keepdims=True))
             unit = np.divide(corners, lengths, out=np.zeros_like(corners), where=lengths > 0)
             return np.ascontiguousarray(unit.reshape(-1, 9), np.float32)
+    return None
+
+
+def texture_places(mesh: TriangleMesh) -> Matrix | None:
+    """Texture coordinates of corners that the mesh has as an attribute, shape (m, 6); None: it has none."""
+    for attribute in mesh.attributes:
+        if attribute.semantic == "texcoord" and attribute.components == 2 and attribute.domain != "face":
+            return np.asarray(at_corners(attribute, mesh.faces), np.float64).reshape(-1, 6)
     return None

@@ -1,4 +1,4 @@
-"""Shaded pictures of a mesh, and how much two of them differ."""
+"""Shaded pictures of a mesh from all sides, and how much two of them differ."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
+from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.welding import weld
 
 Picture = npt.NDArray[np.float32]  # shades, 0 (black) to 1 (white, the background); first row on top
@@ -23,6 +24,22 @@ VISIBLE = 12.0 / 255.0  # difference of shades, after the narrow blur, that is s
 PLAIN = 48.0 / 255.0  # difference that is plain; where it fills a square, a part is gone
 SQUARE = 64.0  # pixels of such a square
 BACKGROUND = 1.0
+TOWARDS = (
+    *((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)),
+    *((7, 0, 401), (7, 0, -401)),
+    *((x, y, z) for x, y in ((101, 101), (-101, 101), (-101, -101), (101, -101)) for z in (100, -100)),
+)
+"""Where the camera is, from the middle of the mesh: around it, above and below, and at the corners of a cube."""
+FEW = (0, 3, 6, 9, 12)  # those from which a mesh looks about as it does from all
+LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
+AIR = 1.03  # the side of the picture over the longer side of what it shows
+LEAST_PIXELS, MOST_PIXELS = 512, 2048
+EDGE_PIXELS = 2.0  # what a mean edge has, where `MOST_PIXELS` allow it
+CHECKS, DARK, TEXELS = (
+    8,
+    0.35,
+    128,
+)  # of a checker: squares of a side, how bright dark ones are, texels of a square's side
 _GRID = 2.0**24
 _SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}
 _SCRATCH_ROWS, _TILE = 75, 8
@@ -76,6 +93,96 @@ class Canvas:
         room = np.empty(positions.shape), self._depth, self._lengths, self._tiles
         _kernels.draw_shaded(positions, faces, normals, camera, *room, self.picture, self.owner)
         return self.picture
+
+
+def axes(towards: tuple[int, int, int]) -> Matrix:
+    """The camera's axes as rows, shape (3, 3): right, up, towards the camera; z is up in the mesh."""
+    x, y, z = towards
+    flat, length = math.sqrt(x * x + y * y), math.sqrt(x * x + y * y + z * z)
+    right = (-y / flat, x / flat, 0.0)
+    ahead = (x / length, y / length, z / length)
+    up = (-ahead[2] * right[1], ahead[2] * right[0], ahead[0] * right[1] - ahead[1] * right[0])
+    return np.array([right, up, ahead])
+
+
+def cameras(positions: Positions, pixels: int) -> list[Matrix]:
+    """What `draw_shaded` takes for each side, shape (15,), so that the positions, shape (n, 3), fill the picture."""
+    found = []
+    across, deep, high_up = np.ascontiguousarray(positions.T)
+    for towards in TOWARDS:
+        rows = axes(towards)
+        seen = [across * x + deep * y + high_up * z for x, y, z in rows]
+        low, high = (np.array([values.min() for values in seen]), np.array([values.max() for values in seen]))
+        side = AIR * float((high - low)[:2].max()) or 1.0
+        scale = np.array([pixels / side, -pixels / side, 2.0**22])  # as many depths in the box's diagonal
+        offset = np.array([pixels / 2, pixels / 2, 0.0]) - scale * (low + high) / 2
+        light = LIGHT[0] * rows[0] + LIGHT[1] * rows[1] + LIGHT[2] * rows[2]
+        found.append(np.concatenate([np.column_stack([rows * scale[:, None], offset]).ravel(), light]))
+    return found
+
+
+def pixels_for(positions: Positions, faces: Faces) -> int:
+    """Pixels of a side of the pictures: enough that the mean edge has `EDGE_PIXELS`."""
+    first, second, third = (positions[corner] for corner in np.ascontiguousarray(faces.T))
+    sides = [first - second, second - third, third - first]
+    edge = float(sum(np.sqrt(np.einsum("fd,fd->f", side, side)).sum() for side in sides)) / (3 * len(faces))
+    ends = np.array([box_around(corner) for corner in (first, second, third)])
+    side = AIR * float((ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)).max())
+    if not edge * MOST_PIXELS > EDGE_PIXELS * side:
+        return MOST_PIXELS
+    return max(LEAST_PIXELS, math.ceil(EDGE_PIXELS * side / edge))
+
+
+@dataclass(frozen=True, eq=False)
+class Checker:
+    """A texture on faces, for each as fine as it is shown: pictures, each half as fine as the last, and whose turn."""
+
+    images: tuple[Picture, ...]
+    turn: Indices
+
+    @classmethod
+    def on(cls, places: Matrix, positions: Positions, faces: Faces) -> Checker:
+        """Where corners are at places of it, shape (m, 6), and positions in a box of diagonal 1 fill a picture."""
+        cells = np.indices((CHECKS, CHECKS)).sum(axis=0) % 2
+        sides = [TEXELS >> halved for halved in range(TEXELS.bit_length())]
+        images = tuple(np.kron(np.where(cells, 1.0, DARK), np.ones((side, side))).astype(np.float32) for side in sides)
+        first, second = places[:, 2:4] - places[:, :2], places[:, 4:] - places[:, :2]
+        texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * images[0].size
+        a, b, c = (positions[corner] for corner in faces.T)
+        shown = np.sqrt(np.square(np.cross(b - a, c - a)).sum(axis=1)) * LEAST_PIXELS**2
+        ratio = np.divide(texels, shown, out=np.zeros(len(faces)), where=shown > 0.0)
+        turn = np.rint(0.5 * np.log2(np.maximum(ratio, 1.0))).astype(np.int32)
+        return cls((*images, np.full((1, 1), (1.0 + DARK) / 2.0, np.float32)), turn.clip(max=len(images)))
+
+    def over(self, canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, places: Matrix) -> Picture:
+        """What a canvas shows in shades, and this texture at places of corners, shape (m, 6), on it."""
+        shown = canvas.owner >= 0
+        owner, (rows, columns) = canvas.owner[shown], np.nonzero(shown)
+        screen = placed @ camera[:12].reshape(3, 4)[:2, :3].T + camera[[3, 7]]
+        a, b, c = (screen[corner].T for corner in faces[owner].T)
+        x, y = columns + 0.5 - a[0], rows + 0.5 - a[1]
+        (bx, by), (cx, cy) = b - a, c - a
+        area = bx * cy - by * cx
+        s, r = (((x * cy - y * cx) / area).clip(0.0, 1.0), ((bx * y - by * x) / area).clip(0.0, 1.0))
+        first, second, third = places[owner].T.reshape(3, 2, -1)
+        picture = canvas.picture.copy()
+        picture[shown] *= self._at(first + s * (second - first) + r * (third - first), self.turn[owner])
+        return picture
+
+    def _at(self, places: Matrix, turn: Indices) -> Picture:
+        """The texture at places, shape (2, k), between four texels; it repeats."""
+        found = np.empty(len(turn), np.float32)
+        for number, image in enumerate(self.images):
+            here = turn == number
+            x, y = places[:, here] * np.array(image.shape)[:, None] - 0.5
+            column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
+            upper, lower = (
+                image[at % len(image), column % len(image)] * (1.0 - (x - column))
+                + image[at % len(image), (column + 1) % len(image)] * (x - column)
+                for at in (row, row + 1)
+            )
+            found[here] = upper * (1.0 - (y - row)) + lower * (y - row)
+        return found
 
 
 def difference(first: Picture, second: Picture, unlike: Picture = _NOWHERE) -> Matrix:

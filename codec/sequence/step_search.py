@@ -14,7 +14,7 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.look.sides import MOST_PIXELS
+from bsm.codec.look.pictures import MOST_PIXELS
 from bsm.codec.sequence.frames import same_frames
 from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.row_prediction import ROUNDS

@@ -16,11 +16,11 @@ from bsm.codec.arrays import Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference
-from bsm.codec.look.measure import Shading, own_normals
-from bsm.codec.look.pictures import Normals
+from bsm.codec.look.measure import Shading, Worn, own_normals
+from bsm.codec.look.pictures import FEW, Normals
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
-from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, Quality, qualities
+from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, Quality, qualities
 from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.choice.bounds import Measures
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
@@ -28,7 +28,7 @@ from bsm.codec.static.choice.search import Search
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
-from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
+from bsm.codec.static.targets import SLACK, TRIES, WIDEST, Contract, Target, search_step
 from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
 
 
@@ -60,6 +60,8 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
+OF_TEXTURES, MOST_TILES = 0.33, 2.0**20
+"""Of the look that is promised, what rounding texture coordinates may take; and how often a texture is repeated."""
 SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
@@ -202,8 +204,45 @@ class Encoder:
         return self._judged(self._smallest(contract, progress))
 
     def _smallest(self, contract: Contract, progress: Progress | None) -> Draft:
-        """The smallest stream that keeps a contract; of normals that nothing is said of, what the look needs."""
+        """The smallest stream that keeps a contract, under a checker where there are texture coordinates, too."""
         search = self._search(contract, progress)
+        worn = self._worn(contract.look) if search.metric is not None and contract.look < math.inf else []
+        asked = contract
+        for _ in range(TRIES):
+            if worn:
+                self._carried = carry(place_of(self._given, self._joined, self._prepared), self._wanted)
+            kept = self._shaded(search, asked, progress)
+            positions = self._prepared.units.into(kept.decoded)
+            seen = max((one.distance(positions, self._carried[at].at_corners) for at, one in worn), default=0.0)
+            if seen <= contract.look:
+                break
+            asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
+        return kept
+
+    def _worn(self, look: float) -> list[tuple[int, Worn]]:
+        """Which attributes are texture coordinates of which nothing is said, now in as few bits as look right."""
+        found = []
+        for at, (one, quality) in enumerate(self._wanted):
+            told = {"*", one.name} & {*dict(self.options.attributes)} or quality.way != "bits"
+            plain = one.semantic == "texcoord" and one.components == 2 and one.domain != "face"
+            if told or not plain or np.abs(one.values).max(initial=0.0) > MOST_TILES:
+                continue
+            exact = self._carry_with(at, Quality("bits", MOST_BITS))[at].at_corners
+            mesh = TriangleMesh(self._prepared.positions, self.mesh.faces)
+            worn, least, most = Worn(mesh, exact, threads=self.options.threads), 1, MOST_BITS
+            while least < most:
+                bits = (least + most) // 2
+                places = self._carry_with(at, Quality("bits", bits))[at].at_corners
+                if worn.distance(mesh.positions, places, FEW) <= OF_TEXTURES * look:
+                    most = bits
+                else:
+                    least = bits + 1
+            self._wanted[at] = one, Quality("bits", most)
+            found.append((at, worn))
+        return found
+
+    def _shaded(self, search: Search, contract: Contract, progress: Progress | None) -> Draft:
+        """The smallest stream that keeps a contract; of normals that nothing is said of, what the look needs."""
         bare, metric, free = search.smallest(contract), search.metric, self._free
         if free is None or metric is None or contract.look == math.inf:
             return self._dressed(bare)

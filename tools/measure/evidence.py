@@ -32,8 +32,7 @@ from bsm.codec.arrays import Matrix
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.look.pictures import Canvas, Picture, Shape, difference
-from bsm.codec.look.sides import cameras
+from bsm.codec.look.pictures import Canvas, Picture, Shape, cameras, difference
 from bsm.console import Console
 from bsm.evaluation.curve import decode_draco, encode_draco
 from bsm.files.mesh import read_mesh

@@ -30,18 +30,18 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_580,
+    "product Python, lines": 34_725,
     "all Python, lines": 72_200,
-    "product modules": 198,
+    "product modules": 197,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "header fields": 19,
     "fields of EncodeOptions": 20,
     "settings of --set": 12,
-    "words of spec/*.md": 24_900,
+    "words of spec/*.md": 24_950,
     "words of the core": 11_000,
-    "tuned constants of the search": 59,
-    "files that encoding a mesh walks through": 58,
+    "tuned constants of the search": 61,
+    "files that encoding a mesh walks through": 57,
 }
 
 

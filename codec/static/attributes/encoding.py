@@ -70,6 +70,13 @@ class PreparedAttribute:
     levels: Words
     note: str
 
+    @property
+    def at_corners(self) -> Matrix:
+        """What a decoder will have at corners, shape (m, 3 c)."""
+        return np.asarray(restored(self.declaration, self.levels)[self.surface.faces], np.float64).reshape(
+            len(self.surface.faces), -1
+        )
+
     def normals(self, positions: Matrix) -> Normals:
         """What normals a decoder will have at corners, shape (m, 9), where it has these positions, shape (n, 3)."""
         again = self.declaration.coding == RECOMPUTED

@@ -74,13 +74,16 @@ def run(args: argparse.Namespace, console: Console) -> None:
         more: dict[str, Any] = {}
         if args.look or args.picture:
             progress.stage("looking from all sides")
-            from bsm.codec.look.measure import LookMetric
+            from bsm.codec.look.measure import LookMetric, Worn, texture_places
 
             if args.picture:
                 refuse_to_overwrite(args.picture, args.force)
             looker = LookMetric(original)
             seen = looker.compare(decoded)
             more["flat"] = looker.flat(decoded)
+            places = texture_places(original)
+            under = None if places is None else Worn(original, places).compare(decoded)
+            more |= {} if under is None else {"checker": under}
             if args.picture:
                 write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
         progress.stage("comparing")
@@ -102,6 +105,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
         lines.append(f"{'look in facets':<19}1 - SSIM {more['flat']:.4g}\n")
+        lines += [f"{'under a checker':<19}{more['checker']:.4g}\n"] if "checker" in more else []
     for name, errors in attributes.items():
         said = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
         lines.append(f"{printable(name)}: {'not there any more' if said is None else said}\n")

@@ -9,8 +9,17 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric, judged, look
-from bsm.codec.look.pictures import CREASE, Canvas, Shape, difference
-from bsm.codec.look.sides import LEAST_PIXELS, MOST_PIXELS, axes, cameras, pixels_for
+from bsm.codec.look.pictures import (
+    CREASE,
+    LEAST_PIXELS,
+    MOST_PIXELS,
+    Canvas,
+    Shape,
+    axes,
+    cameras,
+    difference,
+    pixels_for,
+)
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, tetrahedron, together, torus
 

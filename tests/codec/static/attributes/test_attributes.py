@@ -14,7 +14,7 @@ from bsm.bitstream.errors import BsmError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.codec.look.measure import look
+from bsm.codec.look.measure import Worn, look, texture_places
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.events import AttributeEvent, EndEvent, LossEvent
@@ -97,7 +97,7 @@ def compared(given: TriangleMesh, decoded: TriangleMesh, encoder: Encoder) -> di
 @pytest.mark.parametrize("shape", [patch(30, 24), torus(), tetrahedron()], ids=["patch", "torus", "tetrahedron"])
 def test_everything_comes_back(shape, options):
     mesh = dressed(shape)
-    encoder = Encoder(mesh, replace(options, normals="keep"))
+    encoder = Encoder(mesh, replace(options, normals="keep", attributes={} if options.grid else {"uv": "12bits"}))
     decoded = decode(encoder.encode())
     errors = compared(mesh, decoded, encoder)
     fine = options.grid is not None
@@ -247,6 +247,27 @@ def test_the_look_chooses_normals(outwards, wild):
     declared = of_kind(streams["look"], packets.Attribute)[0].declaration
     assert (declared.coding == RECOMPUTED) == (outwards > 0 and not wild)
     assert look(mesh, decode(streams["look"])).distance <= 1.0
+
+
+@pytest.mark.parametrize("preset", ["small", "balanced", "fine"])
+def test_texture_coordinates_and_shapes_keep_the_look_under_a_checker(preset):
+    mesh = replace(torus(30, 20), attributes=())
+    mesh = replace(mesh, attributes=(atlas(mesh),))
+    encoder = Encoder(mesh, PRESETS[preset])
+    decoded = decode(encoder.encode())
+    places = texture_places(mesh)
+    assert places is not None
+    seen = Worn(mesh, places).compare(decoded)
+    assert seen is not None and seen <= PRESETS[preset].contract.look + 1e-3
+    told = encode(mesh, replace(PRESETS[preset], attributes={"uv": "14bits"}))
+    assert np.ptp(decode(told).attributes[0].values) > 0.0 and len(encoder.encode()) < len(told)
+
+
+def test_textures_that_are_repeated_beyond_all_pictures_are_not_looked_at():
+    mesh = torus(12, 8)
+    wide = Attribute("uv", np.float32(1e30) * mesh.positions[:, :2], "vertex", "texcoord")
+    decoded = decode(encode(replace(mesh, attributes=(wide,))))
+    assert np.abs(decoded.attributes[0].values).max() > 1e29
 
 
 @pytest.mark.parametrize(
