@@ -1,4 +1,7 @@
-"""Every failure this project reports: one base class, and a class for each thing a caller may want to do about it."""
+"""Every failure this project reports: one base class, and a class for each thing a caller may want to do about it.
+
+And what to type where a library is missing, and how what users import is called.
+"""
 
 from __future__ import annotations
 

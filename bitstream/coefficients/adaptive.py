@@ -1,4 +1,4 @@
-"""Adaptive coding of quantized coefficients (M 9): by what their neighbours let expect, and what was learnt before."""
+"""Adaptive coding of quantized coefficients (M 9), by what their neighbours let expect and what was learnt before."""
 
 from __future__ import annotations
 

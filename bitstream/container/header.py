@@ -1,4 +1,4 @@
-"""The stream header: every field is declared once, with its key, its legal range and its default."""
+"""The header, and what declares an attribute: each field once, with its key, its legal range and its default."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a stream consists of, once it is no longer bytes."""
+"""What a stream consists of, once it is no longer bytes; and the payload of each packet, as twins side by side."""
 
 import math
 from collections.abc import Callable, Mapping

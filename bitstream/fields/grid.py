@@ -1,4 +1,4 @@
-"""Positions on a grid to bytes and back, given the faces; exact."""
+"""Positions on a grid, and levels that refine a mesh, to bytes and back, given the faces; exact."""
 
 from dataclasses import replace
 from typing import NamedTuple

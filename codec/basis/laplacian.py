@@ -1,7 +1,10 @@
 """The Laplacian of a block, L = D - W, and the solver behind R = (L + delta I)^-1 (paper, sections 3 and 4).
 
 Equation 2 of the paper weighs edges by geometry; the decoder of a mesh has only connectivity, so all weights are one
-there, while the frames of a sequence have a first one to weigh them by (`codec.basis.laplacian`).
+there, while the frames of a sequence have a first one to weigh them by (`cotangent_weights`): decoders know that to
+rounding, so that weights are smooth functions of it which make little of little: soft cotangents, whose denominators
+stay away from zero, within soft bounds above zero (cotangents may be negative, and L indefinite, where a triangle is
+obtuse; U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates", 1993, section 4).
 
 The order of elimination is nested dissection along the bisection that ordered the rows. The rows before a cut that see
 across it separate the two halves; they are eliminated after both. The rows of a separator, or of a half that is not cut
@@ -9,25 +12,10 @@ further, make a front: its own steps, and the later steps to which they lead, it
 matrix, one row for each of its own steps, own steps first and then the border; this costs some fill and buys vector
 instructions (C. Ashcraft, R. Grimes, "The influence of relaxed supernode partitions on the multifrontal method", 1989).
 
-What dictionaries cost, in nanoseconds of a processor core and in bytes, before anything is done for them.
-
-Mathematics states prices, stages pay them: `Steps` is how a price travels.
-
-The numbers are those of one machine, an x86-64 server with AVX-512; `python -m tools.attack charges` says how true they
-are of another. What they are for is to refuse what would take much longer than it is worth, so that a factor of two is
-close enough; what counts is that nothing is left out.
-
-Edges weighed by geometry that both sides already know: the decoded first frame of a sequence.
-
-The paper's Laplacian is the binary one because a decoder knows connectivity only. The frames of a sequence are
-different: once one of them is decoded, the others may be transformed in a basis that knows the shape of the triangles.
-Decoders know that frame to rounding, so that the weights are smooth functions of it which make little of little: soft
-cotangents, whose denominators stay away from zero, within soft bounds above zero (cotangents may be negative, and L
-indefinite, where a triangle is obtuse).
-
-References
-----------
-U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates", 1993, section 4.
+What dictionaries cost, in nanoseconds of a core and in bytes, is said before anything is done: mathematics states
+prices, stages pay them, and `Steps` is how a price travels. The numbers are those of one machine, an x86-64 server with
+AVX-512; `python -m tools.attack charges` says how true they are of another. They are for refusing what would take much
+longer than it is worth: a factor of two is close enough, and what counts is that nothing is left out.
 """
 
 from collections.abc import Callable, Generator

@@ -1,14 +1,13 @@
 """Tracking the low-frequency subspace of each block by orthogonal iterations (paper, section 4, Algorithm 1).
 
-U is the dictionary of a block, n_d rows and c orthonormal columns in single precision; R = (L + delta I)^-1.
-Onorm, the Q of a QR factorisation with a positive diagonal, follows every solution; no column depends on a later one.
+U is the dictionary of a block, n_d rows and c orthonormal columns in single precision; R = (L + delta I)^-1. Onorm, the
+Q of a QR factorisation with a positive diagonal, follows every solution; no column depends on a later one.
 
-Dynamic orthogonal iterations: the subspace's size follows the error of each block (paper, section 5, Algorithm 2).
-
-The printed algorithm has its two branches the wrong way round; this follows the text. Where the paper appends the
-residual, which a decoder cannot know, both sides append a cosine (`codec.basis.orthogonal_iteration.resized`). Q of a
-QR factorisation is nested, so one iteration at the largest size holds the subspace of every smaller size, and the
-residual for all of them is one cumulative sum: the search costs no further iteration.
+In dynamic orthogonal iterations the subspace's size follows the error of each block (section 5, Algorithm 2, whose two
+branches are printed the wrong way round; this follows the text). Where the paper appends the residual, which a decoder
+cannot know, both sides append a cosine (`resized`). Q of a QR factorisation is nested, so one iteration at the largest
+size holds the subspace of every smaller size, and the residual for all of them is one cumulative sum: the search costs
+no further iteration.
 """
 
 from functools import partial

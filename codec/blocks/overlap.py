@@ -1,17 +1,15 @@
-"""Overlapping blocks of equal size, in a chain, and the blend of copies of a vertex (paper, sections 4, 6.1, 6.3).
+"""A mesh cut into parts and overlapping blocks, in a chain; the blend of copies of a vertex (paper, sections 4 and 6).
 
 Each part of the partition is grown by breadth-first rings into its neighbours until it holds n_d vertices; the blocks
-are visited along a chain in which each lies beside its predecessor where the mesh allows it; and the rows of each
-block are brought into the order of a full bisection, so that row r means about the same place in every block.
+are visited along a chain in which each lies beside its predecessor where the mesh allows it; and the rows of each block
+are brought into the order of a full bisection, so that row r means about the same place in every block.
 
-Cutting a mesh into parts: METIS, as in the paper, or a rule that both sides follow (paper, sections 4, 6.2).
-
-The rule is recursive bisection, of integers only. A set of vertices lies between two ends, low and high, that are far
-apart. It is sorted by distance to the low end minus distance to the high end and cut in two. Each half keeps the end
-it contains, and the distances to it; its other end is the vertex farthest from that one, and one breadth-first sweep
-gives the distances to it. Cut into k parts this is a partition that needs no bits; cut down to a few vertices it is an
-order in which row r means about the same place in every block, which is what makes the subspace of one block a good
-start for the next.
+The rule, which both sides follow, is recursive bisection, of integers only. A set of vertices lies between two ends,
+low and high, that are far apart. It is sorted by distance to the low end minus distance to the high end and cut in two.
+Each half keeps the end it contains, and the distances to it; its other end is the vertex farthest from that one, and
+one breadth-first sweep gives the distances to it. Cut into k parts this is a partition that needs no bits; cut down to
+a few vertices it is an order in which row r means about the same place in every block, which is what makes the subspace
+of one block a good start for the next.
 """
 
 from dataclasses import dataclass

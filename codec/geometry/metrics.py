@@ -3,10 +3,9 @@
 All lengths called *relative* are in units of the original's bounding-box diagonal. Where that diagonal is zero (all
 vertices coincide) the scale is 1.
 
-The two-sided Hausdorff distance of two surfaces: exact distances from dense samples to triangles.
-
-Samples are the vertices and points spread evenly over the area, so the result is a lower bound that rises towards the
-true distance with their number; the distance of each sample is exact, found in a tree of bounding boxes.
+The Hausdorff distance of two surfaces is that of dense samples to triangles. Samples are the vertices and points spread
+evenly over the area, so the result is a lower bound that rises towards the true distance with their number; the
+distance of each sample is exact, found in a tree of bounding boxes.
 """
 
 import math

@@ -1,10 +1,9 @@
-"""Smoothing in the decoder, by an amount that the stream carries.
+"""What decoded positions are filtered by, and the local frames that they are refined in; the same for both sides.
 
-Not in the paper. Coefficients that were quantized or left out show as roughness; a low-pass filter on the whole mesh
-takes most of it away. The filter is a polynomial of degree 5 in the random-walk Laplacian K = I - D^-1 A, so a vertex
-depends on five rings around it only and can be finished while the rest of the stream is still on its way.
-
-The local frame of each vertex of a decoded mesh, and displacements in it; the same for encoder and decoder.
+Smoothing, by an amount that the stream carries, is not in the paper. Coefficients that were quantized or left out show
+as roughness; a low-pass filter on the whole mesh takes most of it away. The filter is a polynomial of degree 5 in the
+random-walk Laplacian K = I - D^-1 A, so a vertex depends on five rings around it only and can be finished while the
+rest of the stream is still on its way.
 
 Frames are smooth functions of the positions, and so they are of the surface: what is coded in the frames of neighbours
 can be predicted from one to the other, and rounding of positions only rounds frames.

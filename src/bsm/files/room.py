@@ -1,4 +1,4 @@
-"""How much memory a mesh file may take to be read, before anything is made of what it holds.
+"""Tables of numbers in text, and how much memory a mesh file may take before anything is made of what it holds.
 
 As a stream, a file may take what limits grant for its bytes and its vertices; what it inflates to counts, too.
 """
