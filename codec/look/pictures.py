@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Indices, Matrix, Positions
+from bsm.codec.arrays import Faces, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.welding import weld
@@ -135,54 +135,42 @@ def pixels_for(positions: Positions, faces: Faces) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Checker:
-    """A texture on faces, for each as fine as it is shown: pictures, each half as fine as the last, and whose turn."""
+    """A texture on faces: one over the part of a square that its edges take on each, shape (m,); 0: it is grey."""
 
-    images: tuple[Picture, ...]
-    turn: Indices
+    steepness: Matrix
 
     @classmethod
     def on(cls, places: Matrix, positions: Positions, faces: Faces) -> Checker:
         """Where corners are at places of it, shape (m, 6), and positions in a box of diagonal 1 fill a picture."""
-        cells = np.indices((CHECKS, CHECKS)).sum(axis=0) % 2
-        sides = [TEXELS >> halved for halved in range(TEXELS.bit_length())]
-        images = tuple(np.kron(np.where(cells, 1.0, DARK), np.ones((side, side))).astype(np.float32) for side in sides)
         first, second = places[:, 2:4] - places[:, :2], places[:, 4:] - places[:, :2]
-        texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * images[0].size
+        texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * (CHECKS * TEXELS) ** 2
         a, b, c = (positions[corner] for corner in faces.T)
         shown = np.sqrt(np.square(np.cross(b - a, c - a)).sum(axis=1)) * LEAST_PIXELS**2
         ratio = np.divide(texels, shown, out=np.zeros(len(faces)), where=shown > 0.0)
-        turn = np.rint(0.5 * np.log2(np.maximum(ratio, 1.0))).astype(np.int32)
-        return cls((*images, np.full((1, 1), (1.0 + DARK) / 2.0, np.float32)), turn.clip(max=len(images)))
+        return cls(2.0 * np.floor(TEXELS * 0.5 ** np.rint(0.5 * np.log2(np.maximum(ratio, 1.0)))))
 
     def over(self, canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, places: Matrix) -> Picture:
         """What a canvas shows in shades, and this texture at places of corners, shape (m, 6), on it."""
         shown = canvas.owner >= 0
         owner, (rows, columns) = canvas.owner[shown], np.nonzero(shown)
         screen = placed @ camera[:12].reshape(3, 4)[:2, :3].T + camera[[3, 7]]
-        a, b, c = (screen[corner].T for corner in faces[owner].T)
-        x, y = columns + 0.5 - a[0], rows + 0.5 - a[1]
+        a, b, c = (screen[corner].T for corner in faces.T)
         (bx, by), (cx, cy) = b - a, c - a
-        area = bx * cy - by * cx
-        s, r = (((x * cy - y * cx) / area).clip(0.0, 1.0), ((bx * y - by * x) / area).clip(0.0, 1.0))
-        first, second, third = places[owner].T.reshape(3, 2, -1)
+        with np.errstate(divide="ignore", invalid="ignore"):  # what has no area shows nowhere
+            of_face = np.array([*a, *(np.array([cy, -cx, -by, bx]) / (bx * cy - by * cx))])
+        ax, ay, sx, sy, rx, ry = of_face[:, owner]
+        x, y = columns + 0.5 - ax, rows + 0.5 - ay
+        s, r = (x * sx + y * sy).clip(0.0, 1.0), (x * rx + y * ry).clip(0.0, 1.0)
+        first, ways = places[:, :2].T * CHECKS, (places[:, 2:] - np.tile(places[:, :2], 2)).T * CHECKS
+        steepness, waves = self.steepness[owner], np.ones(len(owner))
+        for axis in range(2):
+            at = first[axis][owner] + s * ways[axis][owner] + r * ways[axis + 2][owner]
+            square = np.floor(at)
+            at -= square
+            waves *= np.minimum(np.minimum(at, 1.0 - at) * steepness, 1.0) * (1.0 - 2.0 * np.mod(square, 2.0))
         picture = canvas.picture.copy()
-        picture[shown] *= self._at(first + s * (second - first) + r * (third - first), self.turn[owner])
+        picture[shown] *= 0.5 * (1.0 + DARK - (1.0 - DARK) * waves).astype(np.float32)
         return picture
-
-    def _at(self, places: Matrix, turn: Indices) -> Picture:
-        """The texture at places, shape (2, k), between four texels; it repeats."""
-        found = np.empty(len(turn), np.float32)
-        for number, image in enumerate(self.images):
-            here = turn == number
-            x, y = places[:, here] * np.array(image.shape)[:, None] - 0.5
-            column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
-            upper, lower = (
-                image[at % len(image), column % len(image)] * (1.0 - (x - column))
-                + image[at % len(image), (column + 1) % len(image)] * (x - column)
-                for at in (row, row + 1)
-            )
-            found[here] = upper * (1.0 - (y - row)) + lower * (y - row)
-        return found
 
 
 def difference(first: Picture, second: Picture, unlike: Picture = _NOWHERE) -> Matrix:
