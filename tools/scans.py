@@ -96,15 +96,15 @@ def placed(positions: Positions, camera: Camera, turn: Floats) -> Positions:
 
 
 def render(positions: Positions, faces: Faces, camera: Camera) -> tuple[Floats, Floats]:
-    """True depth at each pixel, not finite where there is nothing, and the angle at which the surface is met."""
+    """True depth at each pixel, inf where nothing is and -inf at backs, and the angle at which the surface is met."""
     screen = positions[:, :2] / positions[:, 2:] * camera.focal + 0.5 * camera.pixels
     corners = np.column_stack([screen, 1.0 / positions[:, 2]])[faces].reshape(-1, 9)
     owner = np.empty((camera.pixels, camera.pixels), np.int32)
     nearness = np.empty(owner.shape)
     _kernels.nearest_faces(np.ascontiguousarray(corners), owner, nearness)
-    depth = np.where(owner >= 0, 1.0 / nearness, np.inf)
     rays = _rays(camera)
-    facing = np.abs(np.einsum("ijk,ijk->ij", face_geometry(positions, faces).normals[owner], rays))
+    facing = -np.einsum("ijk,ijk->ij", face_geometry(positions, faces).normals[owner], rays)
+    depth = np.where(owner < 0, np.inf, np.where(facing > 0.0, 1.0 / nearness, -np.inf))
     return depth, np.arccos(np.clip(facing / np.linalg.norm(rays, axis=2), 0.1, 1.0))
 
 
@@ -120,7 +120,7 @@ def photograph(positions: Positions, faces: Faces, camera: Camera, seed: int) ->
     nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
     filled, slant = depth[tuple(nearest)], slant[tuple(nearest)]
     measured = camera.noise(filled, slant, camera.focal, np.random.default_rng(seed))
-    return depth, np.where(seen, measured, np.inf)
+    return depth, np.where(seen, measured, depth)
 
 
 def view(positions: Positions, faces: Faces, camera: Camera, seed: int, turn: Floats | None = None) -> Scan:
@@ -150,7 +150,7 @@ def turning(seed: int) -> Floats:
     return np.asarray(spatial.transform.Rotation.random(random_state=seed).as_matrix())
 
 
-TRUNCATION = 4.0  # voxels
+TRUNCATION, FALSE = 4.0, 2.0  # voxels: how far views reach; and from the truth, where surface is made up and cut away
 SAMPLES = 400_000
 
 
@@ -175,12 +175,20 @@ def fused(positions: Positions, faces: Faces, camera: Camera, seed: int, poses: 
         counted = apart > -TRUNCATION * step
         sums += np.where(counted, np.minimum(apart / (TRUNCATION * step), 1.0), 0.0)
         weights += counted
-    field = np.where(weights > 0.0, sums / np.maximum(weights, 1.0), -1.0)
-    corners, made, _, _ = marching_cubes(field.reshape(3 * (cells,)), 0.0, spacing=3 * (step,))
+    cube = 3 * (cells,)
+    field, known = (sums / np.maximum(weights, 1.0)).reshape(cube), (weights > 0.0).reshape(cube)
+    corners, made, _, _ = marching_cubes(field, 0.0, spacing=3 * (step,), mask=known)
     noisy, made = corners.astype(np.float64) - half, np.ascontiguousarray(made, np.int32)
     geometry = face_geometry(lone, faces)
     random = np.random.default_rng(seed)
     chosen = random.choice(len(faces), SAMPLES, p=geometry.areas / geometry.areas.sum())
     points = np.einsum("ij,ijk->ik", random.dirichlet(np.ones(3), SAMPLES), lone[faces[chosen]])
-    near = spatial.cKDTree(points).query(face_geometry(noisy, made).centroids)[1]
-    return Scan(noisy, made, geometry.normals[chosen[near]], lambda moved: distances_to_surface(moved, lone, faces))
+    apart, near = spatial.cKDTree(points).query(face_geometry(noisy, made).centroids)
+    kept = apart < FALSE * step
+    used, made = np.unique(made[kept], return_inverse=True)
+    return Scan(
+        noisy[used],
+        np.ascontiguousarray(made.reshape(-1, 3), np.int32),
+        geometry.normals[chosen[near[kept]]],
+        lambda moved: distances_to_surface(moved, lone, faces),
+    )

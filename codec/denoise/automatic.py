@@ -63,6 +63,12 @@ CANDIDATES = (
 SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 0.1, 1.0, 3.0) for sigma_r in (0.4, 0.25, 0.55))
 """For scans of one view; the first one is the base."""
 SEEN_HERALDS = (*SEEN[:3], *SEEN[7:9])
+FUSED = tuple(
+    Recipe("positions", keep, guide, sigma_r)
+    for keep in (0.2, 0.1, 0.3)
+    for guide, sigma_r in (("patches", 0.35), ("own", 0.25), ("own", 0.4))
+)
+"""For views that are fused, whose triangles are slivers: their vertices slide."""
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
 HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])  # those that compete for the second guess
@@ -141,19 +147,22 @@ def choose(
         positions, patient = positions[members], Patient(part, len(members))
     patient.view = finding.view
     base, candidates, heralds = BASE, CANDIDATES, HERALDS
-    if finding.view is None:
-        patient.expect(LARGEST_KEEP)
-    else:
+    if finding.view is not None:
         base, candidates, heralds = SEEN[0], SEEN, SEEN_HERALDS
+    else:
+        patient.expect(LARGEST_KEEP)
+        if finding.kind == "fused":
+            base, candidates, heralds = FUSED[0], FUSED, FUSED
     rehearsal = Rehearsal(positions, finding.on(members), patient, base, named("goal", GOALS, goal), progress)
     candidates, heralds = (_suited(recipes, rehearsal.level, finding.edge) for recipes in (candidates, heralds))
-    # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were chosen
-    # with. A third round would believe its own mistakes.
-    herald = rehearsal.compete(heralds, most, HERALDED)
-    share, gain = rehearsal.weigh(herald)
-    rehearsal.rehearse(rehearsal.perform(herald.steps, share))
+    winner = rehearsal.compete(heralds, most, HERALDED)
+    share, gain = rehearsal.weigh(winner)
+    if candidates != heralds:
+        # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were
+        # chosen with. A third round would believe its own mistakes.
+        rehearsal.rehearse(rehearsal.perform(winner.steps, share))
+        winner = rehearsal.compete(candidates, most, REHEARSED)
     untreated = rehearsal.untreated
-    winner = rehearsal.compete(candidates, most, REHEARSED)
     steps, expected = winner.steps, gain * winner.error
     reason = finding.reason
     if expected > WORTH * untreated:

@@ -8,7 +8,7 @@ White noise is drawn anew. Any other is taken as it was found, on the other side
 has noise as correlated, as one-sided in direction and as uneven as the mesh has.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import islice
 
@@ -32,6 +32,9 @@ LEARNT_SHARES = (0.0, 0.2, 0.4)
 it gains a fifteenth on a scan, and alone they are worse on half of the meshes tried."""
 SEED = 1
 ROUND = 0.1  # of all work, what the recipes of a round take, more or less
+DISCREPANCY, MOST_DISCREPANT, DISCREPANCY_PASSES = 2.2, 60, 8
+"""Noise of fused views is this much stronger than its fine level (a discrepancy principle, Morozov 1966): a guess that
+has lost less still has such noise, which looks like shape."""
 MIRRORED = ("impulses",)  # kinds of which too little is known to draw such noise anew: it is taken as it was found
 
 Goal = Callable[[Reference, Positions], float]
@@ -77,6 +80,8 @@ class Rehearsal:
         guesses = patient.treatments(noisy).iterates(base)
         self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
         given, done, self.rounds = 1, -1, 0
+        if finding.kind == "fused":
+            given = self._discrepant(patient.treatments(noisy).iterates(base))
         while True:
             guess = self._within(next(islice(guesses, given - done - 1, None)), noisy)
             done = given
@@ -87,6 +92,14 @@ class Rehearsal:
                 break
             given = wanted
         self.rehearse(guess)
+
+    def _discrepant(self, guesses: Iterator[Positions]) -> int:
+        """After how many iterations the vertices have moved as far as the noise has moved them."""
+        probe = self._patient.probe
+        normals = probe.smooth_normals(self._given, DISCREPANCY_PASSES)
+        moves = (np.einsum("ij,ij->i", self._given - guess, normals) for guess in islice(guesses, MOST_DISCREPANT))
+        far = (np.nanmedian(probe.levels(moved)) > DISCREPANCY * self._finding.level for moved in moves)
+        return next((count for count, enough in enumerate(far) if enough), MOST_DISCREPANT)
 
     def rehearse(self, guess: Positions) -> None:
         """Make another guess, shape (n, 3), noisy, with other noise."""

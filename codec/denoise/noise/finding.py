@@ -63,6 +63,27 @@ def _step(coordinate: Floats) -> float | None:
     return step if off.max() < NEAR and len(values) * 8 > count else None
 
 
+LATTICE_HEAP = 8  # vertices that a plane of a lattice has at least
+LATTICE_SHARE = 0.9  # of the vertices that lie on its lines
+
+
+def on_lattice(positions: Positions) -> bool:
+    """Whether the positions, shape (n, 3), lie on the lines of a cubic lattice, as those of marching cubes do."""
+    extent = float(np.ptp(positions, axis=0).max())
+    planes = []
+    for column in positions.T:
+        values, counts = np.unique(np.round((column - column.min()) / (SAME * extent or 1.0)), return_counts=True)
+        planes.append(values[counts >= LATTICE_HEAP] * SAME * extent)
+    if min(len(heaps) for heaps in planes) < FEWEST_VALUES:
+        return False
+    step = float(np.median(np.concatenate([np.diff(heaps) for heaps in planes])))
+    lies = np.zeros(len(positions), dtype=np.int64)
+    for column, heaps in zip(positions.T, planes, strict=True):
+        place = (column - column.min() - heaps[len(heaps) // 2]) / step
+        lies += np.abs(place - np.round(place)) < NEAR
+    return float((lies >= 2).mean()) > LATTICE_SHARE
+
+
 UNEVEN = 0.26  # largest spread of the levels of strong noise (logarithms) beyond chance
 LEVEL_SPREAD = 0.92  # chance makes levels of windows of w vertices spread by about this over sqrt(w)
 ASIDE = 0.2  # largest median of the standardised residual: noise lies on both sides

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.finding import UNEVEN, Evidence, Finding, find_grid, is_random, look, spread
+from bsm.codec.denoise.noise.finding import UNEVEN, Evidence, Finding, find_grid, is_random, look, on_lattice, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
 from bsm.codec.denoise.surface import Floats, Mask
@@ -40,6 +40,10 @@ SEEN_FAINT, SEEN_SURE, EVEN_SEEN = 0.12, 0.3, (0.24, 0.5)
 """Levels of noise in a picture, in pixels' widths, and how uneven they may be there: slanted surfaces are seen with
 more of it. Clean surfaces read 0 to 0.2, and 0.3 and more of spread; cameras 0.35 to 0.7 and 0.1 to 0.4."""
 TERRACED = 0.05  # depths, over vertices, below which a camera tells only so many apart
+FUSED, EVEN_FUSED, NOT_BROADER = (0.065, 0.09), (0.15, 0.225), 1.04
+"""Levels of the noise of views fused on a lattice, in mean edges, how uneven they may be there, and how much of it
+broader filters may see. They read .07 to .11, .06 to .21 and .93 to 1.01; fields without noise .01 to .07, .23 and more
+and 1.09 to 1.7."""
 SMOOTH_VIEW = "what a camera saw, without its noise"
 NEARBY = 4  # rings about a vertex that decide whether it is in or out
 ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
@@ -57,7 +61,7 @@ def find_noise(positions: Positions, probe: Probe) -> Finding:
     evidence = look(positions, probe, edge, passes=2)
     if np.nanquantile(evidence.levels, 0.75) > HEAVY_LEVEL:
         evidence = look(positions, probe, edge, passes=8)
-    for test in (_rounded, _seen, _everywhere, _here_and_there, one_axis):
+    for test in (_rounded, _seen, _fused, _everywhere, _here_and_there, one_axis):
         finding = test(positions, evidence)
         if finding is not None:
             return finding
@@ -113,6 +117,22 @@ def _seen(positions: Positions, evidence: Evidence) -> Finding | None:
         reason,
         view=replace(view, level=level, terraced=terraced),
     )
+
+
+def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
+    """On the lattice of a field of distances, and as strong in one place as in another."""
+    valid = evidence.probe.windows.valid
+    levels = evidence.levels[valid]
+    level = float(np.median(levels))
+    allowed = np.interp(level, FUSED, EVEN_FUSED)
+    if level < FUSED[0] or spread(levels, evidence.probe.windows) > allowed or not on_lattice(positions):
+        return None
+    broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))[valid]
+    random = is_random(_standardised(evidence, evidence.probe.counted))
+    if not random or not np.nanquantile(broad / levels, 0.25) <= NOT_BROADER:
+        return None
+    amount = np.full(len(positions), level * evidence.edge)
+    return Finding("fused", level * evidence.edge, amount, evidence.edge, "noise of views fused on a lattice")
 
 
 def _everywhere(positions: Positions, evidence: Evidence) -> Finding | None:

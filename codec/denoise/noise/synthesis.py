@@ -65,6 +65,24 @@ WINDOWED, SHARED = 12, (0.5, 0.75)
 """Averagings that make what the pixels of a camera's window share, and how strong that is beside what they do not, of
 cameras that measure depth and of those that match windows, which are known by their steps."""
 
+FUSED = ((1.05, 2.0), (8.0, 0.9))
+"""Cells of fused views' noise, in mean edges, and its strength over fine levels: the field's, and what poses share."""
+
+
+def in_space(places: Floats, random: np.random.Generator) -> Floats:
+    """Noise at `places`, shape (n, 3), white at whole numbers and interpolated between; deviation 1, shape (n,)."""
+    places = places + random.random(3)
+    low = np.floor(places).astype(np.int64)
+    rest = places - low
+    low -= low.min(axis=0)
+    sides = low.max(axis=0) + 2
+    corners = np.array(list(np.ndindex(2, 2, 2)))
+    keys = np.ravel_multi_index(tuple(np.moveaxis(low[:, None] + corners, 2, 0)), tuple(sides))
+    weights = np.where(corners == 1, rest[:, None], 1.0 - rest[:, None]).prod(axis=2)
+    used, number = np.unique(keys, return_inverse=True)
+    noise = (random.normal(size=len(used))[number.reshape(keys.shape)] * weights).sum(axis=1)
+    return np.asarray(noise / (noise.std() or 1.0))
+
 
 class Synthesis:
     """Draws noise of the kind and strength of a finding."""
@@ -90,6 +108,9 @@ class Synthesis:
             noise = white[:, 0] + SHARED[finding.view.terraced] * shared / shared.std()
             return finding.view.at(positions, seen, seen + finding.view.level * noise)
         normals = surface_normals(positions, topology)
+        if finding.kind == "fused":
+            shares = [share * in_space(positions / (size * finding.edge), random) for size, share in FUSED]
+            return np.asarray(positions + (finding.levels * np.sum(shares, axis=0))[:, None] * normals)
         along = np.einsum("ij,ij->i", white, normals)[:, None]
         amount = self._probe.correlated(along, self._steps)
         if self._steps:

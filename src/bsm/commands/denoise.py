@@ -208,8 +208,9 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
         if not (choice.outliers or choice.ripples):
             line = "steadied   " if choice.kind == "unsteady" else "left       as it was: "
             lines.append(f"{line}{choice.reason}")
-            if choice.kind == "none":
-                lines.append("           if you see noise nevertheless, ask for a filter: --fine guided --iterations 3")
+            if choice.kind != "unsteady":
+                ask = "--hand-over none --iterations 5 --force"
+                lines.append(f"           if you see noise nevertheless, ask for a filter: bsm denoise IN {ask}")
         return lines
     noise = choice.noise
     lines.append(f"found      {choice.reason}")

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise import denoise_automatically
+from bsm.codec.denoise.noise.finding import on_lattice
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.search import find_noise
+from bsm.codec.denoise.noise.synthesis import in_space
 from bsm.codec.denoise.noise.view import View, bending, find_view
 from bsm.codec.denoise.surface import Topology
 from tests.codec.denoise.denoise_shapes import cube, grid, sphere
@@ -33,6 +35,43 @@ def test_many_views_make_a_closed_mesh_near_the_truth() -> None:
     made = fused(*sphere(20), CAMERAS["time of flight"], 3, cells=40)
     assert not Topology(made.faces, len(made.positions)).boundary.any()
     assert made.rms(made.positions) < 0.002 and made.angle(made.positions) < 20.0
+
+
+def test_noise_of_fused_views_is_taken_away() -> None:
+    pytest.importorskip("skimage")
+    made = fused(*cube(30), CAMERAS["time of flight"], 3, cells=50)
+    result, choice = denoise_automatically(made.positions, made.faces)
+    assert choice.kind == "fused"
+    assert made.angle(result) < 0.45 * made.angle(made.positions)
+    assert made.rms(result) < 0.8 * made.rms(made.positions)
+
+
+def test_surfaces_of_fields_without_noise_stay() -> None:
+    marching_cubes = pytest.importorskip("skimage.measure").marching_cubes
+    places = np.stack(np.meshgrid(*3 * [np.linspace(-1.2, 1.2, 50)], indexing="ij"), axis=-1)
+    for field in (np.linalg.norm(places, axis=-1) - 1.0, np.abs(places @ AWAY).max(axis=-1) - 0.6):
+        corners, faces, _, _ = marching_cubes(field, 0.0)
+        assert on_lattice(corners)
+        result, choice = denoise_automatically(corners.astype(np.float64), np.ascontiguousarray(faces, np.int32))
+        assert choice.kind == "none" and (result == corners).all()
+
+
+def test_a_lattice_is_known_by_its_lines_and_not_when_it_is_turned() -> None:
+    random = np.random.default_rng(4)
+    on = random.integers(0, 20, (4000, 3)).astype(np.float64)
+    on[np.arange(4000), random.integers(0, 3, 4000)] += random.random(4000)
+    assert on_lattice(0.3 * on + [1.0, 2.0, 3.0])
+    assert not on_lattice(on @ AWAY.T)
+    assert not on_lattice(on + 0.1 * random.random((4000, 3)))
+    assert not on_lattice(grid(60)[0])
+
+
+def test_noise_in_space_is_alike_at_places_that_are_near() -> None:
+    places = 30.0 * np.random.default_rng(5).random((5000, 3))
+    here, near, far = (in_space(places + shift, np.random.default_rng(6)) for shift in (0.0, 0.1, 3.0))
+    assert here.std() == pytest.approx(1.0)
+    assert np.corrcoef(here, near)[0, 1] > 0.95
+    assert abs(np.corrcoef(here, far)[0, 1]) < 0.1
 
 
 @pytest.mark.parametrize("camera", CAMERAS)
