@@ -63,7 +63,7 @@ def _step(coordinate: Floats) -> float | None:
     return step if off.max() < NEAR and len(values) * 8 > count else None
 
 
-LATTICE_HEAP = 8  # vertices that a plane of a lattice has at least
+LATTICE_HEAP, LATTICE_USUAL = 8, 0.25  # vertices that a plane of a lattice has at least, and over the usual
 LATTICE_SHARE = 0.9  # of the vertices that lie on its lines
 
 
@@ -73,7 +73,10 @@ def on_lattice(positions: Positions) -> bool:
     planes = []
     for column in positions.T:
         values, counts = np.unique(np.round((column - column.min()) / (SAME * extent or 1.0)), return_counts=True)
-        planes.append(values[counts >= LATTICE_HEAP] * SAME * extent)
+        values, counts = values[counts >= LATTICE_HEAP], counts[counts >= LATTICE_HEAP]
+        # Symmetric shapes have smaller heaps beside.
+        usual = np.median(np.repeat(counts, counts)) if len(counts) else 0.0
+        planes.append(values[counts > LATTICE_USUAL * usual] * SAME * extent)
     if min(len(heaps) for heaps in planes) < FEWEST_VALUES:
         return False
     step = float(np.median(np.concatenate([np.diff(heaps) for heaps in planes])))

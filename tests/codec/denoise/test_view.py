@@ -68,9 +68,10 @@ def test_a_lattice_is_known_by_its_lines_and_not_when_it_is_turned() -> None:
 
 def test_noise_in_space_is_alike_at_places_that_are_near() -> None:
     places = 30.0 * np.random.default_rng(5).random((5000, 3))
-    here, near, far = (in_space(places + shift, np.random.default_rng(6)) for shift in (0.0, 0.1, 3.0))
-    assert here.std() == pytest.approx(1.0)
-    assert np.corrcoef(here, near)[0, 1] > 0.95
+    together = np.concatenate([places, places + 0.1, places + 3.0])
+    here, near, far = np.split(in_space(together, np.random.default_rng(6)), 3)
+    assert here.std() == pytest.approx(1.0, rel=0.05)
+    assert np.corrcoef(here, near)[0, 1] > 0.9
     assert abs(np.corrcoef(here, far)[0, 1]) < 0.1
 
 
