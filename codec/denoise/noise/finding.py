@@ -67,8 +67,8 @@ LATTICE_HEAP, LATTICE_USUAL = 8, 0.25  # vertices that a plane of a lattice has 
 LATTICE_SHARE = 0.9  # of the vertices that lie on its lines
 
 
-def on_lattice(positions: Positions) -> bool:
-    """Whether the positions, shape (n, 3), lie on the lines of a cubic lattice, as those of marching cubes do."""
+def lattice_step(positions: Positions) -> float:
+    """Step of the cubic lattice on whose lines the positions lie, as those of marching cubes do; 0 if there is none."""
     extent = float(np.ptp(positions, axis=0).max())
     planes = []
     for column in positions.T:
@@ -78,13 +78,16 @@ def on_lattice(positions: Positions) -> bool:
         usual = np.median(np.repeat(counts, counts)) if len(counts) else 0.0
         planes.append(values[counts > LATTICE_USUAL * usual] * SAME * extent)
     if min(len(heaps) for heaps in planes) < FEWEST_VALUES:
-        return False
+        return 0.0
     step = float(np.median(np.concatenate([np.diff(heaps) for heaps in planes])))
+    apart = np.concatenate([heaps - heaps[len(heaps) // 2] for heaps in planes])
+    numbers = np.round(apart / step)
+    step = float(numbers @ apart / (numbers @ numbers))
     lies = np.zeros(len(positions), dtype=np.int64)
     for column, heaps in zip(positions.T, planes, strict=True):
         place = (column - column.min() - heaps[len(heaps) // 2]) / step
         lies += np.abs(place - np.round(place)) < NEAR
-    return float((lies >= 2).mean()) > LATTICE_SHARE
+    return step if (lies >= 2).mean() > LATTICE_SHARE else 0.0
 
 
 UNEVEN = 0.26  # largest spread of the levels of strong noise (logarithms) beyond chance

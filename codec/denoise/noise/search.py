@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.finding import UNEVEN, Evidence, Finding, find_grid, is_random, look, on_lattice, spread
+from bsm.codec.denoise.noise.finding import UNEVEN, Evidence, Finding, find_grid, is_random, lattice_step, look, spread
 from bsm.codec.denoise.noise.probe import BOUND, FEWEST_IN_WINDOW, SHARE, Probe
 from bsm.codec.denoise.noise.view import find_view, pixel
 from bsm.codec.denoise.surface import Floats, Mask
@@ -44,6 +44,8 @@ FUSED, EVEN_FUSED, NOT_BROADER = (0.065, 0.09), (0.15, 0.225), 1.04
 """Levels of the noise of views fused on a lattice, in mean edges, how uneven they may be there, and how much of it
 broader filters may see. They read .07 to .11, .06 to .21 and .93 to 1.01; fields without noise .01 to .07, .23 and more
 and 1.09 to 1.7."""
+MARCHED = 1.06
+"""Mean edge, in steps of the lattice, that marching cubes do not reach: it is .94 to .97, of regular triangles 1.14."""
 SMOOTH_VIEW = "what a camera saw, without its noise"
 NEARBY = 4  # rings about a vertex that decide whether it is in or out
 ROUNDED_SLANT, ROUNDED_SHARE = 0.98, 0.3
@@ -125,7 +127,9 @@ def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
     levels = evidence.levels[valid]
     level = float(np.median(levels))
     allowed = np.interp(level, FUSED, EVEN_FUSED)
-    if level < FUSED[0] or spread(levels, evidence.probe.windows) > allowed or not on_lattice(positions):
+    if level < FUSED[0] or spread(levels, evidence.probe.windows) > allowed:
+        return None
+    if evidence.edge > MARCHED * lattice_step(positions):
         return None
     broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))[valid]
     random = is_random(_standardised(evidence, evidence.probe.counted))

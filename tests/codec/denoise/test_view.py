@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.codec.denoise import denoise_automatically
-from bsm.codec.denoise.noise.finding import on_lattice
+from bsm.codec.denoise.noise.finding import lattice_step
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import in_space
@@ -51,7 +51,7 @@ def test_surfaces_of_fields_without_noise_stay() -> None:
     places = np.stack(np.meshgrid(*3 * [np.linspace(-1.2, 1.2, 50)], indexing="ij"), axis=-1)
     for field in (np.linalg.norm(places, axis=-1) - 1.0, np.abs(places @ AWAY).max(axis=-1) - 0.6):
         corners, faces, _, _ = marching_cubes(field, 0.0)
-        assert on_lattice(corners)
+        assert lattice_step(corners) == pytest.approx(1.0, rel=1e-4)
         result, choice = denoise_automatically(corners.astype(np.float64), np.ascontiguousarray(faces, np.int32))
         assert choice.kind == "none" and (result == corners).all()
 
@@ -60,10 +60,10 @@ def test_a_lattice_is_known_by_its_lines_and_not_when_it_is_turned() -> None:
     random = np.random.default_rng(4)
     on = random.integers(0, 20, (4000, 3)).astype(np.float64)
     on[np.arange(4000), random.integers(0, 3, 4000)] += random.random(4000)
-    assert on_lattice(0.3 * on + [1.0, 2.0, 3.0])
-    assert not on_lattice(on @ AWAY.T)
-    assert not on_lattice(on + 0.1 * random.random((4000, 3)))
-    assert not on_lattice(grid(60)[0])
+    assert lattice_step(0.3 * on + [1.0, 2.0, 3.0]) == pytest.approx(0.3, rel=1e-4)
+    assert not lattice_step(on @ AWAY.T)
+    assert not lattice_step(on + 0.1 * random.random((4000, 3)))
+    assert not lattice_step(grid(60)[0])
 
 
 def test_noise_in_space_is_alike_at_places_that_are_near() -> None:
