@@ -1,20 +1,7 @@
 """Which packet may follow which, and what a packet must have to agree with the header; one table for both sides."""
 
+from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import CORNER, RECOMPUTED, Declaration
-from bsm.bitstream.container.packets import (
-    FRAME_TYPES,
-    Attribute,
-    Block,
-    End,
-    Gop,
-    Grid,
-    Header,
-    Metadata,
-    Packet,
-    Partition,
-    Refinement,
-    Values,
-)
 from bsm.bitstream.container.wire import FrameType
 
 _BODY = frozenset({FrameType.BLOCK, FrameType.GOP, FrameType.GRID, FrameType.REFINEMENT, FrameType.END})
@@ -70,7 +57,7 @@ class Grammar:
     """Follows a stream packet by packet; the writer and the reader both ask it."""
 
     def __init__(self, *, joining: bool = False) -> None:
-        self.header: Header | None = None
+        self.header: packets.Header | None = None
         self._joining = joining
         self._last: FrameType | None = None
         self._allowed = FOLLOWERS[None]
@@ -103,34 +90,34 @@ class Grammar:
             return True
         return bool(getattr(self.header, ANNOUNCED[frame_type]))
 
-    def problem(self, packet: Packet) -> str | None:
-        frame_type = FRAME_TYPES[type(packet)]
+    def problem(self, packet: packets.Packet) -> str | None:
+        frame_type = packets.FRAME_TYPES[type(packet)]
         if frame_type not in self.expected:
             expected = ", ".join(item.name for item in sorted(self.expected)) or "nothing"
             return f"{frame_type.name} may not come here, only {expected}"
         return self._disagreement(packet)
 
-    def advance(self, packet: Packet) -> None:
+    def advance(self, packet: packets.Packet) -> None:
         """Take note of a packet that has no problem."""
-        frame_type = FRAME_TYPES[type(packet)]
-        if isinstance(packet, Header):
+        frame_type = packets.FRAME_TYPES[type(packet)]
+        if isinstance(packet, packets.Header):
             self._begin_mesh()
             self.header = packet
-        if isinstance(packet, Block):
+        if isinstance(packet, packets.Block):
             self._next_block = packet.index + 1
-        if isinstance(packet, Gop):
+        if isinstance(packet, packets.Gop):
             self._next_frame = packet.index + 1
-        if isinstance(packet, Grid | Refinement):
+        if isinstance(packet, packets.Grid | packets.Refinement):
             self._next_vertex = packet.first + packet.count
-        if isinstance(packet, Attribute):
+        if isinstance(packet, packets.Attribute):
             self._declared[packet.index] = packet.declaration
-        if isinstance(packet, Values):
+        if isinstance(packet, packets.Values):
             self._valued, self._next_value = packet.attribute, packet.first + packet.count
-        if isinstance(packet, Metadata):
+        if isinstance(packet, packets.Metadata):
             self._named |= packet.entries.keys()
         else:
             self._last, self._resuming = frame_type, False
-            begun = isinstance(packet, Header) and packet.again is not None
+            begun = isinstance(packet, packets.Header) and packet.again is not None
             self._allowed = frozenset({FrameType.GOP}) if begun else FOLLOWERS[frame_type]
 
     def lose(self) -> None:
@@ -138,38 +125,40 @@ class Grammar:
         self._allowed = _reachable(self._last) & RESUMING
         self._lossy = self._resuming = True
 
-    def _disagreement(self, packet: Packet) -> str | None:
+    def _disagreement(self, packet: packets.Packet) -> str | None:
         if self.header is None:
-            late = isinstance(packet, Header) and packet.run_number > 0 and not self._joining
+            late = isinstance(packet, packets.Header) and packet.run_number > 0 and not self._joining
             return "the stream begins within a sequence; a tolerant decoder joins it there" if late else None
-        if isinstance(packet, Header):
+        if isinstance(packet, packets.Header):
             return self._run_problem(self.header, packet)
-        if isinstance(packet, Block | Gop | Grid | Values | End) and self._lacks_attributes(self.header):
+        if isinstance(
+            packet, packets.Block | packets.Gop | packets.Grid | packets.Values | packets.End
+        ) and self._lacks_attributes(self.header):
             return f"{len(self._declared)} of {self.header.attributes} attributes are declared"
         match packet:
-            case Metadata() if again := sorted(self._named & packet.entries.keys()):
+            case packets.Metadata() if again := sorted(self._named & packet.entries.keys()):
                 return f"METADATA speaks of {again[0]!r} again"
-            case Attribute():
+            case packets.Attribute():
                 return self._attribute_problem(self.header, packet)
-            case Values():
+            case packets.Values():
                 return self._values_problem(packet)
-            case Block():
+            case packets.Block():
                 return self._block_disagreement(self.header, packet)
-            case Gop():
+            case packets.Gop():
                 return self._gop_disagreement(self.header, packet)
-            case Grid() | Refinement():
+            case packets.Grid() | packets.Refinement():
                 return self._chunk_disagreement(self.header, packet, self._next_vertex)
-            case Partition() if self.header.grid:
+            case packets.Partition() if self.header.grid:
                 return "a PARTITION where there are no blocks"
-            case End() if not self._lossy:
+            case packets.End() if not self._lossy:
                 return self._missing_values() or self._missing_positions(self.header)
         return None
 
-    def _missing_positions(self, header: Header) -> str | None:
+    def _missing_positions(self, header: packets.Header) -> str | None:
         short = header.grid and self._next_vertex < header.vertices
         return f"the positions end at vertex {self._next_vertex} of {header.vertices}" if short else None
 
-    def _run_problem(self, before: Header, header: Header) -> str | None:
+    def _run_problem(self, before: packets.Header, header: packets.Header) -> str | None:
         """What keeps a run from following another."""
         if not (before.gop_frames and header.gop_frames):
             return "a second HEADER of a static mesh"
@@ -180,10 +169,10 @@ class Grammar:
             return f"a run of a sequence of {header.frames} frames in one of {before.frames}"
         return None if self._lossy else self._missing_values()
 
-    def _lacks_attributes(self, header: Header) -> bool:
+    def _lacks_attributes(self, header: packets.Header) -> bool:
         return len(self._declared) < header.attributes and not self._lossy
 
-    def _attribute_problem(self, header: Header, attribute: Attribute) -> str | None:
+    def _attribute_problem(self, header: packets.Header, attribute: packets.Attribute) -> str | None:
         index, declaration = attribute.index, attribute.declaration
         following = len(self._declared)
         if index != following or index >= header.attributes:
@@ -206,7 +195,7 @@ class Grammar:
             return "an attribute of a sequence that is recomputed from positions"
         return None
 
-    def _values_problem(self, values: Values) -> str | None:
+    def _values_problem(self, values: packets.Values) -> str | None:
         declared = self._declared.get(values.attribute)
         if declared is None:
             return f"values of attribute {values.attribute}, which is not declared"
@@ -229,7 +218,7 @@ class Grammar:
                 return f"the values of attribute {index} end at {done} of {declared.rows}"
         return None
 
-    def _block_disagreement(self, header: Header, block: Block) -> str | None:
+    def _block_disagreement(self, header: packets.Header, block: packets.Block) -> str | None:
         if block.index < self._next_block:
             return _not_ascending(block.index, self._next_block)
         if block.index >= header.blocks:
@@ -240,16 +229,18 @@ class Grammar:
             return f"{block.coefficients} coefficients where the header allows {header.coefficients}"
         return None
 
-    def _chunk_disagreement(self, header: Header, chunk: Grid | Refinement, following: int) -> str | None:
-        if not self.announces(FRAME_TYPES[type(chunk)]):
-            return f"{FRAME_TYPES[type(chunk)].name} in a stream whose header does not announce it"
+    def _chunk_disagreement(
+        self, header: packets.Header, chunk: packets.Grid | packets.Refinement, following: int
+    ) -> str | None:
+        if not self.announces(packets.FRAME_TYPES[type(chunk)]):
+            return f"{packets.FRAME_TYPES[type(chunk)].name} in a stream whose header does not announce it"
         if chunk.first != following:
             return f"vertices from {chunk.first} on where those from {following} on must follow"
         if not 0 < chunk.count <= header.vertices - chunk.first:
             return f"{chunk.count} vertices from {chunk.first} on, of {header.vertices}"
         return None
 
-    def _gop_disagreement(self, header: Header, gop: Gop) -> str | None:
+    def _gop_disagreement(self, header: packets.Header, gop: packets.Gop) -> str | None:
         if gop.index < self._next_frame:
             return _not_ascending(gop.index, self._next_frame)
         if header.gop_frames == 0:

@@ -13,8 +13,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.sequence.frames import Group, distinct_frames
-from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
-from bsm.codec.sequence.history import Inherited
+from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Inherited, silent
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL, ROUNDS
 from bsm.codec.sequence.step_search import StepSearch

@@ -11,7 +11,7 @@ from bsm.codec.sequence import tracks
 from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
 from bsm.codec.sequence.dictionaries import Dictionaries
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
-from bsm.codec.sequence.history import FrameHistory
+from bsm.codec.sequence.gop import FrameHistory
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
 from bsm.codec.static.events import ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
