@@ -30,9 +30,9 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_710,
+    "product Python, lines": 34_770,
     "all Python, lines": 72_200,
-    "product modules": 197,
+    "product modules": 196,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "header fields": 19,
