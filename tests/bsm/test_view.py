@@ -226,8 +226,12 @@ def test_what_is_still_being_written_is_watched(way, tmp_path):
 def test_tiles_are_seen_coarse_first_and_fine_from_near(tmp_path):
     bsm.save(curved(torus(300, 200)), tmp_path / "a.ply")
     folder = tmp_path / "tiles"
-    options = ["--grid-cell", "1e-5", "--triangles", "4000", "--tileset"]
+    options = ["--grid-cell", "1e-5", "--triangles", "4000"]
     assert main(["tile", str(tmp_path / "a.ply"), "-o", str(folder), *options]) == 0
+    for name, content in (("plain", "none"), ("coded", "bsm")):
+        (folder / name).mkdir()
+        tileset = str(folder / name / "tileset.json")
+        assert main(["untile", str(folder), "-o", tileset, "--content", content]) == 0
     levels = bsm.open_tiles(str(folder)).manifest["levels"]
     command = [sys.executable, "-m", "bsm", "view", "--no-open", str(folder)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:

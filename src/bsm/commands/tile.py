@@ -14,7 +14,7 @@ from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
 from bsm.jobs.run import Facts, Job, Outcome, Run, came_to, run_many
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
-from bsm.tiles.joining import write_tileset
+from bsm.tiles.joining import CONTENT_HELP, CONTENTS, packer, write_tileset
 from bsm.tiles.making import TileJob, tile_one
 from bsm.tiles.reading import read_big
 from bsm.tiles.shards import MANIFEST, open_tiles, write_shards
@@ -41,13 +41,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="work on the Dask cluster of this scheduler, whose machines have the same folders",
     )
     add("--resume", action="store_true", help="go on with what an earlier run has left in --work")
-    add("--tileset", action="store_true", help="write tileset.json of 3D Tiles, too, with a plain GLB for each tile")
+    add("--tileset", action="store_true", help="write tileset.json of 3D Tiles, too, with a GLB for each tile")
+    add("--content", choices=CONTENTS, default=CONTENTS[0], help=CONTENT_HELP)
     add("--json", action="store_true", help="print the manifest")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     if args.triangles < 64:
         raise OptionError(f"--triangles {args.triangles}: tiles have 64 triangles or more")
+    if args.content != CONTENTS[0]:
+        if not args.tileset:
+            raise OptionError("--content says how the tiles of --tileset are coded: ask for that, too")
+        packer(args.content, 1.0)
     refuse_to_overwrite(inside(args.output, MANIFEST), args.force)
     if not is_url(args.output):
         os.makedirs(args.output, exist_ok=True)
@@ -82,7 +87,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     )
     shutil.rmtree(work)
     if args.tileset:
-        write_tileset(open_tiles(args.output), args.output, console, overwrite=args.force or args.resume)
+        tiles, over = open_tiles(args.output), args.force or args.resume
+        write_tileset(tiles, args.output, console, content=args.content, overwrite=over)
     if args.json:
         print_json(manifest)
     return 0

@@ -8,7 +8,7 @@ from bsm.commands.flags import add_limits_flag, limits_of
 from bsm.console import Console
 from bsm.files.mesh import write_mesh
 from bsm.files.output import refuse_terminal, refuse_to_overwrite
-from bsm.tiles.joining import TILESET, write_joined, write_tileset
+from bsm.tiles.joining import CONTENT_HELP, CONTENTS, TILESET, write_joined, write_tileset
 from bsm.tiles.shards import open_tiles
 
 
@@ -35,19 +35,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     of.add_argument(
         "--error", type=float, metavar="H", help="the coarsest tiles that are at most so far off, in the mesh's unit"
     )
+    add("--content", choices=CONTENTS, default=CONTENTS[0], help=CONTENT_HELP)
     add_limits_flag(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> None:
     tiles = open_tiles(args.input, limits_of(args.limits))
     refuse_to_overwrite(args.output, args.force)
+    if args.content != CONTENTS[0] and Path(args.output).name != TILESET:
+        raise OptionError(f"--content says how {TILESET} has its tiles; the output is {args.output}")
     last = len(tiles.manifest["levels"]) - 1
     if args.level is not None and not 0 <= args.level <= last:
         raise OptionError(f"--level {args.level}: these tiles have the levels 0 to {last}")
     if Path(args.output).name == TILESET:
         if args.box or args.level is not None or args.error is not None:
             raise OptionError(f"{TILESET} is of all tiles: no --box, --level or --error")
-        count = write_tileset(tiles, args.output[: -len(TILESET)].rstrip("/") or ".", console, overwrite=args.force)
+        folder = args.output[: -len(TILESET)].rstrip("/") or "."
+        count = write_tileset(tiles, folder, console, content=args.content, overwrite=args.force)
         console.note(f"{args.input} -> {args.output}: {count} tiles as GLB")
         return
     if args.box is None and (args.output == "-" or Path(args.output).suffix.lower() == ".ply"):

@@ -19,6 +19,8 @@ interface Given {
 const SCRIPT = `
 import { AmbientLight, Color, DirectionalLight, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { TilesRenderer } from "3d-tiles-renderer";
+import { GLTFExtensionsPlugin } from "3d-tiles-renderer/plugins";
+import { GLTFBSMExtension } from "/bsm/gltf.js";
 const renderer = new WebGLRenderer();
 renderer.setSize(600, 400);
 document.body.append(renderer.domElement);
@@ -27,6 +29,7 @@ const scene = new Scene();
 scene.background = new Color(0xe9ecf0);
 const light = new DirectionalLight(0xffffff, 3);
 const tiles = new TilesRenderer("/scan/tileset.json");
+tiles.registerPlugin(new GLTFExtensionsPlugin({ plugins: [(parser) => new GLTFBSMExtension(parser)] }));
 tiles.errorTarget = 0.5;
 tiles.group.rotation.x = -Math.PI / 2;
 tiles.setCamera(camera);
@@ -102,13 +105,14 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         assert.deepEqual(complaints, []);
     });
 
-    test("3d-tiles-renderer shows the tileset, coarse from afar and fine from near", async () => {
+    for (const content of ["plain", "coded"]) test(`3d-tiles-renderer shows the ${content} tileset, coarse from afar and fine from near`, async () => {
         const site = await serveSite();
         try {
-            const options = { stdin: { contents: SCRIPT, resolveDir: WEB }, bundle: true, write: false, format: "esm", logLevel: "error" } as const;
+            const options = { stdin: { contents: SCRIPT, resolveDir: WEB }, bundle: true, external: ["/bsm/*"], write: false as const, format: "esm" as const, logLevel: "error" as const };
             site.extra.set("/script.js", (await build(options)).outputFiles[0].text);
-            site.extra.set("/scan/tileset.json", readFileSync(join(folder, "tileset.json"), "utf8"));
-            for (const name of readdirSync(join(folder, "glb"))) site.extra.set(`/scan/glb/${name}`, readFileSync(join(folder, "glb", name)));
+            site.extra.set("/scan/tileset.json", readFileSync(join(folder, content, "tileset.json"), "utf8"));
+            for (const name of readdirSync(join(folder, content, "glb"))) site.extra.set(`/scan/glb/${name}`, readFileSync(join(folder, content, "glb", name)));
+            assert.equal(readFileSync(join(folder, content, "glb", "r.glb")).includes("EXT_bsm_compression"), content === "coded");
             const page = await opened();
             await page.goto(site.address);
             const told = async (): Promise<{ loaded: string[]; faces: number }> => {
