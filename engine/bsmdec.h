@@ -25,7 +25,7 @@
 extern "C" {
 #endif
 
-#define BSMDEC_VERSION "0.2.0"
+#define BSMDEC_VERSION "1.0.0"
 
 #ifndef BSMDEC_API
 #if defined(_WIN32) && defined(BSMDEC_SHARED)

@@ -1,8 +1,8 @@
 /* Bytes to packets (specification, F 2, F 3, F 5). */
 #include "engine/reader.h"
 
-enum { MAGIC = 4, PREAMBLE = 5, SHORT = 128, TAG = 6 };
-static const uint8_t BEGINNING[PREAMBLE] = {0x89, 'B', 'S', 'M', 0};
+enum { MAGIC = 4, MAJOR = 1, PREAMBLE = 5, SHORT = 128, TAG = 6 };
+static const uint8_t BEGINNING[MAGIC] = {0x89, 'B', 'S', 'M'};
 /* Work of a frame, whatever it is, and of each of its bytes; of looking at a place, and into a frame there (M 14.3, F 8). */
 static const double FRAME_WORK = 8e3, BYTE_WORK = 8, PLACE_WORK = 4e3, MAP_WORK = 6e5, METADATA_WORK = 2e4, ENTRY_WORK = 8e3;
 enum { STRIDE = 4096, SCAN_BYTES = 1 << 20, SCAN_FACTOR = 64 };
@@ -70,15 +70,25 @@ static bool pay(Reader *reader, double work, double received) {
 /* Magic and version, as far as they have come. */
 static Arrival start(Reader *reader) {
     Span present = waiting(reader);
-    for (int64_t i = 0; i < least(present.size, PREAMBLE); i++) {
-        if (present.data[i] == BEGINNING[i]) continue;
-        if (i < MAGIC) FAIL(reader->context, FORMAT, "not a BSM stream: it does not begin with 89 42 53 4D");
-        else FAIL(reader->context, UNSUPPORTED, "stream version # is not version 0, the one this decoder reads", present.data[i]);
-        locate(&reader->context->error, i < MAGIC ? 0 : MAGIC, -1, -1);
+    if (present.size > 0 && memcmp(present.data, BEGINNING, (size_t)least(present.size, MAGIC)) != 0) {
+        FAIL(reader->context, FORMAT, "not a BSM stream: it does not begin with 89 42 53 4D");
+        locate(&reader->context->error, 0, -1, -1);
         return NOTHING_BUT_AN_ERROR;
     }
     if (present.size < PREAMBLE) return incomplete(reader);
-    reader->sum = crc32_of(&reader->sums, (Span){BEGINNING, PREAMBLE}, 0);
+    int major = present.data[MAGIC] >> 4;
+    if (major != MAJOR) {
+        if (major < MAJOR)
+            FAIL(reader->context, UNSUPPORTED,
+                 "this stream is written by version # of the format, and this reads #: encode the source again, or decode "
+                 "it with the release that wrote it", major, MAJOR);
+        else
+            FAIL(reader->context, UNSUPPORTED,
+                 "this stream is written by version # of the format, and this reads #: a later release reads it", major, MAJOR);
+        locate(&reader->context->error, MAGIC, -1, -1);
+        return NOTHING_BUT_AN_ERROR;
+    }
+    reader->sum = crc32_of(&reader->sums, (Span){present.data, PREAMBLE}, 0);
     drop(reader, PREAMBLE);
     reader->started = true;
     return A_PACKET;

@@ -118,8 +118,8 @@ def frames_of(stream):  # F 2 and F 3: yields (type, payload, offset of the tag)
     magic = b"\x89BSM"
     if not magic.startswith(stream[:4]):
         raise FormatError("not a BSM stream")  # F 2.1
-    if len(stream) >= 5 and stream[4] != 0:
-        raise UnsupportedError("another version")  # F 2.2
+    if len(stream) >= 5 and stream[4] >> 4 != 1:
+        raise UnsupportedError(f"version {stream[4] >> 4}, and this reads 1")  # F 2.2
     offset, kind = 5, None
     while kind != END:
         tag = varint(stream, offset) if offset < len(stream) else None

@@ -17,13 +17,15 @@ from bsm.bitstream.container.header import (
     fields_of,
 )
 from bsm.bitstream.container.wire import (
+    MAGIC,
+    PREAMBLE_BYTES,
+    VERSION,
     Cursor,
     FrameType,
     parse_frame,
     parse_map,
     write_frame,
     write_map,
-    write_preamble,
     write_varint,
 )
 from bsm.bitstream.errors import BsmError
@@ -35,7 +37,7 @@ Frames = list[tuple[int, bytes]]
 def frames_of(stream: bytes) -> Frames:
     """Type and payload of every frame of a stream, END left out."""
     frames: Frames = []
-    offset = len(write_preamble())
+    offset = PREAMBLE_BYTES
     while offset < len(stream):
         frame = parse_frame(stream, offset, DEFAULT_LIMITS)
         if frame is None:
@@ -45,9 +47,9 @@ def frames_of(stream: bytes) -> Frames:
     return [frame for frame in frames if frame[0] != FrameType.END]
 
 
-def stream_of(frames: Frames) -> bytes:
+def stream_of(frames: Frames, version: int = VERSION) -> bytes:
     """The stream of these frames, with an END that fits them."""
-    body = write_preamble() + b"".join(write_frame(kind, payload) for kind, payload in frames)
+    body = MAGIC + bytes([version]) + b"".join(write_frame(kind, payload) for kind, payload in frames)
     return body + write_frame(FrameType.END, write_varint(len(frames)) + zlib.crc32(body).to_bytes(4, "little"))
 
 
@@ -97,7 +99,7 @@ def header_entries(payload: bytes) -> dict[int, Any]:
 def first_entries(stream: bytes) -> dict[int, Any]:
     """What the header of a stream stores, whatever comes behind it; nothing if there is none that can be read."""
     try:
-        frame = parse_frame(stream, len(write_preamble()), DEFAULT_LIMITS)
+        frame = parse_frame(stream, PREAMBLE_BYTES, DEFAULT_LIMITS)
         return header_entries(frame.payload) if frame is not None and frame.type == FrameType.HEADER else {}
     except (BsmError, ValueError, TypeError):
         return {}

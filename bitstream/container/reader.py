@@ -11,13 +11,14 @@ import numpy.typing as npt
 from bsm.bitstream.container.grammar import Grammar
 from bsm.bitstream.container.packets import PARSERS, Damaged, End, Header, Metadata, Packet
 from bsm.bitstream.container.wire import (
+    PREAMBLE_BYTES,
     SKIPPABLE_TYPES,
+    VERSION,
     Frame,
     FrameType,
     parse_frame,
     parse_preamble,
     parse_tag,
-    write_preamble,
 )
 from bsm.bitstream.errors import (
     ArgumentError,
@@ -90,6 +91,7 @@ class Reader:
         self._offset = 0  # of the buffer's first byte in the stream
         self._frames = 0
         self._crc = 0
+        self.version = VERSION
         self._metadata_bytes = 0
         self._started = False
         self._eof = False
@@ -146,11 +148,12 @@ class Reader:
         return END_OF_STREAM if self._eof else NEED_DATA
 
     def _start(self) -> bool:
-        if not parse_preamble(bytes(self._buffer[: len(write_preamble())])):
+        preamble = bytes(self._buffer[:PREAMBLE_BYTES])
+        if not parse_preamble(preamble):
             self._incomplete()
             return False
-        self._crc = zlib.crc32(write_preamble())
-        self._drop(len(write_preamble()))
+        self.version, self._crc = preamble[-1], zlib.crc32(preamble)
+        self._drop(PREAMBLE_BYTES)
         self._started = True
         return True
 

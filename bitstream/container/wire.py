@@ -16,7 +16,9 @@ from bsm.bitstream.errors import CorruptError, FormatError, OptionError, Unsuppo
 from bsm.bitstream.limits import Limits
 
 MAGIC = b"\x89BSM"
-VERSION = 0
+MAJOR, MINOR = 1, 0
+VERSION = 16 * MAJOR + MINOR
+PREAMBLE_BYTES = len(MAGIC) + 1
 MAX_VARINT_BYTES = 5
 MAX_VARINT = (1 << 7 * MAX_VARINT_BYTES) - 1
 SKIPPABLE_TYPES = range(8, 12)
@@ -59,10 +61,11 @@ def parse_preamble(data: bytes) -> bool:
         raise FormatError("not a BSM stream: it does not begin with 89 42 53 4D", offset=0)
     if len(data) <= len(MAGIC):
         return False
-    if data[len(MAGIC)] != VERSION:
-        raise UnsupportedError(
-            f"stream version {data[len(MAGIC)]} is not version {VERSION}, the one this decoder reads", offset=len(MAGIC)
-        )
+    major = data[len(MAGIC)] >> 4
+    if major != MAJOR:
+        older = "encode the source again, or decode it with the release that wrote it"
+        said = f"this stream is written by version {major} of the format, and this reads {MAJOR}: "
+        raise UnsupportedError(said + (older if major < MAJOR else "a later release reads it"), offset=len(MAGIC))
     return True
 
 

@@ -63,12 +63,12 @@ INLINE void sort_ascending(int32_t *values, int64_t size) {
 INLINE double square(double x) { return x * x; }
 
 INLINE double to_segment(const double *p, const double *a, const double *b) {
-    double length = 0.0, along = 0.0, total = 0.0;
+    double length = 0.0, reached = 0.0, total = 0.0;
     for (int axis = 0; axis < 3; axis++) {
         length += square(b[axis] - a[axis]);
-        along += (b[axis] - a[axis]) * (p[axis] - a[axis]);
+        reached += (b[axis] - a[axis]) * (p[axis] - a[axis]);
     }
-    double t = length > 0.0 ? along / length : 0.0;
+    double t = length > 0.0 ? reached / length : 0.0;
     t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
     for (int axis = 0; axis < 3; axis++) total += square(a[axis] + t * (b[axis] - a[axis]) - p[axis]);
     return total;

@@ -75,7 +75,7 @@ if TYPE_CHECKING:
 # isort: on
 # fmt: on
 
-__version__ = "0.2.0"
+__version__ = "1.0.0"
 
 try:
     _built = importlib.import_module("bsm._kernels").version

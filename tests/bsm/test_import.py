@@ -41,7 +41,7 @@ def test_a_name_loads_no_more_than_it_needs():
 
 
 def test_a_command_loads_nothing_that_speaks_http(tmp_path):
-    stream = ROOT / "spec" / "vectors" / "good-sequence-learnt.bsm"
+    stream = ROOT / "spec" / "vectors" / "1.0" / "good-sequence-learnt.bsm"
     words = ["decode", "-q", str(stream), "-o", str(tmp_path / "decoded.npz")]
     program = f"import sys; from bsm.cli import main; code = main({words}); print(code, *sys.modules)"
     code, *loaded = run(program).split()

@@ -34,7 +34,7 @@ needs_packages = pytest.mark.skipif(
     reason="no packages: npm ci in tools/web, with node",
 )
 ROOT = Path(__file__).parents[2]
-VECTORS = ROOT / "spec" / "vectors"
+VECTORS = ROOT / "spec" / "vectors" / "1.0"
 WEB = ROOT / "tools" / "web"
 SLOT = re.compile(r'<script type="application/json" id="bsm-streams">(.*?)</script>', re.DOTALL)
 

@@ -13,7 +13,7 @@ from tests.engine.decoding import BLOCK, END, END_OF_STREAM, NO_MEMORY, Allocato
 from tools.amalgamate import ROOT
 
 MISUSED = 2
-VECTORS = ROOT / "spec/vectors"
+VECTORS = ROOT / "spec/vectors/1.0"
 
 
 @pytest.mark.parametrize("name", ["good-chain", "good-grid-chunks", "good-attribute-colors", "good-layer-chunks"])
@@ -42,7 +42,7 @@ def test_positions_are_known_as_far_as_they_have_come(library: ctypes.CDLL) -> N
 
 def test_what_authors_say_comes_back(library: ctypes.CDLL) -> None:
     said = {"bytes": b"\x00\x01", "float": 0.5, "int": -7, "text": "ä"}
-    stream = bsm.encode(bsm.load(VECTORS.parent / "vectors" / "good-tetrahedron.bsm"), metadata=said)
+    stream = bsm.encode(bsm.load(VECTORS / "good-tetrahedron.bsm"), metadata=said)
     decoder, event, entry = library.bsmdec_open(None), Event(), Entry()
     library.bsmdec_push(decoder, stream, len(stream))
     library.bsmdec_finish(decoder)

@@ -15,7 +15,7 @@ from tests.streams import frames_in, moving_events_of
 from tools.surgery import frames_of, stream_of
 
 ROOT = Path(__file__).parents[2]
-VECTORS = ROOT / "spec/vectors"
+VECTORS = ROOT / "spec/vectors/1.0"
 GOP = 7
 SEQUENCES = (
     "good-sequence-long",

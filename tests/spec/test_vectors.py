@@ -80,7 +80,7 @@ def test_every_vector_has_its_files_and_every_file_is_a_vector():
     names = {vector.name for vector in VECTORS}
     assert (
         names
-        == {path.stem for path in FOLDER.glob("*.bsm")}
+        == {path.stem for path in FOLDER.parent.glob("*/*.bsm")}
         == {
             *STATIC,
             *FIELDS,
@@ -98,7 +98,7 @@ def test_every_vector_has_its_files_and_every_file_is_a_vector():
             *EDGES_BAD,
         }
     )
-    assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.glob("*.npz")}
+    assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.parent.glob("*/*.npz")}
 
 
 def test_every_prefix_says_what_its_error_is():

@@ -36,7 +36,7 @@ from bsm.files.mesh import MESH_FORMATS, read_mesh
 
 Target = Callable[[bytes], None]
 
-VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
+VECTORS = Path(__file__).parents[2] / "spec" / "vectors" / "1.0"
 
 LIMITS = Limits(
     vertices=1 << 13,

@@ -45,7 +45,7 @@ def make_archive(sources: Path, version: str, output: Path) -> Path:
         shutil.copy(sources / "LICENSE", inside)
         (inside / "README.md").write_text(README)
         path = archive(output / f"{inside.name}.tar.gz", [(f"{inside.name}/{f.name}", f) for f in inside.iterdir()])
-        _try_archive(inside, sources / "spec/vectors/good-tetrahedron.bsm")
+        _try_archive(inside, sources / "spec/vectors/1.0/good-tetrahedron.bsm")
     return path
 
 
@@ -61,10 +61,10 @@ def make_crate(sources: Path, version: str, output: Path) -> Path:
 def make_suite(sources: Path, version: str, output: Path) -> Path:
     """All vectors, their list and what it means, by which any decoder can be judged."""
     vectors = sources / "spec/vectors"
-    listed = json.loads((vectors / "manifest.json").read_text())["vectors"]
-    names = [f.name for f in vectors.iterdir()]
+    listed = [one for each in vectors.glob("*/manifest.json") for one in json.loads(each.read_text())["vectors"]]
+    names = [str(path.relative_to(vectors)) for path in vectors.rglob("*") if path.is_file()]
     if len(listed) != sum(name.endswith(".bsm") for name in names):
-        raise SystemExit("the list of vectors does not name all streams")
+        raise SystemExit("the lists of vectors do not name all streams")
     inside = f"bsm-conformance-{version}"
     return archive(output / f"{inside}.tar.gz", [(f"{inside}/{name}", vectors / name) for name in names])
 

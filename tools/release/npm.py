@@ -32,7 +32,7 @@ def make_npm(sources: Path, root: Path, output: Path) -> Path:
         Path(folder, "package.json").write_text('{"private": true, "type": "module"}')
         _npm(["install", "--silent", "--no-audit", "--no-fund", "--omit=peer", str(package)], Path(folder))
         Path(folder, "decode.mjs").write_text(DECODE)
-        stream = sources / "spec/vectors/good-tetrahedron.bsm"
+        stream = sources / "spec/vectors/1.0/good-tetrahedron.bsm"
         subprocess.run(["node", "decode.mjs", stream], cwd=folder, check=True, env=clean())
     return package
 

@@ -2,8 +2,7 @@
 
     python -m tools.vectors                            hold this project's decoder against all of them
     python -m tools.vectors --run "CMD {in} {out}"     hold another one against them, by its command line
-    python -m tools.vectors --new                      make those that are missing
-    python -m tools.vectors --write                    make all anew, which only a change of the format justifies
+    python -m tools.vectors --new                      make those that are missing, for the next minor version
     python -m tools.vectors --example                  print the worked example of spec/vectors/README.md
 
 A command must write an npz with `positions`, `faces` and attributes, and end with code 0, or refuse and end with the
@@ -29,7 +28,7 @@ from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.static.decoder import decode
 from bsm.codec.static.events import ConnectivityEvent
 from tools.vectors.example import example
-from tools.vectors.store import Arrays, Vector, arrays_of, arrays_of_frames, read_manifest, write_vectors
+from tools.vectors.store import NEXT, Arrays, Vector, arrays_of, arrays_of_frames, read_manifest, write_vectors
 
 EXIT_CODES = {"format": 3, "corrupt": 4, "truncated": 12, "unsupported": 5, "limit": 6, "numeric": 7}
 SECONDS = 120
@@ -41,13 +40,12 @@ def main() -> int:
         prog="python -m tools.vectors", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--run", metavar="COMMAND", help="a decoder's command line with {in} and {out} in it")
-    parser.add_argument("--write", action="store_true", help="make the vectors anew")
     parser.add_argument("--new", action="store_true", help="make the vectors that are missing")
     parser.add_argument("--example", action="store_true", help="print the worked example of the specification")
     parser.add_argument("--only", metavar="TEXT", default="", help="only vectors whose names hold this")
     args = parser.parse_args()
-    if args.write or args.new:
-        return write(keep=not args.write)
+    if args.new:
+        return write()
     if args.example:
         print(example(), end="")
         return 0
@@ -118,8 +116,8 @@ def try_command(vector: Vector, command: str) -> str | None:
             return vector.complaint(file["positions"], file["faces"], attributes)
 
 
-def write(*, keep: bool) -> int:
-    """Make all vectors, or those that are missing; write none if the decoder does not treat one as it should."""
+def write() -> int:
+    """Make the vectors that no earlier version has; write none if the decoder does not treat one as it should."""
     from tools.vectors.bad import BAD
     from tools.vectors.bad_attributes import BAD_ATTRIBUTES
     from tools.vectors.bad_fields import BAD_FIELDS
@@ -135,15 +133,20 @@ def write(*, keep: bool) -> int:
 
     streams: dict[Vector, bytes] = {}
     meshes = {}
+    settled = {vector.name for vector in read_manifest() if vector.folder != NEXT}
     for name, good in {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **LIGHT, **EXACT, **EDGES}.items():
-        vector = Vector(name, good.probes)
-        streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else good.make()
+        if name in settled:
+            continue
+        vector = Vector(name, good.probes, folder=NEXT)
+        streams[vector] = vector.stream.read_bytes() if vector.stream.is_file() else good.make()
         decoder = _decode_sequence if "-sequence" in name else _decode_static
         meshes[vector] = decoder(streams[vector])
     wrong = {**BAD, **BAD_FIELDS, **BAD_SEQUENCES, **BAD_ATTRIBUTES, **BAD_LIGHT, **BAD_EXACT, **EDGES_BAD}
     for name, bad in wrong.items():
-        vector = Vector(name, bad.probes, bad.error)
-        streams[vector] = vector.stream.read_bytes() if keep and vector.stream.is_file() else bad.make()
+        if name in settled:
+            continue
+        vector = Vector(name, bad.probes, bad.error, NEXT)
+        streams[vector] = vector.stream.read_bytes() if vector.stream.is_file() else bad.make()
         try:
             (_decode_sequence if "-sequence" in name else decode)(streams[vector])
         except BsmError as error:

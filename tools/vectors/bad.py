@@ -113,6 +113,11 @@ def _map(edit: Callable[[dict[int, Any]], bytes]) -> Callable[[], bytes]:
     return lambda: with_payload(_base(), HEADER, edit(header_entries(frames_of(_base())[0][1])))
 
 
+def _begun(**changes: Any) -> bytes:
+    """A stream that ends behind its header."""
+    return write_preamble() + write_frame(*frames_of(with_header(_base(), **changes))[0])
+
+
 def _reversed(entries: dict[int, Any]) -> bytes:
     return write_map(sorted(entries.items(), reverse=True))
 
@@ -121,9 +126,9 @@ def _raw_frame(tag: bytes) -> bytes:
     return write_preamble() + tag
 
 
-def _flipped(offset: int) -> bytes:
+def _flipped(offset: int, bits: int = 0x10) -> bytes:
     data = bytearray(_base())
-    data[offset] ^= 0x10
+    data[offset] ^= bits
     return bytes(data)
 
 
@@ -178,7 +183,9 @@ FRAMING: dict[str, Bad] = {
     "bad-magic-late": Bad("another fourth byte", "format", lambda: b"\x89BSN" + _base()[4:]),
     "bad-empty": Bad("no bytes", "truncated", lambda: b""),
     "bad-magic-only": Bad("nothing behind the magic", "truncated", lambda: _base()[:4]),
-    "unsupported-version": Bad("version 1", "unsupported", lambda: _base()[:4] + b"\x01" + _base()[5:]),
+    "unsupported-version": Bad("version 2", "unsupported", lambda: stream_of(frames_of(_base()), 0x20)),
+    "unsupported-version-0": Bad("version 0", "unsupported", lambda: stream_of(frames_of(_base()), 0x00)),
+    "bad-version-crc": Bad("another minor version, and not its checksum", "corrupt", lambda: _flipped(4, 0x01)),
     "bad-no-end": Bad("END is missing", "truncated", lambda: _base()[:-8]),
     "bad-half": Bad("the second half is missing", "truncated", lambda: _base()[: len(_base()) // 2]),
     "bad-trailing": Bad("a byte behind END", "corrupt", lambda: _base() + b"\0"),
@@ -245,7 +252,9 @@ HEADERS: dict[str, Bad] = {
     "bad-block-large": Bad("blocks larger than the mesh", "corrupt", _entries(block_size=57)),
     "bad-blocks-small": Bad("blocks too small to cover the mesh", "corrupt", _entries(block_size=20)),
     "bad-blocks-overlap": Bad(
-        "blocks that overlap too much", "corrupt", _entries(vertices=5000, faces=10_000, blocks=3000, block_size=50)
+        "blocks that overlap too much by one",
+        "corrupt",
+        lambda: _begun(vertices=293, faces=586, blocks=265, block_size=265, coefficients=9),
     ),
     "bad-coefficients-many": Bad("more coefficients than rows", "corrupt", _entries(coefficients=50)),
     "bad-sequence-short": Bad("frames without a length for GOPs", "corrupt", _entries(sequence=[3])),
@@ -306,10 +315,12 @@ HEADERS: dict[str, Bad] = {
     "bad-map-arrays": Bad(
         "arrays of 257 entries together",
         "corrupt",
-        _map(lambda e: write_map([*e.items(), (64, [1] * 200), (65, [1] * 57)])),
+        _map(lambda e: write_map([*e.items(), (64, [1] * 200), (65, [1] * 54)])),
     ),
     "bad-header-long": Bad(
-        "a header of more than 65,536 bytes", "corrupt", _map(lambda e: write_map([*e.items(), (64, b"\0" * 65_500)]))
+        "a header of 65,537 bytes",
+        "corrupt",
+        _map(lambda e: write_map([*e.items(), (64, bytes(65_537 - 4 - len(write_map(sorted(e.items())))))])),
     ),
     "bad-map-nested": Bad("a map in a map", "corrupt", _map(lambda e: msgpack.packb({**e, 64: {1: 2}}))),
     "bad-map-trailing": Bad("a byte behind the map", "corrupt", _map(lambda e: write_map(sorted(e.items())) + b"\0")),

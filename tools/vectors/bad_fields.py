@@ -112,7 +112,13 @@ BAD_FIELDS: dict[str, Bad] = {
     ),
     "bad-refinement-step": Bad("a step above 1", "corrupt", lambda: with_header(_refined(), refinement=[1.5, 3.0])),
     "bad-refinement-ratio": Bad(
-        "a ratio below 1/16", "corrupt", lambda: with_header(_refined(), refinement=[0.1, 0.01])
+        "a ratio below 1/16", "corrupt", lambda: with_header(_refined(), refinement=[0.1, 0.06])
+    ),
+    "bad-refinement-ratio-large": Bad(
+        "a ratio above 64", "corrupt", lambda: with_header(_refined(), refinement=[0.1, 64.5])
+    ),
+    "bad-center-far": Bad(
+        "a center out of range", "corrupt", lambda: with_header(_grid(), center=[0.0, 1.01e300, 0.0])
     ),
     "bad-refinement-odd": Bad("a step without a ratio", "corrupt", lambda: with_header(_refined(), refinement=[0.1])),
     "bad-refinement-two": Bad(

@@ -27,11 +27,11 @@ def example() -> str:
     """Text of the section, as it must stand in the document."""
     stream = (FOLDER / f"{NAME}.bsm").read_bytes()
     lines = [f"    {data.hex(' '):30}  {meaning}" for data, meaning in _bytes(stream)]
-    return "\n".join([f"`vectors/{NAME}.bsm`, {len(stream)} bytes:", "", *lines, "", *_numbers(stream)])
+    return "\n".join([f"`vectors/{FOLDER.name}/{NAME}.bsm`, {len(stream)} bytes:", "", *lines, "", *_numbers(stream)])
 
 
 def _bytes(stream: bytes) -> Iterator[tuple[bytes, str]]:
-    yield write_preamble(), "magic, version 0"
+    yield write_preamble(), "magic, version 1.0"
     frames = frames_of(stream)
     for number, (kind, payload) in enumerate(frames):
         frame = write_frame(kind, payload)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.bitstream.coefficients.packed import pack_coefficients
-from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.container.wire import VERSION, FrameType
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions, changed
@@ -66,10 +66,10 @@ def _with_isolated() -> TriangleMesh:
     return TriangleMesh(np.concatenate([[[9.0, 9.0, 9.0]], mesh.positions]), mesh.faces + 1)
 
 
-def _skippable() -> bytes:
+def _skippable(version: int = VERSION) -> bytes:
     frames = frames_of(encode(_small(), BASE))
     return stream_of(
-        [frames[0], (8, b""), *frames[1:3], (11, b"skip this"), *frames[3:], (9, bytes(127)), (9, bytes(128))]
+        [frames[0], (8, b""), *frames[1:3], (11, b"skip this"), *frames[3:], (9, bytes(127)), (9, bytes(128))], version
     )
 
 
@@ -163,6 +163,7 @@ STATIC: dict[str, Good] = {
         lambda: TriangleMesh(1e-3 * torus(12, 10).positions + [1e4, -3e5, 7.0], torus(12, 10).faces),
     ),
     "good-skippable": Good("skippable frames between the others", _skippable),
+    "good-minor": Good("minor version 15, and what is new is skippable", lambda: _skippable(VERSION | 15)),
     "good-metadata-everywhere": Good("metadata behind each frame", _metadata_everywhere),
     "good-metadata": Good("metadata: an integer, a float, a string beyond ASCII", _metadata),
 }

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
 from bsm.bitstream.container.writer import write_stream
@@ -15,7 +16,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.choice.blocks import Base, Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
-from tools.surgery import with_header
+from tools.gridded import gridded
+from tools.surgery import stream_of, with_header
 from tools.vectors.good import BASE, Good
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 
@@ -106,6 +108,20 @@ def header_of(stream: bytes) -> Header:
 
 LAYER = Layer(2.0**-9, 3.0)
 
+
+def _deep() -> bytes:
+    return refined(hub(), Layer(2.0**-20, 3.0), (len(hub().positions),))
+
+
+def _large() -> bytes:
+    """A regular mesh of 17,161 vertices, all at one place, and one of no order behind it."""
+    mesh = together(torus(131, 131), tangled())
+    coded = encode_connectivity(mesh.faces, len(mesh.positions))
+    return stream_of(
+        gridded(coded, np.zeros((len(mesh.positions), 3), np.int32), [len(mesh.positions)], grid=[0, 0, 0])
+    )
+
+
 FIELDS: dict[str, Good] = {
     "good-grid": Good("positions on a grid of 11 bits", lambda: encode(_small(), EncodeOptions(grid=11))),
     "good-grid-tetrahedron": Good("four vertices on a grid of one bit", lambda: encode(tetrahedron())),
@@ -154,6 +170,11 @@ FIELDS: dict[str, Good] = {
     "good-refined-tangled": Good(
         "refinement where faces have no area", lambda: refined(tangled(), LAYER, (len(tangled().positions),))
     ),
+    "good-refined-deep": Good("levels of many bits, of a vertex with many neighbours", _deep),
+    "good-refined-large": Good(
+        "refinement of more vertices than are looked back on", lambda: refined(torus(30, 24), LAYER, (720,))
+    ),
+    "good-grid-large": Good("more faces than counts and hashes have room for", _large),
     "good-refined-boundary": Good("refinement of a disc", lambda: refined(patch(12, 9), LAYER, (108,))),
     "good-refined-flat": Good(
         "a surface that looks away from the pole of frames",

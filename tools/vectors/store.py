@@ -14,7 +14,10 @@ import numpy.typing as npt
 
 from bsm.codec.geometry.attributes import Attribute
 
-FOLDER = Path(__file__).parents[2] / "spec" / "vectors"
+FOLDER = Path(__file__).parents[2] / "spec" / "vectors" / "1.0"
+"""The vectors of 1.0, which stay what they are."""
+NEXT = FOLDER.parent / "1.1"
+"""Those that came since, and stay from the next minor version on."""
 MANIFEST = "manifest.json"
 ROUNDING = 1e-6
 """How far floats of attributes may be, for ones above 1 relatively."""
@@ -33,21 +36,24 @@ class Vector:
         One sentence.
     error : str, optional
         Class of the error with which a decoder must refuse it; None: it must be decoded.
+    folder : Path, optional
+        Where it is.
     """
 
     name: str
     probes: str
     error: str | None = None
+    folder: Path = FOLDER
 
     @property
     def stream(self) -> Path:
         """File of the stream."""
-        return FOLDER / f"{self.name}.bsm"
+        return self.folder / f"{self.name}.bsm"
 
     @property
     def expected(self) -> Path:
         """File with `positions`, shape (n, 3) or for a sequence (T, n, 3), `faces`, shape (m, 3), and attributes."""
-        return FOLDER / f"{self.name}.npz"
+        return self.folder / f"{self.name}.npz"
 
     def complaint(self, positions: npt.NDArray[Any], faces: npt.NDArray[Any], attributes: Arrays) -> str | None:
         """What is wrong with a decoded mesh, or None."""
@@ -97,15 +103,16 @@ def alike(found: npt.NDArray[Any], expected: npt.NDArray[Any]) -> bool:
 
 
 def read_manifest() -> list[Vector]:
-    """All vectors of the manifest.
+    """All vectors of all folders.
 
     Raises
     ------
     FileNotFoundError
         If a stream or an expected mesh is missing.
     """
-    entries = json.loads((FOLDER / MANIFEST).read_text())["vectors"]
-    vectors = [Vector(**entry) for entry in entries]
+    manifests = sorted(FOLDER.parent.glob(f"*/{MANIFEST}"))
+    entries = [(each.parent, one) for each in manifests for one in json.loads(each.read_text())["vectors"]]
+    vectors = [Vector(**one, folder=folder) for folder, one in entries]
     for vector in vectors:
         for path in [vector.stream] if vector.error else [vector.stream, vector.expected]:
             if not path.is_file():
@@ -114,7 +121,8 @@ def read_manifest() -> list[Vector]:
 
 
 def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, Any, Arrays]]) -> None:
-    """Replace what is in the folder, but an expected mesh only where it is another."""
+    """Replace what is in the next version's folder, but an expected mesh only where it is another."""
+    NEXT.mkdir(exist_ok=True)
     for vector, stream in streams.items():
         vector.stream.write_bytes(stream)
     for vector, (positions, faces, attributes) in meshes.items():
@@ -122,9 +130,9 @@ def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, 
             buffer = io.BytesIO()
             np.savez_compressed(buffer, positions=positions, faces=faces, **attributes)  # type: ignore[arg-type]
             vector.expected.write_bytes(buffer.getvalue())
-    for path in FOLDER.iterdir():
+    for path in NEXT.iterdir():
         left = path.suffix == ".bsm" and path not in {vector.stream for vector in streams}
         if left or (path.suffix == ".npz" and path not in {vector.expected for vector in meshes}):
             path.unlink()
-    entries = [{key: value for key, value in vars(vector).items() if value is not None} for vector in streams]
-    (FOLDER / MANIFEST).write_text(json.dumps({"version": 0, "vectors": entries}, indent=1) + "\n")
+    said = [{"name": one.name, "probes": one.probes} | ({"error": one.error} if one.error else {}) for one in streams]
+    (NEXT / MANIFEST).write_text(json.dumps({"version": NEXT.name, "vectors": said}, indent=1) + "\n")

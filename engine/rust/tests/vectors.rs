@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 fn folder() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec/vectors")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec/vectors/1.0")
 }
 
 /// Decode byte after byte, and ask for everything.

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from bsm.bitstream.container.wire import VERSION
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.pipes import read_chunks
@@ -52,7 +51,7 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
 def summarise(info: StreamInfo) -> dict[str, Any]:
     header = info.header
     return {
-        "version": VERSION,
+        "version": f"{info.version >> 4}.{info.version & 15}",
         "extensions": [name for name, needed in _needs(info).items() if needed],
         "vertices": header.vertices,
         "faces": header.faces,

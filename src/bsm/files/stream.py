@@ -81,6 +81,7 @@ class StreamInfo:
     sizes: dict[str, int]  # bytes by what they carry, "framing" nothing of all that; "total" is the whole
     runs: tuple[RunInfo, ...]
     checksum: int | None  # of decoded positions
+    version: int
 
     @property
     def frames(self) -> int:
@@ -158,7 +159,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     sizes["attributes"] = sum(one.bytes for one in attributes)
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
     numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
-    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum)
+    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, reader.version)
 
 
 def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:

@@ -65,7 +65,7 @@ CONNECTIVITY_FRAME = write_frame(3, b"\x00\x01")
 def test_known_bytes_of_a_whole_stream():
     header = bytes.fromhex("c10185016402ccbe0303043c050a")  # 12 bytes, type 1
     connectivity = bytes.fromhex("230001")  # two bytes, type 3
-    body = b"\x89BSM\x00"
+    body = b"\x89BSM\x10"
     body += header + binascii.crc_hqx(header, 0).to_bytes(2, "little")
     body += connectivity + binascii.crc_hqx(connectivity, 0).to_bytes(2, "little")
     end = b"\x5f\x02" + zlib.crc32(body).to_bytes(4, "little")  # five bytes, type 15

@@ -73,13 +73,15 @@ def test_a_frame_too_long_is_refused_before_it_is_there():
 
 
 def test_preamble():
-    assert write_preamble() == b"\x89BSM\x00"
-    assert parse_preamble(b"\x89BSM\x00more")
-    assert not any(parse_preamble(b"\x89BSM\x00"[:end]) for end in range(5))
+    assert write_preamble() == b"\x89BSM\x10"
+    assert parse_preamble(b"\x89BSM\x10more") and parse_preamble(b"\x89BSM\x1f")
+    assert not any(parse_preamble(b"\x89BSM\x10"[:end]) for end in range(5))
     with pytest.raises(FormatError):
         parse_preamble(b"\x89BX")
-    with pytest.raises(UnsupportedError):
-        parse_preamble(b"\x89BSM\x01")
+    with pytest.raises(UnsupportedError, match=r"version 0 of the format.* encode the source again"):
+        parse_preamble(b"\x89BSM\x00")
+    with pytest.raises(UnsupportedError, match="version 2 of the format, and this reads 1: a later release"):
+        parse_preamble(b"\x89BSM\x20")
 
 
 def test_cursor_wants_neither_more_nor_less():

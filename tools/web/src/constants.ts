@@ -2,7 +2,7 @@
 import type { Field } from "./record";
 
 /** What a stream begins with: magic and version. */
-export const PREAMBLE = [137, 66, 83, 77, 0] as const;
+export const PREAMBLE = [137, 66, 83, 77, 16] as const;
 /** A payload of fewer bytes has a short checksum (F 3). */
 export const SHORT = 128;
 export const MAX_VARINT_BYTES = 5;

@@ -14,11 +14,11 @@ const [FRAME, BYTE, TELLING, ENTRY] = [8e3, 8, 2e4, 8e3];
 /** Is told of work, and of the bytes that ask for it, and may refuse it. */
 export type Spend = (work: number, received: number) => void;
 
-const MAGIC_SIZE = 4;
+const VERSION_AT = PREAMBLE.length - 1;
+const MAJOR = PREAMBLE[VERSION_AT] >> 4;
 const BLOCK_TAG = 6;
 
 const kinds: Record<number, string> = KINDS;
-const preamble = Uint8Array.from(PREAMBLE);
 
 /** What a tag says, and where the frame's payload and the frame end. */
 export function frameOf(tag: { value: number; end: number }): { type: number; length: number; sum: number; end: number } {
@@ -109,18 +109,20 @@ export class Reader {
     }
 
     private start(): boolean {
-        const present = this.buffer.subarray(this.begin, Math.min(this.end, this.begin + preamble.length));
-        for (let i = 0; i < present.length; i++) {
-            if (present[i] === preamble[i]) continue;
-            if (i < MAGIC_SIZE) throw new FormatError("not a BSM stream: it does not begin with 89 42 53 4D", { offset: 0 });
-            throw new UnsupportedError(`stream version ${present[i]} is not one that this decoder reads`, { offset: i });
-        }
-        if (present.length < preamble.length) {
+        const present = this.buffer.subarray(this.begin, Math.min(this.end, this.begin + PREAMBLE.length));
+        const magic = present.subarray(0, VERSION_AT);
+        if (magic.some((byte, i) => byte !== PREAMBLE[i])) throw new FormatError("not a BSM stream: it does not begin with 89 42 53 4D", { offset: 0 });
+        if (present.length < PREAMBLE.length) {
             this.incomplete();
             return false;
         }
-        this.crc = crc32(preamble);
-        this.drop(preamble.length);
+        const major = present[VERSION_AT] >> 4;
+        if (major !== MAJOR) {
+            const help = major < MAJOR ? "encode the source again, or decode it with the release that wrote it" : "a later release reads it";
+            throw new UnsupportedError(`this stream is written by version ${major} of the format, and this reads ${MAJOR}: ${help}`, { offset: VERSION_AT });
+        }
+        this.crc = crc32(present);
+        this.drop(PREAMBLE.length);
         this.started = true;
         return true;
     }

@@ -8,7 +8,7 @@ import { parseVarint } from "../src/varint";
 import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh, type Wishes } from "../src/index";
 
 export const WEB = process.cwd();
-export const VECTORS = join(WEB, "../../spec/vectors");
+export const VECTORS = join(WEB, "../../spec/vectors/1.0");
 export const VIEWER = join(WEB, "../../src/bsm/viewer");
 export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
 

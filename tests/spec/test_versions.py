@@ -1,0 +1,57 @@
+"""What is promised for good: clauses keep their numbers, vectors of 1.0 stay, streams of version 0 are named."""
+
+import hashlib
+import importlib
+import re
+from pathlib import Path
+
+import pytest
+
+import bsm
+from bsm.cli import main
+from tests.engine.decoding import build, decode
+from tests.spec.test_law import RULES
+from tools.vectors.store import FOLDER
+
+HERE = Path(__file__).parent
+OLD = dict(line.split() for line in (HERE / "version-0.txt").read_text().splitlines())
+"""Streams of version 0, hexadecimal, by the commits that wrote them: of all days until 1.0."""
+
+
+@pytest.mark.parametrize("commit", OLD)
+def test_streams_of_version_0_are_told_what_they_are(commit, tmp_path, capsys, monkeypatch):
+    data = bytes.fromhex(OLD[commit])
+    said = r"written by version 0 of the format, and this reads 1: encode the source again, or decode it with the"
+    for decoder in (bsm.decode, bsm.decode_sequence):
+        with pytest.raises(bsm.UnsupportedError, match=said):
+            decoder(data)
+    found = decode(build(), data)
+    assert found.status == 5 and re.search(said, found.message)
+    monkeypatch.syspath_prepend(str(HERE.parents[1] / "spec"))
+    reference = importlib.import_module("reference_decoder")
+    with pytest.raises(reference.UnsupportedError, match="version 0, and this reads 1"):
+        reference.decode(data)
+    (tmp_path / "old.bsm").write_bytes(data)
+    for command in ("info", "verify", "decode"):
+        assert main([command, str(tmp_path / "old.bsm")]) == 5
+        assert re.search(said, capsys.readouterr().err)
+
+
+def test_a_later_minor_version_is_read_and_told(capsys):
+    assert main(["info", str(FOLDER / "good-minor.bsm")]) == 0
+    assert "version 1.15, the core alone" in capsys.readouterr().out
+
+
+def test_the_vectors_of_1_0_are_what_they_were():
+    digest = hashlib.sha256()
+    for path in sorted(FOLDER.iterdir()):
+        digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
+    assert digest.hexdigest() == "9b86b193ca523d754733e05036e6725b9702d8f383923403ac27eb09b63f6ec9", (
+        "the vectors of 1.0 stay; new ones belong into the folder of a later version"
+    )
+
+
+def test_clauses_keep_their_numbers():
+    """All that 1.0 has: they may say it better, but stay where they are cited."""
+    kept = (HERE / "clauses-1.0.txt").read_text().split("\n")
+    assert not {clause for clause in kept if clause} - RULES

@@ -1,0 +1,149 @@
+"""Constants of the core that no vector notices.
+
+    python -m tools.vectors.mutants 60 --seed 1    change so many numbers of the reference decoder, one by one; 0: all
+
+A mutant has one number that is larger by one, or by a fiftieth, and must treat some vector otherwise than the decoder
+that it came from does. The command ends with 1 if there is one that no vector notices.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import hashlib
+import os
+import random
+import resource
+import sys
+import types
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from tools.vectors.store import read_manifest
+
+SPEC = Path(__file__).parents[2] / "spec"
+MODULES = "reference_integers", "reference_decoder"
+SECONDS = 120
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A number in the source of a module."""
+
+    module: str
+    line: int
+    begin: int
+    end: int
+    text: str  # the whole line
+    function: tuple[str, int] | None  # which has it, by its module and first line
+
+    @property
+    def changed(self) -> str:
+        """The number, a little larger."""
+        value = ast.literal_eval(self.text[self.begin : self.end])
+        return repr(value + 1 if isinstance(value, int) else value * 1.02 or 0.02)
+
+    def __str__(self) -> str:
+        return f"{self.module}:{self.line} {self.text[self.begin : self.end]} -> {self.changed} | {self.text.strip()}"
+
+
+def spots_of(module: str) -> Iterator[Spot]:
+    """Numbers but 0, 1 and 2, which are places and factors more often than law."""
+    source = (SPEC / f"{module}.py").read_text()
+    lines = source.splitlines()
+    tree = ast.parse(source)
+    function = {
+        inner: (module, outer.lineno)
+        for outer in ast.walk(tree)
+        if isinstance(outer, ast.FunctionDef)
+        for statement in outer.body
+        for inner in ast.walk(statement)
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and type(node.value) in (int, float) and node.value not in (0, 1, 2):
+            place = node.lineno, node.col_offset, node.end_col_offset or 0
+            yield Spot(module, *place, lines[node.lineno - 1], function.get(node))
+
+
+def reference(spot: Spot | None = None) -> Any:
+    """The reference decoder, with one number changed."""
+    for name in MODULES:
+        lines = (SPEC / f"{name}.py").read_text().splitlines()
+        if spot and spot.module == name:
+            lines[spot.line - 1] = spot.text[: spot.begin] + spot.changed + spot.text[spot.end :]
+        module = sys.modules[name] = types.ModuleType(name)
+        module.__file__ = str(SPEC / f"{name}.py")
+        exec(compile("\n".join(lines), name, "exec"), module.__dict__)
+    return module
+
+
+def outcome(decoder: Any, stream: bytes) -> str:
+    """What a decoder makes of a stream."""
+    try:
+        positions, faces, skipped = decoder.decode(stream)
+    except tuple(decoder.EXIT_CODES) as error:
+        return type(error).__name__
+    return hashlib.sha256(positions.tobytes() + faces.tobytes() + repr(skipped).encode()).hexdigest()
+
+
+@dataclass(frozen=True)
+class Known:
+    """A stream, what comes of it, and the functions that are called for it."""
+
+    stream: bytes
+    right: str
+    called: frozenset[tuple[str, int]]
+
+
+def known(decoder: Any, stream: bytes) -> Known:
+    """What the decoder does with a stream."""
+    called: set[tuple[str, int]] = set()
+    sys.setprofile(lambda frame, *_: called.add((frame.f_code.co_filename, frame.f_code.co_firstlineno)))
+    right = outcome(decoder, stream)
+    sys.setprofile(None)
+    return Known(stream, right, frozenset(called))
+
+
+def is_noticed(spot: Spot, vectors: list[Known]) -> bool:
+    """Whether a mutant, in a process of its own, does anything else."""
+    child = os.fork()
+    if child:
+        return os.waitpid(child, 0)[1] != 0
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+    try:
+        decoder = reference(spot)
+        reached = (vector for vector in vectors if spot.function is None or spot.function in vector.called)
+        alike = all(outcome(decoder, vector.stream) == vector.right for vector in reached)
+    except BaseException:  # a mutant may fail in any way
+        alike = False
+    os._exit(0 if alike else 1)
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(prog="python -m tools.vectors.mutants", description=__doc__)
+    parser.add_argument("count", type=int, help="how many numbers, chosen by chance; 0: all")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--lines", nargs="*", help="only numbers of these lines, as MODULE:LINE")
+    args = parser.parse_args()
+    sys.path.insert(0, str(SPEC))
+    vectors = sorted(read_manifest(), key=lambda vector: (vector.error is not None, vector.stream.stat().st_size))
+    decoder = reference()
+    streams = [known(decoder, vector.stream.read_bytes()) for vector in vectors]
+    spots = [spot for module in MODULES for spot in spots_of(module)]
+    if args.lines:
+        spots = [spot for spot in spots if f"{spot.module}:{spot.line}" in args.lines]
+    chosen = random.Random(args.seed).sample(spots, args.count or len(spots))
+    missed = 0
+    for spot in chosen:
+        if not is_noticed(spot, streams):
+            missed += 1
+            print(spot, flush=True)
+    print(f"{missed} of {len(chosen)} changed numbers are noticed by no vector, of {len(spots)} that there are")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
