@@ -122,7 +122,7 @@ static void average(const Values *g, int32_t last, Chart *p) {
 }
 
 /* How an error of the first component goes on in the second, if it is along (x, y). */
-static int32_t along(int64_t error, int64_t x, int64_t y) {
+static int32_t followed(int64_t error, int64_t x, int64_t y) {
     while (largest(largest(x, -x), largest(y, -y)) >= 1 << 18) x >>= 1, y >>= 1;
     return limited(within(error, -(1 << 24), 1 << 24) * x * y / (x * x + (x * x + y * y) / 64 + 1));
 }
@@ -134,8 +134,8 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     int32_t twin = p->place.twin, like = p->all.similar[j] - base;
     const Claim *one = p->place.bases > 0 ? &p->claim[0] : &p->all, *two = p->place.bases > 1 ? &p->claim[1] : one;
     int32_t usual = r->neighbours > 0 ? (int32_t)(g->chart.data[STRIDE] >> 4) : far;
-    Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, along(*first, p->rise[0], p->rise[1]),
-                      along(*first, p->run[0], p->run[1]), p->drift[j], one->affine[j] - base},
+    Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, followed(*first, p->rise[0], p->rise[1]),
+                      followed(*first, p->run[0], p->run[1]), p->drift[j], one->affine[j] - base},
         .hint = {number > 0 ? p->place.error : usual, p->spread[j], size_of(*first), size_of(like)}};
     choose_learners(&f, g, AXES, j, number, p->place.valence);
     foresee(&f, far);
