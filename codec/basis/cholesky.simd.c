@@ -75,9 +75,9 @@ void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubl
                              Fronts fronts, Words column, Singles scratch, Singles values, Singles inverse) {
     int64_t n = fronts.rows.size, count = fronts.firsts.size - 1, filled = fronts.places.data[count];
     float *matrices = aligned(values.data), *left = aligned(scratch.data);
-    uint32_t *places = (uint32_t *)(left + 2 * whole_vectors(n + 1));
+    uint32_t *places = (uint32_t *)(left + 2 * whole_lines(n + 1));
     for (int64_t i = 0; i < filled; i += WIDTH) store(matrices + i, zeros());
-    for (int64_t i = 0; i < 2 * whole_vectors(n + 1); i += WIDTH) store(left + i, zeros());
+    for (int64_t i = 0; i < 2 * whole_lines(n + 1); i += WIDTH) store(left + i, zeros());
     for (int64_t t = 0; t < count; t++) {
         Front front = front_at(&fronts, t);
         float *row = matrices + front.place;
@@ -96,8 +96,8 @@ void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubl
         float *matrix = matrices + front.place, *pivots = inverse.data + front.first;
         int64_t own = front.own, width = front.width, apart = front.apart;
         for (int64_t k = 0; k < own; k++) {
-            for (int64_t p = k / WIDTH * WIDTH; p < apart; p += LANES)
-                WITH_VECTORS(least(VECTORS, (apart - p) / WIDTH), p, eliminate, matrix, apart, pivots, k);
+            for (int64_t p = k / WIDTH * WIDTH, columns = whole_vectors(width); p < columns; p += LANES)
+                WITH_VECTORS(least(VECTORS, (columns - p) / WIDTH), p, eliminate, matrix, apart, pivots, k);
             pivots[k] = 1.0f / matrix[k * apart + k];
         }
         const uint32_t *border = fronts.borders.data + front.edge - own;

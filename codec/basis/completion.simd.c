@@ -22,7 +22,7 @@ INLINE Completion completion_of(int64_t h, float *memory) {
 /* Numbers of scratch that completing h columns takes. */
 int64_t LEVEL(completion_space)(int64_t h) {
     int64_t size = whole_vectors(h);
-    return 2 * size * size + size * LANES + ROWS * size + WIDTH - 1;
+    return 2 * size * size + size * LANES + ROWS * size + LINE - 1;
 }
 
 /* Take `share` times a row from another, in `count` columns of whole vectors. */

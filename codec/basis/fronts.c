@@ -102,7 +102,7 @@ static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords 
         }
         double own = (double)(end - first), width = own + (double)(size - begin);
         work += own * width * width;
-        place += (end - first) * whole_vectors(end - first + size - begin);
+        place += (end - first) * whole_lines(end - first + size - begin);
         if (work > most_work) return -2;
         if (place > UINT32_MAX) return -2;
         starts.data[t + 1] = (uint32_t)size;

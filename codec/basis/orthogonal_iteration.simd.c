@@ -298,7 +298,7 @@ INLINE Panels panels_of(int64_t n, int64_t c, float *memory) {
  * two numbers for each. */
 int64_t LEVEL(iteration_space)(int64_t n, int64_t c) {
     Panels panels = panels_of(n, c, 0);
-    return panels_size(&panels) + 2 * LANES * LANES + n + 2 * panels.columns + WIDTH - 1;
+    return panels_size(&panels) + 2 * LANES * LANES + n + 2 * panels.columns + LINE - 1;
 }
 
 /* So many solutions with a factor of `factorize_fronts`, Onorm after each and once more, of as many of the columns of

@@ -1,4 +1,4 @@
-/* Vector registers: a cache line of floats as one value, or of doubles where VECTORS_OF_DOUBLES is defined.
+/* Vector registers: some floats as one value, or doubles where VECTORS_OF_DOUBLES is defined.
  *
  * Every lane is computed by itself and in the order that is written, each operation rounded as IEEE 754 has it (compilers
  * are told not to fuse products and sums), so the result is the same to the last bit whatever the processor's registers
@@ -17,25 +17,29 @@ typedef float Real;
 #define REAL_BYTES 4
 #endif
 
-#define WIDTH (64 / REAL_BYTES) /* numbers of a vector: a cache line */
-#define VECTORS 4               /* vectors of a panel */
-#define LANES (WIDTH * VECTORS)
+#define LINE (64 / REAL_BYTES) /* numbers of a cache line */
+#define LANES (4 * LINE)       /* columns of a panel */
 
-/* Numbers that a register holds, how many vectors side by side have room in registers for several rows of them, and rows
- * of one vector that are summed side by side: eight registers, so that as many are left for what is added. */
+/* Numbers that a register and a vector hold, how many vectors side by side have room in registers for several rows of
+ * them, and rows of one vector that are summed side by side: eight registers, so that as many are left for what is added.
+ * Where registers are short, so are vectors: fewer lanes are beyond the last column. */
 #if defined(__AVX512F__) || KERNEL_LEVEL == 4
-#define REGISTER (64 / REAL_BYTES)
+#define REGISTER LINE
+#define WIDTH LINE
 #define SIDE VECTORS
 #define ROWS 4
 #elif defined(__AVX__) || KERNEL_LEVEL == 3
 #define REGISTER (32 / REAL_BYTES)
+#define WIDTH LINE
 #define SIDE 1
 #define ROWS 4
 #else
 #define REGISTER (16 / REAL_BYTES)
+#define WIDTH 8
 #define SIDE 1
-#define ROWS 2
+#define ROWS (8 * REGISTER / WIDTH)
 #endif
+#define VECTORS (LANES / WIDTH) /* of a panel */
 #define PARTS (WIDTH / REGISTER)
 
 typedef __attribute__((vector_size(REAL_BYTES * REGISTER))) Real Part;
@@ -84,10 +88,11 @@ INLINE Vector add_scaled(Vector sum, Real scalar, Vector other) {
     return sum;
 }
 
-/* The first cache line that begins in an array: arrays come with room for WIDTH - 1 more numbers than are used. */
+/* The first cache line that begins in an array: arrays come with room for LINE - 1 more numbers than are used. */
 INLINE Real *aligned(Real *array) { return (Real *)(((uintptr_t)array + 63) / 64 * 64); }
 
 INLINE int64_t whole_vectors(int64_t numbers) { return (numbers + WIDTH - 1) / WIDTH * WIDTH; }
+INLINE int64_t whole_lines(int64_t numbers) { return (numbers + LINE - 1) / LINE * LINE; }
 
 /* Call `function(vectors, column, ...)` for vectors side by side from `column` on, as many at a time as registers hold,
  * compiled for each number of them. */
@@ -144,7 +149,7 @@ INLINE Front front_at(const Fronts *fronts, int64_t t) {
     front.edge = fronts->starts.data[t];
     front.width = front.own + fronts->starts.data[t + 1] - front.edge;
     front.place = fronts->places.data[t];
-    front.apart = whole_vectors(front.width);
+    front.apart = whole_lines(front.width);
     return front;
 }
 
