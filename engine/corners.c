@@ -3,20 +3,14 @@
 
 enum { MODEL_SLOTS = CONTEXTS * CONTEXT_SIZE * VALUE_NODES, UNLEARNT_HIT = 1 << 28, SLOT_WEIGHT = 6000 };
 
-static void fill_ints(Ints ints, int32_t value) {
-    for (int64_t i = 0; i < ints.size; i++) ints.data[i] = value;
-}
-
 bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners) {
     int64_t size = 3 * faces.rows;
     Mark mark = mark_of(scratch);
-    *corners = (Corners){faces, zero_ints(arena, vertices + 1), zero_ints(arena, size), take_ints(arena, size), take_ints(arena, vertices)};
+    *corners = (Corners){faces, take_ints(arena, vertices + 1), take_ints(arena, size), take_ints(arena, size), take_ints(arena, vertices)};
     Ints room = take_ints(scratch, vertices + size);
     if (fine(context)) {
-        fill_ints(corners->opposite, -1);
-        fill_ints(room, -1);
         for (int64_t v = 0; v < vertices; v++) corners->rank.data[v] = (int32_t)v;
-        link_corners(*corners, room);
+        if (link_corners(*corners, room) != 0) FAIL(context, LIMIT, "# faces are too many", faces.rows);
     }
     release_to(scratch, mark);
     return fine(context);

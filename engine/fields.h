@@ -44,6 +44,7 @@ typedef struct {
     Context *context;
     const Header *header;
     ConstInts2 faces;
+    Arena models; /* of what only levels to come need, given back behind the last */
     Corners corners;
     Bank bank;
     Levels levels;

@@ -11,12 +11,13 @@ static Doubles2 rows_of(Doubles2 all, int64_t first, int64_t count) {
 bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch) {
     int64_t n = header->vertices;
     double size = (double)n, m = (double)faces.rows;
-    *layer = (Layer){.context = context, .header = header, .faces = faces, .base = base, .whole = whole};
+    *layer = (Layer){.context = context, .header = header, .faces = faces, .models = arena_of(context), .base = base, .whole = whole};
+    Arena *models = &layer->models;
     if (!keep(context, layer_memory(size, m), 0) || !spend(context, layer_work(size, m, AXES), 0)
-        || !WITHIN(context, field_bytes, levels_charge(size, m)) || !link_mesh(context, faces, n, arena, scratch, &layer->corners))
+        || !WITHIN(context, field_bytes, levels_charge(size, m)) || !link_mesh(context, faces, n, models, scratch, &layer->corners))
         return false;
-    layer->bank = make_bank(arena, (BankPlan){.slots = LEVEL_SLOTS_ALL, .selectors = LEVEL_SELECTORS, .inputs = LEVEL_INPUTS, .rate = LEVEL_RATE});
-    layer->levels = (Levels){zero_ints2(arena, n, AXES), zero_ints2(arena, n, AXES), zero_ints2(arena, n, AXES), make_learners(arena, LEARNERS)};
+    layer->bank = make_bank(models, (BankPlan){.slots = LEVEL_SLOTS_ALL, .selectors = LEVEL_SELECTORS, .inputs = LEVEL_INPUTS, .rate = LEVEL_RATE});
+    layer->levels = (Levels){zero_ints2(arena, n, AXES), zero_ints2(models, n, AXES), zero_ints2(models, n, AXES), make_learners(models, LEARNERS)};
     layer->positions = take_doubles2(arena, n, AXES);
     layer->frames = take_doubles2(arena, n, AXES * AXES);
     if (failed(context)) return false;
@@ -74,6 +75,7 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
     Context *context = layer->context;
     Reading reading;
     if (!spend(context, chunk_work((double)payload.size, 0), (double)payload.size)) return false;
+    if (layer->coded == layer->positions.rows) return FAIL(context, CORRUPT, "levels come behind the last vertex");
     if (first != layer->coded) return FAIL(context, CORRUPT, "the layer lacks the vertices before #: the rest is lost", first);
     if (!begin_reading(context, payload, &reading)) return false;
     int64_t done = code_levels(reading.coder, layer->bank, layer->corners, layer->levels, first, count);
@@ -82,5 +84,7 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
     ConstInts2 some = marked_levels(layer, layer->whole, first, count, scratch);
     if (failed(context)) return false;
     add_heights(rows_of(layer->positions, first, count), const_doubles2(rows_of(layer->frames, first, count)), some, layer->header->refinement[0]);
-    return layer->coded < layer->positions.rows || slide(layer, scratch);
+    if (layer->coded < layer->positions.rows) return true;
+    release_all(&layer->models);
+    return slide(layer, scratch);
 }

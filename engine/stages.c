@@ -11,6 +11,7 @@ static bool comes_late(const Mesh *mesh, FrameType type) {
 void end_mesh(Mesh *mesh) {
     if (mesh->has_chains) end_chains(&mesh->chains);
     if (mesh->has_attributes) end_attributes(&mesh->attributes);
+    release_all(&mesh->layer.models);
     end_gops(&mesh->gops);
     release_all(&mesh->arena);
 }

@@ -39,12 +39,12 @@ def corners_of(faces: npt.ArrayLike, vertices: int) -> Corners:
     size = 3 * len(own)
     corners = Corners(
         own,
-        np.zeros(vertices + 1, np.int32),
-        np.zeros(size, np.int32),
-        np.full(size, -1, np.int32),
+        np.empty(vertices + 1, np.int32),
+        np.empty(size, np.int32),
+        np.empty(size, np.int32),
         np.arange(vertices, dtype=np.int32),
     )
-    _kernels.link_corners(corners, np.full(vertices + size, -1, np.int32))
+    _kernels.link_corners(corners, np.empty(vertices + size, np.int32))
     return corners
 
 
@@ -52,7 +52,7 @@ def traverse(corners: Corners) -> Ints:
     """Make each vertex come when as much as possible is known around it."""
     vertices = len(corners.rank)
     order = np.empty(vertices, np.int32)
-    _kernels.order_vertices(corners, order, np.full((3, vertices), -1, np.int32))
+    _kernels.order_vertices(corners, order, np.empty((3, vertices), np.int32))
     return order
 
 

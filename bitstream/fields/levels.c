@@ -1,7 +1,6 @@
 /* Levels that refine a mesh, vertex after vertex, predicted from coded neighbours (specification, V 11). */
 #include "bitstream/fields/fields.h"
 
-
 enum {
     AXES = 3,
     MOST_LEVEL = 1 << 20,
@@ -20,8 +19,15 @@ enum {
     LEVEL_BYTES = 64, /* more than a level can take */
 };
 
+typedef struct { /* n, as what a number is multiplied with and shifted by instead of divided by n: processors divide slowly */
+    uint64_t factor;
+    int shift;
+    uint32_t half;
+} Divisor;
+
 typedef struct { /* what is known of a vertex before its axes */
     Around around;
+    Divisor near, with_own, all_flaps; /* neighbours, these and the vertex itself, flaps */
     int32_t flaps, valence, busy; /* busy: mean size of the levels around, all axes added, 1/16 */
     int32_t latest, earliest;     /* neighbours coded last and first */
 } Place;
@@ -32,15 +38,22 @@ typedef struct { /* a level under way */
     int64_t context[INPUTS], selector;
 } Level;
 
+/* Exact for numbers below 2^31. */
+INLINE Divisor divisor_of(int n) {
+    int shift = 31 + bit_length((uint32_t)n);
+    return (Divisor){n > 0 ? (UINT64_C(1) << shift) / (uint32_t)n + 1 : 0, shift, (uint32_t)n / 2};
+}
+
 /* sum / n, rounded half away from zero; |sum| < 2^30. */
-INLINE int32_t mean_of(int64_t sum, int32_t n) {
-    int32_t x = (int32_t)sum;
-    return (x < 0 ? x - n / 2 : x + n / 2) / n;
+INLINE int32_t mean_of(int64_t sum, Divisor n) {
+    int32_t size = (int32_t)((((uint64_t)(sum < 0 ? -sum : sum) + n.half) * n.factor) >> n.shift);
+    return sum < 0 ? -size : size;
 }
 
 static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p) {
     gather_around(corners, v, &p->around);
     const Around *r = &p->around;
+    p->near = divisor_of(r->neighbours), p->with_own = divisor_of(r->neighbours + 1), p->all_flaps = divisor_of(r->flaps);
     p->flaps = (int32_t)least(r->flaps, 3);
     p->valence = within(faces_at(corners, v) - 3, 0, 7);
     p->latest = p->earliest = r->neighbours > 0 ? r->neighbour[0] : v;
@@ -51,7 +64,7 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
         if (u < p->earliest) p->earliest = u;
         for (int j = 0; j < AXES; j++) all += size_of(l->levels.data[(int64_t)AXES * u + j]);
     }
-    p->busy = r->neighbours > 0 ? mean_of(all * FINE, r->neighbours) : 4 * FINE;
+    p->busy = r->neighbours > 0 ? mean_of(all * FINE, p->near) : 4 * FINE;
 }
 
 INLINE int decide(const Level *w, int node, int bit) {
@@ -101,12 +114,12 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     }
     int32_t mean = 0, typical = 2 * FINE, drift = 0, error_near = 2 * FINE, ring = 0, late = 0, early = 0;
     if (near > 0) {
-        mean = mean_of(sum * FINE, near), typical = mean_of(size * FINE, near);
-        drift = mean_of(gaps, near), error_near = mean_of(errors, near), ring = mean_of(means, near);
+        mean = mean_of(sum * FINE, p->near), typical = mean_of(size * FINE, p->near);
+        drift = mean_of(gaps, p->near), error_near = mean_of(errors, p->near), ring = mean_of(means, p->near);
         late = x[axes * p->latest], early = x[axes * p->earliest];
     }
-    int32_t flap = r->flaps > 0 ? mean_of(across * FINE, r->flaps) : mean;
-    int32_t tip = r->flaps > 0 ? mean_of(tips * FINE, r->flaps) : mean;
+    int32_t flap = r->flaps > 0 ? mean_of(across * FINE, p->all_flaps) : mean;
+    int32_t tip = r->flaps > 0 ? mean_of(tips * FINE, p->all_flaps) : mean;
 
     /* Where nothing happens, nothing is expected, and nothing learnt. */
     bool quiet = near > 0 && typical == 0 && tip == 0;
@@ -136,7 +149,7 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     if (level < -MOST_LEVEL || level > MOST_LEVEL) return false;
     x[axes * v] = level;
     l->gaps.data[axes * v + j] = level * FINE - guess;
-    l->means.data[axes * v + j] = mean_of((sum + level) * FINE, near + 1);
+    l->means.data[axes * v + j] = mean_of((sum + level) * FINE, p->with_own);
     *own = size_of(level) + (*own >> 1);
     if (!quiet) learn_in_turn(learner, OWN_TERMS, term, level * FINE, error_near + 4, v % OWN_TERMS);
     return true;
