@@ -187,19 +187,6 @@ INLINE void take_back(const int vectors, const int rows, int64_t lane, const Fro
     }
 }
 
-/* Call `function(vectors, rows, ...)` for what is left of `ROWS` rows. */
-#if ROWS == 2
-#define WITH_REST(rows, function, vectors, ...)                                                                        \
-    if ((rows) == 1) function(vectors, 1, __VA_ARGS__)
-#else
-#define WITH_REST(rows, function, vectors, ...)                                                                        \
-    switch (rows) {                                                                                                    \
-        case 1: function(vectors, 1, __VA_ARGS__); break;                                                              \
-        case 2: function(vectors, 2, __VA_ARGS__); break;                                                              \
-        case 3: function(vectors, 3, __VA_ARGS__);                                                                     \
-    }
-#endif
-
 INLINE void substitute_forward(const int vectors, int64_t lane, const Fronts *fronts, const float *matrices, float *x) {
     for (int64_t t = 0; t < fronts->firsts.size - 1; t++) {
         Front front = front_at(fronts, t);
@@ -207,7 +194,7 @@ INLINE void substitute_forward(const int vectors, int64_t lane, const Fronts *fr
         const float *matrix = matrices + front.place;
         int64_t k = 0;
         for (; k + ROWS <= front.own; k += ROWS) take_forward(vectors, ROWS, lane, &front, k, border, matrix, x);
-        WITH_REST(front.own - k, take_forward, vectors, lane, &front, k, border, matrix, x);
+        for (; k < front.own; k++) take_forward(vectors, 1, lane, &front, k, border, matrix, x);
     }
 }
 
@@ -219,7 +206,7 @@ INLINE void substitute_back(const int vectors, int64_t lane, const Fronts *front
         const float *matrix = matrices + front.place;
         int64_t k = front.own;
         for (; k >= ROWS; k -= ROWS) take_back(vectors, ROWS, lane, &front, k - ROWS, border, matrix, inverse, x);
-        WITH_REST(k, take_back, vectors, lane, &front, 0, border, matrix, inverse, x);
+        for (; k > 0; k--) take_back(vectors, 1, lane, &front, k - 1, border, matrix, inverse, x);
     }
 }
 
