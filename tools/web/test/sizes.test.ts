@@ -8,7 +8,7 @@ import { WEB } from "./shared";
 
 /** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, and for the page itself. */
 const LOADS: Record<string, [most: number, files: string[]]> = {
-    "light grids": [19700, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
+    "light grids": [19750, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "static meshes": [66100, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
     "sequences": [69450, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
     "everything": [104400, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
