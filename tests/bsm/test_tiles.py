@@ -112,7 +112,7 @@ def test_levels_meet_without_a_crack_and_are_as_near_as_they_say(mesh, folder):
     for name in ("r", *coarse):
         parts = [tiles.decoded(*nodes[one]) for one in (name, *(leaf for leaf in leaves if not leaf.startswith(name)))]
         offsets = np.cumsum([0, *(len(places) for places, _ in parts)])
-        _, numbers = welded(np.concatenate([places for places, _ in parts]))
+        _, numbers, _ = welded(np.concatenate([places for places, _ in parts]))
         corners = numbers[np.concatenate([faces + first for (_, faces), first in zip(parts, offsets)])]
         solid = corners[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
         _, counts = edges(solid)

@@ -49,10 +49,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     if args.triangles < 64:
         raise OptionError(f"--triangles {args.triangles}: tiles have 64 triangles or more")
-    if args.content != CONTENTS[0]:
-        if not args.tileset:
-            raise OptionError("--content says how the tiles of --tileset are coded: ask for that, too")
-        packer(args.content, 1.0)
+    if args.content != CONTENTS[0] and not args.tileset:
+        raise OptionError("--content says how the tiles of --tileset are coded: ask for that, too")
+    packer(args.content, 1.0)
     refuse_to_overwrite(inside(args.output, MANIFEST), args.force)
     if not is_url(args.output):
         os.makedirs(args.output, exist_ok=True)

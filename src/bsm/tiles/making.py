@@ -64,9 +64,7 @@ def _leaf(plan: Plan, name: str, folder: Path) -> TriangleMesh:
     begin, count = plan.leaves[name]
     used, corners = np.unique(mapped(folder, "cut", plan.kinds)[begin : begin + count], return_inverse=True)
     corners = corners.reshape(-1, 3)
-    places, numbers = welded(mapped(folder, "places", plan.kinds)[used])
-    some = np.empty(len(places), np.int64)
-    some[numbers[::-1]] = np.arange(len(numbers))[::-1]
+    places, numbers, some = welded(mapped(folder, "places", plan.kinds)[used])
 
     def carried(what: Any) -> Attribute:
         values = mapped(folder, what, plan.kinds)[used]
@@ -87,10 +85,10 @@ def _of_vertices(one: Attribute, mesh: TriangleMesh) -> npt.NDArray[Any]:
     return found
 
 
-def welded(places: npt.NDArray[np.int32]) -> tuple[Places, Faces]:
-    """Different places, along a curve, and which of them each of the given ones is."""
+def welded(places: npt.NDArray[np.int32]) -> tuple[Places, Faces, Ints]:
+    """Different places, along a curve, which of them each of the given ones is, and which given one each is first."""
     first, keys = np.unique(keys_of(places), return_index=True, return_inverse=True)[1:]
-    return places[first], keys.astype(np.int32)
+    return places[first], keys.astype(np.int32), first
 
 
 def keys_of(places: npt.NDArray[np.int32], low: Ints | None = None) -> Ints:
@@ -114,9 +112,7 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
         first += len(places)
     together, corners, *tables = map(np.concatenate, zip(*children))
     del children, places, faces, values  # as large as all else
-    places, numbers = welded(together)
-    some = np.empty(len(places), np.int64)
-    some[numbers[::-1]] = np.arange(len(numbers))[::-1]
+    places, numbers, some = welded(together)
 
     def carried(near: Ints) -> tuple[Attribute, ...]:
         return tuple(
@@ -159,7 +155,7 @@ def simplified(
     buckets = np.empty(sides // 2, np.float32), np.empty(_BUCKETS, np.int32)
     size = _kernels.simplify(positions, left, locked.astype(np.uint8), *scratch, owners, *buckets, target)
     kept, corners, first = compact(positions, left[:size])
-    new, numbers = welded(np.rint(kept + low).astype(np.int32))
+    new, numbers, _ = welded(np.rint(kept + low).astype(np.int32))
     new, smaller, second = compact(new, solid(numbers[corners]))
     if not len(smaller):
         return places, faces, np.arange(count, dtype=np.int32)
