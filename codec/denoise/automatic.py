@@ -63,11 +63,8 @@ CANDIDATES = (
 SEEN = tuple(Recipe(RAYS, keep, "own", sigma_r) for keep in (0.3, 0.1, 1.0, 3.0) for sigma_r in (0.4, 0.25, 0.55))
 """For scans of one view; the first one is the base."""
 SEEN_HERALDS = (*SEEN[:3], *SEEN[7:9])
-FUSED = tuple(
-    Recipe("positions", keep, guide, sigma_r)
-    for keep in (0.2, 0.1, 0.3)
-    for guide, sigma_r in (("patches", 0.35), ("own", 0.25), ("own", 0.4))
-)
+FINE = (("patches", 0.35), ("own", 0.25), ("own", 0.4))
+FUSED = tuple(Recipe("positions", keep, *fine) for keep in (0.2, 0.1, 0.3) for fine in FINE)
 """For views that are fused, whose triangles are slivers: their vertices slide."""
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
@@ -158,8 +155,7 @@ def choose(
     winner = rehearsal.compete(heralds, most, HERALDED)
     share, gain = rehearsal.weigh(winner)
     if candidates != heralds:
-        # What a few of them make, in the mean with the learnt normals, is a better guess than the one that they were
-        # chosen with. A third round would believe its own mistakes.
+        # What a few make, with the learnt normals, is a better guess. A third round would believe its own mistakes.
         rehearsal.rehearse(rehearsal.perform(winner.steps, share))
         winner = rehearsal.compete(candidates, most, REHEARSED)
     untreated = rehearsal.untreated

@@ -127,9 +127,8 @@ def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
     levels = evidence.levels[valid]
     level = float(np.median(levels))
     allowed = np.interp(level, FUSED, EVEN_FUSED)
-    if level < FUSED[0] or spread(levels, evidence.probe.windows) > allowed:
-        return None
-    if evidence.edge > MARCHED * lattice_step(positions):
+    regular = evidence.edge > MARCHED * lattice_step(positions)
+    if level < FUSED[0] or regular or spread(levels, evidence.probe.windows) > allowed:
         return None
     broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))[valid]
     random = is_random(_standardised(evidence, evidence.probe.counted))
