@@ -14,8 +14,9 @@ const [FRAME, BYTE, TELLING, ENTRY] = [8e3, 8, 2e4, 8e3];
 /** Is told of work, and of the bytes that ask for it, and may refuse it. */
 export type Spend = (work: number, received: number) => void;
 
-const VERSION_AT = PREAMBLE.length - 1;
-const MAJOR = PREAMBLE[VERSION_AT] >> 4;
+const MAGIC_SIZE = 4;
+/** A version that differs only in these bits is another minor one. */
+const MINORS = 15;
 const BLOCK_TAG = 6;
 
 const kinds: Record<number, string> = KINDS;
@@ -110,16 +111,14 @@ export class Reader {
 
     private start(): boolean {
         const present = this.buffer.subarray(this.begin, Math.min(this.end, this.begin + PREAMBLE.length));
-        const magic = present.subarray(0, VERSION_AT);
-        if (magic.some((byte, i) => byte !== PREAMBLE[i])) throw new FormatError("not a BSM stream: it does not begin with 89 42 53 4D", { offset: 0 });
+        for (let i = 0; i < present.length; i++) {
+            if ((present[i] ^ PREAMBLE[i]) <= (i < MAGIC_SIZE ? 0 : MINORS)) continue;
+            if (i < MAGIC_SIZE) throw new FormatError("not a BSM stream: it does not begin with 89 42 53 4D", { offset: 0 });
+            throw new UnsupportedError(`written by version ${present[i] >> 4}, and this reads ${PREAMBLE[i] >> 4}; if that is later, encode the source again`, { offset: i });
+        }
         if (present.length < PREAMBLE.length) {
             this.incomplete();
             return false;
-        }
-        const major = present[VERSION_AT] >> 4;
-        if (major !== MAJOR) {
-            const help = major < MAJOR ? "encode the source again, or decode it with the release that wrote it" : "a later release reads it";
-            throw new UnsupportedError(`this stream is written by version ${major} of the format, and this reads ${MAJOR}: ${help}`, { offset: VERSION_AT });
         }
         this.crc = crc32(present);
         this.drop(PREAMBLE.length);
