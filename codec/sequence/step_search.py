@@ -20,9 +20,9 @@ from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.row_prediction import ROUNDS
 from bsm.codec.static.targets import COARSEST_STEP
 
-KNOTS = 10  # frames, evenly over a GOP, that small pictures are drawn of at every attempt
+KNOTS = 10  # frames, evenly over a GOP, that small pictures are drawn of at every attempt, beside those that were large
 SMALL = 256  # pixels of the side of these
-COARSENESS = 0.03  # how far what is seen in them is off, in logarithms, if it is scaled by what is seen in large ones
+COARSENESS = 0.03  # how far what is seen in them is off at least, in logarithms, scaled by what is seen in large ones
 MORE = 1  # frames that seem the worst, drawn large at every attempt
 DEVIATIONS = 4.0
 """An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
@@ -98,7 +98,6 @@ class StepSearch:
         self._metrics: dict[tuple[int, int], LookMetric | None] = {}
         self._power = 0.0  # of what normals let expect, that pictures show; unknown before the first attempt
         self._scales: dict[int, float] = {}  # logarithms of what large pictures show over what small ones do
-        self._ratios: dict[int, float] = {}  # of what large pictures showed and what normals let expect
         self._room = KEPT
         self._knots: list[int] = []
         self._twins = np.arange(len(frames))  # the first frame that each is the same as, as in loops
@@ -170,9 +169,9 @@ class StepSearch:
             drawn[worst] = self._look(worst, decoded)
             self._scales[worst] = math.log(drawn[worst] / small[worst]) if drawn[worst] and small.get(worst) else 0.0
         usual = sum(self._scales.values()) / len(self._scales)
-        glimpsed = {index: errors[index] * ratio for index, ratio in self._ratios.items()}
-        glimpsed |= {index: share * math.exp(self._scales.get(index, usual)) for index, share in small.items()}
-        measured = Measured(farthest, errors, drawn, glimpsed)
+        glimpsed = {index: share * math.exp(self._scales.get(index, usual)) for index, share in small.items()}
+        coarseness = max(COARSENESS, float(np.std([*self._scales.values()])))
+        measured = Measured(farthest, errors, drawn, glimpsed, coarseness)
         for _ in range(MORE):
             index = int(measured.shares.argmax())
             if index in drawn:
@@ -180,11 +179,8 @@ class StepSearch:
             drawn[index] = self._look(index, decoded)
             if drawn[index] and small.get(index):
                 self._scales[index] = math.log(drawn[index] / small[index])
-        self._note(measured)
+        self._knots = sorted({*self._knots, *drawn})
         return measured
-
-    def _note(self, measured: Measured) -> None:
-        self._ratios |= {index: share / measured.errors[index] for index, share in measured.drawn.items()}
 
     def _draw_doubtful(self, measured: Measured, decoded: Positions) -> None:
         """Draw frames that may be worse than the bound: small, and large where that leaves a doubt."""
@@ -195,7 +191,7 @@ class StepSearch:
             else:
                 small.add(index)
                 measured.glimpsed[index] = self._look(index, decoded, SMALL) * math.exp(usual)
-        self._note(measured)
+        self._knots = sorted(small | set(measured.drawn))
 
     def _look(self, index: int, decoded: Positions, most_pixels: int = MOST_PIXELS) -> float:
         """Share of the bound; 0 for a frame of which nothing is seen. What comes again is looked at once."""
@@ -236,6 +232,7 @@ class Measured:
     errors: Matrix
     drawn: dict[int, float]
     glimpsed: dict[int, float] = field(default_factory=dict)
+    coarseness: float = COARSENESS
 
     @property
     def excess(self) -> float:
@@ -273,7 +270,7 @@ class Measured:
             until = seen[np.minimum(np.searchsorted(seen, frames), len(seen) - 1)] - frames
             inside = np.minimum(since, until) >= 0
             spans = np.where(inside, since * until / np.maximum(since + until, 1), np.maximum(since, until))
-            shares *= np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans + COARSENESS**2))
+            shares *= np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans + self.coarseness**2))
         else:
             shares[:] = 0.0
         for index, share in self.drawn.items():
