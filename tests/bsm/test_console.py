@@ -57,7 +57,7 @@ def test_time_is_told_where_nothing_more_is_said():
     subprocess.run([sys.executable, "-c", work.format(False)], stderr=theirs, check=True)
     os.close(theirs)
     drawn = os.read(ours, 1 << 14).decode()
-    assert drawn.index("denoising: 00:00") < drawn.index("rehearsing:  10%|") and "<00:0" in drawn
+    assert drawn.index("denoising: 00:0") < drawn.index("rehearsing:  10%|") and "<00:0" in drawn
     os.close(ours)
     done = subprocess.run([sys.executable, "-c", work.format(True)], capture_output=True, text=True, check=True)
     lines = [json.loads(line) for line in done.stderr.splitlines()]

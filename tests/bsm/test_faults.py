@@ -137,7 +137,7 @@ def _small_files():
         ("bad-levels-short", 12, ["ends before", "block 0"]),
         ("bad-block-missing", 4, ["missing", "block 0"]),
         ("bad-connectivity-long", 4, ["left over", "frame 1"]),
-        ("unsupported-version", 5, ["version 1"]),
+        ("unsupported-version", 5, ["version 2"]),
         ("bad-limit-vertices", 6, ["vertices", "limit"]),
         ("bad-not-finite", 7, ["not finite"]),
         ("bad-magic", 3, ["not a BSM stream"]),
