@@ -125,6 +125,16 @@ def test_levels_meet_without_a_crack_and_are_as_near_as_they_say(mesh, folder):
     assert levels[0]["faces"] < 0.4 * len(mesh.faces)
 
 
+def test_one_tile_that_has_a_coarser_one_above_it(tmp_path):
+    mesh = torus(140, 120)
+    source = tmp_path / "mesh.npz"
+    bsm.save(mesh, source)
+    tile(source, tmp_path / "out", "--grid-cell", CELL)
+    tiles = bsm.open_tiles(str(tmp_path / "out"))
+    assert [(level["tiles"], level["faces"]) for level in tiles.manifest["levels"]][1] == (1, len(mesh.faces))
+    assert tiles.manifest["levels"][0]["faces"] < len(mesh.faces) / 2
+
+
 def test_a_region_in_python(mesh, folder):
     tiles = bsm.open_tiles(str(folder))
     low, high = (-10.0, -10.0, -10.0), (10.0, 10.0, 10.0)

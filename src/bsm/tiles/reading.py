@@ -58,7 +58,8 @@ class Raw:
 
 def mapped(folder: Path, what: str, kinds: Kinds) -> Array:
     kind, columns = kinds[what]
-    return np.memmap(folder / what, kind, "r").reshape(-1, columns)
+    path = folder / what
+    return (np.memmap(path, kind, "r") if path.stat().st_size else np.zeros(0, kind)).reshape(-1, columns)
 
 
 def read_big(name: str, file_format: str | None, folder: Path, console: Console) -> Raw:
