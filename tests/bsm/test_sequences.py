@@ -13,6 +13,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats.npz import read_npy
 from bsm.files.mesh import read_mesh, write_mesh
+from bsm.files.motion.frames import Wanted
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
 from tests.motion import bending
 from tests.shapes import torus
@@ -199,6 +200,13 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
     capsys.readouterr()
     assert bsm("decode", stream, "-o", tmp_path / "back.pc2") == 0
     assert "how color changes" in capsys.readouterr().err
+    assert bsm("decode", stream, "-o", tmp_path / "back.glb") == 0
+    left_out = capsys.readouterr().err
+    assert "how heat changes" in left_out and "how color changes" not in left_out
+    frames = open_sequence(tmp_path / "back.glb", wanted=Wanted()).meshes
+    for mesh, shades in zip(frames, arrays["color"], strict=True):
+        (color,) = (one.values for one in mesh.attributes if one.semantic == "color")
+        np.testing.assert_array_equal(np.unique(color[:, :3], axis=0), np.unique(shades, axis=0))
     assert bsm("info", stream) == 0
     assert "uint8 per vertex, color" in capsys.readouterr().out
     last = {one.name: one.values for one in list(decode_frames(stream))[4].attributes}

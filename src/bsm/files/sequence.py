@@ -109,7 +109,7 @@ def sequence_writer(
             yield _of_one_mesh(lambda frame: write_npy(file, frame), kind)
         elif kind == "glb":
             with by_name("bsm.gltf.write", "write_frames")(file, path, faces, shared) as write_changing:
-                yield _of_first(write_changing, shared)
+                yield write_changing
         else:
             with by_name("bsm.files.motion.usd", "write_usd")(file, kind, faces, shared) as write_changing:
                 yield write_changing

@@ -204,9 +204,9 @@ def _unit(vectors: Doubles) -> Doubles:
 def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> Iterator[FrameWriter]:
     """Write a GLB in which each frame is a morph target; yields what takes frame after frame.
 
-    Between frames the weights of two targets cross, so that what is shown is the straight line between them. Where
-    faces change, other meshes take the place of those before, by their scale. Nothing but the first frame of a run is
-    kept in memory; the targets wait in a file until their number is known.
+    Between frames the weights of two targets cross, so that what is shown is the straight line between them, of colours
+    of vertices, too. Where faces change, other meshes take the place of those before, by their scale. Nothing but the
+    first frame of a run is kept in memory; the targets wait in a file until their number is known.
     """
     with tempfile.TemporaryFile() as spool:
         moving: _Moving | None = None
@@ -218,7 +218,9 @@ def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> It
             elif faces is not None:
                 moving.begin(shared.mesh(frame, faces), f"{Path(path).stem}_{moving.frames:05d}")
             else:
-                moving.add_frame(frame)
+                moving.add_frame(shared.mesh(frame, moving.faces, with_metadata=False))
+            moved = shared.moved(anew=faces is not None)
+            shared.loses(f"how {one.name} changes" for one in moved if one is not moving.painted)
 
         yield write
         assert moving is not None
@@ -233,7 +235,7 @@ class _Run:
 
     begun: int
     faces: Faces
-    first: tuple[Positions, Doubles]
+    first: tuple[Array, ...]
     nodes: range
     primitives: list[tuple[Tree, Ints]]
 
@@ -243,6 +245,7 @@ class _Moving(_Still):
 
     def __init__(self, file: IO[bytes], first: TriangleMesh, stem: str) -> None:
         self.frames, self._runs = 0, list[_Run]()
+        self.painted: Attribute | None = None  # of the last frame
         super().__init__(file, first, stem)
 
     def begin(self, first: TriangleMesh, stem: str) -> None:
@@ -254,25 +257,36 @@ class _Moving(_Still):
         for primitive, _ in self.primitives:
             primitive["targets"] = []
         nodes = range(begin, len(self.tree["nodes"]))
-        self._runs.append(_Run(self.frames, first.faces, (first.positions, normals), nodes, self.primitives))
+        seen = (first.positions, normals, *self._painted(first))
+        self._runs.append(_Run(self.frames, first.faces, seen, nodes, self.primitives))
         self.frames += 1
 
-    def add_frame(self, frame: Positions) -> None:
-        run = self._runs[-1]
+    @property
+    def faces(self) -> Faces:
+        return self._runs[-1].faces
+
+    def _painted(self, mesh: TriangleMesh) -> list[Array]:
+        self.painted = formats.shown_at_vertices(mesh)[1]
+        return [] if self.painted is None else [formats.rgba(self.painted) / 255.0]
+
+    def add_frame(self, mesh: TriangleMesh) -> None:
+        run, frame = self._runs[-1], mesh.positions
         if self.frames - run.begun == MOST_FRAMES:
             raise LimitError(
                 f"a GLB holds each frame as a morph target, of which viewers take {MOST_FRAMES}; "
                 "take fewer with --frames A:B, or write USD"
             )
-        now = (frame, _vertex_normals(frame, run.faces))
+        now = (frame, _vertex_normals(frame, run.faces), *self._painted(mesh))
         with np.errstate(over="ignore"):
             deltas = [(one - other).astype(np.float32) for one, other in zip(now, run.first, strict=True)]
         if not all(np.isfinite(delta).all() for delta in deltas):
             raise MeshError(f"frame {self.frames} is beyond single precision, which GLB has")
         self.frames += 1
         for primitive, rows in run.primitives:
-            positions, normals = (self.numbers(delta[rows], bounds=True) for delta in deltas)
-            primitive["targets"].append({"POSITION": positions, "NORMAL": normals})
+            moved = zip(("POSITION", "NORMAL", "COLOR_0"), deltas, strict=False)
+            primitive["targets"].append(
+                {n: self.numbers(d[rows], bounds=True) for n, d in moved if n != "COLOR_0" or d.any()}
+            )
 
     def animate(self, rate: float) -> None:
         samplers: list[Tree] = []
@@ -287,6 +301,12 @@ class _Moving(_Still):
         ends = [*(run.begun for run in self._runs[1:]), self.frames]
         for run, end in zip(self._runs, ends, strict=True):
             count = end - run.begun - 1
+            for primitive, rows in run.primitives:
+                if any(
+                    "COLOR_0" in target for target in primitive["targets"]
+                ):  # then all have to; without bytes it is 0
+                    zeros = self.add("accessors", {"componentType": _FLOAT, "count": len(rows), "type": "VEC4"})
+                    primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
             if count:
                 weights = np.vstack([np.zeros((1, count)), np.eye(count)])
                 move(run.nodes, "weights", np.arange(run.begun, end), weights.reshape(-1, 1), "LINEAR")
