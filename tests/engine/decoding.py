@@ -108,9 +108,9 @@ class Decoded:
     runs: list[tuple[int, int, npt.NDArray[Any]]] = field(default_factory=list)
 
 
-def compiled(*flags: str, compiler: str = "cc") -> Path:
-    """A folder with bsmdec.c, bsmdec.h and bsmdec.so, compiled once of these sources and flags, whoever asks."""
-    source, header = amalgamated(), interface()
+def compiled(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = None) -> Path:
+    """A folder with bsmdec.c, bsmdec.h and bsmdec.so, compiled once of these files and flags, whoever asks."""
+    source, header = files or (amalgamated(), interface())
     command = [compiler, *FLAGS, *flags]
     name = hashlib.sha256("\0".join([source, header, *command]).encode()).hexdigest()[:16]
     folder = ROOT / "build" / "bsmdec" / name
@@ -125,9 +125,9 @@ def compiled(*flags: str, compiler: str = "cc") -> Path:
     return folder
 
 
-def build(*flags: str, compiler: str = "cc") -> ctypes.CDLL:
-    """The library, compiled from one file."""
-    library = ctypes.CDLL(str(compiled(*flags, compiler=compiler) / "bsmdec.so"))
+def build(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = None) -> ctypes.CDLL:
+    """The library, compiled from one file, of this source and header if they are given."""
+    library = ctypes.CDLL(str(compiled(*flags, compiler=compiler, files=files) / "bsmdec.so"))
     library.bsmdec_open.restype = c_void_p
     library.bsmdec_last_error.restype = POINTER(Failure)
     names = "close push finish next faces positions last_error"

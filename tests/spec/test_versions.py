@@ -3,15 +3,20 @@
 import hashlib
 import importlib
 import re
+import tarfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import bsm
 from bsm.cli import main
-from tests.engine.decoding import build, decode
+from bsm.codec.static.decoder import decode as decode_mesh
+from tests.engine.decoding import build, decode, of_sequence
 from tests.spec.test_law import RULES
-from tools.vectors.store import FOLDER
+from tools.vectors.good_attributes import charts, colors, creases, groups, worn
+from tools.vectors.meshes import shuffled, torus
+from tools.vectors.store import FOLDER, alike, arrays_of
 
 HERE = Path(__file__).parent
 OLD = dict(line.split() for line in (HERE / "version-0.txt").read_text().splitlines())
@@ -49,6 +54,47 @@ def test_the_vectors_of_1_0_are_what_they_were():
     assert digest.hexdigest() == "9b86b193ca523d754733e05036e6725b9702d8f383923403ac27eb09b63f6ec9", (
         "the vectors of 1.0 stay; new ones belong into the folder of a later version"
     )
+
+
+@pytest.fixture(scope="module")
+def earlier():
+    """The decoder that 1.0 released, in C, without comments."""
+    with tarfile.open(HERE / "bsmdec-1.0.tar.xz") as tar:
+        source, header = (tar.extractfile(name).read().decode() for name in ("bsmdec.c", "bsmdec.h"))
+    return build("-O1", "-DKERNEL_ONE_TARGET", files=(source, header))
+
+
+WRITTEN = {
+    "default": {},
+    "fine": vars(bsm.PRESETS["fine"]),
+    "small": vars(bsm.PRESETS["small"]),
+    "grid14": {"grid": 14},
+    "quick": {"quick": True},
+    "ordered": {"keep_order": True},
+    "exact": {"exact": True},
+}
+"""What the encoder is asked for; no answer may need an extension that 1.0 does not have."""
+
+
+@pytest.mark.parametrize("options", WRITTEN.values(), ids=WRITTEN)
+def test_1_0_decodes_what_is_written_today(options, earlier):
+    mesh = worn(shuffled(torus(20, 16)), charts, creases, colors, groups)
+    stream = bsm.encode(mesh, bsm.EncodeOptions(**options))
+    found, mesh = decode(earlier, stream), decode_mesh(stream)
+    right = {"positions": mesh.positions, "faces": mesh.faces} | arrays_of(mesh.attributes)
+    assert found.status == 0, found.message
+    assert found.arrays.keys() == right.keys() and len(right) > 5
+    assert all(alike(found.arrays[name], right[name]) for name in right)
+    assert np.array_equal(found.arrays["positions"], mesh.positions)
+
+
+def test_1_0_decodes_sequences_that_are_written_today(earlier):
+    moving = [torus(24, 18, phase=0.2 * t) for t in range(12)]
+    stream = bsm.encode_sequence([mesh.positions for mesh in moving], moving[0].faces)
+    found, (positions, faces) = decode(earlier, stream), bsm.decode_sequence(stream)
+    assert found.status == 0, found.message
+    assert np.array_equal(of_sequence(found)["positions"], positions)
+    assert np.array_equal(of_sequence(found)["faces"], faces)
 
 
 def test_clauses_keep_their_numbers():
