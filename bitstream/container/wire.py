@@ -61,12 +61,15 @@ def parse_preamble(data: bytes) -> bool:
         raise FormatError("not a BSM stream: it does not begin with 89 42 53 4D", offset=0)
     if len(data) <= len(MAGIC):
         return False
-    major = data[len(MAGIC)] >> 4
+    require_major("this stream is", data[len(MAGIC)] >> 4, len(MAGIC))
+    return True
+
+
+def require_major(what: str, major: int, offset: int | None = None) -> None:
     if major != MAJOR:
         older = "encode the source again, or decode it with the release that wrote it"
-        said = f"this stream is written by version {major} of the format, and this reads {MAJOR}: "
-        raise UnsupportedError(said + (older if major < MAJOR else "a later release reads it"), offset=len(MAGIC))
-    return True
+        said = f"{what} written by version {major} of the format, and this reads {MAJOR}: "
+        raise UnsupportedError(said + (older if major < MAJOR else "a later release reads it"), offset=offset)
 
 
 def write_varint(value: int) -> bytes:

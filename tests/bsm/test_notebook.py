@@ -7,7 +7,7 @@ import pytest
 
 import bsm
 import bsm.console
-from bsm.viewer.page import built
+from bsm.viewer.page import embedded, script
 from tests.shapes import torus
 
 pytest.importorskip("anywidget")
@@ -18,7 +18,7 @@ def test_stream_is_shown_as_it_is():
     data = bsm.encode(MESH)
     widget = bsm.show(data, height=300)
     assert (widget.stream, widget.original, widget.height, widget.name) == (data, b"", 300, "mesh")
-    assert "render" in widget._esm and str(widget._esm) == built("viewer.js")
+    assert "render" in widget._esm and str(widget._esm) == script(embedded)
 
 
 def test_mesh_is_encoded_and_compared_with_itself():

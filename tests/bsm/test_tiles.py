@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError
+from bsm.bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError, UnsupportedError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import distances_to_surface
@@ -355,6 +355,7 @@ def test_a_full_disk_is_told(mesh, folder, tmp_path, most):
         assert (one.returncode == 0) == file.exists()
         assert one.returncode == 0 or (one.returncode == 9 and one.stderr.strip().endswith(": File too large"))
         assert one.returncode == 0 or "/" in one.stderr.splitlines()[-1]
+        assert ".work: " not in one.stderr, "the file that there is no room for is named"
 
 
 def test_a_run_that_was_interrupted_goes_on(mesh, folder, tmp_path, monkeypatch):
@@ -436,6 +437,18 @@ def test_a_manifest_that_makes_no_sense(folder, tmp_path, change):
         json.dumps({**json.loads((folder / "manifest.json").read_text()), **change})
     )
     with pytest.raises(FormatError, match="manifest"):
+        bsm.open_tiles(str(tmp_path))
+
+
+def test_tiles_of_another_format_are_refused_by_their_manifest(folder, tmp_path):
+    manifest = json.loads((folder / "manifest.json").read_text())
+    assert manifest.pop("stream") == 1
+    (tmp_path / "manifest.json").write_text(json.dumps(manifest))
+    for what in ("view", "info", "verify"):
+        done = program(what, tmp_path, text=True)
+        assert done.returncode == 5 and "version 0 of the format" in done.stderr and "source again" in done.stderr
+    (tmp_path / "manifest.json").write_text(json.dumps({**manifest, "stream": 2}))
+    with pytest.raises(UnsupportedError, match="a later release"):
         bsm.open_tiles(str(tmp_path))
 
 

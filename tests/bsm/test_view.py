@@ -1,6 +1,7 @@
 """bsm view: the page with streams in it, and the server that has them beside it."""
 
 import base64
+import gzip
 import hashlib
 import json
 import os
@@ -99,6 +100,19 @@ def test_server_has_the_page_and_its_streams():
             assert answer.headers["X-Frame-Options"] == "DENY"
             entries = listed(page)
             assert [entry["name"] for entry in entries] == ["good-chain.bsm", "good-chain.bsm (2)"]
+            assert "AGFzbQ" not in page and int(answer.headers["Content-Length"]) == len(page.encode())
+            for path, accepted, packed in (
+                ("", "br, gzip", True),
+                ("", "gzip;q=0", False),
+                ("small.wasm", "gzip", True),
+            ):
+                request = urllib.request.Request(address + path, headers={"Accept-Encoding": accepted})
+                answer = urllib.request.urlopen(request)
+                data = answer.read()
+                assert (answer.headers["Content-Encoding"] == "gzip") == packed
+                assert len(data) == int(answer.headers["Content-Length"])
+                data = gzip.decompress(data) if packed else data
+                assert data == ((WEB / "built" / path).read_bytes() if path else page.encode())
             assert urllib.request.urlopen(address + entries[1]["url"].lstrip("/")).read() == stream.read_bytes()
             with pytest.raises(urllib.error.HTTPError, match="404"):
                 urllib.request.urlopen(address + "2")

@@ -29,17 +29,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--grid-cell", type=float, metavar="H", help="the grid of all tiles (default: a power of two by the look)")
     add("--grid-origin", type=point, metavar="X,Y,Z", help="a place of that grid (default 0,0,0)")
     add("--finest", action="store_true", help="the finest level alone, no coarser ones")
-    add(
-        "--work",
-        metavar="FOLDER",
-        help="where files go until all is done (default: OUTPUT/.work); several times the input",
-    )
+    add("--work", metavar="FOLDER", help="for files until all is done: several times the input (default: OUTPUT/.work)")
     add("-j", "--jobs", type=int, default=1, metavar="N", help="tiles to work on at a time, 0: one per core (1)")
-    add(
-        "--dask",
-        metavar="ADDRESS",
-        help="work on the Dask cluster of this scheduler, whose machines have the same folders",
-    )
+    add("--dask", metavar="ADDRESS", help="work on this scheduler's Dask cluster, whose machines have the same folders")
     add("--resume", action="store_true", help="go on with what an earlier run has left in --work")
     add("--tileset", action="store_true", help="write tileset.json of 3D Tiles, too, with a GLB for each tile")
     add("--content", choices=CONTENTS, default=CONTENTS[0], help=CONTENT_HELP)
@@ -73,9 +65,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         many = asked(Run, args, report=str(work / f"level-{level}.json"), resume=True)
         found = run_many(many, asked_for, console, tile_one, jobs, ended) if jobs else []
         if failed := [facts for facts in found if "error" in facts]:
-            console.note(
-                f"{len(failed)} of {len(found)} tiles of level {level} failed; --resume goes on from the others"
-            )
+            console.note(f"{len(failed)} of {len(found)} tiles of level {level} failed; --resume makes these alone")
             return int(failed[0]["exit"])
         done += found
     manifest = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=args.force or args.resume)
@@ -105,9 +95,7 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     note = work / "asked"
     if args.resume and (work / "plan.json").is_file():
         if note.read_text() != asked_for:
-            raise FormatError(
-                f"{work} is of another mesh or of other options: leave out --resume, or name another --work"
-            )
+            raise FormatError(f"{work} is of another mesh or other options: no --resume, or name another --work")
         return load_plan(work / "plan.json")
     if work.is_dir() and any(work.iterdir()) and not note.is_file():
         raise OptionError(f"{work} holds other files; name an empty folder, or a new one, with --work")
@@ -117,7 +105,7 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     raw = read_big(args.input, args.format, work, console)
     if raw.left_out:
         console.note(
-            f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colours and normals"
+            f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colours, normals"
         )
     with console.progress("cutting"):
         plan = cut(raw, chosen_lattice(raw, args.grid_cell, args.grid_origin), args.triangles)

@@ -17,8 +17,8 @@ from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
-from bsm.files.output import write_output
-from bsm.tiles.reading import CARRIED, Kinds, Raw, mapped
+from bsm.files.output import by_its_own_name, write_output
+from bsm.tiles.reading import CARRIED, Kinds, Raw, mapped, table_file
 
 Ints: TypeAlias = npt.NDArray[np.int64]
 Places: TypeAlias = npt.NDArray[np.int32]
@@ -62,19 +62,14 @@ class Lattice:
 def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | None) -> Lattice:
     """The lattice that is asked for, or one by the look of a sample, in cells that every place is told exactly in."""
     lattice = Lattice(_cell_by_look(raw) if cell is None else cell, origin or (0.0, 0.0, 0.0))
-    farthest = max(
-        abs(end - at) / lattice.cell for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin)
-    )
+    reach = (abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
+    farthest = max(reach) / lattice.cell
     exact = math.frexp(lattice.cell)[0] == 0.5 and not any(at % lattice.cell for at in lattice.origin)
     if not farthest < (_FARTHEST if exact else MOST_LARGEST // 2):
-        better = 2.0 ** max(
-            math.floor(math.log2(lattice.cell)),
-            math.ceil(math.log2(2 * max(map(abs, (*raw.low, *raw.high))) / _FARTHEST)),
-        )
-        raise OptionError(
-            f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell places "
-            f"exactly; a power of two does, such as --grid-cell {better!r}"
-        )
+        least = math.ceil(math.log2(2 * max(map(abs, (*raw.low, *raw.high))) / _FARTHEST))
+        better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
+        said = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
+        raise OptionError(f"{said}places exactly; a power of two does, such as --grid-cell {better!r}")
     return lattice
 
 
@@ -83,9 +78,8 @@ def _cell_by_look(raw: Raw) -> float:
     first = max(0, raw.rows["faces"] - _SAMPLE) // 2
     used, corners = np.unique(raw.table("faces")[first : first + _SAMPLE], return_inverse=True)
     positions = raw.table("positions")[used].astype(np.float64)
-    encoder = Encoder(
-        TriangleMesh(positions, corners.reshape(-1, 3).astype(np.int32)), EncodeOptions(quick=True, threads=1)
-    )
+    sample = TriangleMesh(positions, corners.reshape(-1, 3).astype(np.int32))
+    encoder = Encoder(sample, EncodeOptions(quick=True, threads=1))
     return float(2.0 ** math.floor(math.log2(encoder.result().header.scale)))
 
 
@@ -166,10 +160,11 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     kinds = {what: kind for what, kind in raw.kinds.items() if what not in ("positions", "faces")}
     kinds |= {"places": ("<i4", 3), "cut": ("<u4", 3), "codes": ("<i8", 1), "outside": ("<i8", 5)}
     plan = Plan(tuple(map(int, low)), bits, lattice, depth, vertices, triangles, kinds, {})
-    with (folder / "places").open("wb") as file, (folder / "codes").open("wb") as coded:
+    with table_file(folder / "places") as file, table_file(folder / "codes") as coded:
         for piece in raw.pieces("positions"):
             places = lattice.places(piece)
-            file.write(places.data)
+            with by_its_own_name(folder / "places"):
+                file.write(places.data)
             coded.write(plan.codes(places).data)
     (folder / "positions").unlink()
     codes, counts = np.zeros(0, np.int64), np.zeros(0, np.int64)
@@ -199,7 +194,7 @@ def _sort_faces(plan: Plan, raw: Raw) -> None:
     ends = np.array([plan.ends(name) for name in plan.leaves])
     following = np.array([begin for begin, _ in plan.leaves.values()])
     outside = [np.zeros((0, 5), np.int64)]
-    with (raw.folder / "cut").open("wb") as file:
+    with table_file(raw.folder / "cut") as file:
         for faces in raw.pieces("faces"):
             codes = mapped(raw.folder, "codes", plan.kinds)[:, 0][faces]
             leaf = (np.searchsorted(ends[:, 0], codes[:, 0], "right") - 1).astype(np.min_scalar_type(len(ends)))
@@ -213,6 +208,7 @@ def _sort_faces(plan: Plan, raw: Raw) -> None:
             places = mapped(raw.folder, "places", plan.kinds)[faces[row, corner]]
             found = np.column_stack([codes[row, corner], places, ends[leaf[row], 0]])
             outside.append(np.unique(found, axis=0))
-    (raw.folder / "outside").write_bytes(np.unique(np.concatenate(outside), axis=0).tobytes())
+    with table_file(raw.folder / "outside") as file:
+        file.write(np.unique(np.concatenate(outside), axis=0).tobytes())
     for name in ("faces", "codes"):
         (raw.folder / name).unlink()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, closing
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO, TypeAlias
@@ -18,6 +18,7 @@ from bsm.files.formats.obj import ObjPieces
 from bsm.files.formats.ply import IMAGE, Element, parse_header
 from bsm.files.formats.polygons import meaning_of
 from bsm.files.mesh import format_of_bytes, format_of_name
+from bsm.files.output import by_its_own_name
 from bsm.files.pipes import Input
 
 Array: TypeAlias = npt.NDArray[Any]
@@ -56,6 +57,12 @@ class Raw:
         return mapped(self.folder, what, self.kinds)
 
 
+@contextmanager
+def table_file(path: Path) -> Iterator[BinaryIO]:
+    with by_its_own_name(path), path.open("wb") as file:
+        yield file
+
+
 def mapped(folder: Path, what: str, kinds: Kinds) -> Array:
     kind, columns = kinds[what]
     path = folder / what
@@ -85,9 +92,10 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
             elif what == "faces":
                 largest = max(largest, int(piece.max()))
             if what not in files:
-                files[what] = opened.enter_context((folder / what).open("wb"))
+                files[what] = opened.enter_context(table_file(folder / what))
                 raw.kinds[what] = piece.dtype.newbyteorder("<").str, piece.shape[1]
-            files[what].write(np.ascontiguousarray(piece, raw.kinds[what][0]).data)
+            with by_its_own_name(folder / what):
+                files[what].write(np.ascontiguousarray(piece, raw.kinds[what][0]).data)
             raw.rows[what] = raw.rows.get(what, 0) + len(piece)
     vertices = raw.rows["positions"]
     if not raw.rows["faces"]:
@@ -130,10 +138,8 @@ _WORDS = {"positions": "coordinate", "color": "colour", "normal": "normal", "fac
 
 def _refuse_textures(names: set[str]) -> None:
     if names:
-        raise UnsupportedError(
-            f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colours and normals of vertices "
-            "alone: write it without, or its texture as colours"
-        )
+        said = f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colours and normals of vertices "
+        raise UnsupportedError(f"{said}alone: write it without, or its texture as colours")
 
 
 def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
@@ -160,9 +166,7 @@ def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
             size = min(ROWS, element.count - first) * kind.itemsize
             data = given.read(size)
             if len(data) < size:
-                raise TruncatedError(
-                    f"the PLY file is cut short: {element.name} {first} and those behind it are missing"
-                )
+                raise TruncatedError(f"the PLY file is cut short: from {element.name} {first} on all are missing")
             rows = np.frombuffer(data, kind)
             if element.name == "vertex":
                 for what, columns in {"positions": ("x", "y", "z"), **carried}.items():

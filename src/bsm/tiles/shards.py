@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.container.wire import MAJOR, require_major
 from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
@@ -84,6 +85,7 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
     manifest = {
         "format": "bsm tiles",
         "version": 1,
+        "stream": MAJOR,
         "source": source,
         "cell": plan.lattice.cell,
         "origin": plan.lattice.origin,
@@ -124,8 +126,8 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
 
     Raises
     ------
-    FormatError, CorruptError
-        If there is no manifest of tiles.
+    FormatError, UnsupportedError
+        If there is no manifest of tiles, or one of another version.
     OSError
         If it cannot be read.
 
@@ -141,6 +143,7 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
             raise KeyError("format")
         if given["version"] != 1:
             raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
+        require_major(f"{name}: these tiles are", given.get("stream", 0))  # version 0 said nothing
         lattice = Lattice(_number(given["cell"]), tuple(map(_number, given["origin"])))
         root = Root(tuple(int(_number(one)) for one in given["root"]["low"]), int(_number(given["root"]["bits"])))
         for shard in given["shards"]:
@@ -291,10 +294,8 @@ class Tiles:
         try:
             tiles = [Tile(**{**one, **dict(zip(("low", "high"), _ends(one)))}) for one in json.loads(index)]
             for tile in tiles:
-                if (
-                    not re.fullmatch("r[0-7]{0,60}", tile.name)
-                    or not 0 <= tile.offset <= tile.offset + tile.size <= shard["size"]
-                ):
+                held = 0 <= tile.offset <= tile.offset + tile.size <= shard["size"]
+                if not re.fullmatch("r[0-7]{0,60}", tile.name) or not held:
                     raise ValueError(tile.name)
                 [_number(one) for one in (tile.error, tile.vertices, tile.faces)]
         except _NO_JSON as error:

@@ -13,7 +13,7 @@ from bsm.bitstream.errors import OptionError, imported
 from bsm.files.pipes import Input
 from bsm.files.stream import is_stream
 from bsm.libraries import as_mesh
-from bsm.viewer.page import Content, built, compared
+from bsm.viewer.page import Content, compared, embedded, script
 
 
 def show(source: Any, *, original: Any = None, height: int = 480, **keywords: Any) -> Any:
@@ -53,7 +53,7 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
     import traitlets
 
     class StreamWidget(anywidget.AnyWidget):
-        _esm = built("viewer.js")
+        _esm = script(embedded)
         name = traitlets.Unicode().tag(sync=True)
         stream = traitlets.Bytes().tag(sync=True)
         original = traitlets.Bytes().tag(sync=True)

@@ -1,6 +1,7 @@
 """The built page with streams in it, or beside it on a server of the loopback interface."""
 
 import base64
+import gzip
 import hashlib
 import json
 import math
@@ -12,6 +13,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
+from functools import lru_cache
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
@@ -221,6 +223,8 @@ LOOPBACK = "127.0.0.1"
 _SLOT = '<script type="application/json" id="bsm-streams">'
 _SCRIPT = "<!-- script -->"
 _BYTES = "application/octet-stream"
+_GZIP = re.compile(r"\bgzip\b(?!\s*;\s*q=0)")
+_gzipped = lru_cache(maxsize=8)(gzip.compress)
 _POLICY = (
     "default-src 'none'; script-src 'sha256-{}' 'wasm-unsafe-eval' blob:; worker-src blob:; connect-src 'self' data:; "
     "style-src 'unsafe-inline'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -229,19 +233,28 @@ _POLICY = (
 Place = Callable[[str, bytes], dict[str, str]]
 
 
-def built(name: str) -> str:
-    """Text of a file that `tools/web` builds."""
+def _built(name: str) -> bytes:
+    """A file that `tools/web` builds."""
     try:
-        return files("bsm.viewer").joinpath(name).read_text("utf-8")
+        return files("bsm.viewer").joinpath(name).read_bytes()
     except OSError as error:
         raise DependencyError(f"a part of the viewer is missing, install the package again: {error}") from None
 
 
+def embedded(_: str, data: bytes) -> dict[str, str]:
+    """The place of bytes that are in the page."""
+    return {"data": base64.b64encode(data).decode()}
+
+
+def script(place: Place, *more: str) -> str:
+    """The page's module, told where the kernels of everything are, and `more` that are for less."""
+    kernels = {name: place(f"/{name}.wasm", _built(f"{name}.wasm")) for name in ("kernels", "kernels-scalar", *more)}
+    return f"const KERNELS={json.dumps(kernels)};{_built('viewer.js').decode()}"
+
+
 def page_with(contents: Sequence[Content]) -> str:
     """One page that needs nothing beside it: all streams are inside."""
-    return _page(
-        [_listed(content, "", lambda _, data: {"data": base64.b64encode(data).decode()}) for content in contents]
-    )
+    return _page([_listed(content, "", embedded) for content in contents], script(embedded))
 
 
 def _listed(content: Content, path: str, place: Place) -> dict[str, Any]:
@@ -254,10 +267,10 @@ def _listed(content: Content, path: str, place: Place) -> dict[str, Any]:
     return entry
 
 
-def _page(entries: list[dict[str, Any]]) -> str:
+def _page(entries: list[dict[str, Any]], script: str) -> str:
     # Inside a script nothing may look like the end of it.
     listed = json.dumps(entries).replace("<", "\\u003c")
-    return built("page.html").replace(f"{_SLOT}[]", _SLOT + listed, 1).replace(_SCRIPT, built("viewer.js"), 1)
+    return _built("page.html").decode().replace(f"{_SLOT}[]", _SLOT + listed, 1).replace(_SCRIPT, script, 1)
 
 
 class PageServer(ThreadingHTTPServer):
@@ -270,7 +283,7 @@ class PageServer(ThreadingHTTPServer):
         self.content: dict[str, tuple[str, bytes | Growing | Ranged]] = {}
 
         def place(path: str, data: bytes | Growing) -> dict[str, str]:
-            self.content[path] = (_BYTES, data)
+            self.content[path] = ("application/wasm" if path.endswith(".wasm") else _BYTES, data)
             return {"url": path}
 
         entries = []
@@ -283,10 +296,9 @@ class PageServer(ThreadingHTTPServer):
                 entries.append({"name": content.name, "tiles": path})
             else:
                 entries.append(_listed(content, path, place))
-        page = _page(entries)
-        self.content["/"] = ("text/html; charset=utf-8", page.encode())
-        script = hashlib.sha256(page.rpartition('<script type="module">')[2].rpartition("</script>")[0].encode())
-        self.policy = _POLICY.format(base64.b64encode(script.digest()).decode())
+        module = script(place, "small")
+        self.content["/"] = ("text/html; charset=utf-8", _page(entries, module).encode())
+        self.policy = _POLICY.format(base64.b64encode(hashlib.sha256(module.encode()).digest()).decode())
 
     @property
     def host(self) -> str:
@@ -318,6 +330,9 @@ class _Handler(BaseHTTPRequestHandler):
                     self.send_error(HTTPStatus.INTERNAL_SERVER_ERROR, worded(error))
                     return
             self.send_response(status)
+            if isinstance(data, bytes) and kind != _BYTES and _GZIP.search(self.headers.get("Accept-Encoding", "")):
+                data = _gzipped(data)
+                self.send_header("Content-Encoding", "gzip")
             self.send_header("Content-Type", kind)
             self.send_header("X-Content-Type-Options", "nosniff")
             self.send_header("X-Frame-Options", "DENY")

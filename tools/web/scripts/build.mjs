@@ -8,7 +8,7 @@ import { compileKernels, compiler, fingerprint, KERNEL_BUILDS, WEB } from "./ker
 
 const VIEWER = join(WEB, "../../src/bsm/viewer");
 const SOURCES = join(WEB, "src");
-const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".wasm": "binary", ".html": "text" }, tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } }, legalComments: "none", logLevel: "warning", write: false };
+const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".html": "text" }, tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];
 
 const SENTENCE = /(new (?:Format|Unsupported|Corrupt|Truncated|Limit|Numeric)Error\(|[.]nonsense\(|\brefuse\()(?:"[^"\n]*"|`(?:[^`$\\]|\$\{[^{}`]*\})*`)(?=[,)])/g;
@@ -121,6 +121,7 @@ async function products() {
         [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
         [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],
         [join(VIEWER, "viewer.js"), script],
+        ...["kernels", "kernels-scalar", "small"].map((name) => [join(VIEWER, `${name}.wasm`), readFileSync(join(WEB, `built/${name}.wasm`))]),
     ];
 }
 
@@ -139,7 +140,7 @@ const check = process.argv.includes("--check");
 const stale = check ? staleKernels() : [];
 for (const [path, content] of await products()) {
     if (check) {
-        if (!existsSync(path) || readFileSync(path, "utf8") !== content) stale.push(relative(WEB, path));
+        if (!existsSync(path) || !readFileSync(path).equals(Buffer.from(content))) stale.push(relative(WEB, path));
     } else {
         mkdirSync(dirname(path), { recursive: true });
         writeFileSync(path, content);

@@ -42,7 +42,7 @@ function started(start: () => Worker): Worker | undefined {
     }
 }
 
-async function compiled(url: URL): Promise<WebAssembly.Module> {
+export async function compiled(url: URL): Promise<WebAssembly.Module> {
     if (url.protocol === "file:") {
         const { readFile } = process.getBuiltinModule("node:fs/promises");
         return WebAssembly.compile(await readFile(url));
@@ -53,7 +53,7 @@ async function compiled(url: URL): Promise<WebAssembly.Module> {
 }
 
 /** A promise for each build, asked for once; a failed one is asked for again. */
-function once(load: (build: Build) => Promise<WebAssembly.Module>): (build: Build) => Promise<WebAssembly.Module> {
+export function once(load: (build: Build) => Promise<WebAssembly.Module>): (build: Build) => Promise<WebAssembly.Module> {
     const loading = new Map<Build, Promise<WebAssembly.Module>>();
     return (build) => {
         const found = loading.get(build) ?? load(build);

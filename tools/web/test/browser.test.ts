@@ -6,7 +6,7 @@ import { basename, join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { readNpz } from "./npz";
-import { base64, CHROMIUM, FLAGS, rowsOf, savedPage, silhouette, VECTORS, VIEWER } from "./shared";
+import { base64, CHROMIUM, FLAGS, rowsOf, savedPage, silhouette, VECTORS, viewerScript } from "./shared";
 
 const STREAM = "good-labels";
 /** One of the specification, and a real one if it is named. */
@@ -183,7 +183,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
 
     test("is a widget of notebooks", async () => {
         const script = `
-            import widget from "data:text/javascript;base64,${base64(readFileSync(join(VIEWER, "viewer.js")))}";
+            import widget from "data:text/javascript;base64,${base64(Buffer.from(viewerScript()))}";
             const bytes = Uint8Array.from(atob("${base64(whole)}"), (c) => c.charCodeAt(0));
             const traits = { name: "a stream", stream: new DataView(bytes.buffer), original: new DataView(new ArrayBuffer(0)), height: 400 };
             const listeners = {};

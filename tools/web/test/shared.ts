@@ -77,9 +77,15 @@ export function savedPage(folder: string, streams: Record<string, Uint8Array>, m
     const list = Object.entries(streams).map(([name, bytes]) => ({ name, data: base64(bytes), ...more }));
     const slot = '<script type="application/json" id="bsm-streams">';
     const path = join(folder, "page.html");
-    const [page, script] = ["page.html", "viewer.js"].map((name) => readFileSync(join(VIEWER, name), "utf8"));
-    writeFileSync(path, page.replace(`${slot}[]`, () => slot + JSON.stringify(list)).replace("<!-- script -->", () => script));
+    const page = readFileSync(join(VIEWER, "page.html"), "utf8");
+    writeFileSync(path, page.replace(`${slot}[]`, () => slot + JSON.stringify(list)).replace("<!-- script -->", viewerScript));
     return pathToFileURL(path).href;
+}
+
+/** The page's module with kernels in it. */
+export function viewerScript(): string {
+    const kernels = ["kernels", "kernels-scalar"].map((name) => [name, { data: base64(readFileSync(join(VIEWER, `${name}.wasm`))) }]);
+    return `const KERNELS=${JSON.stringify(Object.fromEntries(kernels))};${readFileSync(join(VIEWER, "viewer.js"), "utf8")}`;
 }
 
 export function base64(bytes: Uint8Array): string {

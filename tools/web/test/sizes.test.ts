@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import test from "node:test";
-import { brotliCompressSync } from "node:zlib";
-import { WEB } from "./shared";
+import { brotliCompressSync, gzipSync } from "node:zlib";
+import { VIEWER, WEB } from "./shared";
 
 /** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, and for the page itself. */
 const LOADS: Record<string, [most: number, files: string[]]> = {
@@ -22,3 +22,8 @@ for (const [what, [most, files]] of Object.entries(LOADS)) {
         assert.ok(whole <= most, `${whole}: ${files.map((name, i) => `${name} ${sizes[i]}`).join(", ")}`);
     });
 }
+
+test("the page of tiles is at most 244000 bytes as `bsm view` sends it", () => {
+    const sizes = ["viewer.js", "small.wasm"].map((name) => gzipSync(readFileSync(join(VIEWER, name)), { level: 9 }).length);
+    assert.ok(sizes[0] + sizes[1] <= 244_000, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
+});

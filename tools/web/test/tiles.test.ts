@@ -76,7 +76,8 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
     test("the page shows coarse tiles first, and as many more as there are pixels for", async () => {
         const page = await opened();
         const asked: (string | undefined)[] = [];
-        const events: string[] = [];
+        const [events, kernels]: string[][] = [[], []];
+        page.on("request", (request) => request.url().endsWith(".wasm") && kernels.push(request.url().replace(address, "")));
         page.on("request", (request) => request.url().endsWith(".tiles") && events.push("asked") && asked.push(request.headers().range));
         page.on("requestfinished", (request) => request.url().endsWith(".tiles") && events.push("came"));
         await page.addInitScript(() => {
@@ -92,6 +93,7 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         assert.deepEqual(events.slice(0, 2), ["asked", "came"], "the coarsest comes first, and alone");
         assert.ok(seen[0] >= coarsest && seen.every((faces, i) => i === 0 || faces >= seen[i - 1]), "never less is seen");
         assert.ok(asked.length > 2 && asked.every((range) => range?.startsWith("bytes=")), "by ranges");
+        assert.deepEqual(kernels, ["small.wasm"], "no more of the decoder than tiles need");
         const { share } = silhouette(far);
         assert.ok(share > 0.05 && share < 0.9, `share ${share}`);
         const before = Number(await page.locator("body").getAttribute("data-faces"));

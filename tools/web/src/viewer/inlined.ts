@@ -1,12 +1,21 @@
-/** Threads and kernels as parts of the script, for pages that fetch nothing. */
-import scalar from "../../built/kernels-scalar.wasm";
-import vectors from "../../built/kernels.wasm";
+/** Threads as parts of the script, and kernels where the page says: beside it, for who asks, or in it. */
 import { bsm, openDesk } from "../index";
-import type { Source } from "../source";
+import { compiled, once, type Source } from "../source";
 import { hasVectors } from "../threads";
 
-/** The build that this machine can run. */
-let kernels: Promise<WebAssembly.Module> | undefined;
+/** Bytes at an address, or in base64. */
+export interface Place {
+    url?: string;
+    data?: string;
+}
+
+/** What `bsm.viewer.page` says before the script. */
+declare const KERNELS: { kernels: Place; "kernels-scalar": Place; small?: Place };
+
+const load = once((build) => {
+    const { url, data } = (build === "small" && KERNELS.small) || KERNELS[hasVectors() ? "kernels" : "kernels-scalar"];
+    return data === undefined ? compiled(new URL(url!, location.href)) : WebAssembly.compile(Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0)));
+});
 
 export const inlined: Source = {
     worker() {
@@ -19,6 +28,6 @@ export const inlined: Source = {
             URL.revokeObjectURL(url);
         }
     },
-    kernels: () => (kernels ??= WebAssembly.compile(hasVectors() ? vectors : scalar)),
+    kernels: (build) => load(build === "small" && hasVectors() && KERNELS.small ? build : "whole"),
     local: () => Promise.resolve({ openDesk }),
 };

@@ -1,15 +1,9 @@
 /** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
 import { Pool } from "../pool";
-import { inlined } from "./inlined";
+import { inlined, type Place } from "./inlined";
 import { View, type Content, type Rival } from "./view";
 
 declare const LICENCES: string;
-
-/** Bytes at an address, or in base64. */
-interface Place {
-    url?: string;
-    data?: string;
-}
 
 /** A stream of the page; the original in single precision, least byte first. */
 interface Source extends Place {
