@@ -329,7 +329,7 @@ def refuse_collisions(inputs: Sequence[str], outputs: Sequence[str]) -> None:
         path = output if pipes.is_url(output) else os.path.realpath(output)
         if path in found and output not in ("", "-"):
             raise OptionError(
-                f"two outputs would have the name {path}; write them to different folders, or name their folder with -r"
+                f"two outputs would have the name {path}; give each its own -o, or name the folder above both with -r"
             )
         found.add(path)
     taken = {_identity(file) for name in inputs for file in pipes.files_behind(name)} - {None}
