@@ -488,6 +488,9 @@ def test_what_is_left_out_is_said_and_the_files_of_others_stay(tmp_path):
     assert done.returncode == 2 and "holds other files" in done.stderr and (tmp_path / "a.obj").exists()
     said = tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 1).stderr
     assert "left out: normal; tiles have faces, positions" in said
+    write_mesh(tmp_path / "b.ply", TriangleMesh(np.eye(3), np.array([[0, 1, 2]]), metadata={"comment": "by a scanner"}))
+    said = tile(tmp_path / "b.ply", tmp_path / "commented", "--grid-cell", 1).stderr
+    assert "left out: lines of comment; tiles have" in said
 
 
 def test_the_grid_is_chosen_by_the_look(mesh, tmp_path):

@@ -152,6 +152,7 @@ def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
     names = {column.name for element in header.elements for column in element.properties}
     images = {IMAGE for _, line in header.comments if line.startswith(f"{IMAGE} ")}
     _refuse_textures(images | {one[0] for one in _TEXTURES if names.issuperset(one)})
+    left_out |= dict.fromkeys(f"lines of {keyword}" for keyword, _ in header.comments)
     for element in header.elements:
         kind = _row_of(element, header.order)
         names = set(kind.names or ())
