@@ -55,26 +55,28 @@ def main() -> None:
         for pattern in RELEASED:
             for old in output.glob(pattern):
                 old.unlink()
-    made = make(output, version, args.only, args.tests)
+    commit = git("log", "-1", "--format=%H %ct").split()
+    made = make(output, version, commit, args.only, args.tests)
     (output / "SHA256SUMS").write_text("".join(f"{digest(path)}  {path.name}\n" for path in made))
     (output / "NOTES.md").write_text(notes(ROOT, version))
     for path in made:
         print(f"{path.stat().st_size / 1e6:7.2f} MB  {path.name}")
     if args.twice:
         with tempfile.TemporaryDirectory() as folder:
-            again = make(Path(folder), version, args.only, None)
+            again = make(Path(folder), version, commit, args.only, None)
             differ = [one.name for one, other in zip(made, again, strict=True) if digest(one) != digest(other)]
         if differ:
             raise SystemExit(f"made again, {', '.join(differ)} is not the same")
         print(f"made again: {len(made)} files, the same bytes")
 
 
-def make(output: Path, version: str, only: Sequence[str], tests: Sequence[str] | None) -> list[Path]:
-    """Make the parts, of the last commit and in its time, and try the wheels unless `tests` is None."""
-    date = subprocess.run(["git", "log", "-1", "--format=%ct"], cwd=ROOT, capture_output=True, text=True, check=True)
-    os.environ["SOURCE_DATE_EPOCH"] = date.stdout.strip()
+def make(
+    output: Path, version: str, commit: Sequence[str], only: Sequence[str], tests: Sequence[str] | None
+) -> list[Path]:
+    """Make the parts, of a commit and in its time, and try the wheels unless `tests` is None."""
+    name, os.environ["SOURCE_DATE_EPOCH"] = commit
     with tempfile.TemporaryDirectory() as folder:
-        sources = exported(Path(folder))
+        sources = exported(name, Path(folder))
         made = []
         if set(only) & {"sdist", "wheels", "arm64"}:
             made.append(make_sdist(sources, output))
@@ -115,14 +117,19 @@ def digest(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def exported(folder: Path) -> Path:
-    """The last commit's files, in a folder of their own."""
-    if subprocess.run(["git", "status", "--porcelain"], cwd=ROOT, capture_output=True, check=True).stdout:
+def git(*command: str) -> str:
+    """What git says of the checkout."""
+    return subprocess.run(["git", *command], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+
+
+def exported(commit: str, folder: Path) -> Path:
+    """A commit's files, in a folder of their own."""
+    if git("status", "--porcelain"):
         say("note: what is not committed is left out")
     sources = folder / "sources"
     sources.mkdir()
     archive = folder / "sources.tar"
-    subprocess.run(["git", "archive", "-o", str(archive), "HEAD"], cwd=ROOT, check=True)
+    git("archive", "-o", str(archive), commit)
     shutil.unpack_archive(archive, sources, filter="tar")
     return sources
 

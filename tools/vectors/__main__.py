@@ -123,6 +123,7 @@ def write() -> int:
     from tools.vectors.bad_fields import BAD_FIELDS
     from tools.vectors.bad_light import BAD_LIGHT
     from tools.vectors.bad_sequences import BAD_SEQUENCES
+    from tools.vectors.bounds import BOUNDS, BOUNDS_BAD
     from tools.vectors.edges import EDGES, EDGES_BAD
     from tools.vectors.exact import BAD_EXACT, EXACT
     from tools.vectors.good import STATIC
@@ -134,7 +135,7 @@ def write() -> int:
     streams: dict[Vector, bytes] = {}
     meshes = {}
     settled = {vector.name for vector in read_manifest() if vector.folder != NEXT}
-    for name, good in {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **LIGHT, **EXACT, **EDGES}.items():
+    for name, good in {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **LIGHT, **EXACT, **EDGES, **BOUNDS}.items():
         if name in settled:
             continue
         vector = Vector(name, good.probes, folder=NEXT)
@@ -142,6 +143,7 @@ def write() -> int:
         decoder = _decode_sequence if "-sequence" in name else _decode_static
         meshes[vector] = decoder(streams[vector])
     wrong = {**BAD, **BAD_FIELDS, **BAD_SEQUENCES, **BAD_ATTRIBUTES, **BAD_LIGHT, **BAD_EXACT, **EDGES_BAD}
+    wrong |= BOUNDS_BAD
     for name, bad in wrong.items():
         if name in settled:
             continue
