@@ -86,7 +86,8 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         });
         await page.goto(address);
         await page.waitForSelector("body[data-state=complete]", { timeout: 60_000 });
-        await page.waitForFunction("seen.some((faces) => faces > 0)");
+        // A function, since a text that is not true at once would be evaluated by the page, which forbids that.
+        await page.waitForFunction(() => (globalThis as unknown as { seen: number[] }).seen.some((faces) => faces > 0));
         const seen = (await page.evaluate("seen.filter((faces) => faces > 0)")) as number[];
         const far = await page.locator("canvas").screenshot();
         // A busy machine may draw no frame before more has come.
