@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 34_830,
-    "all Python, lines": 72_200,
+    "all Python, lines": 72_350,
     "product modules": 196,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
