@@ -20,6 +20,7 @@ from tools.vectors.bad_attributes import BAD_ATTRIBUTES
 from tools.vectors.bad_fields import BAD_FIELDS
 from tools.vectors.bad_light import BAD_LIGHT
 from tools.vectors.bad_sequences import BAD_SEQUENCES
+from tools.vectors.bounds import BOUNDS, BOUNDS_BAD
 from tools.vectors.edges import EDGES, EDGES_BAD
 from tools.vectors.exact import BAD_EXACT, EXACT
 from tools.vectors.good import STATIC
@@ -96,6 +97,8 @@ def test_every_vector_has_its_files_and_every_file_is_a_vector():
             *BAD_SEQUENCES,
             *EDGES,
             *EDGES_BAD,
+            *BOUNDS,
+            *BOUNDS_BAD,
         }
     )
     assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.parent.glob("*/*.npz")}

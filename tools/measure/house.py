@@ -30,7 +30,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 34_830,
+    "product Python, lines": 34_835,
     "all Python, lines": 72_350,
     "product modules": 196,
     "product C files and headers": 72,
@@ -40,7 +40,7 @@ LIMITS = {
     "settings of --set": 12,
     "words of spec/*.md": 24_950,
     "words of the core": 11_000,
-    "tuned constants of the search": 61,
+    "tuned constants of the search": 62,
     "files that encoding a mesh walks through": 57,
 }
 

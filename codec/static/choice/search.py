@@ -16,7 +16,8 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import STEEPEST, Contract, secant
 from bsm.codec.static.ways.block_coder import Progress
 
-DEARER = 1.08  # a way is left alone whose first step takes, or is guessed to, so many times the bytes of what was found
+DEARER = 1.08  # a way is left alone whose first step takes so many times the bytes of what was found
+GUESSED = 1.25  # and a grid that is guessed to: of smooth surfaces it takes less than that
 
 
 class Way(Protocol):
@@ -80,7 +81,7 @@ class Search:
         least, made = min((one.draft.size for one in kept), default=math.inf), list[Candidate]()
         for way in self._ways(bounds, contract.look):
             on_grid = any(one.draft.places is not None for one in (*kept, *made))
-            if isinstance(way, Gridded) and not on_grid and way.guess() > DEARER * least:
+            if isinstance(way, Gridded) and not on_grid and way.guess() > GUESSED * least:
                 continue
             # Where a step of blocks alone should begin cannot be told, and so not what they take from their first one.
             found = widest(way, bounds, math.inf if isinstance(way, Plain) else least)
