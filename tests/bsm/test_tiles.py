@@ -493,12 +493,13 @@ def test_what_is_left_out_is_said_and_the_files_of_others_stay(tmp_path):
     assert "left out: lines of comment; tiles have" in said
 
 
-def test_the_grid_is_chosen_by_the_look(mesh, tmp_path):
-    source = tmp_path / "mesh.ply"
-    write_mesh(source, mesh)
-    tile(source, tmp_path / "out")
-    cell = bsm.open_tiles(str(tmp_path / "out")).lattice.cell
-    assert np.log2(cell) % 1 == 0 and 1e-5 < cell < 0.1
+def test_the_grid_is_chosen_by_the_look_in_any_order_of_faces(tmp_path):
+    large, cells = torus(240, 200), list[float]()
+    for name, order in ("in", np.arange(96000)), ("out", np.random.default_rng(4).permutation(96000)):
+        write_mesh(tmp_path / f"{name}.ply", TriangleMesh(large.positions, large.faces[order]))
+        tile(tmp_path / f"{name}.ply", tmp_path / name)
+        cells.append(bsm.open_tiles(str(tmp_path / name)).lattice.cell)
+    assert cells[0] == cells[1] and np.log2(cells[0]) % 1 == 0 and 1e-5 < cells[0] < 0.1
 
 
 def test_a_mesh_that_is_too_large_is_told_of_tiles(tmp_path):

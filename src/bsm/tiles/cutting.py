@@ -74,13 +74,18 @@ def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | Non
 
 
 def _cell_by_look(raw: Raw) -> float:
-    """The largest power of two that keeps the default's promise for some triangles from the middle of the file."""
-    first = max(0, raw.rows["faces"] - _SAMPLE) // 2
-    used, corners = np.unique(raw.table("faces")[first : first + _SAMPLE], return_inverse=True)
-    positions = raw.table("positions")[used].astype(np.float64)
-    sample = TriangleMesh(positions, corners.reshape(-1, 3).astype(np.int32))
-    encoder = Encoder(sample, EncodeOptions(quick=True, threads=1))
-    return float(2.0 ** math.floor(math.log2(encoder.result().header.scale)))
+    """The largest power of two that keeps the default's promise around three vertices, in any order of the faces."""
+    some = raw.table("positions")[:: max(1, raw.rows["positions"] // _SAMPLE)].astype(np.float64)
+    share, scales = min(1.0, _SAMPLE / max(1, raw.rows["faces"])), list[float]()
+    for middle in some[[len(some) // 4, len(some) // 2, len(some) * 3 // 4]] if share < 1 else some[:1]:
+        low, high = (middle + side * np.quantile(np.abs(some - middle).max(axis=1), share) for side in (-1, 1))
+        # Mapped anew for each piece, so that no more of it is in memory than the piece needs.
+        firsts = ((piece, raw.table("positions")[piece[:, 0]]) for piece in raw.pieces("faces"))
+        near = [piece[((low <= first) & (first <= high)).all(axis=1)] for piece, first in firsts]
+        used, corners = np.unique(np.concatenate(near), return_inverse=True)
+        sample = TriangleMesh(raw.table("positions")[used].astype(np.float64), corners.reshape(-1, 3).astype(np.int32))
+        scales.append(Encoder(sample, EncodeOptions(quick=True, threads=1)).result().header.scale)
+    return float(2.0 ** math.floor(math.log2(min(scales))))
 
 
 # --------------------------------------------------------------------------------------------------------------- octree
@@ -169,7 +174,6 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     (folder / "positions").unlink()
     codes, counts = np.zeros(0, np.int64), np.zeros(0, np.int64)
     for faces in raw.pieces("faces"):
-        # Mapped anew for each piece, so that no more of it is in memory than the piece needs.
         found, number = np.unique(mapped(folder, "codes", kinds)[faces[:, 0], 0], return_counts=True)
         codes, inverse = np.unique(np.concatenate([codes, found]), return_inverse=True)
         counts = np.bincount(inverse, np.concatenate([counts, number])).astype(np.int64)
