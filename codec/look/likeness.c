@@ -4,6 +4,8 @@
 #define WIDE 5   /* pixels to each side that the wide blur reaches */
 #define NARROW 3 /* those of the narrow one */
 #define KEPT (2 * WIDE + 1)
+#define NEAR (WIDE + NARROW) /* rows to each side that those that blurs of a row go into are marked by */
+#define STRIP 16
 #define WINDOW 8 /* pixels of a side of the squares that parts may be gone from */
 #define BACKGROUND 1.0f
 #define LOUD 1.0f /* what a pixel that differs visibly counts in the map, beside its dissimilarity */
@@ -12,16 +14,52 @@
 #define STEADY_SPREAD 9e-4f
 enum { X, Y, SQUARES, XY, FIELDS };
 
-INLINE bool covered(float a, float b) { return a < COVERED || b < COVERED; }
+typedef struct {
+    int64_t start, end;
+} Span;
 
-/* One row of both pictures, with background around it and above and below. */
-INLINE void take_row(ConstSingles2 first, ConstSingles2 second, int64_t row, float *x, float *y) {
-    int64_t width = first.columns, padded = width + 2 * WIDE;
-    for (int64_t i = 0; i < padded; i++) x[i] = y[i] = BACKGROUND;
+INLINE bool covered(const float *x, const float *y, int64_t count) {
+    float low = BACKGROUND;
+    for (int64_t i = 0; i < count; i++) {
+        float lower = x[i] < y[i] ? x[i] : y[i];
+        low = lower < low ? lower : low;
+    }
+    return low < COVERED;
+}
+
+/* The columns of a row from the first that either picture covers to behind the last one. */
+INLINE Span covered_of(ConstSingles2 first, ConstSingles2 second, int64_t row) {
+    Span span = {0, 0};
+    if (row < 0 || row >= first.rows) return span;
+    const float *x = first.data + row * first.columns, *y = second.data + row * first.columns;
+    span.end = first.columns;
+    while (span.end - span.start >= STRIP && !covered(x + span.start, y + span.start, STRIP)) span.start += STRIP;
+    while (span.start < span.end && !covered(x + span.start, y + span.start, 1)) span.start++;
+    while (span.end - span.start >= STRIP && !covered(x + span.end - STRIP, y + span.end - STRIP, STRIP)) span.end -= STRIP;
+    while (span.end > span.start && !covered(x + span.end - 1, y + span.end - 1, 1)) span.end--;
+    return span;
+}
+
+INLINE Span joined(Span a, Span b) {
+    if (a.start >= a.end || b.start >= b.end) return a.start < a.end ? a : b;
+    return (Span){least(a.start, b.start), largest(a.end, b.end)};
+}
+
+/* Where pixels may differ of which some of these rows have some nearby, within the columns of `box`. */
+INLINE Span around(const Span *spans, int64_t count, Span box) {
+    Span all = spans[0];
+    for (int64_t i = 1; i < count; i++) all = joined(all, spans[i]);
+    return (Span){largest(all.start - NARROW, box.start), least(all.end + NARROW, box.end)};
+}
+
+/* What of a row of both pictures blurs need, with background around it and above and below. */
+INLINE void take_row(ConstSingles2 first, ConstSingles2 second, int64_t row, Span span, float *x, float *y) {
+    for (int64_t i = span.start; i < span.end + 2 * WIDE; i++) x[i] = y[i] = BACKGROUND;
     if (row < 0 || row >= first.rows) return;
-    for (int64_t i = 0; i < width; i++) {
-        x[WIDE + i] = first.data[row * width + i];
-        y[WIDE + i] = second.data[row * width + i];
+    const float *one = first.data + row * first.columns, *other = second.data + row * first.columns;
+    for (int64_t i = largest(span.start - WIDE, 0); i < least(span.end + WIDE, first.columns); i++) {
+        x[WIDE + i] = one[i];
+        y[WIDE + i] = other[i];
     }
 }
 
@@ -50,23 +88,6 @@ INLINE void blur_down(const float *restrict rows, int64_t stride, int64_t middle
     }
 }
 
-/* What is covered: behind the last column and from the first one; returns whether anything is. */
-INLINE bool extent(ConstSingles2 first, ConstSingles2 second, int64_t *box) {
-    box[0] = first.rows, box[1] = 0, box[2] = first.columns, box[3] = 0;
-    for (int64_t row = 0; row < first.rows; row++) {
-        const float *x = first.data + row * first.columns, *y = second.data + row * first.columns;
-        int64_t left = 0, right = first.columns;
-        while (left < right && !covered(x[left], y[left])) left++;
-        if (left == right) continue;
-        while (!covered(x[right - 1], y[right - 1])) right--;
-        box[0] = least(box[0], row);
-        box[1] = row + 1;
-        box[2] = least(box[2], left);
-        box[3] = largest(box[3], right);
-    }
-    return box[0] < box[1];
-}
-
 /* Marks of this row, those of the last `WINDOW` rows together by column, and the most of them in a square that ends here. */
 INLINE int64_t densest(const float *marks, float *ring, float *columns, int64_t start, int64_t end) {
     float any = 0.0f;
@@ -90,7 +111,7 @@ INLINE int64_t densest(const float *marks, float *ring, float *columns, int64_t 
  * it is: 1 - SSIM, and up to as much again by the square of its difference. */
 KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles wide, ConstSingles narrow,
                         double visible, double plain, Singles2 scratch, Doubles sums, Singles2 map) {
-    int64_t stride = scratch.columns, box[4];
+    int64_t stride = scratch.columns;
     if (first.rows != second.rows || first.columns != second.columns || wide.size != WIDE + 1 ||
         narrow.size != NARROW + 1 || sums.size != 4 || stride < first.columns + 2 * WIDE ||
         (map.rows && (map.rows != first.rows || map.columns != first.columns)) ||
@@ -103,21 +124,32 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
     int64_t seen = 0, count = 0, gone = 0;
     for (int i = 0; i < 4; i++) sums.data[i] = 0.0;
     for (int64_t i = 0; i < (WINDOW + 2) * stride; i++) marks[i] = 0.0f;
-    if (!extent(first, second, box)) return 0;
-    int64_t from = box[2], to = box[3], width = first.columns + 2 * WIDE;
-    for (int64_t row = box[0] - WIDE; row < box[1] + WIDE; row++) {
+    Span box = {0, 0}, high = {0, 0}, near[2 * NEAR + 1];
+    for (int64_t row = 0; row < first.rows; row++) {
+        Span span = covered_of(first, second, row);
+        box = joined(box, span);
+        if (span.start < span.end) high = joined(high, (Span){row, row + 1});
+    }
+    if (box.start >= box.end) return 0;
+    for (int64_t i = 0; i <= 2 * NEAR; i++) near[i] = covered_of(first, second, high.start - WIDE - NEAR - 1 + i);
+    for (int64_t row = high.start - WIDE; row < high.end + WIDE; row++) {
+        for (int64_t i = 0; i < 2 * NEAR; i++) near[i] = near[i + 1];
+        near[2 * NEAR] = covered_of(first, second, row + NEAR);
         int64_t place = (row + KEPT) % KEPT;
-        take_row(first, second, row, x, y);
-        for (int64_t i = 0; i < width; i++) {
+        Span some = around(near, 2 * NEAR + 1, box);
+        take_row(first, second, row, some, x, y);
+        for (int64_t i = some.start; i < some.end + 2 * WIDE; i++) {
             padded[SQUARES * stride + i] = x[i] * x[i] + y[i] * y[i];
             padded[XY * stride + i] = x[i] * y[i];
             difference[i] = x[i] - y[i];
         }
         for (int field = 0; field < FIELDS; field++)
-            blur(padded + field * stride, ring + (field * KEPT + place) * stride, from, to, wide.data, WIDE);
-        blur(difference, ring + (FIELDS * KEPT + place) * stride, from, to, narrow.data, NARROW);
+            blur(padded + field * stride, ring + (field * KEPT + place) * stride, some.start, some.end, wide.data, WIDE);
+        blur(difference, ring + (FIELDS * KEPT + place) * stride, some.start, some.end, narrow.data, NARROW);
         int64_t at = row - WIDE, middle = (at + KEPT) % KEPT;
-        if (at < box[0]) continue;
+        if (at < high.start) continue;
+        Span part = around(near, 2 * NARROW + 1, box);
+        int64_t from = part.start, to = part.end;
         for (int field = 0; field < FIELDS; field++)
             blur_down(ring + field * KEPT * stride, stride, middle, down + field * stride, from, to, wide.data, WIDE);
         blur_down(ring + FIELDS * KEPT * stride, stride, middle, down + FIELDS * stride, from, to, narrow.data, NARROW);
@@ -133,7 +165,7 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         const float *change = down + FIELDS * stride;
         int32_t inside = 0, differ = 0;
         for (int64_t i = from; i < to; i++) {
-            bool counts = covered(own[i], other[i]);
+            bool counts = own[i] < COVERED || other[i] < COVERED;
             one_less[i] = counts ? one_less[i] : 0.0f;
             differ += counts & ((double)__builtin_fabsf(change[i]) > visible);
             inside += counts;
@@ -141,12 +173,15 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         for (int64_t i = from; i < to; i++) dissimilar += (double)one_less[i];
         seen += differ;
         count += inside;
-        for (int64_t i = from; i < to && map.rows; i++) {
-            float part = change[i] / (float)visible, soft = part * part < 1.0f ? part * part : 1.0f;
-            map.data[at * first.columns + i] = covered(own[i], other[i]) ? one_less[i] + LOUD * soft : 0.0f;
-        }
+        if (map.rows)
+            for (int64_t i = from; i < to; i++) {
+                float share = change[i] / (float)visible, soft = share * share < 1.0f ? share * share : 1.0f;
+                bool counts = own[i] < COVERED || other[i] < COVERED;
+                map.data[at * first.columns + i] = counts ? one_less[i] + LOUD * soft : 0.0f;
+            }
+        for (int64_t i = box.start; i < box.end; i++) marks[i] = 0.0f;
         for (int64_t i = from; i < to; i++) marks[i] = (double)__builtin_fabsf(change[i]) > plain ? 1.0f : 0.0f;
-        gone = largest(gone, densest(marks, marked + at % WINDOW * stride, columns, from, to));
+        gone = largest(gone, densest(marks, marked + at % WINDOW * stride, columns, box.start, box.end));
     }
     sums.data[0] = dissimilar;
     sums.data[1] = (double)seen;
