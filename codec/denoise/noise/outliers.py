@@ -15,7 +15,7 @@ import numpy as np
 from scipy.sparse import linalg
 
 from bsm.codec.arrays import Positions
-from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.probe import BOUND, SHARE, Probe
 from bsm.codec.denoise.surface import Floats, face_geometry
 from bsm.codec.geometry.graph import Rows
 from bsm.codec.geometry.metrics import mean_edge_length
@@ -37,9 +37,10 @@ CALM, CALM_BOUND = 0.5, 0.6745
 STRAY, PLAINLY, SPIKY = 1.2, 2.0, 0.75
 """Distance from the middle of the neighbours, in theirs, of a vertex that may be far off, and of one that is; and the
 length of the mean normal around it below which it stands out."""
-STRAYS, STRAY_SHARE, STRAY_USUAL = 25, 0.0025, 1.1
+STRAYS, STRAY_SHARE, STRAY_USUAL = 25, 0.0017, 1.1
 """How many have to be plainly off, and how far nine tenths may be: clean meshes have 14 and .0013 at most."""
 STRAY_TURNS = 2
+HIGH = 2.2  # height over the noise around, from which on vertices are strays where there are many; noise so high gains
 ROUNDS = 40
 REFINEMENTS = 30
 
@@ -73,7 +74,7 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
     owners = np.repeat(np.arange(n), sizes)
     place, stray = positions, np.zeros(n, dtype=np.bool_)
     for turn in range(STRAY_TURNS):
-        distance = _distances(place, probe)
+        distance, height = _distances(place, probe)
         usual = float(np.quantile(distance[probe.counted], 0.9))
         normals = face_geometry(place, probe.topology.faces).normals[around.members]
         together = np.stack([np.bincount(owners, column, n) for column in normals.T], axis=1)
@@ -81,7 +82,8 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
         plain = int((spiky & (distance > PLAINLY)).sum())
         if turn == 0 and (plain < max(STRAYS, STRAY_SHARE * n) or usual > STRAY_USUAL):
             return positions
-        stray |= spiky & (distance > max(STRAY, 2.0 * usual))
+        noise = (probe.windows.quantiles(height, SHARE) / BOUND)[probe.windows.labels]
+        stray |= spiky & (distance > max(STRAY, 2.0 * usual)) | (height > np.fmax(HIGH * noise, 1.0))
         if stray.sum() > MOST_SHARE * n:
             return positions
         known = np.where(stray, 0.0, 1.0)
@@ -91,24 +93,24 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
     return place
 
 
-def _distances(positions: Positions, probe: Probe) -> Floats:
-    """Distance of each vertex from the median of its neighbours, over the median of theirs, shape (n,)."""
+def _distances(positions: Positions, probe: Probe) -> tuple[Floats, Floats]:
+    """Distance and height of each vertex from the median of its neighbours, over the median of theirs, shape (n,)."""
     starts, members = probe.topology.neighbours
-    owners = np.repeat(np.arange(len(positions)), np.diff(starts))
+    sizes = np.diff(starts)
+    owners = np.repeat(np.arange(len(positions)), sizes)
+    halves = np.maximum(sizes - 1, 0) // 2, sizes // 2
 
     def medians(values: Floats) -> Floats:
         ordered = values[np.lexsort((values, owners))]
-        first, last = (np.minimum(starts[:-1] + half, len(values) - 1) for half in _halves(np.diff(starts)))
+        first, last = (np.minimum(starts[:-1] + half, len(values) - 1) for half in halves)
         return np.asarray(0.5 * (ordered[first] + ordered[last]))
 
     middle = np.stack([medians(column) for column in positions[members].T], axis=1)
     spread = medians(np.linalg.norm(positions[members] - middle[owners], axis=1))
+    height = np.einsum("ij,ij->i", positions - middle, probe.smooth_normals(middle, passes=1))
     off = np.linalg.norm(positions - middle, axis=1)
-    return np.where(probe.counted, off / np.maximum(spread, 1e-12 * off + 1e-300), 0.0)
-
-
-def _halves(sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    return np.maximum(sizes - 1, 0) // 2, sizes // 2
+    scale = np.where(probe.counted, np.maximum(spread, 1e-12 * off + 1e-300), np.inf)
+    return off / scale, np.abs(height) / scale
 
 
 def _peeled(positions: Positions, probe: Probe) -> Outliers:
@@ -127,14 +129,14 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
         calm = np.zeros(len(positions))
         if share < CLEAR:
             off = amounts[amounts != 0.0]
-            one_sided = len(off) and abs(float(np.sign(off).mean())) >= ONE_SIDED
-            if len(off) < max(FEWEST, FEWEST_SHARE * len(amounts)) or one_sided or _usual(amounts) <= WORTH:
+            few = len(off) < max(FEWEST, FEWEST_SHARE * len(amounts))
+            if few or abs(np.sign(off).mean()) >= ONE_SIDED or np.median(np.abs(off)) <= WORTH:
                 return Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
-            if share == LESS_CLEAR[-1] and _usual(amounts) < STRONG:
+            if share == LESS_CLEAR[-1] and np.median(np.abs(off)) < STRONG:
                 break
             standard = np.abs(rest) / np.where(gain > 0.0, gain, np.inf)
             if share == LESS_CLEAR[0]:
-                most = LARGEST * float(np.quantile(np.abs(amounts[amounts != 0.0]), 0.9))
+                most = LARGEST * float(np.quantile(np.abs(off), 0.9))
             quiet = probe.windows.quantiles(standard, CALM) / CALM_BOUND
             calm = np.nan_to_num(quiet)[probe.windows.labels]
         least = np.maximum(FAINT, DISTINCT * calm / np.sqrt(energy))
@@ -157,10 +159,6 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
     change = linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]
     amounts[vertices] += change
     return Outliers(vertices, edge * amounts[vertices, None] * normals[vertices])
-
-
-def _usual(amounts: Floats) -> float:
-    return float(np.median(np.abs(amounts[amounts != 0.0])))
 
 
 def _largest_nearby(values: Floats, neighbours: Rows) -> Floats:
