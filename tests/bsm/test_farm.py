@@ -167,6 +167,18 @@ def test_a_process_that_dies_takes_only_its_own_job_along(tmp_path):
     assert all(".always." in name for name in set(contents(tmp_path)) - left), "only what has no other attempt"
 
 
+@pytest.mark.parametrize("run", [Run(), Run(jobs=2)])
+def test_jobs_wait_for_what_they_need_and_are_left_out_where_it_failed(tmp_path, run):
+    needs = {"fault": (), "a": (), "b": (1,), "c": (0, 1), "d": (3,), "e": (2,), "f": ()}
+    jobs = [Job(name, str(tmp_path / name), after) for name, after in needs.items()]
+    heard = []
+    done = run_many(run, Task(quiet=True), Console(quiet=True), deadly, jobs, lambda job, _: heard.append(job.input))
+    assert heard == [facts["input"] for facts in done if facts] == ["fault", *"abef"]
+    assert set(contents(tmp_path)) == {*heard}
+    written = [(tmp_path / name).stat().st_mtime_ns for name in "abe"]
+    assert written == sorted(written)
+
+
 # ---------------------------------------------------------------------------------------------------------------- URLs
 
 

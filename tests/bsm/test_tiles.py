@@ -351,8 +351,11 @@ def test_a_full_disk_is_told(mesh, folder, tmp_path, most):
         back = program("untile", folder, "-o", tmp_path / "back.ply", text=True)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
-    for one, file in ((done, tmp_path / "out" / "manifest.json"), (back, tmp_path / "back.ply")):
-        assert (one.returncode == 0) == file.exists()
+    whole = program("verify", tmp_path / "out", text=True)
+    assert (done.returncode == 0) == (whole.returncode == 0)
+    assert done.returncode == 0 or "these tiles are unfinished; whole so far: " in whole.stderr
+    assert (back.returncode == 0) == (tmp_path / "back.ply").exists()
+    for one in (done, back):
         assert one.returncode == 0 or (one.returncode == 9 and one.stderr.strip().endswith(": File too large"))
         assert one.returncode == 0 or "/" in one.stderr.splitlines()[-1]
         assert ".work: " not in one.stderr, "the file that there is no room for is named"
@@ -373,11 +376,34 @@ def test_a_run_that_was_interrupted_goes_on(mesh, folder, tmp_path, monkeypatch)
     interrupted.__name__ = command.tile_one.__name__
     monkeypatch.setattr(command, "tile_one", interrupted)
     assert program(*words).returncode == 130
-    assert not (output / "manifest.json").exists()
+    for what in (("info",), ("verify",), ("untile", "-o", tmp_path / "back.ply"), ("view",)):
+        said = program(what[0], output, *what[1:], text=True)
+        assert said.returncode == 12 and " tiles of level 0, " in said.stderr and not (tmp_path / "back.ply").exists()
+        assert f"bsm tile {source} -o {output} --resume goes on" in said.stderr and said.stderr.count("\n") == 1
+    levels = json.loads((output / "manifest.json").read_text())["levels"]
+    assert sum(level["whole"] for level in levels) == 5 < sum(level["tiles"] for level in levels)
     monkeypatch.setattr(interrupted, "__defaults__", (1 << 30, *interrupted.__defaults__[1:]))
     assert program(*words, "--resume", "--triangles", 800).returncode == 3
     assert program(*words, "--resume").returncode == 0
     assert len(done) == len(set(done)) and contents(output) == contents(folder)
+
+
+def test_tiles_that_were_whole_stay_so_until_there_are_others(mesh, folder, tmp_path, monkeypatch):
+    output = shutil.copytree(folder, tmp_path / "out")
+    write_mesh(tmp_path / "mesh.ply", mesh)
+
+    def killed(*given, **keywords):
+        (output / "00000.tiles").write_bytes(b"")
+        raise KeyboardInterrupt
+
+    for name, code in ("read_big", 0), ("write_shards", 12):
+        monkeypatch.setattr(command, name, killed)
+        assert program("tile", tmp_path / "mesh.ply", "-o", output, "--grid-cell", CELL).returncode == 9
+        assert program("tile", tmp_path / "mesh.ply", "-o", output, "--grid-cell", CELL, "-f").returncode == 130
+        monkeypatch.undo()
+        assert program("info", output).returncode == code
+    assert program("tile", tmp_path / "mesh.ply", "-o", output, "--grid-cell", CELL, "--resume").returncode == 0
+    assert program("verify", output).returncode == 0
 
 
 @pytest.mark.parametrize("harm", ["changed", "cut", "missing", "index"])
@@ -470,7 +496,10 @@ def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, said, code):
     source.write_bytes(harmed)
     done = program("tile", source, "-o", tmp_path / "out", text=True)
     assert done.returncode == code and said in done.stderr
-    assert not (tmp_path / "out" / "manifest.json").exists()
+    with pytest.raises(TruncatedError, match="whole so far: nothing; with"):
+        bsm.open_tiles(str(tmp_path / "out"))
+    source.write_bytes(data)
+    tile(source, tmp_path / "out")
 
 
 def test_grids_that_cannot_be_told_exactly(mesh, tmp_path):

@@ -3,21 +3,24 @@
 import argparse
 import os
 import shutil
+import sys
+import time
 from pathlib import Path
 from typing import Any
 
 from bsm.bitstream.errors import FormatError, OptionError
+from bsm.codec.threads import available_threads
 from bsm.commands.flags import asked, point
 from bsm.console import Console, print_json
 from bsm.exits import tell
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
-from bsm.jobs.run import Facts, Job, Outcome, Run, came_to, run_many
+from bsm.jobs.run import Job, Outcome, Run, came_to, run_many
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
 from bsm.tiles.joining import CONTENT_HELP, CONTENTS, packer, write_tileset
 from bsm.tiles.making import TileJob, tile_one
 from bsm.tiles.reading import read_big
-from bsm.tiles.shards import MANIFEST, open_tiles, write_shards
+from bsm.tiles.shards import MANIFEST, Unfinished, is_unfinished, open_tiles, write_shards
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -44,31 +47,45 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.content != CONTENTS[0] and not args.tileset:
         raise OptionError("--content says how the tiles of --tileset are coded: ask for that, too")
     packer(args.content, 1.0)
-    refuse_to_overwrite(inside(args.output, MANIFEST), args.force)
+    unfinished = is_unfinished(args.output)
+    over = args.force or args.resume or bool(unfinished)
+    refuse_to_overwrite(inside(args.output, MANIFEST), args.force or bool(unfinished))
     if not is_url(args.output):
         os.makedirs(args.output, exist_ok=True)
     beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
     work = Path(os.path.abspath(args.work or beside))
+    state = Unfinished(args.output, args.input)
+    if unfinished is not False:
+        state.write()
     with about(args.input), by_its_own_name(work):
         plan = _planned(args, work, console)
     asked_for = asked(TileJob, args, input="", output="", most=args.triangles, cell=plan.lattice.cell, force=False)
-    done: list[Facts] = []
-    levels = plan.levels()
+    names = [name for name in plan.nodes() if name in plan.leaves or not args.finest]
+    numbers = {name: number for number, name in enumerate(names)}
+
+    def job_of(name: str) -> Job:
+        below = tuple(numbers[name + eighth] for eighth in "01234567" if name + eighth in numbers)
+        return Job(str(work / (f"{name}[0-7].mesh" if below else "plan.json")), str(work / f"{name}.bsm"), below)
 
     def ended(job: Job, outcome: Outcome) -> None:
         if outcome.error is not None:
             tell(outcome.error)
+        else:
+            state.whole[len(Path(job.output).stem) - 1] += 1
+            state.update(time.perf_counter())
 
-    for level in reversed(range(len(levels))):
-        names = [name for name in levels[level] if name in plan.leaves or not args.finest]
-        jobs = [Job(_input_of(work, plan, name), str(work / f"{name}.bsm")) for name in names]
-        many = asked(Run, args, report=str(work / f"level-{level}.json"), resume=True)
-        found = run_many(many, asked_for, console, tile_one, jobs, ended) if jobs else []
-        if failed := [facts for facts in found if "error" in facts]:
-            console.note(f"{len(failed)} of {len(found)} tiles of level {level} failed; --resume makes these alone")
-            return int(failed[0]["exit"])
-        done += found
-    manifest = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=args.force or args.resume)
+    state.tiles.update(len(name) - 1 for name in names)
+    many = asked(Run, args, report=str(work / "tiles.json"), resume=True)
+    try:
+        done = run_many(many, asked_for, console, tile_one, list(map(job_of, names)), ended)
+    finally:
+        state.update(sys.float_info.max)
+    if failed := [facts for facts in done if "error" in facts]:
+        console.note(f"{len(failed)} of {len(done)} tiles failed; --resume makes these alone, and those made of them")
+        return int(failed[0]["exit"])
+    done.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
+    state.write()
+    manifest = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=over)
     taken, given = size_of(args.input), sum(shard["size"] for shard in manifest["shards"])
     console.note(
         f"{args.input} -> {args.output}: {plan.vertices} vertices, {plan.faces} faces, {len(done)} tiles in "
@@ -76,16 +93,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
     )
     shutil.rmtree(work)
     if args.tileset:
-        tiles, over = open_tiles(args.output), args.force or args.resume
-        write_tileset(tiles, args.output, console, content=args.content, overwrite=over)
+        write_tileset(open_tiles(args.output), args.output, console, content=args.content, overwrite=over)
     if args.json:
         print_json(manifest)
     return 0
-
-
-def _input_of(work: Path, plan: Plan, name: str) -> str:
-    """What a tile depends on: the plan, or those that it is made of."""
-    return str(work / ("plan.json" if name in plan.leaves else f"{name}[0-7].mesh"))
 
 
 def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
@@ -108,6 +119,8 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
             f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colours, normals"
         )
     with console.progress("cutting"):
-        plan = cut(raw, chosen_lattice(raw, args.grid_cell, args.grid_origin), args.triangles)
+        plan = cut(
+            raw, chosen_lattice(raw, args.grid_cell, args.grid_origin, args.jobs or available_threads()), args.triangles
+        )
     plan.save(work / "plan.json")
     return plan

@@ -6,10 +6,11 @@ import os
 import tempfile
 import time
 import traceback
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing, suppress
 from dataclasses import asdict, dataclass, replace
 from functools import partial
+from heapq import heappop, heappush
 from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
@@ -28,6 +29,7 @@ Facts = dict[str, Any]  # what came of an input, ready for JSON; `input_bytes`, 
 class Job:
     input: str
     output: str = ""
+    after: tuple[int, ...] = ()  # numbers of the jobs before it whose outputs it needs
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +83,7 @@ class UnexpectedError(Exception):
 
 
 Numbered: TypeAlias = tuple[int, Task]
-Tasks: TypeAlias = Iterable[Numbered]  # made as they are needed
+Tasks: TypeAlias = Iterator[Numbered | None]  # made as they are needed; None: none is ready before others end
 Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]  # numbers of jobs and what came of them, as they end
 
 
@@ -390,7 +392,7 @@ def run_many(
     jobs: Sequence[Job],
     ended: Callable[[Job, Outcome], None] = lambda job, outcome: None,
 ) -> list[Facts]:
-    """Do all jobs; one that fails stops no other. They are told of in their order."""
+    """Do all jobs; one that fails stops those alone that need it. They are told of in their order."""
     if run.dask is not None:
         if any("-" in (job.input, job.output) for job in jobs):
             raise OptionError("a pipe does not reach a cluster: name files")
@@ -407,19 +409,35 @@ def run_many(
     done: list[Facts] = [{} for _ in jobs]
     waiting: dict[int, Outcome] = {}
     following = 0
-    given = ((number, task_of(asked, job, earlier)) for number, job in enumerate(jobs))
-    # A cluster may do a job once more whose worker died, and does not say so.
-    tasks = ((number, task if run.dask is None else task.repeated()) for number, task in given)
+    needs, users = [len(job.after) for job in jobs], dict[int, list[int]]()
+    for number, job in enumerate(jobs):
+        for needed in job.after:
+            users.setdefault(needed, []).append(number)
+    ready = [number for number, missing in enumerate(needs) if not missing]
+
+    def given() -> Tasks:
+        while True:
+            while ready:
+                task = task_of(asked, jobs[number := heappop(ready)], earlier)
+                # A cluster may do a job once more whose worker died, and does not say so.
+                yield number, task if run.dask is None else task.repeated()
+            yield None
+
     try:
         with (
             console.progress("files", "files") as progress,
-            closing(_outcomes(run, console, work, tasks, len(jobs))) as outcomes,
+            closing(_outcomes(run, console, work, given(), len(jobs))) as outcomes,
         ):
             for count, (number, outcome) in enumerate(outcomes, 1):
                 done[number] = outcome.facts
                 if outcome.error is not None:
                     failed = {"error": worded(outcome.error), "exit": exit_of(outcome.error).code}
-                    done[number] = {**asdict(jobs[number]), **failed}
+                    done[number] = {"input": jobs[number].input, "output": jobs[number].output, **failed}
+                else:
+                    for user in users.get(number, ()):
+                        needs[user] -= 1
+                        if not needs[user]:
+                            heappush(ready, user)
                 if report:
                     report.take(number, done[number])
                 waiting[number] = outcome
@@ -427,6 +445,8 @@ def run_many(
                     ended(jobs[following], waiting.pop(following))
                     following += 1
                 progress(count, len(jobs))
+        for number in sorted(waiting):  # behind one that lacks what it needs
+            ended(jobs[number], waiting[number])
     finally:
         if report:
             report.write()
@@ -459,7 +479,7 @@ def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, count: int) 
 
     processes = min(run.jobs or available_threads(), count) or 1
     if run.dask is None and processes == 1:
-        return ((number, outcome_of(work, task, console)) for number, task in tasks)
+        return ((number, outcome_of(work, task, console)) for number, task in iter(partial(next, tasks), None))
     # Where there is one process there is no need to load this.
     from bsm.jobs.workers import in_processes, on_cluster
 

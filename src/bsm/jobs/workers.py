@@ -13,7 +13,6 @@ from collections.abc import Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from itertools import islice
 from typing import Any
 
 from bsm.bitstream.errors import DependencyError, imported
@@ -28,17 +27,14 @@ Handed = dict[int, Task]
 
 
 def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
-    waiting = iter(tasks)
     with termination_as_exception():
-        while suspects := (yield from _until_one_dies(work, waiting, processes)):
+        while suspects := (yield from _until_one_dies(work, tasks, processes)):
             for number, task in suspects.items():
                 if (yield from _until_one_dies(work, iter([(number, task.repeated())]), 1)):
                     yield number, Outcome({}, MemoryError(f"{task.input}: its process died, twice"))
 
 
-def _until_one_dies(
-    work: Work, tasks: Iterator[Numbered], processes: int
-) -> Generator[tuple[int, Outcome], None, Handed]:
+def _until_one_dies(work: Work, tasks: Tasks, processes: int) -> Generator[tuple[int, Outcome], None, Handed]:
     """Do jobs until there are none, or a process dies; returns what was handed out and has not ended."""
     # Not forked: threads of this process may hold locks.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
@@ -48,7 +44,8 @@ def _until_one_dies(
     try:
         while whole:
             try:
-                for number, task in islice(tasks, AHEAD * processes - len(futures)):
+                while len(futures) < AHEAD * processes and (given := next(tasks, None)):
+                    number, task = given
                     handed[number] = task
                     with _interrupts_ignored():
                         futures[pool.submit(_task, work, task)] = number
@@ -112,7 +109,7 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
         client: Any = distributed.Client(address, set_as_default=False)
     except (OSError, ValueError) as error:
         raise OSError(errno.EHOSTUNREACH, "no Dask scheduler answers here", address) from error
-    waiting, run = iter(tasks), uuid.uuid4().hex
+    run = uuid.uuid4().hex
     handed: dict[str, Numbered] = {}
     suspects: list[Numbered] = []
     # A scheduler that goes away is told of here, and not by the library.
@@ -124,7 +121,7 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
             running: Any = distributed.as_completed(loop=client.loop)
             try:
                 while True:
-                    while len(handed) < AHEAD * max(1, sum(client.ncores().values())) and (task := next(waiting, None)):
+                    while len(handed) < AHEAD * max(1, sum(client.ncores().values())) and (task := next(tasks, None)):
                         key = f"bsm-{run}-{task[0]}"
                         handed[key] = task
                         running.add(client.submit(far_outcome, work, task[1], key=key))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
+from bsm.codec.threads import ordered_map
 from bsm.files.output import by_its_own_name, write_output
 from bsm.tiles.reading import CARRIED, Kinds, Raw, mapped, table_file
 
@@ -24,6 +26,7 @@ Ints: TypeAlias = npt.NDArray[np.int64]
 Places: TypeAlias = npt.NDArray[np.int32]
 DEPTH = 10  # levels below the first that has to be cut
 COARSEST = 1 << 15  # triangles of the coarsest level, about
+_COUNTED = 7  # levels all of whose nodes are counted
 _SAMPLE = 40_000
 _FARTHEST = 1 << 30  # from the origin, in cells
 _SPREAD = (
@@ -59,9 +62,9 @@ class Lattice:
         return np.asarray(places * self.cell + np.array(self.origin))
 
 
-def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | None) -> Lattice:
+def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | None, threads: int) -> Lattice:
     """The lattice that is asked for, or one by the look of a sample, in cells that every place is told exactly in."""
-    lattice = Lattice(_cell_by_look(raw) if cell is None else cell, origin or (0.0, 0.0, 0.0))
+    lattice = Lattice(_cell_by_look(raw, threads) if cell is None else cell, origin or (0.0, 0.0, 0.0))
     reach = (abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
     farthest = max(reach) / lattice.cell
     exact = math.frexp(lattice.cell)[0] == 0.5 and not any(at % lattice.cell for at in lattice.origin)
@@ -73,19 +76,25 @@ def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | Non
     return lattice
 
 
-def _cell_by_look(raw: Raw) -> float:
+def _cell_by_look(raw: Raw, threads: int) -> float:
     """The largest power of two that keeps the default's promise around three vertices, in any order of the faces."""
     some = raw.table("positions")[:: max(1, raw.rows["positions"] // _SAMPLE)].astype(np.float64)
-    share, scales = min(1.0, _SAMPLE / max(1, raw.rows["faces"])), list[float]()
-    for middle in some[[len(some) // 4, len(some) // 2, len(some) * 3 // 4]] if share < 1 else some[:1]:
-        low, high = (middle + side * np.quantile(np.abs(some - middle).max(axis=1), share) for side in (-1, 1))
+    share = min(1.0, _SAMPLE / max(1, raw.rows["faces"]))
+    middles = some[[len(some) // 4, len(some) // 2, len(some) * 3 // 4] if share < 1 else [0]]
+    reach = [np.quantile(np.abs(some - middle).max(axis=1), share) for middle in middles]
+    near: list[list[npt.NDArray[Any]]] = [[] for _ in middles]
+    for piece in raw.pieces("faces"):
         # Mapped anew for each piece, so that no more of it is in memory than the piece needs.
-        firsts = ((piece, raw.table("positions")[piece[:, 0]]) for piece in raw.pieces("faces"))
-        near = [piece[((low <= first) & (first <= high)).all(axis=1)] for piece, first in firsts]
-        used, corners = np.unique(np.concatenate(near), return_inverse=True)
+        firsts = raw.table("positions")[piece[:, 0]]
+        for middle, far, found in zip(middles, reach, near):
+            found.append(piece[(np.abs(firsts - middle) <= far).all(axis=1)])
+
+    def scale_of(faces: list[npt.NDArray[Any]]) -> float:
+        used, corners = np.unique(np.concatenate(faces), return_inverse=True)
         sample = TriangleMesh(raw.table("positions")[used].astype(np.float64), corners.reshape(-1, 3).astype(np.int32))
-        scales.append(Encoder(sample, EncodeOptions(quick=True, threads=1)).result().header.scale)
-    return float(2.0 ** math.floor(math.log2(min(scales))))
+        return Encoder(sample, EncodeOptions(quick=True, threads=1)).result().header.scale
+
+    return float(2.0 ** math.floor(math.log2(min(ordered_map(scale_of, near, threads)))))
 
 
 # --------------------------------------------------------------------------------------------------------------- octree
@@ -138,10 +147,16 @@ class Plan(Root):
         code = int(name[1:] or "0", 8)
         return code << below, (code + 1) << below
 
-    def levels(self) -> list[list[str]]:
-        """The names of all nodes, the root's level first."""
-        nodes = {leaf[: 1 + level] for leaf in self.leaves for level in range(len(leaf))}
-        return [sorted(name for name in nodes if len(name) == size) for size in range(1, 1 + max(map(len, nodes)))]
+    def nodes(self) -> list[str]:
+        """The names of all nodes, each behind those below it, and the fullest eighths first."""
+        faces: Counter[str] = Counter()
+        for leaf, (_, count) in self.leaves.items():
+            faces.update({leaf[:size]: count for size in range(1, 1 + len(leaf))})
+
+        def way(name: str) -> list[tuple[int, str]]:
+            return [*((-faces[name[:size]], name[:size]) for size in range(1, 1 + len(name))), (0, "")]
+
+        return sorted(faces, key=way)
 
     def save(self, path: Path) -> None:
         write_output(path, json.dumps(asdict(self)).encode(), overwrite=True)
@@ -172,11 +187,18 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
                 file.write(places.data)
             coded.write(plan.codes(places).data)
     (folder / "positions").unlink()
-    codes, counts = np.zeros(0, np.int64), np.zeros(0, np.int64)
-    for faces in raw.pieces("faces"):
-        found, number = np.unique(mapped(folder, "codes", kinds)[faces[:, 0], 0], return_counts=True)
+    # All nodes down to a level that a table has room for, and below it those alone that have to be cut there.
+    coarse = 3 * max(0, depth - max(above, _COUNTED))
+    number = np.zeros(1 << (3 * depth - coarse), np.int64)
+    for found in _first_codes(raw, kinds):
+        number += np.bincount(found >> coarse, minlength=len(number))
+    deep = (number > most) & (coarse > 0)
+    codes = np.flatnonzero(number * ~deep) << coarse
+    counts = number[codes >> coarse]
+    for found in _first_codes(raw, kinds) if deep.any() else ():
+        found, some = np.unique(found[deep[found >> coarse]], return_counts=True)
         codes, inverse = np.unique(np.concatenate([codes, found]), return_inverse=True)
-        counts = np.bincount(inverse, np.concatenate([counts, number])).astype(np.int64)
+        counts = np.bincount(inverse, np.concatenate([counts, some])).astype(np.int64)
     before = np.concatenate([[0], np.cumsum(counts)])
 
     def leaves(name: str) -> Iterator[tuple[str, tuple[int, int]]]:
@@ -191,6 +213,11 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     plan = replace(plan, leaves=dict(leaves("r")))
     _sort_faces(plan, raw)
     return plan
+
+
+def _first_codes(raw: Raw, kinds: Kinds) -> Iterator[Ints]:
+    """The node of each face, of its first corner."""
+    return (mapped(raw.folder, "codes", kinds)[faces[:, 0], 0] for faces in raw.pieces("faces"))
 
 
 def _sort_faces(plan: Plan, raw: Raw) -> None:

@@ -8,7 +8,6 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import KDTree
 
 from bsm import _kernels
 from bsm.bitstream.errors import TargetError
@@ -134,7 +133,11 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     locked |= np.isin(keys_of(places, low), keys_of(rows[inside, 1:4], low))
     new, smaller, owners = simplified(places, faces, locked, max(len(faces) // _KEPT, min(COARSEST, most) // 2))
     apart = farthest_near(places.astype(np.float64), owners, new.astype(np.float64), smaller)
-    near = KDTree(places).query(new)[1] if tables else np.zeros(0, np.int64)
+    near = np.zeros(0, np.int64)
+    if tables:
+        from scipy.spatial import KDTree  # a third of what a process loads
+
+        near = KDTree(places).query(new)[1]
     return TriangleMesh(new.astype(np.float64), smaller, carried(near)), before + apart * plan.lattice.cell
 
 

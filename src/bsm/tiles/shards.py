@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
 import re
+import shlex
+import time
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -14,11 +19,12 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.container.wire import MAJOR, require_major
-from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError, public
+from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError, TruncatedError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
+from bsm.console import printable
 from bsm.files.output import open_output, write_output
 from bsm.files.pipes import about, inside, is_url, read_bytes, read_range
 from bsm.files.stream import decode_whole
@@ -34,6 +40,7 @@ SHARD = 64_000_000  # bytes from which on a shard takes no more tiles
 _END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
 _FOOT = 16
 _MOST = 1 << 31  # bytes of a tile, or of an index
+_EVERY, _SHARE = 1.0, 0.02  # seconds between two manifests of a run, at least, and of all time that they take, at most
 
 
 @dataclass(frozen=True)
@@ -53,6 +60,49 @@ class Tile:
     @property
     def level(self) -> int:
         return len(self.name) - 1
+
+
+@dataclass
+class Unfinished:
+    """The manifest of a run until all is done: of each level how many tiles are whole, and of how many."""
+
+    folder: str
+    source: str
+    whole: Counter[int] = field(default_factory=Counter)
+    tiles: Counter[int] = field(default_factory=Counter)
+    due: float = math.inf  # until it is begun, there may be one of whole tiles, which stays
+
+    def update(self, now: float) -> None:
+        with suppress(OSError):  # an earlier one is there
+            if now >= self.due:
+                self.write()
+
+    def write(self) -> None:
+        begin = time.perf_counter()
+        levels = [{"level": one, "whole": self.whole[one], "tiles": self.tiles[one]} for one in sorted(self.tiles)]
+        head = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": self.source, "complete": False}
+        manifest = json.dumps({**head, "levels": levels}, indent=1).encode()
+        write_output(inside(self.folder, MANIFEST), manifest + b"\n", overwrite=True)
+        end = time.perf_counter()
+        self.due = end + max(_EVERY, (end - begin) / _SHARE)
+
+
+def is_unfinished(folder: str) -> bool | None:
+    """Whether a folder holds the manifest of a run that was not at its end; None: it holds none."""
+    try:
+        given = json.loads(read_bytes(inside(folder, MANIFEST)))
+        return given["format"] == "bsm tiles" and given.get("complete") is False
+    except FileNotFoundError:
+        return None
+    except (OSError, *_NO_JSON):
+        return False
+
+
+def _said_of_unfinished(path: str, given: Mapping[str, Any]) -> str:
+    counts = [[int(_number(level[key])) for key in ("whole", "tiles", "level")] for level in given["levels"]]
+    whole = ", ".join("{} of {} tiles of level {}".format(*count) for count in counts) or "nothing"
+    again = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
+    return printable(f"these tiles are unfinished; whole so far: {whole}; with its other options, {again} goes on")
 
 
 def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> Facts:
@@ -96,7 +146,7 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
         "levels": [{"level": level, **sums[level]} for level in sorted(sums)],
         "shards": shards,
     }
-    write_output(inside(folder, MANIFEST), json.dumps(manifest, indent=1).encode() + b"\n", overwrite=overwrite)
+    write_output(inside(folder, MANIFEST), json.dumps(manifest, indent=1).encode() + b"\n", overwrite=True)
     return manifest
 
 
@@ -126,8 +176,8 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
 
     Raises
     ------
-    FormatError, UnsupportedError
-        If there is no manifest of tiles, or one of another version.
+    FormatError, UnsupportedError, TruncatedError
+        If there is no manifest of tiles, one of another version, or one of a run that was not at its end.
     OSError
         If it cannot be read.
 
@@ -144,6 +194,8 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
         if given["version"] != 1:
             raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
         require_major(f"{name}: these tiles are", given.get("stream", 0))  # version 0 said nothing
+        if given.get("complete") is False:
+            raise TruncatedError(f"{name}: {_said_of_unfinished(path, given)}")
         lattice = Lattice(_number(given["cell"]), tuple(map(_number, given["origin"])))
         root = Root(tuple(int(_number(one)) for one in given["root"]["low"]), int(_number(given["root"]["bits"])))
         for shard in given["shards"]:
