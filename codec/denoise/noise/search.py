@@ -40,7 +40,7 @@ SEEN_FAINT, SEEN_SURE, EVEN_SEEN = 0.12, 0.3, (0.24, 0.5)
 """Levels of noise in a picture, in pixels' widths, and how uneven they may be there: slanted surfaces are seen with
 more of it. Clean surfaces read 0 to 0.2, and 0.3 and more of spread; cameras 0.35 to 0.7 and 0.1 to 0.4."""
 TERRACED = 0.05  # depths, over vertices, below which a camera tells only so many apart
-FUSED, EVEN_FUSED, NOT_BROADER = (0.065, 0.09), (0.15, 0.225), 1.04
+FUSED, EVEN_FUSED, NOT_BROADER = (0.065, 0.08), (0.15, 0.225), 1.04
 """Levels of the noise of views fused on a lattice, in mean edges, how uneven they may be there, and how much of it
 broader filters may see. They read .07 to .11, .06 to .21 and .93 to 1.01; fields without noise .01 to .07, .23 and more
 and 1.09 to 1.7."""
