@@ -73,7 +73,7 @@ NB_MODULE(_kernels, m) {
     m.def("most_consistent", &most_consistent, "scores"_a, "means"_a, "starts"_a, "members"_a, "guide"_a,
           Unlocked());
     m.def("filter_normals", &filter_normals, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "starts"_a, "near"_a,
-          "sigma_s"_a, "sigma_r"_a, "filtered"_a, Unlocked());
+          "sigma_s"_a, "sigma_r"_a, "packed"_a, "filtered"_a, Unlocked());
     m.def("describe_faces", &describe_faces, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "smooth"_a, "axes"_a,
           "starts"_a, "near"_a, "distance"_a, "begin"_a, "described"_a, "frames"_a, Unlocked());
     m.def("reach", &reach, "points"_a, "starts"_a, "members"_a, "radius"_a, "begin"_a, "seen"_a, "reached_starts"_a,

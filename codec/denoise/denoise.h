@@ -17,7 +17,8 @@ void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, Con
                     int64_t iterations, ConstBytes free, Doubles offsets);
 void minus_mean(ConstDoubles2 values, ConstLongs starts, ConstInts members, Doubles2 rest);
 void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
-                    ConstLongs starts, ConstInts near, double sigma_s, double sigma_r, Doubles2 filtered);
+                    ConstLongs starts, ConstInts near, double sigma_s, double sigma_r, Doubles2 packed,
+                    Doubles2 filtered);
 void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members, ConstDoubles steps,
                   ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means);
 void most_consistent(ConstDoubles scores, ConstDoubles2 means, ConstLongs starts, ConstInts members, Doubles2 guide);

@@ -25,8 +25,8 @@ from bsm.codec.geometry.graph import Rows
 
 def filter_normals(geometry: FaceGeometry, guide: Floats, near: Rows, sigma_s: float, sigma_r: float) -> Floats:
     """Average each face's normal with its neighbours', by area, distance and likeness of guides (paper, 9 to 11)."""
-    filtered = np.empty_like(geometry.normals)
-    _kernels.filter_normals(*geometry, guide, near.starts, near.members, sigma_s, sigma_r, filtered)
+    filtered, packed = np.empty_like(geometry.normals), np.empty((len(geometry.normals), 12))
+    _kernels.filter_normals(*geometry, guide, near.starts, near.members, sigma_s, sigma_r, packed, filtered)
     return filtered
 
 
