@@ -3,12 +3,14 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, public
 from bsm.codec.arrays import Faces, Mask, Matrix, Positions
-from bsm.codec.geometry.attributes import at_corners
+from bsm.codec.geometry.attributes import Attribute, Semantic, at_corners
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.pictures import (
@@ -20,6 +22,7 @@ from bsm.codec.look.pictures import (
     TOWARDS,
     Canvas,
     Checker,
+    Colours,
     Normals,
     Picture,
     Shape,
@@ -35,6 +38,7 @@ MOVING = 0.05  # 1 - SSIM of a frame of a moving picture at distance 1; no pixel
 POWER = 0.8  # of the larger of both over its bound: so that a distance is about linear in the step of a quantizer
 GONE, GONE_POWER = 0.5, 2.0  # the same of `Look.gone`: what is gone altogether is at distance 4, however small it is
 TURNED = 1.5  # degrees that normals may be turned, on average over the picture where that is most, at distance 1
+MOST_TILES = 2.0**20  # how often a texture may be repeated
 LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
 _LARGEST = 1e150
 
@@ -257,39 +261,47 @@ class LookMetric:
 
 
 class Worn:
-    """Pictures of an original under a checker, at texture coordinates of corners, shape (m, 6): `spec/look.md`, L 7."""
+    """Pictures of an original under a checker, at texture coordinates, or in colours: `spec/look.md`, L 7 and L 8.
 
-    def __init__(self, mesh: TriangleMesh, places: Matrix, *, threads: int | None = None) -> None:
+    `values` are what corners have, shape (m, 3 c)."""
+
+    def __init__(self, mesh: TriangleMesh, semantic: Semantic, values: Matrix, *, threads: int | None = None) -> None:
         self._metric = LookMetric(mesh.bare, threads=threads, most_pixels=LEAST_PIXELS)
-        self._faces = self._metric._shape.faces
-        self._checker = Checker.on(places, self._metric._placed(mesh.positions), self._faces)
-        self._pictures = self._drawn(self._checker, mesh.positions, self._faces, places, range(len(TOWARDS)))
+        self._faces, self._semantic = self._metric._shape.faces, semantic
+        self._paint = self._painting(values, mesh.positions, self._faces)
+        self._pictures = self._drawn(self._paint, mesh.positions, self._faces, values, range(len(TOWARDS)))
 
-    def distance(self, positions: Positions, places: Matrix, sides: Sequence[int] = range(len(TOWARDS))) -> float:
+    def distance(self, positions: Positions, values: Matrix, sides: Sequence[int] = range(len(TOWARDS))) -> float:
         """How far other positions, and what corners have then, look from the original."""
-        return self._far(self._drawn(self._checker, positions, self._faces, places, sides), sides)
+        return self._far(self._drawn(self._paint, positions, self._faces, values, sides), sides)
 
     def compare(self, other: TriangleMesh) -> float | None:
-        """How far another mesh looks, of whatever faces; None: it has no texture coordinates."""
-        places, faces = texture_places(other), np.ascontiguousarray(other.faces, np.int32)
-        if places is None:
+        """How far another mesh looks, of whatever faces; None: it has no such attribute."""
+        values, faces = worn(other, self._semantic), np.ascontiguousarray(other.faces, np.int32)
+        if values is None:
             return None
-        checker, sides = Checker.on(places, self._metric._placed(other.positions), faces), range(len(TOWARDS))
-        return self._far(self._drawn(checker, other.positions, faces, places, sides), sides)
+        paint, sides = self._painting(values, other.positions, faces), range(len(TOWARDS))
+        return self._far(self._drawn(paint, other.positions, faces, values, sides), sides)
 
-    def _far(self, drawn: Sequence[Picture], sides: Sequence[int]) -> float:
-        pairs = ((self._pictures[side], picture) for side, picture in zip(sides, drawn, strict=True))
-        return math.pow(summed(np.array([difference(*pair) for pair in pairs])).dissimilarity / DISSIMILAR, POWER)
+    def _painting(self, values: Matrix, positions: Positions, faces: Faces) -> Checker | Colours:
+        if self._semantic == "color":
+            return Colours()
+        return Checker.on(values, self._metric._placed(positions), faces)
+
+    def _far(self, drawn: Sequence[list[Picture]], sides: Sequence[int]) -> float:
+        pairs = (zip(self._pictures[side], pictures, strict=True) for side, pictures in zip(sides, drawn, strict=True))
+        sums = np.array([difference(*pair) for side in pairs for pair in side])
+        return math.pow(summed(sums).dissimilarity / DISSIMILAR, POWER)
 
     def _drawn(
-        self, checker: Checker, positions: Positions, faces: Faces, places: Matrix, sides: Sequence[int]
-    ) -> list[Picture]:
+        self, paint: Checker | Colours, positions: Positions, faces: Faces, values: Matrix, sides: Sequence[int]
+    ) -> list[list[Picture]]:
         metric, placed = self._metric, self._metric._placed(np.ascontiguousarray(positions, np.float64))
         normals = Shape.of(placed, faces).normals(placed)
 
-        def drawn(canvas: Canvas, side: int) -> Picture:
+        def drawn(canvas: Canvas, side: int) -> list[Picture]:
             canvas.draw(placed, faces, normals, metric._cameras[side])
-            return checker.over(canvas, placed, faces, metric._cameras[side], places)
+            return paint.over(canvas, placed, faces, metric._cameras[side], values)
 
         return metric._each(drawn, sides)
 
@@ -329,9 +341,24 @@ def own_normals(mesh: TriangleMesh) -> Normals | None:
     return None
 
 
-def texture_places(mesh: TriangleMesh) -> Matrix | None:
-    """Texture coordinates of corners that the mesh has as an attribute, shape (m, 6); None: it has none."""
-    for attribute in mesh.attributes:
-        if attribute.semantic == "texcoord" and attribute.components == 2 and attribute.domain != "face":
-            return np.asarray(at_corners(attribute, mesh.faces), np.float64).reshape(-1, 6)
-    return None
+def worn(mesh: TriangleMesh, semantic: Semantic) -> Matrix | None:
+    """What `Worn` is told of the first attribute that means colours, or texture coordinates; None: there is none."""
+    found = (one for one in mesh.attributes if one.semantic == semantic and is_worn(one))
+    return next((painted(semantic, at_corners(one, mesh.faces)) for one in found), None)
+
+
+def is_worn(one: Attribute) -> bool:
+    """Whether an attribute is seen in pictures: texture coordinates of a plane; and colours, if floats from 0 to 1."""
+    if one.semantic == "color":
+        beyond = one.values.dtype.kind == "f" and np.abs(one.values - 0.5).max(initial=0.0) > 0.5
+        return one.values.dtype.kind != "i" and not beyond
+    plane = one.semantic == "texcoord" and one.components == 2 and one.domain != "face"
+    return plane and float(np.abs(one.values).max(initial=0.0)) <= MOST_TILES
+
+
+def painted(semantic: Semantic, corners: npt.NDArray[Any]) -> Matrix:
+    """Values of corners, shape (m, 3, c), as `Worn` takes them: of colours red, green and blue, from 0 to 1."""
+    if semantic == "color":
+        whole = 1.0 if corners.dtype.kind == "f" else float(np.iinfo(corners.dtype).max)
+        corners = (corners[..., :3] if corners.shape[2] > 2 else corners[..., [0, 0, 0]]) / whole
+    return corners.astype(np.float64).reshape(len(corners), -1)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Matrix, Positions
+from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.welding import weld
@@ -35,11 +35,7 @@ LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
 AIR = 1.03  # the side of the picture over the longer side of what it shows
 LEAST_PIXELS, MOST_PIXELS = 512, 2048
 EDGE_PIXELS = 2.0  # what a mean edge has, where `MOST_PIXELS` allow it
-CHECKS, DARK, TEXELS = (
-    8,
-    0.35,
-    128,
-)  # of a checker: squares of a side, how bright dark ones are, texels of a square's side
+CHECKS, DARK, TEXELS = 8, 0.35, 128  # of a checker: squares a side, how bright dark ones are, texels of their sides
 _GRID = 2.0**24
 _SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}
 _SCRATCH_ROWS, _TILE = 75, 8
@@ -149,28 +145,46 @@ class Checker:
         ratio = np.divide(texels, shown, out=np.zeros(len(faces)), where=shown > 0.0)
         return cls(2.0 * np.floor(TEXELS * 0.5 ** np.rint(0.5 * np.log2(np.maximum(ratio, 1.0)))))
 
-    def over(self, canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, places: Matrix) -> Picture:
+    def over(self, canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, places: Matrix) -> list[Picture]:
         """What a canvas shows in shades, and this texture at places of corners, shape (m, 6), on it."""
-        shown = canvas.owner >= 0
-        owner, (rows, columns) = canvas.owner[shown], np.nonzero(shown)
-        screen = placed @ camera[:12].reshape(3, 4)[:2, :3].T + camera[[3, 7]]
-        a, b, c = (screen[corner].T for corner in faces.T)
-        (bx, by), (cx, cy) = b - a, c - a
-        with np.errstate(divide="ignore", invalid="ignore"):  # what has no area shows nowhere
-            of_face = np.array([*a, *(np.array([cy, -cx, -by, bx]) / (bx * cy - by * cx))])
-        ax, ay, sx, sy, rx, ry = of_face[:, owner]
-        x, y = columns + 0.5 - ax, rows + 0.5 - ay
-        s, r = (x * sx + y * sy).clip(0.0, 1.0), (x * rx + y * ry).clip(0.0, 1.0)
-        first, ways = places[:, :2].T * CHECKS, (places[:, 2:] - np.tile(places[:, :2], 2)).T * CHECKS
-        steepness, waves = self.steepness[owner], np.ones(len(owner))
-        for axis in range(2):
-            at = first[axis][owner] + s * ways[axis][owner] + r * ways[axis + 2][owner]
-            square = np.floor(at)
-            at -= square
-            waves *= np.minimum(np.minimum(at, 1.0 - at) * steepness, 1.0) * (1.0 - 2.0 * np.mod(square, 2.0))
+        shown, owner, at = interpolated(canvas, placed, faces, camera, places * CHECKS)
+        squares = np.floor(at)
+        at -= squares
+        steep = np.minimum(np.minimum(at, 1.0 - at) * self.steepness[owner], 1.0) * (1.0 - 2.0 * np.mod(squares, 2.0))
         picture = canvas.picture.copy()
-        picture[shown] *= 0.5 * (1.0 + DARK - (1.0 - DARK) * waves).astype(np.float32)
-        return picture
+        picture[shown] *= 0.5 * (1.0 + DARK - (1.0 - DARK) * steep[0] * steep[1]).astype(np.float32)
+        return [picture]
+
+
+class Colours:
+    """Colours of corners, interpolated on faces."""
+
+    def over(self, canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, colours: Matrix) -> list[Picture]:
+        """What a canvas shows in shades in red, in green and in blue, given those of corners, shape (m, 9)."""
+        shown, _, at = interpolated(canvas, placed, faces, camera, colours)
+        pictures = [canvas.picture.copy() for _ in at]
+        for picture, bright in zip(pictures, at, strict=True):
+            picture[shown] *= bright.astype(np.float32)
+        return pictures
+
+
+def interpolated(
+    canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, values: Matrix
+) -> tuple[Mask, Indices, Matrix]:
+    """Which pixels of a canvas show a face, which one, and there, a row for each of c, values of corners (m, 3 c)."""
+    shown = canvas.owner >= 0
+    owner, (rows, columns) = canvas.owner[shown], np.nonzero(shown)
+    screen = placed @ camera[:12].reshape(3, 4)[:2, :3].T + camera[[3, 7]]
+    a, b, c = (screen[corner].T for corner in faces.T)
+    (bx, by), (cx, cy) = b - a, c - a
+    with np.errstate(divide="ignore", invalid="ignore"):  # what has no area shows nowhere
+        of_face = np.array([*a, *(np.array([cy, -cx, -by, bx]) / (bx * cy - by * cx))])
+    ax, ay, sx, sy, rx, ry = of_face[:, owner]
+    x, y = columns + 0.5 - ax, rows + 0.5 - ay
+    s, r = (x * sx + y * sy).clip(0.0, 1.0), (x * rx + y * ry).clip(0.0, 1.0)
+    first, second, third = values.reshape(len(faces), 3, -1).transpose(1, 2, 0)
+    each = zip(first, second - first, third - first, strict=True)
+    return shown, owner, np.array([at[owner] + s * one[owner] + r * other[owner] for at, one, other in each])
 
 
 def difference(first: Picture, second: Picture, unlike: Picture = _NOWHERE) -> Matrix:

@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -16,7 +17,8 @@ from bsm.codec.arrays import Order, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference
-from bsm.codec.look.measure import Shading, Worn, own_normals
+from bsm.codec.geometry.welding import row_numbers
+from bsm.codec.look.measure import Shading, Worn, is_worn, own_normals
 from bsm.codec.look.pictures import FEW, Normals
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
@@ -60,8 +62,8 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
-OF_TEXTURES, MOST_TILES = 0.33, 2.0**20
-"""Of the look that is promised, what rounding texture coordinates may take; and how often a texture is repeated."""
+OF_PAINT, LABELS = {"texcoord": 0.33, "color": 0.2}, 256
+"""Of the look that is promised, what rounding colours or texture coordinates may take; so few colours are labels."""
 SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
@@ -204,7 +206,7 @@ class Encoder:
         return self._judged(self._smallest(contract, progress))
 
     def _smallest(self, contract: Contract, progress: Progress | None) -> Draft:
-        """The smallest stream that keeps a contract, under a checker where there are texture coordinates, too."""
+        """The smallest stream that keeps a contract, in colours and under a checker where it has them, too."""
         search = self._search(contract, progress)
         worn = self._worn(contract.look) if search.metric is not None and contract.look < math.inf else []
         asked = contract
@@ -220,24 +222,27 @@ class Encoder:
         return kept
 
     def _worn(self, look: float) -> list[tuple[int, Worn]]:
-        """Which attributes are texture coordinates of which nothing is said, now in as few bits as look right."""
+        """Which attributes are colours or texture coordinates nothing is said of, now as rough as looks right."""
         found = []
         for at, (one, quality) in enumerate(self._wanted):
-            told = {"*", one.name} & {*dict(self.options.attributes)} or quality.way != "bits"
-            plain = one.semantic == "texcoord" and one.components == 2 and one.domain != "face"
-            if told or not plain or np.abs(one.values).max(initial=0.0) > MOST_TILES:
+            told = {"*", one.name} & {*dict(self.options.attributes)} or quality.way not in ("bits", "exact")
+            if told or not is_worn(one):
                 continue
-            exact = self._carry_with(at, Quality("bits", MOST_BITS))[at].at_corners
-            mesh = TriangleMesh(self._prepared.positions, self.mesh.faces)
-            worn, least, most = Worn(mesh, exact, threads=self.options.threads), 1, MOST_BITS
-            while least < most:
-                bits = (least + most) // 2
-                places = self._carry_with(at, Quality("bits", bits))[at].at_corners
-                if worn.distance(mesh.positions, places, FEW) <= OF_TEXTURES * look:
-                    most = bits
-                else:
-                    least = bits + 1
-            self._wanted[at] = one, Quality("bits", most)
+            steps = [Quality("bits", bits) for bits in range(1, MOST_BITS + 1)]
+            if one.semantic == "color":
+                rough = range(0 if kept_whole(one) else 15)
+                steps = [*(Quality("share", 25.0 * 0.5 ** (k / 2)) for k in rough), Quality("exact")]
+            mesh, made = TriangleMesh(self._prepared.positions, self.mesh.faces), partial(self._carry_with, at)
+            worn = Worn(mesh, one.semantic, made(steps[-1])[at].at_corners, threads=self.options.threads)
+            most = OF_PAINT[one.semantic] * look
+
+            low, high = 0, len(steps) - 1
+            while low < high:
+                middle = (low + high) // 2
+                near = worn.distance(mesh.positions, made(steps[middle])[at].at_corners, FEW) <= most
+                low, high = (low, middle) if near else (middle + 1, high)
+            if one.semantic == "texcoord" or made(steps[low])[at].size < self._carried[at].size:
+                self._wanted[at] = one, steps[low]
             found.append((at, worn))
         return found
 
@@ -400,6 +405,12 @@ class Encoder:
     @cached_property
     def _reference(self) -> Reference:
         return Reference(self._prepared.positions, self.mesh.faces)
+
+
+def kept_whole(colours: Attribute) -> bool:
+    """Whether colours are few, so that they tell parts apart, or let shine through what no picture shows."""
+    see_through = colours.components in (2, 4) and np.ptp(colours.values[:, -1]) > 0
+    return bool(see_through or row_numbers(colours.values).max(initial=0) < LABELS)
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:

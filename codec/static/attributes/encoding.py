@@ -22,9 +22,10 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.fields.corners import Corners, corners_of
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Indices, Levels, Matrix, Order
-from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
+from bsm.codec.look.measure import painted
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.attributes.levels import KINDS, PieceEncoder, Words, leans, quantized, restored, to_pieces
 from bsm.codec.static.attributes.quality import Quality
@@ -33,7 +34,7 @@ from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
 
 CHUNK = 1 << 15  # values of a frame
 AGAIN = Quality("bits", 8)  # normals that are the same so are made as one
-SEMANTICS = ("generic", "color", "normal", "texcoord")
+SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,16 +73,20 @@ class PreparedAttribute:
 
     @property
     def at_corners(self) -> Matrix:
-        """What a decoder will have at corners, shape (m, 3 c)."""
-        return np.asarray(restored(self.declaration, self.levels)[self.surface.faces], np.float64).reshape(
-            len(self.surface.faces), -1
-        )
+        """What `Worn` is told that a decoder will have at corners, shape (m, 3 c)."""
+        values, one = restored(self.declaration, self.levels), self.declaration
+        corners = values[:, None].repeat(3, axis=1) if one.domain == FACE else values[self.surface.faces]
+        return painted(SEMANTICS[one.semantic], corners)
 
     def normals(self, positions: Matrix) -> Normals:
         """What normals a decoder will have at corners, shape (m, 9), where it has these positions, shape (n, 3)."""
         again = self.declaration.coding == RECOMPUTED
         values = recomputed(self.surface, positions) if again else restored(self.declaration, self.levels)
         return np.ascontiguousarray(values[self.surface.faces].reshape(-1, 9), np.float32)
+
+    @property
+    def size(self) -> int:
+        return sum(map(len, (self.seams, *self.plain)))
 
     @cached_property
     def plain(self) -> tuple[bytes, ...]:

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.codec.arrays import Positions
-from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
 from bsm.codec.sequence.targets import Runs, compare_runs
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 
 COLORED = ("ply", "obj", "glb")  # formats that hold colours of vertices
+WORN: dict[Semantic, str] = {"texcoord": "under a checker", "color": "in colours"}
 SHOWN = 99.0  # percentile of the distances that has the last colour: single vertices shall not make all others blue
 
 
@@ -74,16 +75,17 @@ def run(args: argparse.Namespace, console: Console) -> None:
         more: dict[str, Any] = {}
         if args.look or args.picture:
             progress.stage("looking from all sides")
-            from bsm.codec.look.measure import LookMetric, Worn, texture_places
+            from bsm.codec.look.measure import LookMetric, Worn, worn
 
             if args.picture:
                 refuse_to_overwrite(args.picture, args.force)
             looker = LookMetric(original)
             seen = looker.compare(decoded)
             more["flat"] = looker.flat(decoded)
-            places = texture_places(original)
-            under = None if places is None else Worn(original, places).compare(decoded)
-            more |= {} if under is None else {"checker": under}
+            for semantic, name in WORN.items():
+                values = worn(original, semantic)
+                under = None if values is None else Worn(original, semantic, values).compare(decoded)
+                more |= {} if under is None else {name.split()[-1]: under}
             if args.picture:
                 write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
         progress.stage("comparing")
@@ -105,7 +107,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
         parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
         lines.append(f"{'look in facets':<19}1 - SSIM {more['flat']:.4g}\n")
-        lines += [f"{'under a checker':<19}{more['checker']:.4g}\n"] if "checker" in more else []
+        lines += [
+            f"{name:<19}{value:.4g}\n" for name in WORN.values() if (value := more.get(name.split()[-1])) is not None
+        ]
     for name, errors in attributes.items():
         said = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
         lines.append(f"{printable(name)}: {'not there any more' if said is None else said}\n")

@@ -14,7 +14,7 @@ from bsm.bitstream.errors import BsmError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.codec.look.measure import Worn, look, texture_places
+from bsm.codec.look.measure import Worn, look, worn
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.events import AttributeEvent, EndEvent, LossEvent
@@ -89,6 +89,9 @@ def compared(given: TriangleMesh, decoded: TriangleMesh, encoder: Encoder) -> di
     return errors
 
 
+EXACT = {"uv": "12bits", "color": "exact"}
+
+
 @pytest.mark.parametrize(
     "options",
     [EncodeOptions(), PRESETS["grid14"], EncodeOptions(keep_order=True), replace(PRESETS["grid14"], keep_order=True)],
@@ -97,7 +100,7 @@ def compared(given: TriangleMesh, decoded: TriangleMesh, encoder: Encoder) -> di
 @pytest.mark.parametrize("shape", [patch(30, 24), torus(), tetrahedron()], ids=["patch", "torus", "tetrahedron"])
 def test_everything_comes_back(shape, options):
     mesh = dressed(shape)
-    encoder = Encoder(mesh, replace(options, normals="keep", attributes={} if options.grid else {"uv": "12bits"}))
+    encoder = Encoder(mesh, replace(options, normals="keep", attributes={} if options.grid else EXACT))
     decoded = decode(encoder.encode())
     errors = compared(mesh, decoded, encoder)
     fine = options.grid is not None
@@ -255,12 +258,43 @@ def test_texture_coordinates_and_shapes_keep_the_look_under_a_checker(preset):
     mesh = replace(mesh, attributes=(atlas(mesh),))
     encoder = Encoder(mesh, PRESETS[preset])
     decoded = decode(encoder.encode())
-    places = texture_places(mesh)
+    places = worn(mesh, "texcoord")
     assert places is not None
-    seen = Worn(mesh, places).compare(decoded)
+    seen = Worn(mesh, "texcoord", places).compare(decoded)
     assert seen is not None and seen <= PRESETS[preset].contract.look + 1e-3
     told = encode(mesh, replace(PRESETS[preset], attributes={"uv": "14bits"}))
     assert np.ptp(decode(told).attributes[0].values) > 0.0 and len(encoder.encode()) < len(told)
+
+
+@pytest.mark.parametrize(("kind", "domain"), [("uint8", "vertex"), ("float32", "corner"), ("uint16", "face")])
+def test_colours_and_shapes_keep_the_look_in_colours(kind, domain):
+    mesh = replace(torus(40, 30), attributes=())
+    shades = 0.5 + 0.45 * np.sin(3 * mesh.positions @ np.array([[1, 2, 0], [0, 1, 3], [2, 0, 1]]))
+    rows = {"vertex": shades, "corner": shades[mesh.faces].reshape(-1, 3), "face": shades[mesh.faces[:, 0]]}[domain]
+    whole = 1 if kind == "float32" else np.iinfo(kind).max
+    colours = Attribute("color", (rows * whole).astype(kind), domain, "color")
+    mesh = replace(mesh, attributes=(colours,))
+    data, told = encode(mesh), encode(mesh, EncodeOptions(attributes={"color": "exact"}))
+    values = worn(mesh, "color")
+    assert values is not None and np.ptp(values) > 0.8
+    seen = Worn(mesh, "color", values).compare(decode(data))
+    assert seen is not None and 0.0 < seen <= 1.0 + 1e-3
+    assert len(data) < 0.8 * len(told)
+
+
+@pytest.mark.parametrize("how", ["few", "shining through", "beyond"])
+def test_colours_that_are_labels_or_in_no_picture_are_kept(how):
+    mesh = replace(torus(40, 30), attributes=())
+    values = np.random.default_rng(0).integers(0, 256, (len(mesh.positions), 4)).astype(np.uint8)
+    if how == "few":
+        values = values[np.arange(len(values)) % 200]
+    if how == "beyond":
+        values = values.astype(np.float32) / 51
+        values[:, 3] = 1
+    mesh = replace(mesh, attributes=(Attribute("color", values, "vertex", "color"),))
+    encoder = Encoder(mesh)
+    off = compared(mesh, decode(encoder.encode()), encoder)["color"]
+    assert off <= (0.0 if how != "beyond" else 5 / 254)
 
 
 def test_textures_that_are_repeated_beyond_all_pictures_are_not_looked_at():
