@@ -22,12 +22,12 @@ from bsm.codec.look.pictures import (
     TOWARDS,
     Canvas,
     Checker,
-    Colours,
     Normals,
     Picture,
     Shape,
     cameras,
     difference,
+    in_colours,
     pixels_for,
 )
 from bsm.codec.threads import Result, ordered_map
@@ -42,6 +42,7 @@ MOST_TILES = 2.0**20  # how often a texture may be repeated
 LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
 _LARGEST = 1e150
 
+Paint = Callable[[Canvas, Positions, Faces, Matrix, Matrix], list[Picture]]
 Shading = Callable[[Positions], Normals]  # normals of corners, where vertices are known
 
 
@@ -283,10 +284,10 @@ class Worn:
         paint, sides = self._painting(values, other.positions, faces), range(len(TOWARDS))
         return self._far(self._drawn(paint, other.positions, faces, values, sides), sides)
 
-    def _painting(self, values: Matrix, positions: Positions, faces: Faces) -> Checker | Colours:
+    def _painting(self, values: Matrix, positions: Positions, faces: Faces) -> Paint:
         if self._semantic == "color":
-            return Colours()
-        return Checker.on(values, self._metric._placed(positions), faces)
+            return in_colours
+        return Checker.on(values, self._metric._placed(positions), faces).over
 
     def _far(self, drawn: Sequence[list[Picture]], sides: Sequence[int]) -> float:
         pairs = (zip(self._pictures[side], pictures, strict=True) for side, pictures in zip(sides, drawn, strict=True))
@@ -294,14 +295,14 @@ class Worn:
         return math.pow(summed(sums).dissimilarity / DISSIMILAR, POWER)
 
     def _drawn(
-        self, paint: Checker | Colours, positions: Positions, faces: Faces, values: Matrix, sides: Sequence[int]
+        self, paint: Paint, positions: Positions, faces: Faces, values: Matrix, sides: Sequence[int]
     ) -> list[list[Picture]]:
         metric, placed = self._metric, self._metric._placed(np.ascontiguousarray(positions, np.float64))
         normals = Shape.of(placed, faces).normals(placed)
 
         def drawn(canvas: Canvas, side: int) -> list[Picture]:
             canvas.draw(placed, faces, normals, metric._cameras[side])
-            return paint.over(canvas, placed, faces, metric._cameras[side], values)
+            return paint(canvas, placed, faces, metric._cameras[side], values)
 
         return metric._each(drawn, sides)
 

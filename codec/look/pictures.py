@@ -156,16 +156,13 @@ class Checker:
         return [picture]
 
 
-class Colours:
-    """Colours of corners, interpolated on faces."""
-
-    def over(self, canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, colours: Matrix) -> list[Picture]:
-        """What a canvas shows in shades in red, in green and in blue, given those of corners, shape (m, 9)."""
-        shown, _, at = interpolated(canvas, placed, faces, camera, colours)
-        pictures = [canvas.picture.copy() for _ in at]
-        for picture, bright in zip(pictures, at, strict=True):
-            picture[shown] *= bright.astype(np.float32)
-        return pictures
+def in_colours(canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, colours: Matrix) -> list[Picture]:
+    """What a canvas shows in shades in red, in green and in blue, given those of corners, shape (m, 9)."""
+    shown, _, at = interpolated(canvas, placed, faces, camera, colours)
+    pictures = [canvas.picture.copy() for _ in at]
+    for picture, bright in zip(pictures, at, strict=True):
+        picture[shown] *= bright.astype(np.float32)
+    return pictures
 
 
 def interpolated(

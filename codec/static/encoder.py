@@ -62,8 +62,7 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
-OF_PAINT, LABELS = {"texcoord": 0.33, "color": 0.2}, 256
-"""Of the look that is promised, what rounding colours or texture coordinates may take; so few colours are labels."""
+OF_PAINT = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
 SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
@@ -408,9 +407,9 @@ class Encoder:
 
 
 def kept_whole(colours: Attribute) -> bool:
-    """Whether colours are few, so that they tell parts apart, or let shine through what no picture shows."""
+    """Whether colours are few, and tell parts apart, or let shine through what no picture shows."""
     see_through = colours.components in (2, 4) and np.ptp(colours.values[:, -1]) > 0
-    return bool(see_through or row_numbers(colours.values).max(initial=0) < LABELS)
+    return bool(see_through or row_numbers(colours.values).max(initial=0) < 1 << 8)
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:
