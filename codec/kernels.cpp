@@ -87,7 +87,7 @@ NB_MODULE(_kernels, m) {
     m.def("pair_distances", &pair_distances, "values"_a, "pairs"_a, "distances"_a, Unlocked());
     m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
     m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
-          "iterations"_a, "free"_a, "offsets"_a, Unlocked());
+          "iterations"_a, "free"_a, "planes"_a, "sums"_a, Unlocked());
     m.def("find_fronts", checked<&find_fronts>, "offsets"_a, "neighbours"_a, "leaf"_a, "most_work"_a, "scratch"_a,
           "rows"_a, "steps"_a, "owners"_a, "firsts"_a, "starts"_a, "borders"_a, "places"_a, "sums"_a,
           Unlocked());

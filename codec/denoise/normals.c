@@ -2,7 +2,6 @@
 #include "codec/denoise/denoise.h"
 #include "codec/denoise/vectors.h"
 
-typedef double Four __attribute__((vector_size(32), aligned(8)));
 typedef struct {
     Four place, guide, normal;
 } Packed;

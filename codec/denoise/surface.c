@@ -137,27 +137,45 @@ void vertex_normals(ConstDoubles2 normals, ConstLongs starts, ConstInts around, 
 }
 
 /* Every iteration moves each free vertex by the mean of its offsets from the planes through its faces' centroids with
- * the given normals, in place and in turn. `offsets` is scratch, one entry a face. */
-void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, ConstDoubles2 normals,
-                    int64_t iterations, ConstBytes free, Doubles offsets) {
+ * the given normals, in place: sum n (o - n . p) = sum n o - (sum n n') p. `planes`, a row of 4 for each face, and `sums`, a
+ * row of 16 for each vertex, are scratch: normal and offset; place and the columns of sum n n'. */
+KERNEL void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around,
+                           ConstDoubles2 normals, int64_t iterations, ConstBytes free, Doubles2 planes, Doubles2 sums) {
+    Four *plane = (Four *)planes.data;
+    for (int64_t f = 0; f < faces.rows; f++) {
+        Vector3 n = row_of(normals.data, f);
+        plane[f] = (Four){n.x, n.y, n.z, 0.0};
+    }
+    for (int64_t v = 0; v < positions.rows; v++) {
+        Four *own = (Four *)sums.data + 4 * v, zero = {0.0};
+        Vector3 p = row_of(positions.data, v);
+        own[0] = (Four){p.x, p.y, p.z, 0.0};
+        own[1] = own[2] = own[3] = zero;
+        for (int64_t k = starts.data[v]; k < starts.data[v + 1]; k++) {
+            Four normal = plane[around.data[k]];
+            for (int axis = 0; axis < 3; axis++) own[axis + 1] += normal * normal[axis];
+        }
+    }
     for (int64_t iteration = 0; iteration < iterations; iteration++) {
         for (int64_t f = 0; f < faces.rows; f++) {
             const int32_t *face = faces.data + 3 * f;
-            Vector3 a = row_of(positions.data, face[0]), b = row_of(positions.data, face[1]);
-            Vector3 c = row_of(positions.data, face[2]);
-            Vector3 sum = {a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
-            offsets.data[f] = dot(row_of(normals.data, f), sum) / 3.0;
+            const Four *place = (Four *)sums.data;
+            Four along = plane[f] * (place[4 * (int64_t)face[0]] + place[4 * (int64_t)face[1]] + place[4 * (int64_t)face[2]]);
+            plane[f][3] = (along[0] + along[1] + along[2]) / 3.0;
         }
         for (int64_t v = 0; v < positions.rows; v++) {
             int64_t first = starts.data[v], last = starts.data[v + 1];
             if (first == last || !free.data[v]) continue;
-            Vector3 place = row_of(positions.data, v), sum = {0.0, 0.0, 0.0};
-            for (int64_t k = first; k < last; k++) {
-                Vector3 normal = row_of(normals.data, around.data[k]);
-                sum = plus_scaled(sum, offsets.data[around.data[k]] - dot(normal, place), normal);
-            }
-            put_row(positions.data, v, plus_scaled(place, 1.0 / (double)(last - first), sum));
+            Four *own = (Four *)sums.data + 4 * v, place = own[0], sum = {0.0};
+            for (int64_t k = first; k < last; k++) sum += plane[around.data[k]] * plane[around.data[k]][3];
+            sum -= own[1] * place[0] + own[2] * place[1] + own[3] * place[2];
+            sum[3] = 0.0;
+            own[0] = place + sum * (1.0 / (double)(last - first));
         }
+    }
+    for (int64_t v = 0; v < positions.rows; v++) {
+        Four place = ((Four *)sums.data)[4 * v];
+        put_row(positions.data, v, (Vector3){place[0], place[1], place[2]});
     }
 }
 

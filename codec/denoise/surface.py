@@ -152,7 +152,8 @@ def follow_normals(
     positions: Positions, topology: Topology, normals: Floats, iterations: int, free: Mask | None = None
 ) -> Positions:
     """Move the vertices until the faces agree with given normals (Sun et al. 2007; equations 12 and 13 of the paper)"""
-    moved, offsets = np.array(positions, dtype=np.float64), np.empty(len(topology.faces))
+    moved = np.array(positions, dtype=np.float64)
+    planes, sums = np.empty((len(topology.faces), 4)), np.empty((topology.n, 16))
     movable = np.ones(len(positions), np.uint8) if free is None else free.astype(np.uint8)
-    _kernels.follow_normals(moved, topology.faces, *topology.around, normals, iterations, movable, offsets)
+    _kernels.follow_normals(moved, topology.faces, *topology.around, normals, iterations, movable, planes, sums)
     return moved

@@ -34,6 +34,7 @@ INLINE Vector3 direction(Vector3 a, Vector3 otherwise) {
 
 /* Additions and products alone: the same to the last bit on every processor. */
 enum { EIGHT = 8 };
+typedef double Four __attribute__((vector_size(32), aligned(8)));
 typedef double Eight __attribute__((vector_size(64)));
 typedef int64_t EightLongs __attribute__((vector_size(64)));
 
