@@ -25,7 +25,7 @@ from bsm.tiles.reading import CARRIED, Kinds, Raw, mapped, table_file
 Ints: TypeAlias = npt.NDArray[np.int64]
 Places: TypeAlias = npt.NDArray[np.int32]
 DEPTH = 10  # levels below the first that has to be cut
-COARSEST = 1 << 15  # triangles of the coarsest level, about
+COARSEST = 1 << 13  # triangles of the coarsest level at most, about: ten kilobytes until a first picture
 _COUNTED = 7  # levels all of whose nodes are counted
 _SAMPLE = 40_000
 _FARTHEST = 1 << 30  # from the origin, in cells

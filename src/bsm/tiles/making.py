@@ -131,7 +131,7 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
     low = places.min(axis=0).astype(np.int64)
     inside = ((rows[:, 1:4] >= low) & (rows[:, 1:4] <= places.max(axis=0))).all(axis=1)
     locked |= np.isin(keys_of(places, low), keys_of(rows[inside, 1:4], low))
-    new, smaller, owners = simplified(places, faces, locked, max(len(faces) // _KEPT, min(COARSEST, most) // 2))
+    new, smaller, owners = simplified(places, faces, locked, max(len(faces) // _KEPT, min(COARSEST, most) // 4))
     apart = farthest_near(places.astype(np.float64), owners, new.astype(np.float64), smaller)
     near = np.zeros(0, np.int64)
     if tables:
