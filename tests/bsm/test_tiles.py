@@ -332,7 +332,7 @@ def test_a_worker_that_is_shot_changes_nothing(mesh, folder, tmp_path):
                 for nanny in cluster.workers.values():
                     if nanny.worker_address in busy and not shot:
                         os.kill(nanny.pid, signal.SIGKILL)
-                        shot.append((tmp_path / "dask" / "manifest.json").exists())
+                        shot.append(json.loads((tmp_path / "dask" / "manifest.json").read_text()).get("complete"))
 
         hunter = threading.Thread(target=shoot)
         hunter.start()

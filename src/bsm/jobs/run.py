@@ -396,7 +396,7 @@ def run_many(
     if run.dask is not None:
         if any("-" in (job.input, job.output) for job in jobs):
             raise OptionError("a pipe does not reach a cluster: name files")
-        jobs = [Job(anywhere(job.input), anywhere(job.output)) for job in jobs]
+        jobs = [replace(job, input=anywhere(job.input), output=anywhere(job.output)) for job in jobs]
     earlier, report = NOTHING, None
     if run.report is not None:
         refuse_to_overwrite(run.report, asked.force or run.resume)
