@@ -1,7 +1,4 @@
-"""Every failure this project reports: one base class, and a class for each thing a caller may want to do about it.
-
-And what to type where a library is missing, and how what users import is called.
-"""
+"""Every failure this project reports: one base class, and a class for each thing a caller may want to do about it."""
 
 from __future__ import annotations
 
@@ -38,10 +35,7 @@ class BsmError(Exception):
     def __init__(
         self, message: str, *, offset: int | None = None, frame: int | None = None, block: int | None = None
     ) -> None:
-        self.message = message
-        self.offset = offset
-        self.frame = frame
-        self.block = block
+        self.message, self.offset, self.frame, self.block = message, offset, frame, block
         super().__init__(message)
 
     def located(self, *, offset: int | None = None, frame: int | None = None, block: int | None = None) -> BsmError:
@@ -212,11 +206,9 @@ class DependencyError(BsmError, ImportError):
     """
 
 
-# Tracebacks show them by the name that users catch them by.
 for _error in (BsmError, *BsmError.__subclasses__()):
-    _error.__module__ = __name__.partition(".")[0]
+    _error.__module__ = __name__.partition(".")[0]  # tracebacks show them by the name that users catch them by
 del _error
-
 
 Kind = TypeVar("Kind", bound=type)
 
@@ -225,6 +217,12 @@ def public(kind: Kind) -> Kind:
     """Let a type be printed and pickled by the name that users import it by, ``bsm.TriangleMesh`` for instance."""
     kind.__module__ = __name__.partition(".")[0]
     return kind
+
+
+def counted(**counts: int) -> str:
+    """2 vertices, 1 face."""
+    single = {"vertices": "vertex"}
+    return ", ".join(f"{n} {single.get(what, what[:-1]) if n == 1 else what}" for what, n in counts.items())
 
 
 DISTRIBUTION = "bsm-codec"
@@ -255,7 +253,6 @@ def how_to_install(extra: str) -> str:
         url = f"{source['vcs_info']['vcs']}+{url}@{source['vcs_info']['commit_id']}"
     editable = "-e " if source.get("dir_info", {}).get("editable") else ""
     if url.startswith("file://") and "dir_info" in source:
-        # The folder behind a file's URL.
         from urllib.parse import urlsplit
         from urllib.request import url2pathname
 

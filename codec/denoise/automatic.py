@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.errors import counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
@@ -104,7 +105,7 @@ class AutomaticChoice:
             return choice
         if lengths:
             return replace(choice, kind="ripples", reason=ripples.description)
-        return replace(choice, kind="outliers", reason=f"{count} vertices that stood out by themselves")
+        return replace(choice, kind="outliers", reason=f"{counted(vertices=count)} that stood out")
 
 
 def denoise_automatically(

@@ -14,7 +14,7 @@ from bsm.bitstream.container.header import FREE_COPIES, MOST_COPIES, Header
 from bsm.bitstream.container.packets import Packet
 from bsm.bitstream.container.splits import Splits, encode_order
 from bsm.bitstream.container.writer import Writer
-from bsm.bitstream.errors import MeshError, OptionError
+from bsm.bitstream.errors import MeshError, OptionError, counted
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Mask, Matrix, Order, Positions
 from bsm.codec.blocks.overlap import Blocks, Partition, block_size, derive_partition, grow_blocks, metis_partition
@@ -78,11 +78,11 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
     elif keep and merged:
         splits = Splits(index[given], (np.cumsum(given) - 1)[mesh.faces].astype(np.int32), np.zeros((0, 3)))
     if merged and not keep:
-        notes.append(f"{merged} vertices were merged with others at the same position")
+        notes.append(f"merged {counted(vertices=merged)} with others at the same position")
     if collapsed.any():
-        notes.append(f"{int(collapsed.sum())} faces without area were left out")
+        notes.append(f"left out {counted(faces=int(collapsed.sum()))} without area")
     if loose and not (keep and keep_loose):
-        notes.append(f"{loose} vertices that no face uses were left out")
+        notes.append(f"left out {counted(vertices=loose)} that no face uses")
     mesh = TriangleMesh(mesh.positions[first], index[mesh.faces[kept]])
     return JoinedMesh(mesh, index, first, kept, splits, tuple(notes))
 
@@ -228,7 +228,7 @@ def prepare(
         face_order=np.arange(len(used.faces)) if keep_order else connectivity.face_order.astype(np.int64),
         coding_faces=connectivity.face_order.astype(np.int64),
         given=vertices if splits is None else len(splits.source),
-        notes=(f"{dropped} vertices that no face uses were left out",) if dropped else (),
+        notes=(f"left out {counted(vertices=dropped)} that no face uses",) if dropped else (),
         joined_faces=mesh.faces,
         light=light,
     )

@@ -15,19 +15,8 @@ from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.events import AttributeEvent
 from tools.vectors.__main__ import try_command, try_product
-from tools.vectors.bad import BAD
 from tools.vectors.bad_attributes import BAD_ATTRIBUTES
-from tools.vectors.bad_fields import BAD_FIELDS
-from tools.vectors.bad_light import BAD_LIGHT
-from tools.vectors.bad_sequences import BAD_SEQUENCES
-from tools.vectors.bounds import BOUNDS, BOUNDS_BAD
-from tools.vectors.edges import EDGES, EDGES_BAD
-from tools.vectors.exact import BAD_EXACT, EXACT
-from tools.vectors.good import STATIC
-from tools.vectors.good_attributes import ATTRIBUTES
-from tools.vectors.good_fields import FIELDS
-from tools.vectors.good_light import LIGHT
-from tools.vectors.good_sequences import SEQUENCES
+from tools.vectors.made import BADS, GOODS
 from tools.vectors.store import FOLDER, Vector, arrays_of, read_manifest
 
 VECTORS = read_manifest()
@@ -79,28 +68,7 @@ def test_reference_decoder(vector, reference):
 
 def test_every_vector_has_its_files_and_every_file_is_a_vector():
     names = {vector.name for vector in VECTORS}
-    assert (
-        names
-        == {path.stem for path in FOLDER.parent.glob("*/*.bsm")}
-        == {
-            *STATIC,
-            *FIELDS,
-            *LIGHT,
-            *EXACT,
-            *ATTRIBUTES,
-            *SEQUENCES,
-            *BAD,
-            *BAD_FIELDS,
-            *BAD_LIGHT,
-            *BAD_EXACT,
-            *BAD_ATTRIBUTES,
-            *BAD_SEQUENCES,
-            *EDGES,
-            *EDGES_BAD,
-            *BOUNDS,
-            *BOUNDS_BAD,
-        }
-    )
+    assert names == {path.stem for path in FOLDER.parent.glob("*/*.bsm")} == GOODS.keys() | BADS.keys()
     assert {vector.name for vector in GOOD} == {path.stem for path in FOLDER.parent.glob("*/*.npz")}
 
 

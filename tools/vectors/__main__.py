@@ -118,33 +118,19 @@ def try_command(vector: Vector, command: str) -> str | None:
 
 def write() -> int:
     """Make the vectors that no earlier version has; write none if the decoder does not treat one as it should."""
-    from tools.vectors.bad import BAD
-    from tools.vectors.bad_attributes import BAD_ATTRIBUTES
-    from tools.vectors.bad_fields import BAD_FIELDS
-    from tools.vectors.bad_light import BAD_LIGHT
-    from tools.vectors.bad_sequences import BAD_SEQUENCES
-    from tools.vectors.bounds import BOUNDS, BOUNDS_BAD
-    from tools.vectors.edges import EDGES, EDGES_BAD
-    from tools.vectors.exact import BAD_EXACT, EXACT
-    from tools.vectors.good import STATIC
-    from tools.vectors.good_attributes import ATTRIBUTES
-    from tools.vectors.good_fields import FIELDS
-    from tools.vectors.good_light import LIGHT
-    from tools.vectors.good_sequences import SEQUENCES
+    from tools.vectors.made import BADS, GOODS
 
     streams: dict[Vector, bytes] = {}
     meshes = {}
     settled = {vector.name for vector in read_manifest() if vector.folder != NEXT}
-    for name, good in {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **LIGHT, **EXACT, **EDGES, **BOUNDS}.items():
+    for name, good in GOODS.items():
         if name in settled:
             continue
         vector = Vector(name, good.probes, folder=NEXT)
         streams[vector] = vector.stream.read_bytes() if vector.stream.is_file() else good.make()
         decoder = _decode_sequence if "-sequence" in name else _decode_static
         meshes[vector] = decoder(streams[vector])
-    wrong = {**BAD, **BAD_FIELDS, **BAD_SEQUENCES, **BAD_ATTRIBUTES, **BAD_LIGHT, **BAD_EXACT, **EDGES_BAD}
-    wrong |= BOUNDS_BAD
-    for name, bad in wrong.items():
+    for name, bad in BADS.items():
         if name in settled:
             continue
         vector = Vector(name, bad.probes, bad.error, NEXT)

@@ -19,11 +19,13 @@ from tools.surgery import header_frame, stream_of
 from tools.vectors.bad import Bad
 from tools.vectors.good import Good
 from tools.vectors.good_fields import base
-from tools.vectors.meshes import hub, patch, tangled, together, torus
+from tools.vectors.meshes import hub, patch, tangled, tent, together, torus, triangle
 
 ASKED = 73786976294838435356
 """Bits behind the first: predictions that hit or miss, after which the chance of a hit is 699050 of 2^22, no more."""
 MOST = (1 << 20) - 1
+TILTED = "700302200031320344"
+"""Which of its three values are the largest and not 0, of each vertex of a tent, so that V 9.3 comes beyond 2^26."""
 
 
 def _asked() -> bytes:
@@ -73,6 +75,23 @@ def _levels(mesh: TriangleMesh, seed: int, growth: int) -> bytes:
     return write_stream(packets)
 
 
+def _tilted() -> bytes:
+    """Ends of the largest grid, whose last vertices are far from the planes of eight flaps, and were so before."""
+    coded = encode_connectivity(together(*[tent(4)] * 8).faces, 8 * 18)
+    ends = np.array([[int(d) >> 2 & 1, int(d) >> 1 & 1, int(d) & 1] for d in 8 * TILTED], np.int32)
+    return stream_of(gridded(coded, MOST * ends, [len(ends)], grid=[MOST, MOST, MOST]))
+
+
+def _grown(growth: int) -> bytes:
+    """Triangles on their own, whose second levels are so many times the first."""
+    mesh = together(*[triangle()] * 24)
+    made = base(mesh)
+    levels = np.tile([[300] * 3, [300 * growth] * 3, [150 * growth * (1 + growth)] * 3], (24, 1)).astype(np.int32)
+    data = FieldEncoder(levels_field(made.prepared.mesh.faces, 72), levels).chunk(72)
+    header = replace(made.draft.header, refinement=(2.0**-20, 3.0))
+    return write_stream([header, *made.draft.body, Refinement(0, 72, data)])
+
+
 def _counts(faces: int, degenerate: int, lonely: int, fans: int, dummies: int) -> bytes:
     """Faces that end behind their counts."""
     vertices = min(3 * faces, fans + lonely)
@@ -103,6 +122,9 @@ BOUNDS: dict[str, Good] = {
     "good-refined-steep-turned": Good(
         "levels that grow so and change their sign", lambda: _levels(torus(24, 16), 5, -8)
     ),
+    "good-grid-tilted": Good("a vertex farther from a plane than terms may be (V 6.1)", _tilted),
+    "good-refined-grown": Good("weights at their upper bound (V 6.2)", lambda: _grown(20)),
+    "good-refined-grown-turned": Good("weights at their lower bound", lambda: _grown(-20)),
 }
 BOUNDS_BAD: dict[str, Bad] = {
     "bad-counts-lonely": Bad(

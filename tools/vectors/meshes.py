@@ -80,16 +80,16 @@ def hub() -> TriangleMesh:
     return TriangleMesh(np.concatenate([ring, [[0.0, 0.0, 0.5]]]), faces)
 
 
-def tent() -> TriangleMesh:
-    """A patch, and two vertices over every second edge along its boundary, which come last, with 72 corners each.
+def tent(side: int = 19) -> TriangleMesh:
+    """A patch, and two vertices over every second edge along its boundary, which come last, with as many corners.
 
-    All edges to the first of them are its own, so it sees no flap when it comes, and the second one sees 72.
+    All edges to the first of them are its own, so it sees no flap when it comes, and the second one sees all.
     """
-    base = patch(19, 19)
-    number = np.arange(361).reshape(19, 19)
+    base, size = patch(side, side), side * side
+    number = np.arange(size).reshape(side, side)
     around = np.concatenate([number[0, :-1], number[:-1, -1], number[-1, :0:-1], number[:0:-1, 0]])
-    upper = np.stack([np.full(72, 361), around, np.roll(around, -2)], -1)
-    lower = np.stack([np.full(72, 362), np.roll(around, -2), around], -1)
+    upper = np.stack([np.full(len(around), size), around, np.roll(around, -2)], -1)
+    lower = np.stack([np.full(len(around), size + 1), np.roll(around, -2), around], -1)
     tips = [[0.5, 0.6, 1.0], [0.4, 0.7, -0.8]]
     return TriangleMesh(
         np.concatenate([base.positions, tips]), np.concatenate([base.faces, upper, lower]).astype(np.int32)

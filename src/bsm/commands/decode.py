@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError, counted
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
@@ -105,7 +105,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     if left_out:
         console.note(f"{args.input}: {kind} cannot hold {', '.join(left_out)}")
     written, taken, vertices, faces = len(file.data), size_of(args.input), len(mesh.positions), len(mesh.faces)
-    counts = f"{vertices} vertices, {faces} faces, {came_to(taken, written)}, {seconds:.2f} s"
+    counts = f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, written)}, {seconds:.2f} s"
     console.note(f"{args.input} -> {output}: {counts}")
     facts = {"input": args.input, "output": output, "vertices": vertices, "faces": faces}
     return facts | {"input_bytes": taken, "output_bytes": written, "seconds": seconds, "left_out": list(left_out)}
@@ -162,7 +162,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     facts = {"frames": count, "vertices": vertices, "faces": header.faces}
     if stream.run_starts:
         console.note(f"{args.input}: {streams.said_of_runs(stream.run_starts)}")
-    counts = f"{count} frames of {vertices} vertices, {header.faces} faces"
+    counts = f"{counted(frames=count)} of {counted(vertices=vertices, faces=header.faces)}"
     console.note(f"{args.input} -> {output}: {counts}, {seconds:.2f} s")
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}
     return {"input": args.input, "output": output, **facts, **sizes, "seconds": seconds}

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.commands.flags import add_inputs, add_reader_flag, asked, refuse_two_on_one_pipe
 from bsm.console import Console
@@ -138,7 +138,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     moves = np.linalg.norm(positions - mesh.positions, axis=1)
     touched, farthest = int((moves > 0.0).sum()), float(moves.max(initial=0.0))
     mean = float(moves[moves > 0.0].mean()) if touched else 0.0
-    who = "all vertices" if touched == len(moves) else f"{touched} of {len(moves)} vertices"
+    who = "all vertices" if touched == len(moves) else f"{touched} of {counted(vertices=len(moves))}"
     how = f"by {length(mean, unit)} on average, {length(farthest, unit)} at most"
     console.note(f"moved      {who}, {how}" if touched else "moved      no vertex")
     seconds = time.perf_counter() - begin
@@ -152,7 +152,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     left_out = save_written(args.output, file, overwrite=args.may_replace(args.output), overwrite_beside=args.force)
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")
-    console.note(f"{args.input}: {len(mesh.positions)} vertices -> {args.output}, {seconds:.2f} s")
+    console.note(f"{args.input}: {counted(vertices=len(mesh.positions))} -> {args.output}, {seconds:.2f} s")
     return {**_result((len(positions), len(mesh.faces), 1), seconds, denoiser.choice, options), **more}
 
 
@@ -181,7 +181,7 @@ def _denoise_sequence(
                     console.note(line)
     seconds = time.perf_counter() - begin
     console.note(
-        f"{args.input}: {count} frames of {len(first)} vertices -> {args.output}, "
+        f"{args.input}: {counted(frames=count)} of {counted(vertices=len(first))} -> {args.output}, "
         f"{seconds:.2f} s, {1e3 * seconds / count:.0f} ms a frame"
     )
     return _result((len(first), len(source.faces), count), seconds, denoiser.choice, options)
@@ -200,7 +200,7 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
         return []
     lines = []
     if choice.outliers:
-        lines.append(f"put back   {choice.outliers} vertices that stood out by themselves")
+        lines.append(f"put back   {counted(vertices=choice.outliers)} that stood out")
     if choice.ripples:
         waves = ", ".join(f"{length * edge:.2g}" for length in choice.ripples)
         lines.append(f"took away  waves of {waves} {unit}".rstrip() + " across the whole mesh")

@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from bsm.bitstream.errors import FormatError, OptionError
+from bsm.bitstream.errors import FormatError, OptionError, counted
 from bsm.codec.threads import available_threads
 from bsm.commands.flags import asked, point
 from bsm.console import Console, print_json
@@ -88,8 +88,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     manifest = write_shards(args.output, plan, done, os.path.basename(args.input), overwrite=over)
     taken, given = size_of(args.input), sum(shard["size"] for shard in manifest["shards"])
     console.note(
-        f"{args.input} -> {args.output}: {plan.vertices} vertices, {plan.faces} faces, {len(done)} tiles in "
-        f"{len(manifest['levels'])} levels, on a grid of {plan.lattice.cell:g}, {came_to(taken, given)}"
+        f"{args.input} -> {args.output}: {counted(vertices=plan.vertices, faces=plan.faces, tiles=len(done))} in "
+        f"{counted(levels=len(manifest['levels']))}, on a grid of {plan.lattice.cell:g}, {came_to(taken, given)}"
     )
     shutil.rmtree(work)
     if args.tileset:

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError, counted
 from bsm.commands.flags import add_limits_flag, limits_of
 from bsm.console import Console
 from bsm.files.mesh import write_mesh
@@ -52,7 +52,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
             raise OptionError(f"{TILESET} is of all tiles: no --box, --level or --error")
         folder = args.output[: -len(TILESET)].rstrip("/") or "."
         count = write_tileset(tiles, folder, console, content=args.content, overwrite=args.force)
-        console.note(f"{args.input} -> {args.output}: {count} tiles as GLB")
+        console.note(f"{args.input} -> {args.output}: {counted(tiles=count)} as GLB")
         return
     if args.box is None and (args.output == "-" or Path(args.output).suffix.lower() == ".ply"):
         refuse_terminal(args.output)

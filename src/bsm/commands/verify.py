@@ -3,6 +3,7 @@
 import argparse
 from dataclasses import dataclass
 
+from bsm.bitstream.errors import counted
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console
 from bsm.exits import worded
@@ -41,9 +42,8 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
         if not args.quick:
             decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
     checked = not args.quick and info.checksum is not None
-    said = ", positions as the encoder saw them" if checked else ""
-    size = info.sizes["total"]
-    console.note(f"{args.input}: whole, {info.header.blocks} blocks, {size} bytes{said}")
+    said, size = ", positions as the encoder saw them" if checked else "", info.sizes["total"]
+    console.note(f"{args.input}: whole, {counted(blocks=info.header.blocks)}, {size} bytes{said}")
     return {"input": args.input, "ok": True, "decoded": not args.quick, "checked": checked, "bytes": size}
 
 
@@ -57,5 +57,5 @@ def _verify_tiles(args: VerifyJob, console: Console) -> Facts:
     if faults:
         raise faults[0]
     count, size = (sum(shard[name] for shard in tiles.manifest["shards"]) for name in ("tiles", "size"))
-    console.note(f"{args.input}: whole, {count} tiles, {size} bytes")
+    console.note(f"{args.input}: whole, {counted(tiles=count)}, {size} bytes")
     return {"input": args.input, "ok": True, "decoded": not args.quick, "bytes": size}

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.container.reader import Signal
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import OptionError, counted
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.comparison import write_permutation
@@ -100,7 +100,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         console,
         notes,
         encoder.vertex_order,
-        f"{vertices} vertices, {faces} faces, {came_to(taken, size)}, "
+        f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, size)}, "
         f"{bpv:.2f} bits per vertex; farthest vertex {100 * error.max_error_relative:.3g} % of the "
         f"diagonal, normals {error.angle_deg:.2f} degrees, "
         f"{error.nmsve_db:.2f} dB; {seconds:.2f} s",
@@ -145,7 +145,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         console,
         notes,
         encoder.vertex_order,
-        f"{echo.frames} frames of {vertices} vertices, {faces} faces{' at the end' if runs else ''}, "
+        f"{counted(frames=echo.frames)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
         f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {echo.kg:.3g} %, {seconds:.2f} s",
     )
     counts = {"input": job.input, "output": job.output, "frames": echo.frames, "vertices": vertices, "faces": faces}

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
 from bsm import __version__
-from bsm.bitstream.errors import FormatError, OptionError
+from bsm.bitstream.errors import FormatError, OptionError, counted
 from bsm.console import Console, print_json
 from bsm.exits import behind, exit_of, is_expected, tell, worded
 from bsm.files import pipes
@@ -378,7 +378,7 @@ def run_jobs(
     sizes = f", {came_to(taken, given)}" if taken and given else ""
     for line in table(done) if run.report is not None else ():
         console.note(line)
-    console.note(f"{len(good)} of {len(done)} files{sizes}, {time.perf_counter() - begin:.2f} s")
+    console.note(f"{len(good)} of {counted(files=len(done))}{sizes}, {time.perf_counter() - begin:.2f} s")
     if run.json:
         print_json({"files": done})
     return next((facts["exit"] for facts in done if "error" in facts), 0)

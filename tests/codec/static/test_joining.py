@@ -26,7 +26,7 @@ def test_soup_becomes_the_surface_that_it_is() -> None:
     mesh = torus(20, 12)
     encoder = Encoder(soup(mesh))
     assert len(encoder.mesh.positions) == len(mesh.positions)
-    assert encoder.notes == ("1200 vertices were merged with others at the same position",)
+    assert encoder.notes == ("merged 1200 vertices with others at the same position",)
     assert len(encoder.encode()) < 1.2 * len(Encoder(mesh).encode())
 
 
@@ -52,7 +52,7 @@ def test_faces_that_lose_their_area_are_left_out_unless_none_would_be_left() -> 
     corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 0)]
     joined = join(TriangleMesh(corners, [(0, 1, 2), (0, 3, 1)]), keep=False)
     assert len(joined.mesh.faces) == 1
-    assert joined.notes[1] == "1 faces without area were left out"
+    assert joined.notes[1] == "left out 1 face without area"
     assert len(join(TriangleMesh(corners, [(0, 3, 1)]), keep=False).mesh.faces) == 1
     assert len(join(TriangleMesh(corners, [(0, 1, 2), (0, 3, 1)]), keep=True).mesh.faces) == 2
 
