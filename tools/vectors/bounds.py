@@ -3,29 +3,74 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from bsm.bitstream.connectivity.faces import RARE_HEADER, code_rare, encode_connectivity, make_models
 from bsm.bitstream.container.packets import Packet, Refinement
-from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.container.wire import MAGIC, VERSION, FrameType, write_frame, write_map
 from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.fields.corners import FieldEncoder
 from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.geometry.mesh import TriangleMesh
 from tools.gridded import gridded
-from tools.surgery import header_frame, stream_of
+from tools.surgery import frames_of, header_frame, stream_of
 from tools.vectors.bad import Bad
 from tools.vectors.good import Good
 from tools.vectors.good_fields import base
-from tools.vectors.meshes import hub, patch, tangled, tent, together, torus, triangle
+from tools.vectors.meshes import hub, patch, tangled, tent, tetrahedron, together, torus, triangle
 
 ASKED = 73786976294838435356
 """Bits behind the first: predictions that hit or miss, after which the chance of a hit is 699050 of 2^22, no more."""
 MOST = (1 << 20) - 1
 TILTED = "700302200031320344"
 """Which of its three values are the largest and not 0, of each vertex of a tent, so that V 9.3 comes beyond 2^26."""
+
+
+def _gridded(faces: npt.ArrayLike, values: npt.NDArray[np.integer]) -> bytes:
+    coded = encode_connectivity(np.asarray(faces, np.int32), len(values))
+    return stream_of(gridded(coded, values.astype(np.int32), [len(values)]))
+
+
+def _any(mesh: TriangleMesh, most: int) -> bytes:
+    """Values that know nothing of each other."""
+    return _gridded(mesh.faces, np.random.default_rng(1).integers(0, most, mesh.positions.shape))
+
+
+def _knot(seed: int, vertices: int, count: int) -> bytes:
+    """Faces of any three vertices: each has many fans."""
+    random = np.random.default_rng(seed)
+    faces = random.integers(0, vertices, (3 * count, 3))
+    faces = faces[np.all(faces != np.roll(faces, 1, 1), axis=1)][:count]
+    used, faces = np.unique(faces, return_inverse=True)
+    return _gridded(faces.reshape(-1, 3), random.integers(0, 10, (len(used), 3)))
+
+
+def _nested() -> bytes:
+    """Triangles that are cut in three, the first of them more often: vertices of high valence side by side."""
+    random, faces = np.random.default_rng(2), [[0, 1, 2], [0, 2, 1]]
+    for v in range(3, 150):
+        chosen = int(random.integers(len(faces))) if random.random() < 0.5 else int(np.argmin([sum(f) for f in faces]))
+        a, b, c = faces.pop(chosen)
+        faces += [[a, b, v], [b, c, v], [c, a, v]]
+    return _gridded(faces, random.integers(0, 10, (150, 3)))
+
+
+def _tetrahedra() -> bytes:
+    """Their last vertices are near where the other three say."""
+    random = np.random.default_rng(1)
+    values = random.integers(0, 30, (48, 3))
+    values[3::4] = values[0::4] + values[1::4] - values[2::4] + random.integers(0, 3, (12, 3))
+    return _gridded(together(*[tetrahedron()] * 12).faces, abs(values))
+
+
+def _header(**values: Any) -> bytes:
+    """A header, and nothing behind it."""
+    return MAGIC + bytes([VERSION]) + write_frame(*header_frame(**values))
 
 
 def _asked() -> bytes:
@@ -92,6 +137,11 @@ def _grown(growth: int) -> bytes:
     return write_stream([header, *made.draft.body, Refinement(0, 72, data)])
 
 
+def _metadata() -> bytes:
+    header, *others = frames_of(_any(triangle(), 3))
+    return stream_of([header, (FrameType.METADATA, write_map([(f"{i:02x}", i) for i in range(256)])), *others])
+
+
 def _counts(faces: int, degenerate: int, lonely: int, fans: int, dummies: int) -> bytes:
     """Faces that end behind their counts."""
     vertices = min(3 * faces, fans + lonely)
@@ -104,6 +154,34 @@ def _counts(faces: int, degenerate: int, lonely: int, fans: int, dummies: int) -
     return stream_of([header, (FrameType.CONNECTIVITY, payload)])
 
 
+BLOCKS = {"vertices": 1 << 24, "faces": 1 << 25, "blocks": 1 << 12, "block_size": 8192, "coefficients": 4096}
+GRID = {"vertices": 3, "faces": 1}
+LEGAL: dict[str, dict[str, Any]] = {
+    "limits": BLOCKS,
+    "blocks": BLOCKS | {"blocks": 1 << 17, "block_size": 2048, "coefficients": 2048},
+    "parts": {"vertices": 4, "faces": 4, "blocks": 4, "block_size": 4, "coefficients": 4},
+    "refinement": BLOCKS | {"refinement": [2.0**-40, 1 / 16]},
+    "refinement-largest": BLOCKS | {"refinement": [1.0, 64.0]},
+    "corner": GRID | {"grid": [(1 << 20) - 1] * 3, "corner": [-(2**31), 2**31 - 1, 0]},
+    "center": GRID | {"grid": [1, 1, 1], "center": [1e300, -1e300, 0.0], "scale": 1e300},
+}
+ILLEGAL: dict[str, tuple[str, dict[str, Any]]] = {
+    "vertices": ("limit", GRID | {"vertices": (1 << 24) + 1, "faces": 1 << 25, "grid": [1, 1, 1]}),
+    "faces": ("limit", GRID | {"faces": (1 << 25) + 1, "grid": [1, 1, 1]}),
+    "count-limit": ("limit", GRID | {"faces": 2**31 - 1, "grid": [1, 1, 1]}),
+    "count": ("corrupt", GRID | {"faces": 2**31, "grid": [1, 1, 1]}),
+    "blocks": ("limit", BLOCKS | {"blocks": (1 << 17) + 1, "block_size": 2047, "coefficients": 2047}),
+    "block-size": ("limit", BLOCKS | {"block_size": 8193}),
+    "coefficients": ("limit", BLOCKS | {"coefficients": 4097}),
+    "grid": ("corrupt", GRID | {"grid": [1 << 20, 1, 1]}),
+    "corner-low": ("corrupt", GRID | {"grid": [1, 1, 1], "corner": [-(2**31) - 1, 0, 0]}),
+    "corner-high": ("corrupt", GRID | {"grid": [1, 1, 1], "corner": [0, 2**31, 0]}),
+    "center": ("corrupt", GRID | {"grid": [1, 1, 1], "center": [1.01e300, 0.0, 0.0]}),
+    "center-low": ("corrupt", GRID | {"grid": [1, 1, 1], "center": [-1.01e300, 0.0, 0.0]}),
+    "scale": ("corrupt", GRID | {"grid": [1, 1, 1], "scale": 1.01e300}),
+    "refinement": ("corrupt", BLOCKS | {"refinement": [2.0**-41, 1 / 16]}),
+    "refinement-ratio": ("corrupt", BLOCKS | {"refinement": [2.0**-40, 1 / 17]}),
+}
 BOUNDS: dict[str, Good] = {
     "good-grid-asks": Good("a question whose chance is the least that is asked (V 5.4)", _asked),
     "good-grid-bounds": Good("any values on the largest grid", lambda: _noise(together(torus(16, 12), hub()), 1)),
@@ -123,6 +201,15 @@ BOUNDS: dict[str, Good] = {
         "levels that grow so and change their sign", lambda: _levels(torus(24, 16), 5, -8)
     ),
     "good-grid-tilted": Good("a vertex farther from a plane than terms may be (V 6.1)", _tilted),
+    "good-grid-knot": Good("any faces of 24 vertices (C 7)", lambda: _knot(8, 24, 90)),
+    "good-grid-knot-small": Good("any faces of 10 vertices", lambda: _knot(1, 10, 60)),
+    "good-grid-nested": Good("high valences side by side (C 5.4)", _nested),
+    "good-grid-tetrahedra": Good("flaps beside the vertex in question (V 8.3)", _tetrahedra),
+    "good-grid-noise": Good("contexts that are met more than 400 times (V 4.5)", lambda: _any(torus(40, 40), 40)),
+    "good-grid-sparse": Good(
+        "values at the ends of where they are looked for (V 8.7)", lambda: _any(torus(22, 22), 112_000)
+    ),
+    "good-metadata-most": Good("256 entries, as many as may be", _metadata),
     "good-refined-grown": Good("weights at their upper bound (V 6.2)", lambda: _grown(20)),
     "good-refined-grown-turned": Good("weights at their lower bound", lambda: _grown(-20)),
 }
@@ -138,4 +225,15 @@ BOUNDS_BAD: dict[str, Bad] = {
     "bad-counts-dummies": Bad(
         "more loops than corners, and no face behind the counts", "corrupt", lambda: _counts(2000, 0, 0, 1000, 6001)
     ),
+    "unsupported-version-alone": Bad("a later version, in five bytes", "unsupported", lambda: MAGIC + b"\x20"),
+    **{
+        f"bad-header-{name}": Bad(
+            "a header that is legal to the last bit, alone", "truncated", partial(_header, **values)
+        )
+        for name, values in LEGAL.items()
+    },
+    **{
+        f"bad-header-{name}-more": Bad("one more than is legal", error, partial(_header, **values))
+        for name, (error, values) in ILLEGAL.items()
+    },
 }
