@@ -26,9 +26,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tools.pythons import pythons
-from tools.release.engine import make_archive, make_crate, make_suite
+from tools.release.engine import STREAM, make_archive, make_crate, make_suite
 from tools.release.npm import make_npm
-from tools.release.trial import try_wheel
+from tools.release.trial import try_newcomer, try_wheel
 from tools.release.versions import check_versions, notes
 from tools.release.wheels import ARM, INTEL, clean, make_sdist, make_wheel
 
@@ -90,7 +90,9 @@ def make(
         if "wheels" in only:
             for number, python in found.items() if tests is not None else ():
                 say(f"trying Python {number[0]}.{number[1]}")
-                try_wheel(next(path for path in made if fits(path, number)), python, sources, list(tests or ()))
+                wheel = next(path for path in made if fits(path, number))
+                try_wheel(wheel, python, sources, list(tests or ()))
+                try_newcomer(wheel, (sources / "docs/install.md").read_text(), sources / STREAM, python)
             made.append(make_list(made[1], builders[0], output))
         if "npm" in only:
             made.append(make_npm(sources, ROOT, output))

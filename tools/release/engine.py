@@ -14,12 +14,17 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
+from tools.release.trial import try_newcomer
 from tools.release.wheels import clean
 
+STREAM = "spec/vectors/1.0/good-tetrahedron.bsm"
 EXAMPLES = ("obj.c", "frames.cpp")
 README = """# bsmdec: decoder of BSM streams of triangle meshes and their sequences
 
-    cc -O2 -ffp-contract=off obj.c bsmdec.c -lm -o obj && ./obj mesh.bsm > mesh.obj
+From the archive to a mesh, beside it:
+
+    tar xf bsmdec-*.tar.gz
+    cc -O2 -ffp-contract=off bsmdec-*/obj.c bsmdec-*/bsmdec.c -lm -o obj && ./obj mesh.bsm > mesh.obj
 
 `bsmdec.h` is all of the interface; GCC or Clang, no dependency. A static and a shared library, `bsmdecConfig.cmake`
 (`bsmdec::bsmdec`) and `bsmdec.pc` are installed by
@@ -45,7 +50,8 @@ def make_archive(sources: Path, version: str, output: Path) -> Path:
         shutil.copy(sources / "LICENSE", inside)
         (inside / "README.md").write_text(README)
         path = archive(output / f"{inside.name}.tar.gz", [(f"{inside.name}/{f.name}", f) for f in inside.iterdir()])
-        _try_archive(inside, sources / "spec/vectors/1.0/good-tetrahedron.bsm")
+        _try_archive(inside, sources / STREAM)
+    try_newcomer(path, README, sources / STREAM)
     return path
 
 
@@ -54,8 +60,9 @@ def make_crate(sources: Path, version: str, output: Path) -> Path:
     crate = sources / "engine/rust"
     _amalgamate(sources, crate)
     _run(["cargo", "package", "--offline", "--allow-dirty", "--quiet"], crate)
-    made = crate / f"target/package/bsmdec-{version}.crate"
-    return Path(shutil.copy(made, output))
+    made = shutil.copy(crate / f"target/package/bsmdec-{version}.crate", output)
+    try_newcomer(Path(made), (crate / "README.md").read_text(), sources / STREAM)
+    return Path(made)
 
 
 def make_suite(sources: Path, version: str, output: Path) -> Path:

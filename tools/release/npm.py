@@ -4,18 +4,10 @@ from __future__ import annotations
 
 import os
 import subprocess
-import tempfile
 from pathlib import Path
 
+from tools.release.trial import try_newcomer
 from tools.release.wheels import clean
-
-DECODE = """
-import { readFile } from "node:fs/promises";
-import { decode, loadKernels } from "bsm-decoder";
-const { positions, faces } = decode(await loadKernels(), new Uint8Array(await readFile(process.argv[2])));
-if (positions.length !== 12 || faces.length !== 12) throw new Error("a tetrahedron is expected");
-console.log("npm: Node decodes with the package");
-"""
 
 
 def make_npm(sources: Path, root: Path, output: Path) -> Path:
@@ -28,12 +20,7 @@ def make_npm(sources: Path, root: Path, output: Path) -> Path:
     _npm(["pack", "--silent", "--pack-destination", str(output)], web)
     package = max(output.glob("bsm-decoder-*.tgz"), key=os.path.getmtime)
     _npm(["publish", "--dry-run", "--silent", str(package)], web)
-    with tempfile.TemporaryDirectory() as folder:
-        Path(folder, "package.json").write_text('{"private": true, "type": "module"}')
-        _npm(["install", "--silent", "--no-audit", "--no-fund", "--omit=peer", str(package)], Path(folder))
-        Path(folder, "decode.mjs").write_text(DECODE)
-        stream = sources / "spec/vectors/1.0/good-tetrahedron.bsm"
-        subprocess.run(["node", "decode.mjs", stream], cwd=folder, check=True, env=clean())
+    try_newcomer(package, (web / "README.md").read_text(), sources / "spec/vectors/1.0/good-tetrahedron.bsm")
     return package
 
 

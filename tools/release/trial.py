@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shlex
+import shutil
 import subprocess
 import tempfile
 from pathlib import Path
@@ -28,6 +29,19 @@ def try_wheel(wheel: Path, python: Path, sources: Path, tests: list[str]) -> Non
         program, _, options = _from_wheel(second, wheel).rpartition("-m pytest")
         line = f"{program}-m pytest{options} -p no:cacheprovider {shlex.join(tests)}"
         _run(f"cd {shlex.quote(str(sources))} && {line.replace('.venv/', f'{folder}/.venv/')}", folder, environment)
+
+
+def try_newcomer(package: Path, text: str, stream: Path, python: Path | None = None) -> None:
+    """From the file of a release to a mesh in an empty folder, by the two commands that a README says."""
+    lines = [line.strip() for line in text.splitlines()]
+    last = next(place for place, line in enumerate(lines) if line.endswith("mesh.obj") and "mesh.bsm" in line)
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copy(package, folder)
+        shutil.copy(stream, Path(folder, "mesh.bsm"))
+        commands = "\n".join(lines[last - 1 : last + 1]).replace("python3", str(python or "python3"))
+        _run(commands, folder, clean())
+        if Path(folder, "mesh.obj").read_text().count("\nf ") != 4:
+            raise SystemExit(f"two commands do not decode a tetrahedron with {package.name}")
 
 
 def readme_commands(sources: Path) -> list[str]:

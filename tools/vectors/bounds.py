@@ -17,12 +17,14 @@ from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.fields.corners import FieldEncoder
 from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.encoder import encode
+from bsm.codec.static.options import changed
 from tools.gridded import gridded
 from tools.surgery import frames_of, header_frame, stream_of
 from tools.vectors.bad import Bad
-from tools.vectors.good import Good
+from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import base
-from tools.vectors.meshes import hub, patch, tangled, tent, tetrahedron, together, torus, triangle
+from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 
 ASKED = 73786976294838435356
 """Bits behind the first: predictions that hit or miss, after which the chance of a hit is 699050 of 2^22, no more."""
@@ -137,6 +139,18 @@ def _grown(growth: int) -> bytes:
     return write_stream([header, *made.draft.body, Refinement(0, 72, data)])
 
 
+def _ordered_twice() -> bytes:
+    frames = frames_of(encode(shuffled(patch(5, 5)), changed(BASE, keep_order=True)))
+    place = next(i for i, (kind, _) in enumerate(frames) if kind == FrameType.ORDER)
+    return stream_of([*frames[: place + 1], *frames[place:]])
+
+
+def _padded() -> bytes:
+    """Zeros behind the faces, as many as are taken."""
+    frames = frames_of(_any(triangle(), 3))
+    return stream_of([frames[0], (FrameType.CONNECTIVITY, frames[1][1] + bytes(3)), *frames[2:]])
+
+
 def _metadata() -> bytes:
     header, *others = frames_of(_any(triangle(), 3))
     return stream_of([header, (FrameType.METADATA, write_map([(f"{i:02x}", i) for i in range(256)])), *others])
@@ -162,6 +176,10 @@ LEGAL: dict[str, dict[str, Any]] = {
     "parts": {"vertices": 4, "faces": 4, "blocks": 4, "block_size": 4, "coefficients": 4},
     "refinement": BLOCKS | {"refinement": [2.0**-40, 1 / 16]},
     "refinement-largest": BLOCKS | {"refinement": [1.0, 64.0]},
+    "one": {"vertices": 4, "faces": 4, "blocks": 1, "block_size": 4, "coefficients": 4},
+    "rows": {"vertices": 4096, "faces": 4096, "blocks": 64, "block_size": 2048, "coefficients": 1},
+    "lattice": GRID | {"grid": [5, 5, 5], "lattice": [5, 5]},
+    "scale": GRID | {"grid": [1, 1, 1], "scale": 1e-300},
     "corner": GRID | {"grid": [(1 << 20) - 1] * 3, "corner": [-(2**31), 2**31 - 1, 0]},
     "center": GRID | {"grid": [1, 1, 1], "center": [1e300, -1e300, 0.0], "scale": 1e300},
 }
@@ -209,6 +227,7 @@ BOUNDS: dict[str, Good] = {
     "good-grid-sparse": Good(
         "values at the ends of where they are looked for (V 8.7)", lambda: _any(torus(22, 22), 112_000)
     ),
+    "good-faces-padded": Good("zeros behind the faces, all of which are taken (C 1.5)", _padded),
     "good-metadata-most": Good("256 entries, as many as may be", _metadata),
     "good-refined-grown": Good("weights at their upper bound (V 6.2)", lambda: _grown(20)),
     "good-refined-grown-turned": Good("weights at their lower bound", lambda: _grown(-20)),
@@ -225,6 +244,7 @@ BOUNDS_BAD: dict[str, Bad] = {
     "bad-counts-dummies": Bad(
         "more loops than corners, and no face behind the counts", "corrupt", lambda: _counts(2000, 0, 0, 1000, 6001)
     ),
+    "bad-order-twice": Bad("ORDER, and ORDER again", "corrupt", _ordered_twice),
     "unsupported-version-alone": Bad("a later version, in five bytes", "unsupported", lambda: MAGIC + b"\x20"),
     **{
         f"bad-header-{name}": Bad(
