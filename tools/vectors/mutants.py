@@ -132,9 +132,10 @@ def places_of(node: ast.AST, lines: list[str]) -> Iterator[tuple[int, int, int]]
     elif isinstance(node, ast.BinOp):
         sides = [node.left, node.right]
     for left, right in itertools.pairwise(sides):
-        between = left.end_lineno == right.lineno and lines[right.lineno - 1][left.end_col_offset or 0 : right.col_offset]
+        line, begin = lines[right.lineno - 1], left.end_col_offset or 0
+        between = left.end_lineno == right.lineno and line[begin : right.col_offset]
         if between and (found := re.fullmatch(r"[) ]*( [<>]=? | [+-] )[( ]*", between)):
-            begin = (left.end_col_offset or 0) + found.start(1) + 1
+            begin += found.start(1) + 1
             yield right.lineno, begin, begin + len(found[1]) - 2
 
 
