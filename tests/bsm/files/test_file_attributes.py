@@ -354,6 +354,15 @@ def by_material(mesh):
     return TriangleMesh(mesh.positions, mesh.faces[order], taken, mesh.metadata)
 
 
+def test_texture_coordinates_of_an_obj_are_written_once():
+    """As they are first needed, and 0.0 apart from -0.0."""
+    values = np.array([[1, 1], [0, 0.5], [1, 1], [-0.0, 0.5], [0, 0.5], [1, 1]], np.float32)
+    mesh = TriangleMesh(np.eye(4, 3), [[0, 1, 2], [1, 3, 2]], [Attribute("uv", values, "corner", "texcoord")])
+    lines = format_mesh(mesh, "obj").decode().splitlines()
+    assert [line for line in lines if line.startswith("vt")] == ["vt 1 1", "vt 0 0.5", "vt -0 0.5"]
+    assert lines[-2:] == ["f 1/1 2/2 3/1", "f 2/3 4/2 3/1"]
+
+
 def test_faces_of_an_obj_are_grouped_unless_they_are():
     mesh = torus(40, 24)
     for numbers, changes in ((np.arange(len(mesh.faces)) % 3, 3), (np.arange(len(mesh.faces)) // 100 % 3, 20)):

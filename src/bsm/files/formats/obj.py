@@ -12,6 +12,7 @@ from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Mask
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.files.formats import metadata as materials
 from bsm.files.formats.polygons import PLURALS, Column, Polygons, color_column, compact
 from bsm.files.room import Doubles, Ints, Rows, as_integers, point_row, text_table, without_comments
@@ -205,8 +206,12 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     for keyword, attribute in (("vt", texcoord), ("vn", normal)):
         if attribute is not None:
             number = " {!r}" if attribute.values.dtype == np.float64 else " {:.9g}"
-            parts.append(text_table(f"{keyword}{number * attribute.components}\n", attribute.values).decode())
-            indices.append(mesh.faces if attribute.indices is None else attribute.indices)
+            rows, corners = attribute.values, mesh.faces
+            if attribute.indices is not None:  # seams part rows that are the same
+                same = group_rows(rows.astype(np.float64).view(np.int64))
+                rows, corners = rows[first_of(same)], same[attribute.indices]
+            parts.append(text_table(f"{keyword}{number * attribute.components}\n", rows).decode())
+            indices.append(corners)
     corner = "{}/{}/{}" if texcoord and normal else "{}//{}" if normal else "{}/{}" if texcoord else "{}"
     columns = np.stack(indices, axis=2).reshape(len(mesh.faces), -1) + 1
     nothing = np.zeros(len(mesh.faces), np.int64)
