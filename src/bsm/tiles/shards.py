@@ -81,8 +81,7 @@ class Unfinished:
         begin = time.perf_counter()
         levels = [{"level": one, "whole": self.whole[one], "tiles": self.tiles[one]} for one in sorted(self.tiles)]
         head = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": self.source, "complete": False}
-        manifest = json.dumps({**head, "levels": levels}, indent=1).encode()
-        write_output(inside(self.folder, MANIFEST), manifest + b"\n", overwrite=True)
+        write_output(inside(self.folder, MANIFEST), json.dumps({**head, "levels": levels}).encode(), overwrite=True)
         end = time.perf_counter()
         self.due = end + max(_EVERY, (end - begin) / _SHARE)
 
@@ -90,8 +89,7 @@ class Unfinished:
 def is_unfinished(folder: str) -> bool | None:
     """Whether a folder holds the manifest of a run that was not at its end; None: it holds none."""
     try:
-        given = json.loads(read_bytes(inside(folder, MANIFEST)))
-        return given["format"] == "bsm tiles" and given.get("complete") is False
+        return json.loads(read_bytes(inside(folder, MANIFEST))).get("complete") is False
     except FileNotFoundError:
         return None
     except (OSError, *_NO_JSON):
