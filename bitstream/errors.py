@@ -221,8 +221,7 @@ def public(kind: Kind) -> Kind:
 
 def counted(**counts: int) -> str:
     """2 vertices, 1 face."""
-    single = {"vertices": "vertex"}
-    return ", ".join(f"{n} {single.get(what, what[:-1]) if n == 1 else what}" for what, n in counts.items())
+    return ", ".join(f"{n} {what if n != 1 else what[:-1].replace('vertice', 'vertex')}" for what, n in counts.items())
 
 
 DISTRIBUTION = "bsm-codec"

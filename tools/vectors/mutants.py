@@ -41,7 +41,8 @@ SAME = {
         hits «+» 128|hits + «128»|«8» * (0 if step == 0|(hits > 0)) «+» 2|2 * f «+» (error|16 * ff «+» fn|«256» * ff
         256 * ff «+» 16|16 * fp «+» fn|(«16» + 2 * k|«3» * state(after|1 «+» 3|state(after[fan]) «+» state
         node + unary «+» 24|unary + «24»|«4» + x, given|«3» + s if x >= 0|«49» * c3|node «+» unary
-        COUNTS = 0, 28, 56, 84, 85, 112, «140»|else valence «-» 2|2 * best «+» (1|clamp(value - c, -3, 3) «+» 3""",
+        0, «28», 56|28, «56», 84|84, «85», 112|85, «112», 140|112, «140»|else valence «-» 2
+        2 * best «+» (1|clamp(value - c, -3, 3) «+» 3""",
     "equals come to the same": """
         x «>» high|h «>» 0:  # V 5.8|size «>» 1|rest «<» 0 else|3 «-» w if rest|ratio «<=» 1|d.bit_length() - 6
         x «<» 4|return x if x < «4»|// n if a «>=» 0|count «<=» 65536|len(flaps) «>» 1 else shape
@@ -68,6 +69,8 @@ SAME = {
     "limits that no small stream comes to (M 14)": """
         = 1 << «28»|1 << 28, 1 << «23»|fans + dummies «>» most|size < «23»|len(payload) «<=» 65536|5 * rows
         s * solution|solution =|s = 3 if|value «>» most|65536 + 16 * faces|min(«4096», self|require_limit(8 * (6""",
+    "equal once in 2^24 decisions (C 1.3)": """
+        self.range «<» 1 << 24""",
     "guards against division by nothing": """
         dot(tilted, tilted) «+» 2|(areas «+» 2|(lengths «+» 2|2.0**-«200»""",
     "columns are nearly 0 before the second pass and nearly 1 behind it in all meshes that were looked at (M 8.8)": """
