@@ -350,11 +350,11 @@ def worn(mesh: TriangleMesh, semantic: Semantic) -> Matrix | None:
 
 def is_worn(one: Attribute) -> bool:
     """Whether an attribute is seen in pictures: texture coordinates of a plane; and colours, if floats from 0 to 1."""
+    kind = one.values.dtype.kind
     if one.semantic == "color":
-        beyond = one.values.dtype.kind == "f" and np.abs(one.values - 0.5).max(initial=0.0) > 0.5
-        return one.values.dtype.kind != "i" and not beyond
+        return kind == "u" or (kind == "f" and bool(np.abs(one.values - 0.5).max(initial=0.0) <= 0.5))
     plane = one.semantic == "texcoord" and one.components == 2 and one.domain != "face"
-    return plane and float(np.abs(one.values).max(initial=0.0)) <= MOST_TILES
+    return plane and kind == "f" and float(np.abs(one.values).max(initial=0.0)) <= MOST_TILES
 
 
 def painted(semantic: Semantic, corners: npt.NDArray[Any]) -> Matrix:

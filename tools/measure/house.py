@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 35_011,
-    "all Python, lines": 72_799,
+    "all Python, lines": 72_803,
     "product modules": 196,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

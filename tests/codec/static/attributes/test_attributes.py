@@ -304,6 +304,13 @@ def test_textures_that_are_repeated_beyond_all_pictures_are_not_looked_at():
     assert np.abs(decoded.attributes[0].values).max() > 1e29
 
 
+def test_texture_coordinates_in_whole_numbers_are_kept():
+    mesh = torus(12, 8)
+    whole = (1000 * (mesh.positions[:, :2] + 2)).astype(np.uint16)
+    decoded = decode(encode(replace(mesh, attributes=(Attribute("uv", whole, "vertex", "texcoord"),))))
+    assert set(map(tuple, decoded.attributes[0].values)) == set(map(tuple, whole))
+
+
 @pytest.mark.parametrize(
     ("asked", "error"),
     [
