@@ -37,8 +37,8 @@ CALM, CALM_BOUND = 0.5, 0.6745
 STRAY, PLAINLY, SPIKY = 1.2, 2.0, 0.75
 """Distance from the middle of the neighbours, in theirs, of a vertex that may be far off, and of one that is; and the
 length of the mean normal around it below which it stands out."""
-STRAYS, STRAY_SHARE, STRAY_USUAL = 25, 0.0017, 1.1
-"""How many have to be plainly off, and how far nine tenths may be: clean meshes have 14 and .0013 at most."""
+STRAYS, STRAY_SHARE, STRAY_USUAL, FARTHER = 25, 0.0018, 1.2, 2.5
+"""How many are plainly off, how far nine tenths may be, and how much farther those are: noise alone has fewer, too."""
 STRAY_TURNS = 2
 HIGH = 2.2  # height over the noise around, from which on vertices are strays where there are many; noise so high gains
 ROUNDS = 40
@@ -79,7 +79,7 @@ def put_strays_back(positions: Positions, probe: Probe) -> Positions:
         normals = face_geometry(place, probe.topology.faces).normals[around.members]
         together = np.stack([np.bincount(owners, column, n) for column in normals.T], axis=1)
         spiky = probe.counted & (np.linalg.norm(together, axis=1) < SPIKY * sizes)
-        plain = int((spiky & (distance > PLAINLY)).sum())
+        plain = int((spiky & (distance > max(PLAINLY, FARTHER * usual))).sum())
         if turn == 0 and (plain < max(STRAYS, STRAY_SHARE * n) or usual > STRAY_USUAL):
             return positions
         noise = (probe.windows.quantiles(height, SHARE) / BOUND)[probe.windows.labels]
