@@ -114,6 +114,7 @@ class LookMetric:
         own = own_normals(mesh)
         self._own = None if own is None else (self._drawn(positions, self._shape.faces, own), own)
         self._shading = shading
+        self._worst = list(FEW)
 
     def look(self, positions: Positions) -> Look:
         """How these positions look on the faces of the original, with normals that follow from them."""
@@ -135,6 +136,21 @@ class LookMetric:
             shaded.append((self._own[0], self._shading(placed) if self._shading else self._own[1]))
         glances = [self._glanced(pictures, placed, normals, least, most) for pictures, normals in shaded]
         return max(glances, key=lambda glance: (glance[1] or glance[0]).distance)
+
+    def breaks(self, positions: Positions, most: float) -> bool:
+        """Whether a few sides, first those that did so last, show that `positions`, shape (n, 3), look farther."""
+        placed = self._placed(positions)
+        normals = Shape.of(placed, self._shape.faces).normals(placed)
+        own = {side: float((self._pictures[side] < BACKGROUND).sum()) for side in FEW}
+        dissimilar, visible, covered = 0.0, 0.0, max(sum(own.values()), 1.0)
+        for at, side in enumerate(self._worst):
+            sums = self._sums(self._pictures, placed, self._shape.faces, normals, [side])[0]
+            dissimilar, visible = dissimilar + float(sums[0]), visible + float(sums[1])
+            covered += float(sums[2]) - own[side]
+            if judged(dissimilar / covered, visible / covered, float(sums[3]) / SQUARE).distance > most:
+                self._worst.insert(0, self._worst.pop(at))
+                return True
+        return False
 
     def _glanced(
         self, pictures: Sequence[Picture], placed: Positions, normals: Normals, least: float, most: float

@@ -109,6 +109,11 @@ class Bounds:
 
         return excess
 
+    def breaks(self, positions: Matrix) -> bool:
+        """Whether some sides show, one after another, that positions look far worse than they may."""
+        metric = None if self.contract.look == math.inf else self.measures.look
+        return metric is not None and metric.breaks(self._decoded(positions), NEARLY[1] ** 3 * self.contract.look)
+
     def keeps(self, positions: Matrix, look: float | None = None) -> bool:
         """Whether all bounds are kept, from all sides, from which the look may be known."""
         shares = self._shares(positions)

@@ -91,7 +91,7 @@ class Search:
         kept += made
         near = bounds.excess()
         for candidate in self._made_on(bounds, made or kept):
-            if candidate.draft.size < least:
+            if candidate.draft.size < least and not bounds.breaks(candidate.positions):
                 over, look = near(candidate.positions)
                 if over <= 0.0 and bounds.keeps(candidate.positions, look):
                     kept.append(candidate)
