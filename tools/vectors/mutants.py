@@ -44,7 +44,7 @@ SAME = {
         0, «28», 56|28, «56», 84|84, «85», 112|85, «112», 140|112, «140»|else valence «-» 2
         2 * best «+» (1|clamp(value - c, -3, 3) «+» 3""",
     "equals come to the same": """
-        x «>» high|if offset «<» len(stream)
+        x «>» high|if offset «<» len(stream)|corners «>» 0|(level «+» sum
         h «>» 0:  # V 5.8|size «>» 1|rest «<» 0 else|3 «-» w if rest|ratio «<=» 1|d.bit_length() - 6
         x «<» 4|return x if x < «4»|// n if a «>=» 0|count «<=» 65536|len(flaps) «>» 1 else shape
         len(found) «>» 1 else total|if g «>» 3|if u «>» v:|elif u «>» v|len(order) «>» 8|if r «<» cut and""",
