@@ -6,6 +6,7 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -13,11 +14,10 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import OptionError
+from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.encoder import Encoder
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.look.measure import LookMetric
 from bsm.codec.threads import ordered_map
 from bsm.files.output import by_its_own_name, write_output
 from bsm.tiles.reading import CARRIED, Kinds, Raw, mapped, table_file
@@ -29,20 +29,14 @@ COARSEST = 1 << 13  # triangles of the coarsest level at most, about: ten kiloby
 _COUNTED = 7  # levels all of whose nodes are counted
 _SAMPLE = 40_000
 _FARTHEST = 1 << 30  # from the origin, in cells
-_SPREAD = (
-    (32, 0x1F00000000FFFF),
-    (16, 0x1F0000FF0000FF),
-    (8, 0x100F00F00F00F00F),
-    (4, 0x10C30C30C30C30C3),
-    (2, 0x1249249249249249),
-)
+_SPREAD = (0x1F00000000FFFF, 0x1F0000FF0000FF, 0x100F00F00F00F00F, 0x10C30C30C30C30C3, 0x1249249249249249)
 """How 21 bits come to stand three apart."""
 
 
 def along_curve(places: Ints) -> Ints:
     """A number for each place, of 21 bits an axis; consecutive ones are near each other."""
-    for step, mask in _SPREAD:
-        places = (places | places << step) & mask
+    for halved, mask in enumerate(_SPREAD):
+        places = (places | places << (32 >> halved)) & mask
     return np.asarray(places[:, 0] << 2 | places[:, 1] << 1 | places[:, 2])
 
 
@@ -89,12 +83,18 @@ def _cell_by_look(raw: Raw, threads: int) -> float:
         for middle, far, found in zip(middles, reach, near):
             found.append(piece[(np.abs(firsts - middle) <= far).all(axis=1)])
 
-    def scale_of(faces: list[npt.NDArray[Any]]) -> float:
+    def cell_of(faces: list[npt.NDArray[Any]]) -> float:
         used, corners = np.unique(np.concatenate(faces), return_inverse=True)
         sample = TriangleMesh(raw.table("positions")[used].astype(np.float64), corners.reshape(-1, 3).astype(np.int32))
-        return Encoder(sample, EncodeOptions(quick=True, threads=1)).result().header.scale
+        edge = np.linalg.norm(np.diff(sample.positions[sample.faces], axis=1), axis=2).mean()
+        cell = 2.0 ** math.floor(math.log2(min(0.01 * sample.diagonal, edge / 2.0) or 1.0))
+        with suppress(MeshError):  # there is nothing to see
+            metric = LookMetric(sample, threads=1)
+            while (far := metric.distance(np.rint(sample.positions / cell) * cell)) > 1.0:
+                cell *= 0.5 ** max(1, math.floor(math.log2(far)))
+        return cell
 
-    return float(2.0 ** math.floor(math.log2(min(ordered_map(scale_of, near, threads)))))
+    return min(ordered_map(cell_of, near, threads))
 
 
 # --------------------------------------------------------------------------------------------------------------- octree
