@@ -5,7 +5,6 @@
 #define DIFFUSE 0.78f
 #define BACKGROUND 1.0f
 #define TILE 8    /* pixels of the side of squares that faces may be hidden in */
-#define SPAN 32   /* pixels of a row that are shaded together */
 #define SAMPLE 4096 /* faces that tell which half is ahead */
 #define CAMERA 15 /* three rows of a rotation with an offset each, then the light in the mesh's own axes */
 
@@ -29,9 +28,7 @@ INLINE int64_t behind_centre(double x, int64_t size) {
 INLINE float depth_of(double z) { return (float)__builtin_rint(z); }
 
 INLINE float shade_of(float facing, float length) {
-    bool any = length > 1e-24f;
-    float share = __builtin_fabsf(facing) / __builtin_sqrtf(any ? length : 1.0f); /* without a branch around it */
-    return AMBIENT + DIFFUSE * (any ? share : 0.0f);
+    return AMBIENT + DIFFUSE * (length > 1e-24f ? __builtin_fabsf(facing) / __builtin_sqrtf(length) : 0.0f);
 }
 
 INLINE double within(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }
@@ -103,59 +100,37 @@ INLINE void draw_face(Face face, const float *normals, const double *light, int3
         double from = crossing(whole, y), to = y < middle[1] ? crossing(upper, y) : crossing(beneath, y);
         int64_t column = first_centre(from < to ? from : to, picture.columns);
         int64_t stop = behind_centre(from < to ? to : from, picture.columns);
-        for (; column < stop; column += SPAN) {
-            int64_t count = least(stop - column, SPAN), begin = row * picture.columns + column;
-            float z[SPAN], facing[SPAN], length[SPAN], *depths = depth.data + begin, *shades = picture.data + begin;
-            bool nearer = false, level = false;
-            for (int64_t i = 0; i < count; i++) {
-                double x = (double)(column + i) + 0.5;
-                double s = within(((x - a[0]) * cy - (y - a[1]) * cx) * inverse);
-                double r = within((bx * (y - a[1]) - by * (x - a[0])) * inverse);
-                double q = 1.0 - s - r;
-                double nx = q * (double)n[0] + s * (double)n[3] + r * (double)n[6];
-                double ny = q * (double)n[1] + s * (double)n[4] + r * (double)n[7];
-                double nz = q * (double)n[2] + s * (double)n[5] + r * (double)n[8];
-                z[i] = depth_of(a[2] + s * bz + r * cz);
-                facing[i] = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
-                length[i] = (float)(nx * nx + ny * ny + nz * nz);
-            }
-            for (int64_t i = 0; i < count; i++) {
-                nearer |= z[i] > depths[i];
-                level |= z[i] == depths[i];
-            }
-            float *long_as = lengths.data + begin;
-            int32_t *owners = owner.data + begin;
-            for (int64_t i = 0; i < count && level; i++) {
-                bool brighter = shade_of(facing[i], length[i]) > shade_of(shades[i], long_as[i]);
-                z[i] = z[i] == depths[i] && !brighter ? -__FLT_MAX__ : z[i];
-            }
-            for (int64_t i = 0; i < count && (nearer | level); i++) {
-                bool shown = z[i] >= depths[i];
-                owners[i] = shown ? number : owners[i];
-                depths[i] = shown ? z[i] : depths[i];
-                shades[i] = shown ? facing[i] : shades[i];
-                long_as[i] = shown ? length[i] : long_as[i];
-            }
+        for (; column < stop; column++) {
+            double x = (double)column + 0.5;
+            double s = within(((x - a[0]) * cy - (y - a[1]) * cx) * inverse);
+            double r = within((bx * (y - a[1]) - by * (x - a[0])) * inverse);
+            int64_t pixel = row * picture.columns + column;
+            float z = depth_of(a[2] + s * bz + r * cz);
+            if (!(z >= depth.data[pixel])) continue;
+            double q = 1.0 - s - r;
+            double nx = q * (double)n[0] + s * (double)n[3] + r * (double)n[6];
+            double ny = q * (double)n[1] + s * (double)n[4] + r * (double)n[7];
+            double nz = q * (double)n[2] + s * (double)n[5] + r * (double)n[8];
+            float facing = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
+            float length = (float)(nx * nx + ny * ny + nz * nz);
+            if (z == depth.data[pixel] && !(shade_of(facing, length) > shade_of(picture.data[pixel], lengths.data[pixel])))
+                continue;
+            owner.data[pixel] = number;
+            depth.data[pixel] = z;
+            picture.data[pixel] = facing;
+            lengths.data[pixel] = length;
         }
     }
 }
 
 /* The farthest depth in each tile. */
 INLINE void find_farthest(Singles2 depth, Singles2 farthest) {
-    for (int64_t i = 0; i < farthest.rows * farthest.columns; i++) {
-        int64_t top = i / farthest.columns * TILE, left = i % farthest.columns * TILE;
-        int64_t rows = least(depth.rows - top, TILE), columns = least(depth.columns - left, TILE);
-        float across[TILE], least_deep = __builtin_inff();
-        for (int64_t k = 0; k < TILE; k++) across[k] = __builtin_inff();
-        for (int64_t row = top; row < top + rows; row++) {
-            const float *depths = depth.data + row * depth.columns + left;
-            if (columns == TILE)
-                for (int64_t k = 0; k < TILE; k++) across[k] = depths[k] < across[k] ? depths[k] : across[k];
-            else
-                for (int64_t k = 0; k < columns; k++) across[k] = depths[k] < across[k] ? depths[k] : across[k];
-        }
-        for (int64_t k = 0; k < TILE; k++) least_deep = across[k] < least_deep ? across[k] : least_deep;
-        farthest.data[i] = least_deep;
+    for (int64_t i = 0; i < farthest.rows * farthest.columns; i++) farthest.data[i] = __builtin_inff();
+    for (int64_t row = 0; row < depth.rows; row++) {
+        float *tiles = farthest.data + row / TILE * farthest.columns;
+        const float *depths = depth.data + row * depth.columns;
+        for (int64_t column = 0; column < depth.columns; column++)
+            tiles[column / TILE] = depths[column] < tiles[column / TILE] ? depths[column] : tiles[column / TILE];
     }
 }
 
