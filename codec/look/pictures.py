@@ -170,18 +170,14 @@ def interpolated(
 ) -> tuple[Mask, Indices, Matrix]:
     """Which pixels of a canvas show a face, which one, and there, a row for each of c, values of corners (m, 3 c)."""
     shown = canvas.owner >= 0
-    owner, (rows, columns) = canvas.owner[shown], np.nonzero(shown)
     screen = placed @ camera[:12].reshape(3, 4)[:2, :3].T + camera[[3, 7]]
     a, b, c = (screen[corner].T for corner in faces.T)
     (bx, by), (cx, cy) = b - a, c - a
     with np.errstate(divide="ignore", invalid="ignore"):  # what has no area shows nowhere
-        of_face = np.array([*a, *(np.array([cy, -cx, -by, bx]) / (bx * cy - by * cx))])
-    ax, ay, sx, sy, rx, ry = of_face[:, owner]
-    x, y = columns + 0.5 - ax, rows + 0.5 - ay
-    s, r = (x * sx + y * sy).clip(0.0, 1.0), (x * rx + y * ry).clip(0.0, 1.0)
-    first, second, third = values.reshape(len(faces), 3, -1).transpose(1, 2, 0)
-    each = zip(first, second - first, third - first, strict=True)
-    return shown, owner, np.array([at[owner] + s * one[owner] + r * other[owner] for at, one, other in each])
+        ways = np.array([*a, *(np.array([cy, -cx, -by, bx]) / (bx * cy - by * cx))])
+    found = np.empty((values.shape[1] // 3, np.count_nonzero(shown)))
+    _kernels.interpolate_shown(canvas.owner, np.ascontiguousarray(ways.T), np.ascontiguousarray(values), found)
+    return shown, canvas.owner[shown], found
 
 
 def difference(first: Picture, second: Picture, unlike: Picture = _NOWHERE) -> Matrix:

@@ -184,3 +184,25 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
     }
     return 0;
 }
+
+/* What corners have, three times as many as `found` has rows in `values`, at each pixel that shows a face. `ways` has of a
+ * face where its first corner is, and what a pixel's way from there is of the ways to both others: column, row, then two
+ * factors of either. */
+KERNEL int64_t interpolate_shown(ConstInts2 owner, ConstDoubles2 ways, ConstDoubles2 values, Doubles2 found) {
+    int64_t count = 0, each = found.rows;
+    if (ways.columns != 6 || values.rows != ways.rows || values.columns != 3 * each) return MISUSED;
+    for (int64_t row = 0; row < owner.rows; row++)
+        for (int64_t column = 0; column < owner.columns; column++) {
+            int64_t face = owner.data[row * owner.columns + column];
+            if (face < 0) continue;
+            if (face >= ways.rows || count >= found.columns) return MISUSED;
+            const double *way = ways.data + 6 * face, *first = values.data + 3 * each * face;
+            double x = (double)column + 0.5 - way[0], y = (double)row + 0.5 - way[1];
+            double s = within(x * way[2] + y * way[3]), r = within(x * way[4] + y * way[5]);
+            for (int64_t k = 0; k < each; k++)
+                found.data[k * found.columns + count] =
+                    first[k] + s * (first[each + k] - first[k]) + r * (first[2 * each + k] - first[k]);
+            count++;
+        }
+    return count == found.columns ? 0 : MISUSED;
+}
