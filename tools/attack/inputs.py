@@ -35,7 +35,7 @@ MOVING = 0.3
 
 def vector_seeds() -> list[bytes]:
     """The vectors, those that are to be refused too."""
-    return [path.read_bytes() for path in sorted(FOLDER.glob("*.bsm")) if path.stat().st_size < SEED_BYTES]
+    return [path.read_bytes() for path in sorted(FOLDER.parent.glob("*/*.bsm")) if path.stat().st_size < SEED_BYTES]
 
 
 def mutant(random: Random, seeds: list[bytes]) -> bytes:

@@ -36,7 +36,7 @@ from bsm.files.mesh import MESH_FORMATS, read_mesh
 
 Target = Callable[[bytes], None]
 
-VECTORS = Path(__file__).parents[2] / "spec" / "vectors" / "1.0"
+VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
 
 LIMITS = Limits(
     vertices=1 << 13,
@@ -296,8 +296,8 @@ def seeds(name: str, vectors: Path) -> list[bytes]:
     """What a target starts from: streams, or the payloads in them, behind the bytes the target reads first."""
     from tools.surgery import frames_of
 
-    streams = [path.read_bytes() for path in sorted(vectors.glob("*.bsm")) if path.stat().st_size < LARGEST_SEED]
-    good = [path.read_bytes() for path in sorted(vectors.glob("good-*.bsm"))]
+    streams = [path.read_bytes() for path in sorted(vectors.glob("*/*.bsm")) if path.stat().st_size < LARGEST_SEED]
+    good = [path.read_bytes() for path in sorted(vectors.glob("*/good-*.bsm"))]
     if name in WHOLE_STREAMS:
         return streams
     if name == "mesh_file":

@@ -16,7 +16,7 @@ from bsm.bitstream.container.header import HEADER_FIELDS, Declaration, Field, fi
 from bsm.bitstream.container.wire import MAX_ENTRIES, SKIPPABLE_TYPES, FrameType, write_map, write_varint
 from tools.surgery import Frames, frames_of, stream_of, with_declaration, with_header
 
-VECTORS = Path(__file__).parents[2] / "spec" / "vectors" / "1.0"
+VECTORS = Path(__file__).parents[2] / "spec" / "vectors"
 COUNTS = {"BLOCK": 2, "GOP": 1, "GRID": 2, "REFINEMENT": 3, "VALUES": 3, "ATTRIBUTE": 2, "END": 1}
 """Varints at the beginning of a payload."""
 MOST_VARINT = 2**31 - 1
@@ -34,7 +34,7 @@ class Case:
 def _good() -> dict[str, bytes]:
     """The smallest sound vector that has a frame of each type, and one of several runs."""
     smallest: dict[str, bytes] = {}
-    for path in sorted(VECTORS.glob("good-*.bsm"), key=lambda path: path.stat().st_size):
+    for path in sorted(VECTORS.glob("*/good-*.bsm"), key=lambda path: path.stat().st_size):
         stream = path.read_bytes()
         kinds = [kind for kind, _ in frames_of(stream)]
         for kind in kinds:

@@ -1,10 +1,16 @@
 //! Every vector of the specification is decoded, to the positions whose checksum it has, or refused.
 use bsmdec::{Decoder, Entry, Error, Event, Options, Status};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-fn folder() -> std::path::PathBuf {
+fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec/vectors/1.0")
+}
+
+/// The files of all versions.
+fn files() -> impl Iterator<Item = PathBuf> {
+    let folders = fs::read_dir(folder().parent().unwrap()).unwrap().map(|entry| entry.unwrap().path());
+    folders.filter(|path| path.is_dir()).flat_map(|path| fs::read_dir(path).unwrap()).map(|entry| entry.unwrap().path())
 }
 
 /// Decode byte after byte, and ask for everything.
@@ -40,8 +46,7 @@ fn through(stream: &[u8], piece: usize, options: &Options) -> Result<(usize, usi
 #[test]
 fn vectors_are_decoded_or_refused() {
     let mut count = 0;
-    for entry in fs::read_dir(folder()).unwrap() {
-        let path = entry.unwrap().path();
+    for path in files() {
         if path.extension().map_or(true, |end| end != "bsm") {
             continue;
         }

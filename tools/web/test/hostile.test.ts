@@ -1,15 +1,15 @@
 /** Damaged streams: every one ends in an error of the package or in a mesh, soon and within the memory allowed. */
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import test from "node:test";
 import { BsmError, LimitError, TruncatedError, decode } from "../src/index";
-import { BUILDS, compile, eventsOf, mended, meshOfEvents, VECTORS } from "./shared";
+import { BUILDS, compile, eventsOf, FOLDERS, mended, meshOfEvents, VECTORS } from "./shared";
 
 const MEMORY = 2 ** 26;
-const STREAMS = readdirSync(VECTORS)
-    .filter((name) => name.startsWith("good-") && name.endsWith(".bsm"))
-    .map((name) => readFileSync(join(VECTORS, name)));
+const STREAMS = FOLDERS.flatMap((folder) => readdirSync(folder).map((name) => join(folder, name)))
+    .filter((path) => basename(path).startsWith("good-") && path.endsWith(".bsm"))
+    .map((path) => readFileSync(path));
 
 /** Numbers in [0, 1), the same in every run (Park and Miller, 1988). */
 function* numbers(seed: number): Generator<number, never> {

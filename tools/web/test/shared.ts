@@ -1,5 +1,5 @@
 /** What tests share: kernels, vectors, and how a stream is decoded in pieces. */
-import { readFileSync, writeFileSync } from "node:fs";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
@@ -8,7 +8,10 @@ import { parseVarint } from "../src/varint";
 import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh, type Wishes } from "../src/index";
 
 export const WEB = process.cwd();
-export const VECTORS = join(WEB, "../../spec/vectors/1.0");
+const SPEC = join(WEB, "../../spec/vectors");
+export const VECTORS = join(SPEC, "1.0");
+/** Of all versions. */
+export const FOLDERS = readdirSync(SPEC).filter((name) => name.startsWith("1.")).map((name) => join(SPEC, name));
 export const VIEWER = join(WEB, "../../src/bsm/viewer");
 export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
 

@@ -5,14 +5,18 @@ import { join } from "node:path";
 import test from "node:test";
 import { decode, type Attribute, type Event, type Header, type Kernels, type Mesh } from "../src/index";
 import { readNpz, type NumpyArray } from "./npz";
-import { BUILDS, compile, eventsOf, lesserDecode, meshOfEvents, VECTORS } from "./shared";
+import { BUILDS, compile, eventsOf, FOLDERS, lesserDecode, meshOfEvents } from "./shared";
 
 interface Vector {
+    folder: string;
     name: string;
     error?: string;
 }
 
-const { vectors } = JSON.parse(readFileSync(join(VECTORS, "manifest.json"), "utf8")) as { vectors: Vector[] };
+const vectors = FOLDERS.flatMap((folder) => {
+    const manifest = JSON.parse(readFileSync(join(folder, "manifest.json"), "utf8")) as { vectors: Vector[] };
+    return manifest.vectors.map((one) => ({ ...one, folder }));
+});
 const WAYS: [string, (kernels: Kernels, data: Uint8Array) => Mesh][] = [
     ["whole", decode],
     ["in events", (kernels, data) => meshOfEvents(eventsOf(kernels, data, data.length))],
@@ -25,10 +29,10 @@ for (const build of BUILDS) {
     for (const vector of vectors) {
         for (const [way, take] of WAYS) {
             test(`${build} ${vector.name} ${way}`, async () => {
-                const data = readFileSync(join(VECTORS, `${vector.name}.bsm`));
+                const data = readFileSync(join(vector.folder, `${vector.name}.bsm`));
                 const compiled = await kernels;
                 if (vector.error) assert.throws(() => take(compiled, data), { name: errorName(vector.error) });
-                else compare(take(compiled, data), readNpz(readFileSync(join(VECTORS, `${vector.name}.npz`))), way !== "whole");
+                else compare(take(compiled, data), readNpz(readFileSync(join(vector.folder, `${vector.name}.npz`))), way !== "whole");
             });
         }
     }
@@ -41,8 +45,8 @@ function isLarge({ paper, attributes, gopFrames }: Header): boolean {
 
 test("the small build decodes all other meshes to the same", async () => {
     const [take, full] = [await lesserDecode("small"), await compile(BUILDS[0])];
-    for (const { name } of vectors.filter(({ name }) => name.startsWith("good-"))) {
-        const data = readFileSync(join(VECTORS, `${name}.bsm`));
+    for (const { folder, name } of vectors.filter(({ name }) => name.startsWith("good-"))) {
+        const data = readFileSync(join(folder, `${name}.bsm`));
         const begin = eventsOf(full, data, data.length).next().value as Event;
         assert.ok(begin.type === "header");
         if (isLarge(begin.header)) assert.throws(() => take(data), { name: "UnsupportedError" }, name);
@@ -53,8 +57,8 @@ test("the small build decodes all other meshes to the same", async () => {
 test("the build of sequences decodes those without attributes to the same, and says that it has no grids", async () => {
     const [take, full] = [await lesserDecode("moving"), await compile(BUILDS[0])];
     let sequences = 0;
-    for (const { name } of vectors.filter(({ name }) => name.startsWith("good-"))) {
-        const data = readFileSync(join(VECTORS, `${name}.bsm`));
+    for (const { folder, name } of vectors.filter(({ name }) => name.startsWith("good-"))) {
+        const data = readFileSync(join(folder, `${name}.bsm`));
         const begin = eventsOf(full, data, data.length).next().value as Event;
         assert.ok(begin.type === "header");
         const { paper, attributes, gopFrames, grid } = begin.header;
@@ -69,8 +73,8 @@ test("the build of sequences decodes those without attributes to the same, and s
 test("the quick build decodes meshes on light grids to the same, and says that it has nothing else", async () => {
     const [take, full] = [await lesserDecode("quick"), await compile(BUILDS[0])];
     let lights = 0;
-    for (const { name } of vectors.filter(({ name }) => name.startsWith("good-"))) {
-        const data = readFileSync(join(VECTORS, `${name}.bsm`));
+    for (const { folder, name } of vectors.filter(({ name }) => name.startsWith("good-"))) {
+        const data = readFileSync(join(folder, `${name}.bsm`));
         const begin = eventsOf(full, data, data.length).next().value as Event;
         assert.ok(begin.type === "header");
         const { light } = begin.header;
