@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.coefficients.adaptive import CoefficientModel, encode_coefficients
 from bsm.bitstream.connectivity.faces import RARE_HEADER, code_rare, encode_connectivity, make_models
-from bsm.bitstream.container.packets import Packet, Refinement
+from bsm.bitstream.container.packets import Refinement
 from bsm.bitstream.container.wire import MAGIC, VERSION, FrameType, write_frame, write_map
 from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.entropy import range_coder as entropy
@@ -20,7 +21,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import changed
 from tools.gridded import gridded
-from tools.surgery import frames_of, header_frame, stream_of
+from tools.surgery import frames_of, header_frame, stream_of, with_header
 from tools.vectors.bad import Bad
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import base
@@ -33,9 +34,9 @@ TILTED = "700302200031320344"
 """Which of its three values are the largest and not 0, of each vertex of a tent, so that V 9.3 comes beyond 2^26."""
 
 
-def _gridded(faces: npt.ArrayLike, values: npt.NDArray[np.integer]) -> bytes:
+def _gridded(faces: npt.ArrayLike, values: npt.NDArray[np.integer], **header: Any) -> bytes:
     coded = encode_connectivity(np.asarray(faces, np.int32), len(values))
-    return stream_of(gridded(coded, values.astype(np.int32), [len(values)]))
+    return stream_of(gridded(coded, values.astype(np.int32), [len(values)], **header))
 
 
 def _any(mesh: TriangleMesh, most: int) -> bytes:
@@ -77,12 +78,10 @@ def _header(**values: Any) -> bytes:
 
 def _asked() -> bytes:
     """Vertices without neighbours, each at the place of the one before or at another."""
-    hits = [int(bit) for bit in f"{ASKED:b}"[1:]]
-    values = np.random.default_rng(5).integers(0, 10, (len(hits) + 12, 3)).astype(np.int32)
+    misses = [bit == "0" for bit in f"{ASKED:b}"[1:]]
+    values = np.random.default_rng(5).integers(0, 10, (len(misses) + 12, 3)).astype(np.int32)
     values[0] = 0
-    for v, hit in enumerate(hits, 1):
-        values[v, 0] = values[v - 1, 0] if hit else (values[v - 1, 0] + 1) % 10
-    values[len(hits) + 1 :, 0] = values[len(hits), 0]
+    values[:, 0] = np.cumsum([0, *misses, *[0] * 11]) % 10
     faces = np.repeat(np.arange(len(values)), 3).reshape(-1, 3)
     return stream_of(gridded(encode_connectivity(faces, len(values)), values, [len(values)], grid=[9, 9, 9]))
 
@@ -115,24 +114,20 @@ def _levels(mesh: TriangleMesh, seed: int, growth: int) -> bytes:
         for v in range(size):
             grown = growth * levels[first[v]]
             levels[v] = np.where(abs(grown) <= 1 << 20, grown, levels[v] >> 15) if first[v] < v else levels[v] >> 15
-    levels = levels.astype(np.int32)
-    data = FieldEncoder(levels_field(faces, size), levels).chunk(size)
+    data = FieldEncoder(levels_field(faces, size), levels.astype(np.int32)).chunk(size)
     header = replace(made.draft.header, refinement=(2.0**-20, 3.0))
-    packets: list[Packet] = [header, *made.draft.body, Refinement(0, size, data)]
-    return write_stream(packets)
+    return write_stream([header, *made.draft.body, Refinement(0, size, data)])
 
 
 def _tilted() -> bytes:
     """Ends of the largest grid, whose last vertices are far from the planes of eight flaps, and were so before."""
-    coded = encode_connectivity(together(*[tent(4)] * 8).faces, 8 * 18)
     ends = np.array([[int(d) >> 2 & 1, int(d) >> 1 & 1, int(d) & 1] for d in 8 * TILTED], np.int32)
-    return stream_of(gridded(coded, MOST * ends, [len(ends)], grid=[MOST, MOST, MOST]))
+    return _gridded(together(*[tent(4)] * 8).faces, MOST * ends, grid=[MOST, MOST, MOST])
 
 
 def _grown(growth: int) -> bytes:
     """Triangles on their own, whose second levels are so many times the first."""
-    mesh = together(*[triangle()] * 24)
-    made = base(mesh)
+    made = base(together(*[triangle()] * 24))
     levels = np.tile([[300] * 3, [300 * growth] * 3, [150 * growth * (1 + growth)] * 3], (24, 1)).astype(np.int32)
     data = FieldEncoder(levels_field(made.prepared.mesh.faces, 72), levels).chunk(72)
     header = replace(made.draft.header, refinement=(2.0**-20, 3.0))
@@ -159,13 +154,20 @@ def _metadata() -> bytes:
 def _counts(faces: int, degenerate: int, lonely: int, fans: int, dummies: int) -> bytes:
     """Faces that end behind their counts."""
     vertices = min(3 * faces, fans + lonely)
-    regular = vertices - lonely
     coder, models = entropy.start_writing(64), make_models(vertices)
-    for count in (degenerate, lonely, fans - regular, dummies):
+    for count in (degenerate, lonely, fans + lonely - vertices, dummies):
         code_rare(coder, models, RARE_HEADER, count)
-    payload = entropy.finish_writing(coder)
     header = header_frame(vertices=vertices, faces=faces, grid=[1, 1, 1])
-    return stream_of([header, (FrameType.CONNECTIVITY, payload)])
+    return stream_of([header, (FrameType.CONNECTIVITY, entropy.finish_writing(coder))])
+
+
+def _expected() -> bytes:
+    """One block, whose first y has the least magnitude expected that its context may have, and zeros far behind it."""
+    header, faces, (kind, block) = frames_of(encode(torus(10, 8), changed(BASE, block_size=80)))
+    levels = np.zeros((60, 3), np.int32)
+    levels[0], levels[40:55:3] = (20, 9, -5), (1, -2, 0)
+    data = encode_coefficients(CoefficientModel(60), levels)
+    return with_header(stream_of([header, faces, (kind, block[:1] + bytes([60]) + data)]), coefficients=60)
 
 
 BLOCKS = {"vertices": 1 << 24, "faces": 1 << 25, "blocks": 1 << 12, "block_size": 8192, "coefficients": 4096}
@@ -221,6 +223,8 @@ BOUNDS: dict[str, Good] = {
     "good-grid-tilted": Good("a vertex farther from a plane than terms may be (V 6.1)", _tilted),
     "good-grid-knot": Good("any faces of 24 vertices (C 7)", lambda: _knot(8, 24, 90)),
     "good-grid-knot-small": Good("any faces of 10 vertices", lambda: _knot(1, 10, 60)),
+    "good-grid-knot-first": Good("a neighbour that is fan 0 (C 7.4)", lambda: _knot(3, 5, 6)),
+    "good-expected": Good("zeros behind the first 32 rows of a first block (M 9.1, M 9.4)", _expected),
     "good-grid-nested": Good("high valences side by side (C 5.4)", _nested),
     "good-grid-tetrahedra": Good("flaps beside the vertex in question (V 8.3)", _tetrahedra),
     "good-grid-noise": Good("contexts that are met more than 400 times (V 4.5)", lambda: _any(torus(40, 40), 40)),
