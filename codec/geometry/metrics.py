@@ -168,9 +168,10 @@ def folded_edges(positions: Positions, faces: Faces) -> int:
     """How many edges that two faces share are folded by more than 90 degrees; faces without area fold none."""
     normals = face_normals(positions, faces)
     ends = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
-    _, edge, uses = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True, return_counts=True)
-    paired = np.flatnonzero((uses == 2)[edge.reshape(-1)])
-    first, second = paired[np.argsort(edge.reshape(-1)[paired], kind="stable")].reshape(-1, 2).T
+    keys = ends.min(axis=1).astype(np.int64) * len(positions) + ends.max(axis=1)
+    _, edge, uses = np.unique(keys, return_inverse=True, return_counts=True)
+    paired = np.flatnonzero((uses == 2)[edge])
+    first, second = paired[np.argsort(edge[paired], kind="stable")].reshape(-1, 2).T
     turned = np.einsum("ed,ed->e", normals[first // 3], normals[second // 3])
     same_way = (ends[first] == ends[second]).all(axis=1)  # faces of two orientations
     return int(np.count_nonzero(np.where(same_way, -turned, turned) < 0.0))

@@ -30,8 +30,8 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 35_029,
-    "all Python, lines": 72_824,
+    "product Python, lines": 35_045,
+    "all Python, lines": 72_840,
     "product modules": 196,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

@@ -6,7 +6,11 @@ from contextlib import suppress
 from operator import attrgetter
 from typing import Protocol
 
+import numpy as np
+
 from bsm.bitstream.errors import LimitError, TargetError
+from bsm.codec.geometry.metrics import folded_edges
+from bsm.codec.geometry.welding import first_of, weld
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
@@ -98,7 +102,22 @@ class Search:
                     least = candidate.draft.size
         if not kept:
             kept += self._last_resort(bounds)
-        return min((candidate.draft for candidate in kept), key=self._size)
+        best = min(kept, key=lambda one: self._size(one.draft))
+        return (best if best.draft.places is None else self._flatter(best, bounds)).draft
+
+    def _flatter(self, best: Candidate, bounds: Bounds) -> Candidate:
+        """The one with fewest edges folded over, of this and plain grids that take little more, where it has many."""
+        way = Unfolding(Gridded(self._prepared, bounds, 0.0), best.step)
+        _, faces, index = weld(self._prepared.positions, self._prepared.mesh.faces)
+        faces = np.ascontiguousarray(first_of(index)[faces], np.int32)
+        most = folded_edges(self._prepared.positions, faces) + len(faces) // 10_000
+        found, few = best, folded_edges(best.positions, faces)
+        for step in np.geomspace(best.step, best.step / 2.0, 7) if few > most else ():
+            one = way.at(float(step))
+            folded = folded_edges(one.positions, faces)
+            if folded < few and one.draft.size < DEARER * best.draft.size and bounds.keeps(one.positions):
+                found, few = one, folded
+        return found
 
     def _last_resort(self, bounds: Bounds) -> list[Candidate]:
         """What grids do that are finer than where a search began, where it came to nothing."""
