@@ -30,7 +30,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product Python, lines": 35_045,
+    "product Python, lines": 35_048,
     "all Python, lines": 72_840,
     "product modules": 196,
     "product C files and headers": 72,

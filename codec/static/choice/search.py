@@ -107,17 +107,20 @@ class Search:
 
     def _flatter(self, best: Candidate, bounds: Bounds) -> Candidate:
         """The one with fewest edges folded over, of this and plain grids that take little more, where it has many."""
-        way = Unfolding(Gridded(self._prepared, bounds, 0.0), best.step)
         _, faces, index = weld(self._prepared.positions, self._prepared.mesh.faces)
         faces = np.ascontiguousarray(first_of(index)[faces], np.int32)
-        most = folded_edges(self._prepared.positions, faces) + len(faces) // 10_000
-        found, few = best, folded_edges(best.positions, faces)
-        for step in np.geomspace(best.step, best.step / 2.0, 7) if few > most else ():
-            one = way.at(float(step))
-            folded = folded_edges(one.positions, faces)
-            if folded < few and one.draft.size < DEARER * best.draft.size and bounds.keeps(one.positions):
-                found, few = one, folded
-        return found
+        most = folded_edges(self._prepared.positions, faces) - -len(faces) // 10_000
+
+        def rank(one: Candidate) -> tuple[int, int]:
+            return max(folded_edges(one.positions, faces), most), one.draft.size
+
+        least, dearest = rank(best), DEARER * best.draft.size
+        if least[0] > most:
+            way = Unfolding(Gridded(self._prepared, bounds, 0.0), best.step)
+            for one in map(way.at, np.geomspace(best.step, best.step / 2.0, 9).tolist()):
+                if rank(one) < least and one.draft.size < dearest and bounds.keeps(one.positions):
+                    best, least = one, rank(one)
+        return best
 
     def _last_resort(self, bounds: Bounds) -> list[Candidate]:
         """What grids do that are finer than where a search began, where it came to nothing."""
