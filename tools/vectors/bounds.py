@@ -34,7 +34,7 @@ TILTED = "700302200031320344"
 """Which of its three values are the largest and not 0, of each vertex of a tent, so that V 9.3 comes beyond 2^26."""
 
 
-def _gridded(faces: npt.ArrayLike, values: npt.NDArray[np.integer], **header: Any) -> bytes:
+def _gridded(faces: npt.ArrayLike, values: npt.NDArray[Any], **header: Any) -> bytes:
     coded = encode_connectivity(np.asarray(faces, np.int32), len(values))
     return stream_of(gridded(coded, values.astype(np.int32), [len(values)], **header))
 
@@ -98,8 +98,7 @@ def _scales(mesh: TriangleMesh, seed: int) -> bytes:
     """From vertices that hardly differ to ones that have nothing in common."""
     random, size = np.random.default_rng(seed), len(mesh.positions)
     near = np.exp2(np.linspace(0, 20, size))[:, None] * random.normal(0, 0.3, (size, 3))
-    values = np.clip(np.rint(near + MOST / 2), 0, MOST).astype(np.int32)
-    return stream_of(gridded(encode_connectivity(mesh.faces, size), values, [size], grid=[MOST, MOST, MOST]))
+    return _gridded(mesh.faces, np.clip(np.rint(near + MOST / 2), 0, MOST), grid=[MOST, MOST, MOST])
 
 
 def _levels(mesh: TriangleMesh, seed: int, growth: int) -> bytes:
@@ -199,6 +198,7 @@ ILLEGAL: dict[str, tuple[str, dict[str, Any]]] = {
     "center": ("corrupt", GRID | {"grid": [1, 1, 1], "center": [1.01e300, 0.0, 0.0]}),
     "center-low": ("corrupt", GRID | {"grid": [1, 1, 1], "center": [-1.01e300, 0.0, 0.0]}),
     "scale": ("corrupt", GRID | {"grid": [1, 1, 1], "scale": 1.01e300}),
+    "step": ("corrupt", BLOCKS | {"step": 2.0**20 + 1}),
     "refinement": ("corrupt", BLOCKS | {"refinement": [2.0**-41, 1 / 16]}),
     "refinement-ratio": ("corrupt", BLOCKS | {"refinement": [2.0**-40, 1 / 17]}),
 }
