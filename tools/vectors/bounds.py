@@ -175,6 +175,7 @@ LEGAL: dict[str, dict[str, Any]] = {
     "limits": BLOCKS,
     "blocks": BLOCKS | {"blocks": 1 << 17, "block_size": 2048, "coefficients": 2048},
     "parts": {"vertices": 4, "faces": 4, "blocks": 4, "block_size": 4, "coefficients": 4},
+    "step": BLOCKS | {"step": 2.0**-40},
     "refinement": BLOCKS | {"refinement": [2.0**-40, 1 / 16]},
     "refinement-largest": BLOCKS | {"refinement": [1.0, 64.0]},
     "one": {"vertices": 4, "faces": 4, "blocks": 1, "block_size": 4, "coefficients": 4},
@@ -247,6 +248,9 @@ BOUNDS_BAD: dict[str, Bad] = {
     ),
     "bad-counts-dummies": Bad(
         "more loops than corners, and no face behind the counts", "corrupt", lambda: _counts(2000, 0, 0, 1000, 6001)
+    ),
+    "bad-counts-most": Bad(
+        "more fans and loops than vertices may be", "limit", lambda: _counts(1 << 24, 0, 0, 9, 1 << 24)
     ),
     "bad-order-twice": Bad("ORDER, and ORDER again", "corrupt", _ordered_twice),
     "unsupported-version-alone": Bad("a later version, in five bytes", "unsupported", lambda: MAGIC + b"\x20"),

@@ -47,7 +47,8 @@ SAME = {
         x «>» high|if offset «<» len(stream)|corners «>» 0|(level «+» sum
         h «>» 0:  # V 5.8|size «>» 1|rest «<» 0 else|3 «-» w if rest|ratio «<=» 1|d.bit_length() - 6
         x «<» 4|return x if x < «4»|// n if a «>=» 0|count «<=» 65536|len(flaps) «>» 1 else shape
-        len(found) «>» 1 else total|if g «>» 3|if u «>» v:|elif u «>» v|len(order) «>» 8|if r «<» cut and""",
+        len(found) «>» 1 else total|if g «>» 3|if u «>» v:|elif u «>» v|len(order) «>» 8|if r «<» cut and
+        nodes[(k «+» 1) % 3].vertex)""",
     "room or numbers that nothing uses": """
         [0] * «14»)|[[0] * «3»|[[0] * 3 for _ in range(«4»)]|[0.0] * «4»|range(1, «4»)
         OrderedDict() for _ in range(«4»)|«20480»|«13653»|«5851»|«6»: 13653|«4»: 20480|«14»: 5851|Model(«3», 400
