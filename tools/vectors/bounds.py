@@ -197,6 +197,7 @@ ILLEGAL: dict[str, tuple[str, dict[str, Any]]] = {
     "corner-low": ("corrupt", GRID | {"grid": [1, 1, 1], "corner": [-(2**31) - 1, 0, 0]}),
     "corner-high": ("corrupt", GRID | {"grid": [1, 1, 1], "corner": [0, 2**31, 0]}),
     "center": ("corrupt", GRID | {"grid": [1, 1, 1], "center": [1.01e300, 0.0, 0.0]}),
+    "center-long": ("corrupt", GRID | {"grid": [1, 1, 1], "center": [1.0] * 4}),
     "center-low": ("corrupt", GRID | {"grid": [1, 1, 1], "center": [-1.01e300, 0.0, 0.0]}),
     "scale": ("corrupt", GRID | {"grid": [1, 1, 1], "scale": 1.01e300}),
     "step": ("corrupt", BLOCKS | {"step": 2.0**20 + 1}),

@@ -48,14 +48,14 @@ SAME = {
         h «>» 0:  # V 5.8|size «>» 1|rest «<» 0 else|3 «-» w if rest|ratio «<=» 1|d.bit_length() - 6
         x «<» 4|return x if x < «4»|// n if a «>=» 0|count «<=» 65536|len(flaps) «>» 1 else shape
         len(found) «>» 1 else total|if g «>» 3|if u «>» v:|elif u «>» v|len(order) «>» 8|if r «<» cut and
-        nodes[(k «+» 1) % 3].vertex)""",
+        nodes[(k «+» 1) % 3].vertex)|(value «+» (1 << 31)) %|s if x «>=» 0|if x «>=» 1 else 0|(1 << «18», 0))[0]""",
     "room or numbers that nothing uses": """
         [0] * «14»)|[[0] * «3»|[[0] * 3 for _ in range(«4»)]|[0.0] * «4»|range(1, «4»)
         OrderedDict() for _ in range(«4»)|«20480»|«13653»|«5851»|«6»: 13653|«4»: 20480|«14»: 5851|Model(«3», 400
         faces, most=1 << «24»|d «<» 30|d < «30»|-2880, 2879) «+» 2880|range(8, «8» + self|range(-2880, «2880»)
         (width + «11»)|limit=«1023», rate|(1 << «31»)) % |(1 << «32»)|% (1 << 32) - (1 << «31»)""",
     "a rule behind it refuses the same": """
-        [], 0, «3»)|[], 0, «2»)|index «<» header["blocks"]
+        stored «<=» beside and|[], 0, «3»)|[], 0, «2»)|index «<» header["blocks"]
         len(value) for _, value in pairs if type(value) is list) «<=» 256|if d + (1 << h) > 1 << «22»
         if end > 1 << «22»|kf, kn, kp = clamp(lf - ff, 0, «15»)|clamp(ln - fn, 0, «15»)|clamp(lp - fp, 0, «15»)
         (self.square >> 6) + 1), -(1 << «26»), 1|-(1 << 26), 1 << «26»)|if d + (1 << h) «>» 1|if end «>» 1""",
