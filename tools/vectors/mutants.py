@@ -58,7 +58,7 @@ SAME = {
         stored «<=» beside and|[], 0, «3»)|[], 0, «2»)|index «<» header["blocks"]
         len(value) for _, value in pairs if type(value) is list) «<=» 256|if d + (1 << h) > 1 << «22»
         if end > 1 << «22»|kf, kn, kp = clamp(lf - ff, 0, «15»)|clamp(ln - fn, 0, «15»)|clamp(lp - fp, 0, «15»)
-        (self.square >> 6) + 1), -(1 << «26»), 1|-(1 << 26), 1 << «26»)|if d + (1 << h) «>» 1|if end «>» 1""",
+        (self.square >> 6) + 1), -(1 << «26»), 1|-(1 << 26), 1 << «26»)|if d «+» (1|if d + (1 << h) «>» 1|if end «>» 1""",
     "no position of the core is -0, no angle tells sine from cosine": """
         (positions «+» 0.0)|(rows «-» k) * unit|k «<=» rows // 2""",
     "33 has the same size, the same bits, and 36 + 8 as many; size(64) = size(65)": """
@@ -67,7 +67,7 @@ SAME = {
         min(size_class(typical), «23»)""",
     "messages, and codes of the command line": """
         dict(zip(ERRORS, («3», 4|(3, «4», 5|4, «5», 6|5, «6», 7|6, «7», 12|7, «12»|{«16»: "ext|«17»: "ext|«18»: "ext
-        «19»: "ext|version {stream[«4»]|>> «4»}, and""",
+        «19»: "ext|version {stream[«4»]|>> «4»}, and|{fans «+» dummies}""",
     "limits that no small stream comes to (M 14)": """
         = 1 << «28»|1 << 28, 1 << «23»|fans + dummies «>» most|size < «23»|len(payload) «<=» 65536|5 * rows
         s * solution|solution =|s = 3 if|value «>» most|65536 + 16 * faces|min(«4096», self|require_limit(8 * (6""",
