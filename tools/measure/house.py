@@ -31,7 +31,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product Python, lines": 35_048,
-    "all Python, lines": 72_853,
+    "all Python, lines": 72_854,
     "product modules": 196,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

@@ -160,11 +160,11 @@ def _counts(faces: int, degenerate: int, lonely: int, fans: int, dummies: int) -
     return stream_of([header, (FrameType.CONNECTIVITY, entropy.finish_writing(coder))])
 
 
-def _expected() -> bytes:
-    """One block, whose first y has the least magnitude expected that its context may have, and zeros far behind it."""
+def _expected(first: int) -> bytes:
+    """One block, whose first x is this, zeros far behind it: 20 makes y's expected magnitude the least of a context."""
     header, faces, (kind, block) = frames_of(encode(torus(10, 8), changed(BASE, block_size=80)))
     levels = np.zeros((60, 3), np.int32)
-    levels[0], levels[40:55:3] = (20, 9, -5), (1, -2, 0)
+    levels[0], levels[40:55:3] = (first, 9, -5), (1, -2, 0)
     data = encode_coefficients(CoefficientModel(60), levels)
     return with_header(stream_of([header, faces, (kind, block[:1] + bytes([60]) + data)]), coefficients=60)
 
@@ -226,7 +226,8 @@ BOUNDS: dict[str, Good] = {
     "good-grid-knot": Good("any faces of 24 vertices (C 7)", lambda: _knot(8, 24, 90)),
     "good-grid-knot-small": Good("any faces of 10 vertices", lambda: _knot(1, 10, 60)),
     "good-grid-knot-first": Good("a neighbour that is fan 0 (C 7.4)", lambda: _knot(3, 5, 6)),
-    "good-expected": Good("zeros behind the first 32 rows of a first block (M 9.1, M 9.4)", _expected),
+    "good-expected": Good("zeros behind the first 32 rows of a first block (M 9.1, M 9.4)", lambda: _expected(20)),
+    "good-expected-most": Good("a level of 23 bits, which are the most (M 9.6)", lambda: _expected((1 << 23) - 1)),
     "good-grid-nested": Good("high valences side by side (C 5.4)", _nested),
     "good-grid-tetrahedra": Good("flaps beside the vertex in question (V 8.3)", _tetrahedra),
     "good-grid-noise": Good("contexts that are met more than 400 times (V 4.5)", lambda: _any(torus(40, 40), 40)),

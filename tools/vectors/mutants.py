@@ -58,7 +58,7 @@ SAME = {
         stored «<=» beside and|[], 0, «3»)|[], 0, «2»)|index «<» header["blocks"]
         len(value) for _, value in pairs if type(value) is list) «<=» 256|if d + (1 << h) > 1 << «22»
         if end > 1 << «22»|kf, kn, kp = clamp(lf - ff, 0, «15»)|clamp(ln - fn, 0, «15»)|clamp(lp - fp, 0, «15»)
-        (self.square >> 6) + 1), -(1 << «26»), 1|-(1 << 26), 1 << «26»)|if d «+» (1|if d + (1 << h) «>» 1|if end «>» 1""",
+        (self.square >> 6) + 1), -(1 << «26»), 1|-(1 << 26), 1 << «26»)|d «+» (1|if d + (1 << h) «>» 1|if end «>» 1""",
     "no position of the core is -0, no angle tells sine from cosine": """
         (positions «+» 0.0)|(rows «-» k) * unit|k «<=» rows // 2""",
     "33 has the same size, the same bits, and 36 + 8 as many; size(64) = size(65)": """
