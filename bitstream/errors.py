@@ -193,6 +193,19 @@ class TargetError(BsmError, ValueError):
     best = float("inf")
 
 
+class VerificationError(BsmError, RuntimeError):
+    """A stream that does not decode to what the encoder promised: a fault of this program, and nothing was written.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> try:
+    ...     data = bsm.encode("bunny.ply")
+    ... except bsm.VerificationError as error:
+    ...     print(error)  # to be reported
+    """
+
+
 class DependencyError(BsmError, ImportError):
     """An optional package is needed for this and is not installed.
 

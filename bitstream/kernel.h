@@ -6,8 +6,30 @@
 #ifndef BSM_KERNEL_H
 #define BSM_KERNEL_H
 
+#include <float.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+/* Results are the same to the last bit everywhere (specification, M 1.3): each operation is rounded as IEEE 754 has it. What
+ * a compiler says of itself is checked here, and fusing products and sums is switched off for all that follows. What only
+ * running shows, the decoder finds (engine/arithmetic.c). */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(_M_FP_FAST) \
+    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error "compile BSM without -ffast-math, -Ofast, -funsafe-math-optimizations or /fp:fast: they change what streams decode to"
+#endif
+#if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD != 0
+#error "compile BSM with arithmetic that is as wide as its types: for 32-bit x86 with -msse2 -mfpmath=sse"
+#endif
+#if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || DBL_MANT_DIG != 53 || FLT_MAX_EXP != 128 || DBL_MAX_EXP != 1024
+#error "BSM needs float and double of IEEE 754"
+#endif
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__) && !defined(__cplusplus)
+#pragma GCC optimize("fp-contract=off")
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
 
 /* One and two dimensions, row-major, contiguous. */
 #define BSM_ARRAY(Name, type)                                                                                          \

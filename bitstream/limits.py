@@ -3,10 +3,22 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 
-from bsm.bitstream.errors import ArgumentError, LimitError, OptionError, public
+from bsm.bitstream.errors import (
+    ArgumentError,
+    BsmError,
+    CorruptError,
+    FormatError,
+    LimitError,
+    NumericError,
+    OptionError,
+    TruncatedError,
+    UnsupportedError,
+    public,
+)
 
 
 @public
@@ -179,3 +191,39 @@ def _worded(value: float) -> str:
 DEFAULT_LIMITS = Limits()
 NAMED_LIMITS = {"default": Limits, "service": Limits.service, "wide": Limits.wide}
 """Sets of limits that a command line can name."""
+
+
+_REFUSALS: dict[int, type[BsmError]] = {
+    2: OptionError,
+    3: FormatError,
+    4: CorruptError,
+    5: UnsupportedError,
+    6: LimitError,
+    7: NumericError,
+    12: TruncatedError,
+}
+_BEYOND = re.compile(r"(\w+) = (\d+) is over the limit of \d+$")
+
+
+def decoder_error(
+    status: int, message: str, offset: int, frame: int, block: int, limits: Limits, state: list[float]
+) -> Exception:
+    """The error that the decoder in C reports, as an exception; places of -1 are not known."""
+    if status not in _REFUSALS:
+        return MemoryError(message)
+    error = _REFUSALS[status](message)
+    if beyond := _BEYOND.match(message):
+        error = LimitError(f"{message}; {_cure_of(beyond[1], float(beyond[2]), *state[3:6])}")
+    places = {"offset": offset, "frame": frame, "block": block}
+    return error.located(**{name: place for name, place in places.items() if place >= 0})
+
+
+def _cure_of(name: str, value: float, shown: float, present: float, received: float) -> str:
+    def enough(limits: Limits) -> bool:
+        if name == "work":
+            return value <= limits.work_for(int(shown), 0)
+        if name == "memory":
+            return value <= limits.memory_for(int(present), int(received))
+        return bool(value <= getattr(limits, name, 0))
+
+    return _cure(name, enough)

@@ -6,26 +6,30 @@
 #include "codec/signal/signal.h"
 
 #if KERNEL_LEVELS == 1
-#define CHOOSE(result, name, parameters, arguments)                                                                    \
+#define CHOOSE_BY(give, result, name, parameters, arguments)                                                           \
     result name##_v1 parameters;                                                                                       \
-    result name parameters { return name##_v1 arguments; }
+    result name parameters { give name##_v1 arguments; }
 #else
-#define CHOOSE(result, name, parameters, arguments)                                                                    \
+#define CHOOSE_BY(give, result, name, parameters, arguments)                                                           \
     result name##_v1 parameters;                                                                                       \
     result name##_v3 parameters;                                                                                       \
     result name##_v4 parameters;                                                                                       \
     result name parameters {                                                                                           \
         if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&                                 \
             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))                                  \
-            return name##_v4 arguments;                                                                                \
-        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2"))         \
-            return name##_v3 arguments;                                                                                \
-        return name##_v1 arguments;                                                                                    \
+            give name##_v4 arguments;                                                                                  \
+        else if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2"))                                     \
+            give name##_v3 arguments;                                                                                  \
+        else                                                                                                           \
+            give name##_v1 arguments;                                                                                  \
     }
 #endif
+#define CHOOSE(...) CHOOSE_BY(return, __VA_ARGS__)
+#define CHOOSE_VOID(...) CHOOSE_BY(, void, __VA_ARGS__)
 
-CHOOSE(void, cosines, (Doubles table, Doubles2 columns), (table, columns))
-CHOOSE(void, resize_columns, (ConstSingles2 previous, Doubles table, Singles2 columns), (previous, table, columns))
+CHOOSE(bool, are_vectors_exact, (void), ())
+CHOOSE_VOID(cosines, (Doubles table, Doubles2 columns), (table, columns))
+CHOOSE_VOID(resize_columns, (ConstSingles2 previous, Doubles table, Singles2 columns), (previous, table, columns))
 CHOOSE(int64_t, iteration_space, (int64_t n, int64_t c), (n, c))
 CHOOSE(int64_t, iterate,
        (Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions, int64_t care,
@@ -34,20 +38,20 @@ CHOOSE(int64_t, iterate,
 CHOOSE(int64_t, completion_space, (int64_t h), (h))
 CHOOSE(int64_t, complete_columns, (ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole),
        (first, least_pivot, scratch, whole))
-CHOOSE(void, factorize_fronts,
+CHOOSE_VOID(factorize_fronts,
        (ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts, Words column,
         Singles scratch, Singles values, Singles inverse),
        (offsets, neighbours, weights, diagonal, fronts, column, scratch, values, inverse))
-CHOOSE(void, solve_columns,
+CHOOSE_VOID(solve_columns,
        (Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch, Doubles2 solution),
        (fronts, values, inverse, columns, scratch, solution))
-CHOOSE(void, project, (ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients),
+CHOOSE_VOID(project, (ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients),
        (subspace, values, coefficients))
 CHOOSE(int64_t, show_frames, (ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames),
        (field, first, weights, frames))
 CHOOSE(int64_t, multiply_matrices, (ConstDoubles2 left, ConstDoubles2 right, Doubles2 result), (left, right, result))
 CHOOSE(int64_t, turn_columns, (Doubles2 free, Doubles vector, Doubles shares), (free, vector, shares))
-CHOOSE(void, reconstruct, (ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values),
+CHOOSE_VOID(reconstruct, (ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values),
        (subspace, coefficients, values))
 
 #else

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, islice
 from numbers import Integral
 from threading import Lock, Thread
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from bsm.bitstream.errors import ArgumentError, OptionError
 
@@ -99,47 +99,3 @@ def side_by_side(first: Callable[[], Result], second: Callable[[], Result]) -> t
         return first(), pending.result()
     finally:
         thread.join()
-
-
-class Lanes:
-    """Work in lanes: what is submitted to one lane runs in order, different lanes run side by side."""
-
-    def __init__(self, threads: int | None) -> None:
-        self._count = threads_of(threads)
-        self._pool: ThreadPoolExecutor | None = None
-        self._lock = Lock()
-        self._waiting: dict[int, deque[Pending[Any]]] = {}
-
-    def submit(self, lane: int, work: Callable[[], Result]) -> Pending[Result]:
-        """Queue `work` behind everything submitted to the same lane."""
-        pending = Pending(work)
-        if self._count == 1:
-            pending.run()
-            return pending
-        with self._lock:
-            if lane in self._waiting:
-                self._waiting[lane].append(pending)
-                return pending
-            self._waiting[lane] = deque([pending])
-        if self._pool is None:
-            self._pool = pool_of(self._count)
-        self._pool.submit(self._drain, lane)
-        return pending
-
-    def close(self) -> None:
-        """Give up what has not started, wait for what has."""
-        with self._lock:
-            for waiting in self._waiting.values():
-                waiting.clear()
-        if self._pool is not None:
-            self._pool.shutdown(cancel_futures=True)
-
-    def _drain(self, lane: int) -> None:
-        while True:
-            with self._lock:
-                waiting = self._waiting[lane]
-                if not waiting:
-                    del self._waiting[lane]
-                    return
-                pending = waiting.popleft()
-            pending.run()

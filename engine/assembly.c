@@ -4,13 +4,15 @@
 #include "codec/signal/signal.h"
 #include "codec/static/units.h"
 
-bool begin_assembly(Assembly *assembly, int64_t vertices, Arena *arena) {
-    *assembly = (Assembly){{zero_doubles2(arena, vertices, 3), zero_doubles(arena, vertices)}, zero_bytes(arena, vertices), false};
-    return fine(arena->context);
+bool begin_assembly(Assembly *assembly, int64_t vertices, int64_t blocks, Arena *arena) {
+    assembly->lossy = false;
+    return zero_doubles2(arena, vertices, 3, &assembly->blend.sums) && zero_doubles(arena, vertices, &assembly->blend.weights)
+        && zero_bytes(arena, vertices, &assembly->lost) && zero_bytes(arena, blocks, &assembly->added);
 }
 
 void add_block(Assembly *assembly, const DecodedBlock *block) {
     add_copies(assembly->blend.sums, assembly->blend.weights, block->vertices, block->positions, block->weights);
+    assembly->added.data[block->index] = 1;
 }
 
 void lose_block(Assembly *assembly, const Blocks *blocks, int64_t index) {
@@ -41,11 +43,11 @@ void filter_polynomial(double amount, double *powers) {
 bool blend_all(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch, Doubles2 *positions) {
     int64_t n = graph->size;
     Mark mark = mark_of(scratch);
-    *positions = take_doubles2(arena, n, 3);
-    bool smoothing = header->smoothing > 0.0;
-    Doubles2 blended = smoothing ? take_doubles2(scratch, n, 3) : *positions;
-    Doubles room = take_doubles(scratch, smoothing ? 6 * n + 2 : 0);
-    if (fine(arena->context)) {
+    bool smoothing = header->smoothing > 0.0, done = take_doubles2(arena, n, 3, positions);
+    Doubles2 blended = *positions;
+    Doubles room = {NULL, 0};
+    if (smoothing) done = done && take_doubles2(scratch, n, 3, &blended) && take_doubles(scratch, 6 * n + 2, &room);
+    if (done) {
         for (int64_t i = 0; i < 3 * n; i++) {
             double weight = assembly->blend.weights.data[i / 3];
             blended.data[i] = weight > 0.0 ? assembly->blend.sums.data[i] / weight : 0.0;
@@ -55,13 +57,13 @@ bool blend_all(const Assembly *assembly, const Header *header, const Graph *grap
         if (smoothing) smooth_all(graph->offsets, graph->neighbours, const_doubles2(blended), (ConstDoubles){powers, POWERS}, room, *positions);
     }
     release_to(scratch, mark);
-    return fine(arena->context);
+    return done;
 }
 
 /* Mark what has a neighbour with a mark, so many times. */
 static bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch) {
-    Bytes before = take_bytes(scratch, marks.size);
-    if (failed(scratch->context)) return false;
+    Bytes before;
+    if (!take_bytes(scratch, marks.size, &before)) return false;
     for (; rings > 0; rings--) {
         memcpy(before.data, marks.data, (size_t)marks.size);
         for (int64_t v = 0; v < graph->size; v++)
@@ -74,14 +76,14 @@ bool mark_whole(const Assembly *assembly, const Header *header, const Graph *gra
     *whole = (Bytes){NULL, 0};
     if (!assembly->lossy) return true;
     Mark mark = mark_of(scratch);
-    *whole = take_bytes(arena, graph->size);
-    if (fine(arena->context)) {
+    bool done = take_bytes(arena, graph->size, whole);
+    if (done) {
         memcpy(whole->data, assembly->lost.data, (size_t)graph->size);
-        spread_marks(graph, *whole, (header->smoothing > 0.0 ? DEGREE : 0) + beyond, scratch);
+        done = spread_marks(graph, *whole, (header->smoothing > 0.0 ? DEGREE : 0) + beyond, scratch);
         for (int64_t v = 0; v < graph->size; v++) whole->data[v] = !whole->data[v];
     }
     release_to(scratch, mark);
-    return fine(arena->context);
+    return done;
 }
 
 bool into_unit(Context *context, const Header *header, Doubles2 positions) {

@@ -7,6 +7,7 @@
 typedef struct {
     Blended blend;
     Bytes lost;  /* vertices of blocks that were lost */
+    Bytes added; /* blocks that were added */
     bool lossy;
 } Assembly;
 
@@ -14,7 +15,7 @@ typedef struct {
 enum { DEGREE = 5, POWERS = DEGREE - 1 };
 void filter_polynomial(double amount, double *powers);
 
-bool begin_assembly(Assembly *assembly, int64_t vertices, Arena *arena);
+bool begin_assembly(Assembly *assembly, int64_t vertices, int64_t blocks, Arena *arena);
 void add_block(Assembly *assembly, const DecodedBlock *block);
 void lose_block(Assembly *assembly, const Blocks *blocks, int64_t index);
 /* All positions in BSM units, smoothed; those that nobody knows are 0. */

@@ -6,10 +6,14 @@ enum { GUESSES_PLAIN = MOST_COMPONENTS * BASES * VALENCES, GUESSES_OTHERS = 2 * 
 static const double DECLARED_WORK = 6e5, ATTRIBUTE_WORK = 4e5;
 
 void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena) {
-    *attributes = (Attributes){.context = context, .header = header, .faces = faces, .arena = arena, .coding = arena_of(context)};
+    *attributes = (Attributes){.context = context, .header = header, .faces = faces, .arena = arena, .coding = arena_of(context),
+        .recent = arena_of(context)};
 }
 
-void end_attributes(Attributes *attributes) { release_all(&attributes->coding); }
+void end_attributes(Attributes *attributes) {
+    release_all(&attributes->recent);
+    release_all(&attributes->coding);
+}
 
 /* Numbers that an attribute has at most, coded or not (F 5.8). */
 static double numbers_of(const Declaration *d, int64_t faces) {
@@ -38,13 +42,16 @@ static bool read_seams(Attributes *attributes, int64_t index, Span payload, Aren
         return false;
     if (!attributes->has_corners)
         attributes->has_corners = link_mesh(context, attributes->faces, n, attributes->arena, scratch, &attributes->corners);
-    joins->seams = zero_bytes(attributes->arena, size);
-    Bytes others = zero_bytes(scratch, size);
-    Ints joined = take_ints(scratch, size), firsts = take_ints(scratch, size);
-    Ints2 ends = take_ints2(scratch, n, 3);
-    Bank bank = make_bank(scratch, (BankPlan){.slots = SEAM_SLOTS, .selectors = OTHERS, .inputs = SEAM_INPUTS});
+    Bytes others;
+    Ints joined, firsts;
+    Ints2 ends;
+    Bank bank;
     Reading reading;
-    if (failed(context) || !begin_reading(context, payload, &reading)) return false;
+    if (!attributes->has_corners || !zero_bytes(attributes->arena, size, &joins->seams) || !zero_bytes(scratch, size, &others)
+        || !take_ints(scratch, size, &joined) || !take_ints(scratch, size, &firsts) || !take_ints2(scratch, n, 3, &ends)
+        || !make_bank(scratch, (BankPlan){.slots = SEAM_SLOTS, .selectors = OTHERS, .inputs = SEAM_INPUTS}, &bank)
+        || !begin_reading(context, payload, &reading))
+        return false;
     look_at_others(attributes, index, others);
     code_edges(reading.coder, bank, attributes->corners, joins->seams, const_bytes(others), ends);
     if (!finish_reading(&reading)) return false;
@@ -59,11 +66,12 @@ static bool find_joins(Attributes *attributes, int64_t index, Attribute *one, Sp
     if (d->seams_of > 0) {
         const Attribute *shared = d->seams_of <= MOST_ATTRIBUTES ? attributes->one[d->seams_of - 1] : NULL;
         one->joins = shared != NULL ? shared->joins : NULL;
-        return one->joins != NULL || FAIL(context, CORRUPT, "the seams of attribute # are those of one that is missing", index);
+        return one->joins != NULL || FAIL(context, CORRUPT, "the seams of '$' are those of an attribute that is missing", .name = d->name);
     }
-    if (attributes->count < index) return FAIL(context, CORRUPT, "the seams of attribute # depend on those of one that is missing", index);
-    Joins *joins = take_memory(attributes->arena, 1, sizeof *joins);
-    if (joins == NULL || !read_seams(attributes, index, seams, scratch, joins)) return false;
+    if (attributes->count < index)
+        return FAIL(context, CORRUPT, "the seams of '$' depend on those of an attribute that is missing", .name = d->name);
+    Joins *joins;
+    if (!TAKE(attributes->arena, 1, joins) || !read_seams(attributes, index, seams, scratch, joins)) return false;
     one->joins = joins;
     one->own_joins = true;
     return true;
@@ -73,8 +81,8 @@ bool declare_attribute(Attributes *attributes, int64_t index, const Declaration 
     Context *context = attributes->context;
     double numbers = attributes->numbers + numbers_of(declaration, attributes->faces.rows);
     if (!spend(context, DECLARED_WORK, 0) || !WITHIN(context, attribute_values, numbers)) return false;
-    Attribute *one = take_zeros(attributes->arena, 1, sizeof *one);
-    if (one == NULL) return false;
+    Attribute *one;
+    if (!TAKE_ZEROS(attributes->arena, 1, one)) return false;
     one->declaration = *declaration;
     if (!find_joins(attributes, index, one, seams, scratch)) return false;
     attributes->numbers = numbers;
@@ -96,24 +104,23 @@ bool check_rows(const Attributes *attributes, const Numbering *numbering) {
         if (one == NULL || one->declaration.coding == RECOMPUTED) continue;
         int64_t expected = expected_rows(attributes, one, numbering);
         if (one->declaration.rows != expected)
-            return FAIL(attributes->context, CORRUPT, "attribute # has # values where # belong", k, one->declaration.rows, expected);
+            return FAIL(attributes->context, CORRUPT, "attribute '$' has # values where # belong", one->declaration.rows, expected,
+                .name = one->declaration.name);
     }
     return true;
 }
 
 /* The values of an attribute as vertices of a mesh of their own (D 3.1). */
 static bool lay_out(Attributes *attributes, Attribute *one, const Numbering *numbering, Arena *scratch) {
-    Context *context = attributes->context;
     int64_t n = attributes->header->vertices, size = 3 * attributes->faces.rows;
     one->faces = attributes->faces;
     if (one->declaration.domain == BSMDEC_FACE) return true;
-    one->vertices = take_ints(attributes->arena, one->rows);
+    if (!take_ints(attributes->arena, one->rows, &one->vertices)) return false;
     int64_t placed = one->rows - loose_rows(&one->declaration, numbering);
-    if (failed(context)) return false;
     if (one->joins != NULL) {
-        Ints2 joined = take_ints2(attributes->arena, attributes->faces.rows, 3);
-        Ints first = take_ints(scratch, size);
-        if (failed(context)) return false;
+        Ints2 joined;
+        Ints first;
+        if (!take_ints2(attributes->arena, attributes->faces.rows, 3, &joined) || !take_ints(scratch, size, &first)) return false;
         join_corners(attributes->corners, const_bytes(one->joins->seams), (Ints){joined.data, size}, first);
         one->faces = const_ints2(joined);
         for (int64_t r = 0; r < placed; r++) one->vertices.data[r] = attributes->faces.data[first.data[r]];
@@ -122,6 +129,11 @@ static bool lay_out(Attributes *attributes, Attribute *one, const Numbering *num
     }
     for (int64_t r = placed; r < one->rows; r++) one->vertices.data[r] = -1;
     return true;
+}
+
+/* Zeros for the values of all rows. */
+bool take_values(Arena *arena, const Attribute *one, void **values) {
+    return is_there(*values = find_zeros(arena, one->rows * one->declaration.components, kind_size(one->declaration.kind)));
 }
 
 bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch) {
@@ -140,17 +152,17 @@ bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scr
         bool done = keep(context, 16.0 * d->components * rows + 12 * rows + 12 * m, 0)
             && (d->coding != RECOMPUTED || afford(context, 200 * m + 100 * rows))
             && spend(context, ATTRIBUTE_WORK + 150 * rows + 60 * m, 0) && lay_out(attributes, one, numbering, scratch);
-        if (done) one->values = take_zeros(attributes->arena, one->rows * d->components, kind_size(d->kind));
+        done = done && take_values(attributes->arena, one, &one->values);
         release_to(scratch, mark);
-        if (failed(context)) return false;
+        if (!done) return false;
     }
     return true;
 }
 
 /* For each row the next one at the same vertex, in a ring (A 2.4). */
 static bool find_twins(const Attribute *one, int64_t vertices, Arena *scratch, Ints twin) {
-    Ints first = take_ints(scratch, vertices), last = take_ints(scratch, vertices);
-    if (failed(scratch->context)) return false;
+    Ints first, last;
+    if (!take_ints(scratch, vertices, &first) || !take_ints(scratch, vertices, &last)) return false;
     for (int64_t v = 0; v < vertices; v++) first.data[v] = last.data[v] = -1;
     for (int64_t r = 0; r < one->rows; r++) {
         int32_t v = one->vertices.data[r];
@@ -174,15 +186,15 @@ static ValueKind value_kind(const Declaration *d) {
     return small && d->semantic == BSMDEC_TEXCOORD && d->words == 2 ? TEXCOORDS : PLAIN;
 }
 
-static Longs2 start_learners(Arena *arena, ValueKind kind) {
+static bool start_learners(Arena *arena, ValueKind kind, Longs2 *learners) {
     int64_t guesses = kind == PLAIN ? GUESSES_PLAIN : GUESSES_OTHERS, count = guesses + guesses / VALENCES;
-    Longs2 learners = make_learners(arena, count);
-    for (int64_t k = 0; fine(arena->context) && k < count; k++) {
+    if (!make_learners(arena, count, learners)) return false;
+    for (int64_t k = 0; k < count; k++) {
         bool size = k >= guesses;
-        start_learner(learners, k, 0, size ? 40000 : kind == PLAIN ? 16384 : kind == TEXCOORDS ? 8192 : 0);
-        start_learner(learners, k, 1, size ? 8192 : kind == PLAIN ? 16384 : 0);
+        start_learner(*learners, k, 0, size ? 40000 : kind == PLAIN ? 16384 : kind == TEXCOORDS ? 8192 : 0);
+        start_learner(*learners, k, 1, size ? 8192 : kind == PLAIN ? 16384 : 0);
     }
-    return learners;
+    return true;
 }
 
 static bool begin_vertex_group(Attributes *attributes, Attribute *one, Group *group, ConstInts largest, int32_t most, ConstInts2 geometry, Arena *scratch) {
@@ -190,17 +202,19 @@ static bool begin_vertex_group(Attributes *attributes, Attribute *one, Group *gr
     Arena *arena = &attributes->coding;
     int64_t size = one->rows, columns = largest.size, words = most / 64 + 1;
     ValueKind kind = value_kind(&one->declaration);
-    Ints twin = take_ints(arena, size);
-    if (failed(context) || !link_mesh(context, one->faces, size, arena, scratch, &group->corners)
-        || !order_mesh(context, &group->corners, arena, scratch, &group->order)
+    Values *values = &group->values;
+    Ints twin;
+    if (!take_ints(arena, size, &twin) || !link_mesh(context, one->faces, size, arena, scratch, &group->corners)
+        || !order_mesh(&group->corners, arena, scratch, &group->order)
         || !find_twins(one, attributes->header->vertices, scratch, twin))
         return false;
-    group->values = (Values){largest, const_ints(group->order), const_ints(twin), geometry, group->pieces, zero_ints2(arena, size, columns),
-        zero_longs2(arena, size, columns + 1), zero_longs2(arena, columns, words), start_learners(arena, kind),
-        zero_ints2(arena, kind == NORMALS ? size : 0, DIRECTIONS), zero_longs(arena, 2)};
-    if (failed(context)) return false;
-    group->values.chart.data[1] = 16 * (int64_t)largest.data[0];
-    if (kind == NORMALS) expect_normals(group->corners, group->values);
+    *values = (Values){.largest = largest, .order = const_ints(group->order), .twin = const_ints(twin), .geometry = geometry, .values = group->pieces};
+    if (!zero_ints2(arena, size, columns, &values->gaps) || !zero_longs2(arena, size, columns + 1, &values->sums)
+        || !zero_longs2(arena, columns, words, &values->seen) || !start_learners(arena, kind, &values->learners)
+        || !zero_ints2(arena, kind == NORMALS ? size : 0, DIRECTIONS, &values->directions) || !zero_longs(arena, 2, &values->chart))
+        return false;
+    values->chart.data[1] = 16 * (int64_t)largest.data[0];
+    if (kind == NORMALS) expect_normals(group->corners, *values);
     return true;
 }
 
@@ -212,19 +226,20 @@ static bool begin_group(Attributes *attributes, Attribute *one, Group *group, co
     double own = value_kind(&one->declaration) == NORMALS ? 48 : 0;
     double charge = of_faces ? (72 + 48 + 8 * c) * m + model : (84 + 16 * c + own) * n + 48 * m + model + c * (1 << 17);
     if (!WITHIN(context, field_bytes, charge)) return false;
-    Ints largest = take_ints(arena, group->columns);
-    group->model = make_value_model(arena);
-    group->pieces = zero_ints2(arena, one->rows, group->columns);
-    if (failed(context)) return false;
+    Ints largest;
+    if (!take_ints(arena, group->columns, &largest) || !make_value_model(arena, &group->model)
+        || !zero_ints2(arena, one->rows, group->columns, &group->pieces))
+        return false;
     int32_t most = 0;
     for (int j = 0; j < group->columns; j++) {
         largest.data[j] = pieces[j];
         most = pieces[j] > most ? pieces[j] : most;
     }
     if (!of_faces) return begin_vertex_group(attributes, one, group, const_ints(largest), most, geometry, scratch);
-    group->face_values = (FaceValues){const_ints(largest), group->pieces, zero_ints2(arena, one->rows, group->columns),
-        zero_ints2(arena, group->columns, FACE_MEMORY)};
-    return fine(context) && link_mesh(context, one->faces, attributes->header->vertices, arena, scratch, &group->corners);
+    group->face_values = (FaceValues){.largest = const_ints(largest), .values = group->pieces};
+    return zero_ints2(arena, one->rows, group->columns, &group->face_values.gaps)
+        && zero_ints2(arena, group->columns, FACE_MEMORY, &group->face_values.memory)
+        && link_mesh(context, one->faces, attributes->header->vertices, arena, scratch, &group->corners);
 }
 
 /* Where rows are, in whole numbers (D 5); nothing if values do not lean on that. */
@@ -232,8 +247,8 @@ static bool find_geometry(Attributes *attributes, const Attribute *one, ConstInt
     *geometry = (ConstInts2){NULL, 0, 3};
     if (!one->declaration.leans) return true;
     if (places.rows == 0) return FAIL(attributes->context, CORRUPT, "positions are missing that attributes are predicted from");
-    Ints2 found = zero_ints2(&attributes->coding, one->rows, 3);
-    if (failed(attributes->context)) return false;
+    Ints2 found;
+    if (!zero_ints2(&attributes->coding, one->rows, 3, &found)) return false;
     for (int64_t r = 0; r < one->rows; r++)
         if (one->vertices.data[r] >= 0) memcpy(found.data + 3 * r, places.data + 3 * (int64_t)one->vertices.data[r], 3 * sizeof(int32_t));
     *geometry = const_ints2(found);
@@ -281,12 +296,21 @@ static bool decode_group(Context *context, const Attribute *one, Group *group, S
     return check_chunk_done(&reading, done, count);
 }
 
-bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch) {
+static bool mark_fresh(Attributes *attributes, const Attribute *attribute, const Packet *packet) {
+    release_all(&attributes->recent);
+    attributes->latest = attribute;
+    attributes->fresh = (Bytes){NULL, 0};
+    if (packet->count == attribute->rows) return true;
+    if (!zero_bytes(&attributes->recent, attribute->rows, &attributes->fresh)) return false;
+    ConstInts order = const_ints(attribute->group[0].order);
+    for (int64_t i = packet->first; i < packet->first + packet->count; i++) attributes->fresh.data[order.size > 0 ? order.data[i] : i] = 1;
+    return true;
+}
+
+static bool decode_chunk(Attributes *attributes, Attribute *one, const Packet *packet, ConstInts2 places, Arena *scratch) {
     Context *context = attributes->context;
-    Attribute *one = attributes->one[packet->index];
     double bytes = (double)packet->data.size;
-    if (one == NULL) return FAIL(context, CORRUPT, "attribute # is not declared", packet->index);
-    if (one->whole) return FAIL(context, CORRUPT, "attribute # has all its values already", packet->index);
+    if (one->whole) return FAIL(context, CORRUPT, "it has all its values already");
     if (!one->begun && !begin_one(attributes, one, places, scratch)) return false;
     if (!keep(context, 0, bytes) || !spend(context, chunk_work(bytes, (double)one->rows), bytes)) return false;
     if (packet->first != one->coded) return FAIL(context, CORRUPT, "the values before number # are missing", packet->first);
@@ -299,9 +323,16 @@ bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 plac
     if (!at_end(&cursor) || !restore_values(context, one, packet->first, packet->count)) return false;
     one->coded = packet->first + packet->count;
     one->whole = one->coded == one->rows;
+    if (!mark_fresh(attributes, one, packet)) return false;
     if (one->whole) {
         release_all(&attributes->coding);
         return keep(context, -one->coding, 0);
     }
     return true;
+}
+
+bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch) {
+    Attribute *attribute = attributes->one[packet->index];
+    if (attribute == NULL) return FAIL(attributes->context, CORRUPT, "attribute # is not declared", packet->index);
+    return decode_chunk(attributes, attribute, packet, places, scratch) || name_attribute(attributes->context, attribute->declaration.name);
 }

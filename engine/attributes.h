@@ -52,6 +52,9 @@ typedef struct {
     bool has_corners, begun;
     Corners corners;
     double numbers;
+    Arena recent;
+    const Attribute *latest; /* whose values came last, and marks of their rows; no marks: of all */
+    Bytes fresh;
 } Attributes;
 
 void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena);
@@ -61,10 +64,11 @@ bool declare_attribute(Attributes *attributes, int64_t index, const Declaration 
 bool check_rows(const Attributes *attributes, const Numbering *numbering);
 /* What is needed before values come, or where none do. */
 bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch);
+MUST_CHECK bool take_values(Arena *arena, const Attribute *one, void **values);
 /* `places`: values of a grid, if all of them are there, otherwise none. */
 bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch);
 /* Normals that follow from positions (D 4.4). */
-bool recompute(Attributes *attributes, Attribute *one, ConstDoubles2 positions, Arena *scratch);
+bool recompute(Attribute *one, ConstDoubles2 positions, Arena *scratch);
 
 /* What first values have beyond those of vertex 0; the values of a frame that differs from the first by so much (S 10). */
 void beyond_one(const Attribute *one, Doubles2 beyond);
@@ -76,6 +80,11 @@ INLINE size_t kind_size(int kind) {
     static const size_t SIZES[] = {1, 1, 2, 2, 4, 4, 4, 8};
     return SIZES[kind];
 }
+
+INLINE bool is_kind(int kind) { return kind >= BSMDEC_UINT8 && kind <= BSMDEC_FLOAT64; }
+/* One number of values of a kind. */
+double load_number(const void *values, int64_t place, int kind);
+void store_number(void *values, int64_t place, int kind, double number);
 
 /* How the user is given an attribute (D 4.5). */
 typedef struct {

@@ -8,35 +8,39 @@ static const double START_NOISE = 0.25, FOLLOWING_NOISE = 0x1p-8;
 enum { EXACT_POWER = 2, EXACT_ITERATIONS = 128, FIRST_CARE = 16 };
 enum { NEEDS_CARE = 1, LOST = 2 };
 
-Factor factor_room(Arena *arena, const Patch *patch) {
+bool take_factor(Arena *arena, const Patch *patch, Factor *factor) {
     int64_t size = patch->fronts.places.data[patch->fronts.places.size - 1];
-    return (Factor){take_singles(arena, size + 15), take_singles(arena, patch->size)};
+    return take_singles(arena, size + 15, &factor->values) && take_singles(arena, patch->size, &factor->inverse);
 }
 
-bool factorize_patch(Context *context, const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor) {
+bool factorize_patch(const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor) {
     int64_t n = patch->size;
-    Doubles diagonal = take_doubles(arena, n);
-    Singles scratch = take_singles(arena, 3 * (n + 16) + 15);
-    Words column = take_words(arena, n + 1);
-    *factor = factor_room(arena, patch);
-    if (failed(context)) return false;
+    Doubles diagonal;
+    Singles scratch;
+    Words column;
+    if (!take_doubles(arena, n, &diagonal) || !take_singles(arena, 3 * (n + 16) + 15, &scratch) || !take_words(arena, n + 1, &column)
+        || !take_factor(arena, patch, factor))
+        return false;
     for (int64_t r = 0; r < n; r++) diagonal.data[r] = patch->diagonal.data[r] + (springs.data[r] + shift);
     factorize_fronts(patch->offsets, patch->neighbours, patch->weights, const_doubles(diagonal), patch->fronts, column, scratch,
         factor->values, factor->inverse);
     return true;
 }
 
-static bool is_in_pieces(const Patch *patch, Arena *scratch) {
-    Ints room = take_ints(scratch, 2 * patch->size + 1);
-    return fine(scratch->context) && !reaches_all(patch->offsets, patch->neighbours, room);
+/* Whether a patch is in pieces. */
+static bool look_for_pieces(const Patch *patch, Arena *scratch, bool *in_pieces) {
+    Ints room;
+    if (!take_ints(scratch, 2 * patch->size + 1, &room)) return false;
+    *in_pieces = !reaches_all(patch->offsets, patch->neighbours, room);
+    return true;
 }
 
 /* The first `width` columns of others, and cosines where there are fewer. */
-static Singles2 resized(Singles2 previous, int64_t rows, int64_t width, Arena *arena) {
-    Singles2 columns = take_singles2(arena, rows, width);
-    Doubles table = take_doubles(arena, rows + 8);
-    if (fine(arena->context)) resize_columns(const_singles2(previous), table, columns);
-    return columns;
+static bool resize(Singles2 previous, int64_t rows, int64_t width, Arena *arena, Singles2 *columns) {
+    Doubles table;
+    if (!take_singles2(arena, rows, width, columns) || !take_doubles(arena, rows + 8, &table)) return false;
+    resize_columns(const_singles2(previous), table, *columns);
+    return true;
 }
 
 static void add_noise(Singles2 columns, double share) {
@@ -47,7 +51,8 @@ static void add_noise(Singles2 columns, double share) {
 /* U(t) = Onorm(R^z U(t - 1)) of the first `columns` of a start (M 8.4). */
 static bool iterate_columns(Context *context, const Patch *patch, const Factor *factor, Singles2 start, Schedule plan, Arena *scratch, Singles2 subspace) {
     int64_t rows = subspace.rows, columns = subspace.columns, solutions = plan.power * plan.iterations, found = NEEDS_CARE;
-    Singles room = take_singles(scratch, iteration_space(rows, columns));
+    Singles room;
+    if (!take_singles(scratch, iteration_space(rows, columns), &room)) return false;
     for (int64_t care = 0; found == NEEDS_CARE; care = care > 0 ? 4 * care : FIRST_CARE) {
         if (!spend(context, dictionary_work(&patch->fronts, columns, (double)solutions, (double)care), 0)) return false;
         found = iterate(patch->fronts, factor->values, const_singles(factor->inverse), const_singles2(start), solutions, care, room, subspace);
@@ -59,13 +64,14 @@ static bool iterate_columns(Context *context, const Patch *patch, const Factor *
 static bool iterate_and_complete(Context *context, const Patch *patch, const Factor *factor, Singles2 start, Schedule plan,
     int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
     int64_t first = least(width, plan.most), rows = patch->size;
-    *dictionary = take_singles2(arena, rows, width);
-    Singles2 iterated = first == width ? *dictionary : take_singles2(scratch, rows, first);
-    if (failed(context) || !iterate_columns(context, patch, factor, start, plan, scratch, iterated)) return false;
+    if (!take_singles2(arena, rows, width, dictionary)) return false;
+    Singles2 iterated = *dictionary;
+    if (first < width && !take_singles2(scratch, rows, first, &iterated)) return false;
+    if (!iterate_columns(context, patch, factor, start, plan, scratch, iterated)) return false;
     if (first == width) return true;
     if (!spend(context, completion_work((double)rows, (double)plan.most, (double)width), 0)) return false;
-    Singles room = take_singles(scratch, completion_space(first));
-    if (failed(context)) return false;
+    Singles room;
+    if (!take_singles(scratch, completion_space(first), &room)) return false;
     return complete_columns(const_singles2(iterated), LEAST_PIVOT, room, *dictionary)
         || FAIL(context, NUMERIC, "the columns of a dictionary cannot be completed");
 }
@@ -75,26 +81,30 @@ bool key_dictionary(Context *context, const Header *header, const Patch *patch, 
     const Paper *paper = &header->paper;
     Schedule plan = {paper->power, paper->key_iterations, iterated_columns(header, patch->size)};
     Factor own;
-    Singles2 none = {NULL, 0, 0};
+    Singles2 start;
+    bool noisy = true;
     if (paper->exact) {
         plan.power = EXACT_POWER;
         plan.iterations = EXACT_ITERATIONS;
     }
     if (paper->exact || held == NULL) {
-        if (!factorize_patch(context, patch, springs, paper->exact ? EXACT_SHIFT : paper->shift, scratch, &own)) return false;
+        if (!factorize_patch(patch, springs, paper->exact ? EXACT_SHIFT : paper->shift, scratch, &own)) return false;
         held = &own;
     }
-    Singles2 start = resized(none, patch->size, least(width, plan.most), scratch);
-    if (paper->exact || is_in_pieces(patch, scratch)) add_noise(start, START_NOISE);
-    return fine(context) && iterate_and_complete(context, patch, held, start, plan, width, arena, scratch, dictionary);
+    if (!resize((Singles2){NULL, 0, 0}, patch->size, least(width, plan.most), scratch, &start)) return false;
+    if (!paper->exact && !look_for_pieces(patch, scratch, &noisy)) return false;
+    if (noisy) add_noise(start, START_NOISE);
+    return iterate_and_complete(context, patch, held, start, plan, width, arena, scratch, dictionary);
 }
 
 bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor, Singles2 previous,
     int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
     Schedule plan = {header->paper.power, header->paper.iterations, iterated_columns(header, patch->size)};
     int64_t first = least(width, plan.most);
-    bool noisy = is_in_pieces(patch, scratch);
-    Singles2 start = noisy || previous.columns < first ? resized(previous, patch->size, first, scratch) : previous;
+    Singles2 start = previous;
+    bool noisy;
+    if (!look_for_pieces(patch, scratch, &noisy)) return false;
+    if ((noisy || previous.columns < first) && !resize(previous, patch->size, first, scratch, &start)) return false;
     if (noisy) add_noise(start, FOLLOWING_NOISE);
-    return fine(context) && iterate_and_complete(context, patch, factor, start, plan, width, arena, scratch, dictionary);
+    return iterate_and_complete(context, patch, factor, start, plan, width, arena, scratch, dictionary);
 }

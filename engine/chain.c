@@ -12,9 +12,8 @@ bool begin_chains(Chains *chains, Context *context, const Header *header, const 
     chains->chain = chains->subspaces[0] = chains->subspaces[1] = arena_of(context);
     chains->knows = header->paper.springs && header->key_interval != 1;
     if (!chains->knows) return true;
-    chains->known = (Blended){zero_doubles2(arena, graph->size, 3), zero_doubles(arena, graph->size)};
-    chains->inside = zero_bytes(arena, graph->size);
-    return fine(context);
+    return zero_doubles2(arena, graph->size, 3, &chains->known.sums) && zero_doubles(arena, graph->size, &chains->known.weights)
+        && zero_bytes(arena, graph->size, &chains->inside);
 }
 
 void end_chains(Chains *chains) {
@@ -46,22 +45,32 @@ static void forget_positions(Chains *chains) {
     }
 }
 
-static bool begin_chain(Chains *chains, int64_t number) {
-    Context *context = chains->context;
-    int64_t rows = ABOVE + chains->header->coefficients + BEYOND;
+void leave_chain(Chains *chains) {
     if (chains->knows && chains->number >= 0) forget_positions(chains);
-    chains->number = number;
-    chains->first = chains->next = number * chain_length(chains->header);
+    chains->number = -1;
     chains->subspace = (Singles2){NULL, 0, 0};
     end_chains(chains);
-    chains->bank = make_bank(&chains->chain, (BankPlan){.slots = LEVEL_SLOTS, .selectors = SELECTORS * NODES, .inputs = EXPECTATIONS,
-                                                 .limit = LEVEL_LIMIT, .rate = LEVEL_RATE});
-    chains->past = (Past){zero_ints2(&chains->chain, rows, 3), zero_ints2(&chains->chain, rows, 3), zero_ints2(&chains->chain, rows, 3),
-        zero_longs(&chains->chain, 1)};
-    chains->expectations = take_ints2(&chains->chain, EXPECTATIONS * SITUATIONS, NEIGHBOURS);
-    if (failed(context)) return false;
+}
+
+static void enter_chain(Chains *chains, int64_t number) {
+    leave_chain(chains);
+    chains->number = number;
+    chains->first = chains->next = number * chain_length(chains->header);
+    chains->elsewhere = false;
+}
+
+static bool begin_chain(Chains *chains, int64_t number) {
+    Arena *arena = &chains->chain;
+    Past *past = &chains->past;
+    int64_t rows = ABOVE + chains->header->coefficients + BEYOND;
+    enter_chain(chains, number);
+    if (!make_bank(arena, (BankPlan){.slots = LEVEL_SLOTS, .selectors = SELECTORS * NODES, .inputs = EXPECTATIONS,
+                              .limit = LEVEL_LIMIT, .rate = LEVEL_RATE}, &chains->bank)
+        || !zero_ints2(arena, rows, 3, &past->current) || !zero_ints2(arena, rows, 3, &past->before) || !zero_ints2(arena, rows, 3, &past->usual)
+        || !zero_longs(arena, 1, &past->blocks) || !take_ints2(arena, EXPECTATIONS * SITUATIONS, NEIGHBOURS, &chains->expectations))
+        return false;
     learn_beforehand(chains);
-    return !chains->knows || spend(context, chain_work((double)chains->graph->size), 0);
+    return !chains->knows || spend(chains->context, chain_work((double)chains->graph->size), 0);
 }
 
 /* Packed coefficients (F 6, M 9.10), `count` rows of three, times the step. */
@@ -69,8 +78,8 @@ static bool read_packed(Chains *chains, Span payload, int64_t count, Arena *scra
     Context *context = chains->context;
     int bits = chains->header->paper.bits;
     int64_t size = (3 * count * bits + 7) / 8;
-    Bytes packed = take_bytes(scratch, size);
-    if (failed(context) || !unpack_zstd(context, payload, packed.data, size, scratch)) return false;
+    Bytes packed;
+    if (!take_bytes(scratch, size, &packed) || !unpack_zstd(context, payload, packed.data, size, scratch)) return false;
     int64_t at = 0;
     for (int64_t i = 0; i < 3 * count; i++) {
         int64_t value = 0;
@@ -96,12 +105,13 @@ static bool read_levels(Chains *chains, Span payload, Ints2 levels) {
 /* Springs at each row, the factor of L + S + shift, and what continues what they hang on (M 7.3, M 7.4). */
 static bool suspend_patch(Chains *chains, const Patch *patch, Arena *scratch, Doubles springs, Factor *factor, Doubles2 continued) {
     int64_t n = patch->size;
-    Doubles2 pulls = zero_doubles2(scratch, n, 3);
-    Singles room = take_singles(scratch, solving_space(n, 3));
-    Doubles sums = take_doubles(scratch, n);
-    Words column = take_words(scratch, n + 1);
-    *factor = factor_room(scratch, patch);
-    if (failed(chains->context)) return false;
+    Doubles2 pulls;
+    Singles room;
+    Doubles sums;
+    Words column;
+    if (!zero_doubles2(scratch, n, 3, &pulls) || !take_singles(scratch, solving_space(n, 3), &room) || !take_doubles(scratch, n, &sums)
+        || !take_words(scratch, n + 1, &column) || !take_factor(scratch, patch, factor))
+        return false;
     if (chains->knows)
         look_around(chains->graph->offsets, chains->graph->neighbours, patch->vertices, chains->inside, const_doubles2(chains->known.sums),
             const_doubles(chains->known.weights), STIFFNESS, springs, pulls);
@@ -134,11 +144,14 @@ static DecodedBlock decoded_block(const Patch *patch, int64_t index, Doubles2 po
 static bool place(Chains *chains, const Patch *patch, int64_t index, int64_t width, Ints2 levels, Doubles2 coefficients, Arena *scratch, DecodedBlock *decoded) {
     Context *context = chains->context;
     int64_t n = patch->size;
-    Doubles springs = zero_doubles(scratch, n), weights = take_doubles(scratch, n), room = take_doubles(scratch, 3 * width);
-    Doubles2 continued = take_doubles2(scratch, n, 3), positions = take_doubles2(scratch, n, 3);
+    Doubles springs, weights, room;
+    Doubles2 continued, positions;
     Singles2 dictionary;
     Factor factor;
-    if (failed(context) || !suspend_patch(chains, patch, scratch, springs, &factor, continued)) return false;
+    if (!zero_doubles(scratch, n, &springs) || !take_doubles(scratch, n, &weights) || !take_doubles(scratch, 3 * width, &room)
+        || !take_doubles2(scratch, n, 3, &continued) || !take_doubles2(scratch, n, 3, &positions)
+        || !suspend_patch(chains, patch, scratch, springs, &factor, continued))
+        return false;
     if (!make_dictionary(chains, patch, const_doubles(springs), &factor, width, scratch, &dictionary)
         || !spend(context, ground_work(&patch->fronts, width), 0))
         return false;
@@ -163,15 +176,13 @@ static bool decode_next(Chains *chains, int64_t index, int64_t width, Span paylo
     Ints2 levels = {NULL, 0, 3};
     Doubles2 coefficients = {NULL, 0, 3};
     if (!spend(context, work, (double)payload.size + BLOCK_FRAME_BYTES)
-        || !order_patch(context, chains->graph, members_of(chains->blocks, index, rows), scratch, &patch))
+        || !order_patch(chains->graph, members_of(chains->blocks, index, rows), scratch, &patch))
         return false;
     if (width < 1 || width > rows) return FAIL(context, CORRUPT, "# coefficients for a block of # vertices", width, rows);
     if (chains->header->paper.bits > 0) {
-        coefficients = take_doubles2(scratch, width, 3);
-        if (failed(context) || !read_packed(chains, payload, width, scratch, coefficients)) return false;
+        if (!take_doubles2(scratch, width, 3, &coefficients) || !read_packed(chains, payload, width, scratch, coefficients)) return false;
     } else {
-        levels = zero_ints2(scratch, width, 3);
-        if (failed(context) || !read_levels(chains, payload, levels)) return false;
+        if (!zero_ints2(scratch, width, 3, &levels) || !read_levels(chains, payload, levels)) return false;
     }
     return find_patch_fronts(context, scratch, &patch) && afford(context, patch_memory(&patch.fronts, width))
         && place(chains, &patch, index, width, levels, coefficients, scratch, decoded);
@@ -181,7 +192,9 @@ static bool decode_next(Chains *chains, int64_t index, int64_t width, Span paylo
 bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch, DecodedBlock *decoded) {
     int64_t number = index / chain_length(chains->header);
     if (number != chains->number && !begin_chain(chains, number)) return false;
-    if (index != chains->next) {
+    Ledger *ledger = chains->context->ledger;
+    if (ledger != NULL && index == chains->first) ledger->begun = ledger->count;
+    if (index != chains->next || chains->elsewhere) {
         FAIL(chains->context, CORRUPT, "the block depends on block #, which is lost", chains->next);
     } else if (decode_next(chains, index, coefficients, payload, scratch, decoded)) {
         chains->next++;
@@ -189,4 +202,30 @@ bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payl
     }
     locate(&chains->context->error, -1, -1, index);
     return false;
+}
+
+bool settle_block(Chains *chains, int64_t index, const Ledger *ledger) {
+    int64_t number = index / chain_length(chains->header);
+    if (number != chains->number) enter_chain(chains, number);
+    chains->elsewhere = true;
+    if (!charge_ledger(chains->context, ledger, 0, ledger->begun)) return false;
+    if (charge_ledger(chains->context, ledger, ledger->begun, ledger->count)) {
+        chains->next++;
+        return true;
+    }
+    locate(&chains->context->error, -1, -1, index);
+    return false;
+}
+
+bool copy_block(const DecodedBlock *block, Arena *arena, DecodedBlock *copy) {
+    int64_t n = block->vertices.size;
+    Ints vertices;
+    Doubles2 positions;
+    Doubles weights;
+    if (!take_ints(arena, n, &vertices) || !take_doubles2(arena, n, 3, &positions) || !take_doubles(arena, n, &weights)) return false;
+    memcpy(vertices.data, block->vertices.data, (size_t)n * sizeof *vertices.data);
+    memcpy(positions.data, block->positions.data, (size_t)(3 * n) * sizeof *positions.data);
+    memcpy(weights.data, block->weights.data, (size_t)n * sizeof *weights.data);
+    *copy = (DecodedBlock){block->index, const_ints(vertices), const_doubles2(positions), const_doubles(weights)};
+    return true;
 }

@@ -23,13 +23,13 @@ bool key_dictionary(Context *context, const Header *header, const Patch *patch, 
 /* U of a patch whose predecessor has as many rows, and the dictionary `previous`. */
 bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor, Singles2 previous,
     int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary);
-bool factorize_patch(Context *context, const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor);
+bool factorize_patch(const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor);
 /* Columns that follow from L, of a block of so many rows (M 8.7). */
 INLINE int64_t iterated_columns(const Header *header, int64_t rows) {
     return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 1) / 2 : rows;
 }
 INLINE int64_t solving_space(int64_t rows, int64_t columns) { return (rows + 4) * (columns + 16) + 15; }
-Factor factor_room(Arena *arena, const Patch *patch);
+MUST_CHECK bool take_factor(Arena *arena, const Patch *patch, Factor *factor);
 
 /* Sums of weight times position, and weights. */
 typedef struct {
@@ -50,6 +50,7 @@ typedef struct {
     Blended known;
     Bytes inside;
     int64_t number, first, next;
+    bool elsewhere;            /* what the chain has learnt is not here: its blocks were decoded ahead */
     Bank bank;
     Past past;
     Ints2 expectations;
@@ -63,9 +64,24 @@ typedef struct {
     ConstDoubles weights;
 } DecodedBlock;
 
+/* Copy a block into `arena`; without memory the arena's context has failed. */
+bool copy_block(const DecodedBlock *block, Arena *arena, DecodedBlock *copy);
+/* A block that was decoded ahead: what its packet said, where that ended, and the charges to make in its turn. */
+typedef struct {
+    int64_t index, coefficients, end;
+    Span data;
+    bool done;
+    DecodedBlock block;
+    Ledger ledger;
+} ReadyBlock;
+
 bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, Arena *arena);
 void end_chains(Chains *chains);
 bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch, DecodedBlock *decoded);
+/* Forget the chain under way: the next block begins one. */
+void leave_chain(Chains *chains);
+/* Count a block as decoded that other chains decoded, and make its charges. */
+bool settle_block(Chains *chains, int64_t index, const Ledger *ledger);
 
 /* zstd (F 6.2): exactly `size` bytes. */
 bool unpack_zstd(Context *context, Span frame, uint8_t *content, int64_t size, Arena *scratch);

@@ -15,7 +15,7 @@ bool begin_reading(Context *context, Span payload, Reading *reading) {
 bool ran_over(const Reading *reading) { return reading->state[CODER_POSITION] > reading->coder.data.size + AHEAD; }
 
 bool nonsense(const Reading *reading, const char *what) {
-    if (ran_over(reading)) return FAIL(reading->context, TRUNCATED, "an entropy-coded payload of # bytes ends too early", reading->coder.data.size);
+    if (ran_over(reading)) return FAIL(reading->context, TRUNCATED, "an entropy-coded payload of # bytes ends before its last symbol", reading->coder.data.size);
     return FAIL(reading->context, CORRUPT, what);
 }
 
@@ -25,14 +25,15 @@ bool finish_reading(const Reading *reading) {
     return left <= 0 || FAIL(reading->context, CORRUPT, "# bytes are left over behind the last symbol of a payload", left);
 }
 
-Bank make_bank(Arena *arena, BankPlan plan) {
-    Bank bank = {take_words(arena, plan.slots), take_ints2(arena, plan.selectors, plan.inputs), take_longs(arena, 2)};
-    if (failed(arena->context)) return bank;
+bool make_bank(Arena *arena, BankPlan plan, Bank *bank) {
+    if (!take_words(arena, plan.slots, &bank->slots) || !take_ints2(arena, plan.selectors, plan.inputs, &bank->weights)
+        || !take_longs(arena, 2, &bank->settings))
+        return false;
     uint32_t probability = (uint32_t)(plan.probability > 0 ? plan.probability : ONE / 2);
     int32_t weight = plan.inputs < 3 ? ONE / plan.inputs : ONE * 5 / (4 * plan.inputs);
-    for (int64_t i = 0; i < plan.slots; i++) bank.slots.data[i] = probability << 16 | (uint32_t)plan.trust;
-    for (int64_t i = 0; i < plan.selectors * plan.inputs; i++) bank.weights.data[i] = weight;
-    bank.settings.data[0] = plan.limit > 0 ? plan.limit : 255;
-    bank.settings.data[1] = plan.rate > 0 ? plan.rate : 14;
-    return bank;
+    for (int64_t i = 0; i < plan.slots; i++) bank->slots.data[i] = probability << 16 | (uint32_t)plan.trust;
+    for (int64_t i = 0; i < plan.selectors * plan.inputs; i++) bank->weights.data[i] = weight;
+    bank->settings.data[0] = plan.limit > 0 ? plan.limit : 255;
+    bank->settings.data[1] = plan.rate > 0 ? plan.rate : 14;
+    return true;
 }

@@ -25,6 +25,6 @@ typedef struct {
     int64_t slots, selectors;
     int inputs, limit, rate, probability, trust;
 } BankPlan;
-Bank make_bank(Arena *arena, BankPlan plan);
+MUST_CHECK bool make_bank(Arena *arena, BankPlan plan, Bank *bank);
 
 #endif

@@ -8,16 +8,14 @@ enum { FIRST_NODES_ROOM = 16, TALLIES = 8, TALLY_DUMMIES = 3, TALLY_TURNS, TALLY
 /* Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together (M 14.8). */
 static const double FACE_MEMORY = 100, VERTEX_MEMORY = 400, FAN_MEMORY = 240;
 
-static Models make_models(Arena *arena, int64_t vertices) {
+static bool make_models(Arena *arena, int64_t vertices, Models *models) {
     int bits = (int)largest(LEAST_HASH_BITS, least(64 - __builtin_clzll((uint64_t)vertices) - 2, MOST_HASH_BITS));
-    return (Models){
-        make_bank(arena, (BankPlan){.slots = ((int64_t)VALENCE_CONTEXTS << bits) * VALENCE_NODES, .selectors = VALENCE_NODES,
-                             .inputs = VALENCE_CONTEXTS, .limit = 1023, .rate = 16}),
-        make_bank(arena, (BankPlan){.slots = EVENT_CONTEXTS * EVENT_SIZE, .selectors = 1, .inputs = EVENT_CONTEXTS, .limit = 1023,
-                             .rate = 16, .probability = ONE - ONE / 500, .trust = EVENT_TRUST}),
-        make_bank(arena, (BankPlan){.slots = RARE_NODES, .selectors = RARE_NODES, .inputs = 1}),
-        bits,
-    };
+    models->bits = bits;
+    return make_bank(arena, (BankPlan){.slots = ((int64_t)VALENCE_CONTEXTS << bits) * VALENCE_NODES, .selectors = VALENCE_NODES,
+                                .inputs = VALENCE_CONTEXTS, .limit = 1023, .rate = 16}, &models->valence)
+        && make_bank(arena, (BankPlan){.slots = EVENT_CONTEXTS * EVENT_SIZE, .selectors = 1, .inputs = EVENT_CONTEXTS, .limit = 1023,
+                                .rate = 16, .probability = ONE - ONE / 500, .trust = EVENT_TRUST}, &models->event)
+        && make_bank(arena, (BankPlan){.slots = RARE_NODES, .selectors = RARE_NODES, .inputs = 1}, &models->rare);
 }
 
 static int64_t read_count(Reading *reading, const Models *models) {
@@ -27,12 +25,13 @@ static int64_t read_count(Reading *reading, const Models *models) {
 
 /* The conquest (C 6) of faces that do not repeat a corner, with more memory for its front each time it asks. */
 static bool read_surface(Reading *reading, const Models *models, Arena *scratch, int64_t fans, int64_t dummies, Ints2 faces) {
-    Context *context = reading->context;
-    Longs tallies = zero_longs(scratch, TALLIES);
-    Ints heads = take_ints(scratch, HEADS);
-    Longs2 vertices = take_longs2(scratch, fans + dummies, VERTEX_COLUMNS);
-    Ints2 nodes = take_ints2(scratch, fans + FIRST_NODES_ROOM, NODE_COLUMNS);
-    if (failed(context)) return false;
+    Longs tallies;
+    Ints heads;
+    Longs2 vertices;
+    Ints2 nodes;
+    if (!zero_longs(scratch, TALLIES, &tallies) || !take_ints(scratch, HEADS, &heads)
+        || !take_longs2(scratch, fans + dummies, VERTEX_COLUMNS, &vertices) || !take_ints2(scratch, fans + FIRST_NODES_ROOM, NODE_COLUMNS, &nodes))
+        return false;
     for (int i = 0; i < HEADS; i++) heads.data[i] = -1;
     heads.data[MADE] = heads.data[ALIVE] = 0;
     tallies.data[TALLY_DUMMIES] = dummies;
@@ -42,8 +41,8 @@ static bool read_surface(Reading *reading, const Models *models, Arena *scratch,
         int64_t end = conquer(reading->coder, *models, (Guide){0}, (Conquest){{nodes, heads}, vertices, faces, tallies});
         if (end == CONQUEST_DONE) return true;
         if (end != CONQUEST_NO_ROOM) return nonsense(reading, "a connectivity payload does not make its triangles");
-        Ints2 wider = take_ints2(scratch, 2 * nodes.rows, NODE_COLUMNS);
-        if (failed(context)) return false;
+        Ints2 wider;
+        if (!take_ints2(scratch, 2 * nodes.rows, NODE_COLUMNS, &wider)) return false;
         memcpy(wider.data, nodes.data, (size_t)(nodes.rows * NODE_COLUMNS) * sizeof *nodes.data);
         nodes = wider;
     }
@@ -52,9 +51,11 @@ static bool read_surface(Reading *reading, const Models *models, Arena *scratch,
 /* The fans after and before each fan along the boundary (C 7.1). */
 static bool find_borders(Arena *scratch, Ints2 faces, Ints after, Ints before) {
     int64_t size = 3 * faces.rows;
-    Longs starts = take_longs(scratch, after.size + 1);
-    Ints by_high = take_ints(scratch, size), order = take_ints(scratch, size), twin = take_ints(scratch, size);
-    if (failed(scratch->context)) return false;
+    Longs starts;
+    Ints by_high, order, twin;
+    if (!take_longs(scratch, after.size + 1, &starts) || !take_ints(scratch, size, &by_high) || !take_ints(scratch, size, &order)
+        || !take_ints(scratch, size, &twin))
+        return false;
     match_halfedges((ConstInts){faces.data, size}, starts, by_high, order, twin);
     for (int64_t i = 0; i < after.size; i++) after.data[i] = before.data[i] = -1;
     for (int64_t i = 0; i < size; i++)
@@ -66,10 +67,13 @@ static bool find_borders(Arena *scratch, Ints2 faces, Ints after, Ints before) {
 
 /* Which fans are the same vertex (C 7): corners become vertices. Returns how many vertices there are, -1 for nonsense. */
 static int64_t join_fans(Reading *reading, Arena *scratch, Ints2 faces, int64_t fans) {
-    Ints after = take_ints(scratch, fans), before = take_ints(scratch, fans), known = take_ints(scratch, fans);
-    Ints vertex = take_ints(scratch, fans), sibling = take_ints(scratch, fans), latest = take_ints(scratch, fans);
-    Bank bank = make_bank(scratch, (BankPlan){.slots = FAN_SLOTS, .selectors = 1, .inputs = 1});
-    if (failed(scratch->context) || !find_borders(scratch, faces, after, before)) return -1;
+    Ints after, before, known, vertex, sibling, latest;
+    Bank bank;
+    if (!take_ints(scratch, fans, &after) || !take_ints(scratch, fans, &before) || !take_ints(scratch, fans, &known)
+        || !take_ints(scratch, fans, &vertex) || !take_ints(scratch, fans, &sibling) || !take_ints(scratch, fans, &latest)
+        || !make_bank(scratch, (BankPlan){.slots = FAN_SLOTS, .selectors = 1, .inputs = 1}, &bank)
+        || !find_borders(scratch, faces, after, before))
+        return -1;
     for (int64_t i = 0; i < fans; i++) known.data[i] = -1;
     int64_t count = code_fans(reading->coder, bank, const_ints(known), (Seams){vertex, after, before, sibling, latest});
     for (int64_t i = 0; count >= 0 && i < 3 * faces.rows; i++) faces.data[i] = vertex.data[faces.data[i]];
@@ -78,8 +82,8 @@ static int64_t join_fans(Reading *reading, Arena *scratch, Ints2 faces, int64_t 
 
 static bool read_faces(Reading *reading, const Header *header, Arena *arena, Arena *scratch, Ints2 *faces) {
     Context *context = reading->context;
-    Models models = make_models(scratch, header->vertices);
-    if (failed(context)) return false;
+    Models models;
+    if (!make_models(scratch, header->vertices, &models)) return false;
     int64_t repeated = read_count(reading, &models), lonely = read_count(reading, &models);
     int64_t surplus = read_count(reading, &models), dummies = read_count(reading, &models);
     int64_t proper = header->faces - repeated, regular = header->vertices - lonely, fans = regular + surplus;
@@ -89,8 +93,7 @@ static bool read_faces(Reading *reading, const Header *header, Arena *arena, Are
     if (!WITHIN(context, vertices, fans + dummies)
         || !affords_memory(context, memory, header->vertices, (double)reading->coder.data.size))
         return false;
-    *faces = take_ints2(arena, header->faces, 3);
-    if (failed(context)) return false;
+    if (!take_ints2(arena, header->faces, 3, faces)) return false;
     Ints2 surface = {faces->data, proper, 3};
     if (!read_surface(reading, &models, scratch, fans, dummies, surface)) return false;
     int64_t known = surplus > 0 ? join_fans(reading, scratch, surface, fans) : fans;
@@ -112,8 +115,10 @@ bool decode_connectivity(Context *context, Span payload, const Header *header, A
 bool decode_labels(Context *context, Span payload, const Graph *graph, int64_t parts, Arena *scratch, Ints labels) {
     enum { INPUTS = 3, CANDIDATES = 4, LABEL_CONTEXTS = 16 * (CANDIDATES + 1) };
     Reading reading;
-    Bank bank = make_bank(scratch, (BankPlan){.slots = INPUTS * LABEL_CONTEXTS, .selectors = CANDIDATES + 1, .inputs = INPUTS});
-    if (failed(context) || !begin_reading(context, payload, &reading)) return false;
+    Bank bank;
+    if (!make_bank(scratch, (BankPlan){.slots = INPUTS * LABEL_CONTEXTS, .selectors = CANDIDATES + 1, .inputs = INPUTS}, &bank)
+        || !begin_reading(context, payload, &reading))
+        return false;
     int64_t used = code_labels(reading.coder, bank, graph->offsets, graph->neighbours, labels, parts);
     return finish_reading(&reading)
         && (used == parts || FAIL(context, CORRUPT, "the partition has # parts where the header has #", used, parts));

@@ -22,17 +22,43 @@ static char *write_number(char *to, char *end, int64_t number) {
     return to;
 }
 
-bool fail_with(Context *context, bsmdec_status status, Message message) {
-    if (failed(context)) return false;
-    bsmdec_error *error = &context->error;
-    char *to = error->message, *end = to + sizeof error->message - 1;
+/* Names may be long: the reason behind them has to fit. */
+static char *write_name(char *to, const char *end, const char *name) {
+    enum { MOST_SHOWN = 60 };
+    for (int i = 0; i < MOST_SHOWN && name[i] != 0 && to < end; i++) *to++ = name[i];
+    return to;
+}
+
+void write_message(char *to, size_t room, Message message) {
+    char *end = to + room - 1;
     const int64_t numbers[] = {message.a, message.b, message.c};
     int next = 0;
     for (const char *from = message.text; *from != 0 && to < end; from++) {
         if (*from == '#' && next < 3) to = write_number(to, end, numbers[next++]);
+        else if (*from == '$' && message.name != NULL) to = write_name(to, end, message.name);
         else *to++ = *from;
     }
     *to = 0;
+}
+
+bool name_attribute(Context *context, const char *name) {
+#ifdef BSMDEC_TERSE
+    (void)context, (void)name;
+#else
+    char reason[sizeof context->error.message], *message = context->error.message;
+    memcpy(reason, message, sizeof reason);
+    write_message(message, sizeof reason, (Message){.text = "attribute '$': ", .name = name});
+    size_t length = strlen(message), room = sizeof reason - 1 - length;
+    memcpy(message + length, reason, room);
+    message[length + room] = 0;
+#endif
+    return false;
+}
+
+bool fail_with(Context *context, bsmdec_status status, Message message) {
+    if (failed(context)) return false;
+    bsmdec_error *error = &context->error;
+    write_message(error->message, sizeof error->message, message);
     error->status = status;
     error->offset = error->frame = error->block = -1;
     return false;
@@ -46,19 +72,28 @@ void locate(bsmdec_error *error, int64_t offset, int64_t frame, int64_t block) {
 
 bsmdec_error take_error(Context *context) {
     bsmdec_error error = context->error;
-    context->error.status = BSMDEC_OK;
+    if (!context->starved) context->error.status = BSMDEC_OK;
     return error;
 }
 
-void *host_take(Context *context, size_t size) {
-    if (failed(context)) return NULL;
-    if (context->heap + (double)size > context->limits.heap) {
-        FAIL(context, LIMIT, "heap: # bytes more are over the limit", (int64_t)size);
-        return NULL;
-    }
-    void *memory = context->host.allocate(context->host.host, size);
-    if (memory == NULL) FAIL(context, NO_MEMORY, "the host has no # bytes of memory", (int64_t)size);
-    else context->heap += (double)size;
+/* Whether so many things of a size can be in memory at all. */
+static bool is_possible(Context *context, int64_t count, size_t size) {
+    const size_t most = SIZE_MAX / 4;
+    if (failed(context)) return false;
+    if (count >= 0 && (count == 0 || size <= most / (uint64_t)count)) return true;
+    context->starved = true;
+    return FAIL(context, LIMIT, "# things are more than memory can hold", count);
+}
+
+void *host_memory(Context *context, int64_t count, size_t size) {
+    if (!is_possible(context, count, size)) return NULL;
+    size_t bytes = (size_t)count * size;
+    bool within = context->heap + (double)bytes <= context->limits.heap;
+    void *memory = within ? context->host.allocate(context->host.host, bytes) : NULL;
+    context->starved = memory == NULL;
+    if (!within) FAIL(context, LIMIT, "heap: # bytes more are over the limit", (int64_t)bytes);
+    else if (memory == NULL) FAIL(context, NO_MEMORY, "the host has no # bytes of memory", (int64_t)bytes);
+    else context->heap += (double)bytes;
     return memory;
 }
 
@@ -89,19 +124,14 @@ void release_to(Arena *arena, Mark mark) {
 
 void release_all(Arena *arena) { release_to(arena, (Mark){NULL, 0}); }
 
-void *take_memory(Arena *arena, int64_t count, size_t size) {
-    const size_t most = SIZE_MAX / 4;
-    if (failed(arena->context)) return NULL;
-    if (count < 0 || (count > 0 && size > most / (uint64_t)count)) {
-        FAIL(arena->context, LIMIT, "# things are more than memory can hold", count);
-        return NULL;
-    }
+void *find_memory(Arena *arena, int64_t count, size_t size) {
+    if (!is_possible(arena->context, count, size)) return NULL;
     size_t bytes = ((size_t)count * size + LINE) / LINE * LINE;
     Slab *slab = arena->top;
     if (slab == NULL || bytes > slab->size - slab->used) {
         size_t whole = bytes + sizeof(Slab) + LINE;
         if (whole < SLAB) whole = SLAB;
-        slab = host_take(arena->context, whole);
+        slab = host_memory(arena->context, 1, whole);
         if (slab == NULL) return NULL;
         *slab = (Slab){arena->top, whole, 0};
         slab->used = first_of(slab);
@@ -112,8 +142,8 @@ void *take_memory(Arena *arena, int64_t count, size_t size) {
     return memory;
 }
 
-void *take_zeros(Arena *arena, int64_t count, size_t size) {
-    void *memory = take_memory(arena, count, size);
+void *find_zeros(Arena *arena, int64_t count, size_t size) {
+    void *memory = find_memory(arena, count, size);
     if (memory != NULL) memset(memory, 0, (size_t)count * size);
     return memory;
 }
@@ -129,16 +159,25 @@ bool within_limit(Context *context, const char *name, double value, double limit
 
 static double lesser(double a, double b) { return a < b ? a : b; }
 
+static bool note(Context *context, double amount, double received) {
+    Ledger *ledger = context->ledger;
+    if (ledger == NULL) return true;
+    if (ledger->count == MOST_CHARGES) return FAIL(context, LIMIT, "more than # charges ahead", MOST_CHARGES);
+    ledger->charge[ledger->count++] = (Charge){amount, received};
+    return true;
+}
+
 /* Work to come, and the bytes that ask for it (M 14.3, M 14.9). */
 bool spend(Context *context, double work, double received) {
     const bsmdec_limits *limits = &context->limits;
     Spent *spent = &context->spent;
     if (context->prepaid) return true;
+    if (!note(context, work, received)) return false;
     double own = work - limits->work_per_byte * received;
     spent->spent += work;
     spent->owed += own > 0.0 ? own : 0.0;
     double granted = limits->work + limits->work_per_vertex * (double)(spent->vertices + spent->shown);
-    return within_limit(context, "work", spent->spent, limits->most_work)
+    return within_limit(context, "most_work", spent->spent, limits->most_work)
         && within_limit(context, "work", spent->owed, lesser(granted, limits->most_work));
 }
 
@@ -158,7 +197,15 @@ double memory_left(const Context *context) {
 /* Memory for a while, beside what is kept (M 14.8). */
 bool afford(Context *context, double memory) {
     const Spent *spent = &context->spent;
-    return affords_memory(context, spent->kept + memory, spent->vertices - spent->gone, spent->received);
+    return note(context, memory, -1) && affords_memory(context, spent->kept + memory, spent->vertices - spent->gone, spent->received);
+}
+
+bool charge_ledger(Context *context, const Ledger *ledger, int first, int end) {
+    for (int i = first; i < end; i++) {
+        Charge charge = ledger->charge[i];
+        if (charge.received < 0 ? !afford(context, charge.amount) : !spend(context, charge.amount, charge.received)) return false;
+    }
+    return true;
 }
 
 /* Memory that is kept to the end, and bytes that stand for it. */

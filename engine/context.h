@@ -13,21 +13,36 @@ typedef struct {
     int64_t vertices, shown, gone;
 } Spent;
 
+/* A charge that was made ahead of its turn: work, or memory for a while if `received` is below 0. */
+typedef struct {
+    double amount, received;
+} Charge;
+enum { MOST_CHARGES = 20 };
+typedef struct {
+    Charge charge[MOST_CHARGES];
+    int begun, count; /* of the `count` charges, the first `begun` are those of beginning a chain */
+} Ledger;
+
 typedef struct {
     bsmdec_limits limits;
     bsmdec_allocator host;
     bsmdec_error error;
     double heap;  /* bytes that are held of the host */
+    bool starved; /* the error is that memory ended, by the host or by the limit `heap`: nothing goes on behind that */
     bool prepaid; /* work that comes has been paid for */
     Spent spent;
+    Ledger *ledger; /* where charges are noted as well, or NULL */
 } Context;
 
-/* What an error says: `#` in the text stands for a number. */
+/* What an error says: `#` in the text stands for a number, `$` for a name. */
 typedef struct {
     const char *text;
     int64_t a, b, c;
+    const char *name;
 } Message;
 
+/* Write a message to `room` bytes, cut off if it is longer. */
+void write_message(char *to, size_t room, Message message);
 /* Note the first thing wrong; always false, so that who finds it can return it. */
 bool fail_with(Context *context, bsmdec_status status, Message message);
 #ifdef BSMDEC_TERSE /* kind and place alone */
@@ -36,11 +51,13 @@ bool fail_with(Context *context, bsmdec_status status, Message message);
 #define FAIL(context, status, ...) fail_with(context, BSMDEC_##status, (Message){.text = __VA_ARGS__})
 #endif
 INLINE bool failed(const Context *context) { return context->error.status != BSMDEC_OK; }
+/* Begin the message of the error with the name of the attribute that it is about; always false. */
+bool name_attribute(Context *context, const char *name);
 /* Whether all is well. A decoder that leaves an array out for want of memory has failed, and says so here. */
 INLINE bool fine(const Context *context) { return context->error.status == BSMDEC_OK; }
 /* Fill in the places that are not known yet. */
 void locate(bsmdec_error *error, int64_t offset, int64_t frame, int64_t block);
-/* Take the error away, to go on behind it. */
+/* Take the error away, to go on behind it; a context without memory stays failed. */
 bsmdec_error take_error(Context *context);
 
 /* Memory in the order of a stack: `release_to` gives back all that came behind a mark. */
@@ -58,24 +75,43 @@ INLINE Arena arena_of(Context *context) { return (Arena){context, NULL}; }
 Mark mark_of(const Arena *arena);
 void release_to(Arena *arena, Mark mark);
 void release_all(Arena *arena);
-/* Memory for `count` things of a size; NULL, and the context has failed, if there is none. */
-void *take_memory(Arena *arena, int64_t count, size_t size);
-void *take_zeros(Arena *arena, int64_t count, size_t size);
-/* Straight from the host. */
-void *host_take(Context *context, size_t size);
+
+/* Memory that was asked for is there, or the caller must not go on: every function that takes memory returns whether it got
+ * it, and compilers warn where that is ignored. In WebAssembly a write through NULL is not even noticed. */
+#if defined(__GNUC__)
+#define MUST_CHECK __attribute__((warn_unused_result))
+#else
+#define MUST_CHECK
+#endif
+/* Memory for `count` things of a size; NULL, and the context has failed, if there is none. Use them in is_there or in the
+ * macros below. */
+void *find_memory(Arena *arena, int64_t count, size_t size);
+void *find_zeros(Arena *arena, int64_t count, size_t size);
+void *host_memory(Context *context, int64_t count, size_t size);
+MUST_CHECK INLINE bool is_there(const void *memory) { return memory != NULL; }
+/* Point at `count` things of an arena, which are 0 or not set, or of the host itself: false if there is no memory. */
+#define TAKE(arena, count, pointer) is_there((pointer) = find_memory(arena, count, sizeof *(pointer)))
+#define TAKE_ZEROS(arena, count, pointer) is_there((pointer) = find_zeros(arena, count, sizeof *(pointer)))
+#define TAKE_OF_HOST(context, count, pointer) is_there((pointer) = host_memory(context, count, sizeof *(pointer)))
 void host_give(Context *context, void *memory, size_t size);
 
-/* Arrays of the kernels, of numbers that are not set, or are 0 (`zero_...`). */
+/* The same for arrays of the kernels: of numbers that are not set, or are 0 (`zero_...`). */
 #define ARENA_ARRAYS(Name, type, name)                                                                                  \
-    INLINE Name take_##name(Arena *arena, int64_t size) {                                                                \
-        return (Name){take_memory(arena, size, sizeof(type)), size};                                                     \
+    MUST_CHECK INLINE bool take_##name(Arena *arena, int64_t size, Name *taken) {                                       \
+        taken->size = size;                                                                                             \
+        return TAKE(arena, size, taken->data);                                                                          \
     }                                                                                                                   \
-    INLINE Name zero_##name(Arena *arena, int64_t size) { return (Name){take_zeros(arena, size, sizeof(type)), size}; } \
-    INLINE Name##2 take_##name##2(Arena * arena, int64_t rows, int64_t columns) {                                        \
-        return (Name##2){take_memory(arena, rows, (size_t)columns * sizeof(type)), rows, columns};                       \
+    MUST_CHECK INLINE bool zero_##name(Arena *arena, int64_t size, Name *taken) {                                       \
+        taken->size = size;                                                                                             \
+        return TAKE_ZEROS(arena, size, taken->data);                                                                    \
     }                                                                                                                   \
-    INLINE Name##2 zero_##name##2(Arena * arena, int64_t rows, int64_t columns) {                                        \
-        return (Name##2){take_zeros(arena, rows, (size_t)columns * sizeof(type)), rows, columns};                        \
+    MUST_CHECK INLINE bool take_##name##2(Arena *arena, int64_t rows, int64_t columns, Name##2 *taken) {                \
+        *taken = (Name##2){find_memory(arena, rows, (size_t)columns * sizeof(type)), rows, columns};                    \
+        return is_there(taken->data);                                                                                   \
+    }                                                                                                                   \
+    MUST_CHECK INLINE bool zero_##name##2(Arena *arena, int64_t rows, int64_t columns, Name##2 *taken) {                \
+        *taken = (Name##2){find_zeros(arena, rows, (size_t)columns * sizeof(type)), rows, columns};                     \
+        return is_there(taken->data);                                                                                   \
     }                                                                                                                   \
     INLINE Const##Name const_##name(Name given) { return (Const##Name){given.data, given.size}; }                        \
     INLINE Const##Name##2 const_##name##2(Name##2 given) { return (Const##Name##2){given.data, given.rows, given.columns}; }
@@ -93,6 +129,8 @@ bool within_limit(Context *context, const char *name, double value, double limit
 bool spend(Context *context, double work, double received);
 bool keep(Context *context, double memory, double received);
 bool afford(Context *context, double memory);
+/* Make the charges of a ledger from number `first` up to `end`. */
+bool charge_ledger(Context *context, const Ledger *ledger, int first, int end);
 /* Bytes for which there is room. */
 double memory_left(const Context *context);
 bool affords_memory(Context *context, double memory, int64_t vertices, double received);

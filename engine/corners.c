@@ -6,39 +6,40 @@ enum { MODEL_SLOTS = CONTEXTS * CONTEXT_SIZE * VALUE_NODES, UNLEARNT_HIT = 1 << 
 bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners) {
     int64_t size = 3 * faces.rows;
     Mark mark = mark_of(scratch);
-    *corners = (Corners){faces, take_ints(arena, vertices + 1), take_ints(arena, size), take_ints(arena, size), take_ints(arena, vertices)};
-    Ints room = take_ints(scratch, vertices + size);
-    if (fine(context)) {
-        for (int64_t v = 0; v < vertices; v++) corners->rank.data[v] = (int32_t)v;
-        if (link_corners(*corners, room) != 0) FAIL(context, LIMIT, "# faces are too many", faces.rows);
-    }
+    Ints room;
+    corners->faces = faces;
+    bool done = take_ints(arena, vertices + 1, &corners->starts) && take_ints(arena, size, &corners->corners)
+        && take_ints(arena, size, &corners->opposite) && take_ints(arena, vertices, &corners->rank) && take_ints(scratch, vertices + size, &room);
+    for (int64_t v = 0; done && v < vertices; v++) corners->rank.data[v] = (int32_t)v;
+    done = done && (link_corners(*corners, room) == 0 || FAIL(context, LIMIT, "# faces are too many", faces.rows));
     release_to(scratch, mark);
-    return fine(context);
+    return done;
 }
 
-bool order_mesh(Context *context, Corners *corners, Arena *arena, Arena *scratch, Ints *order) {
+bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order) {
     int64_t vertices = corners->rank.size;
     Mark mark = mark_of(scratch);
-    *order = take_ints(arena, vertices);
-    Ints2 room = take_ints2(scratch, 3, vertices);
-    if (fine(context)) order_vertices(*corners, *order, room);
+    Ints2 room;
+    bool done = take_ints(arena, vertices, order) && take_ints2(scratch, 3, vertices, &room);
+    if (done) order_vertices(*corners, *order, room);
     release_to(scratch, mark);
-    return fine(context);
+    return done;
 }
 
-ValueModel make_value_model(Arena *arena) {
-    ValueModel model = {take_words(arena, MODEL_SLOTS), take_words(arena, PREDICTIONS * HIT_CONTEXTS),
-        zero_ints2(arena, VALUE_NODES + WEIGHT_SETS * KINDS, VALUE_INPUTS), zero_ints2(arena, PREDICTIONS * SCALE_CONTEXTS, 2)};
-    if (failed(arena->context)) return model;
-    for (int64_t i = 0; i < model.slots.size; i++) model.slots.data[i] = 1u << 31;
-    for (int64_t i = 0; i < model.hits.size; i++) model.hits.data[i] = UNLEARNT_HIT;
+bool make_value_model(Arena *arena, ValueModel *model) {
+    if (!take_words(arena, MODEL_SLOTS, &model->slots) || !take_words(arena, PREDICTIONS * HIT_CONTEXTS, &model->hits)
+        || !zero_ints2(arena, VALUE_NODES + WEIGHT_SETS * KINDS, VALUE_INPUTS, &model->weights)
+        || !zero_ints2(arena, PREDICTIONS * SCALE_CONTEXTS, 2, &model->scales))
+        return false;
+    for (int64_t i = 0; i < model->slots.size; i++) model->slots.data[i] = 1u << 31;
+    for (int64_t i = 0; i < model->hits.size; i++) model->hits.data[i] = UNLEARNT_HIT;
     for (int row = 0; row < VALUE_NODES; row++)
         for (int i = 0; i < VALUE_INPUTS - 1; i++)
-            model.weights.data[row * VALUE_INPUTS + i] = i < PREDICTIONS ? ONE * 9 / (8 * PREDICTIONS) : SLOT_WEIGHT;
-    return model;
+            model->weights.data[row * VALUE_INPUTS + i] = i < PREDICTIONS ? ONE * 9 / (8 * PREDICTIONS) : SLOT_WEIGHT;
+    return true;
 }
 
-Longs2 make_learners(Arena *arena, int64_t count) { return zero_longs2(arena, count, LEARNER_COLUMNS); }
+bool make_learners(Arena *arena, int64_t count, Longs2 *learners) { return zero_longs2(arena, count, LEARNER_COLUMNS, learners); }
 
 bool check_chunk_done(const Reading *reading, int64_t done, int64_t count) {
     if (ran_over(reading) || done < count) return nonsense(reading, "a value is out of its range");

@@ -1,18 +1,51 @@
 /* The functions of bsmdec.h. */
+#include "engine/arithmetic.h"
 #include "engine/decoder.h"
 
 #include <stdlib.h>
 
-void bsmdec_default_limits(bsmdec_limits *limits) {
-    *limits = (bsmdec_limits){
-        .vertices = 1 << 24, .faces = 1 << 25, .blocks = 1 << 17, .block_size = 8192, .coefficients = 4096, .frames = 1 << 20,
-        .gop_frames = 1024, .frame_bytes = 1 << 28, .metadata_bytes = 1 << 23, .attributes = 255, .attribute_values = 1 << 28,
-        .sequence_bytes = 2147483648.0, .field_bytes = 4294967296.0, .work = 8e8, .work_per_vertex = 3.2e4, .work_per_byte = 1.6e4,
-        .most_work = 1e300, .memory = 1 << 26, .memory_per_vertex = 1 << 10, .memory_per_byte = 64, .most_memory = 1e300,
+/* The smallest sizes of the callers' structures: those of release 1.0. Do not change them. Add new fields at the end,
+ * so that no padding follows them. */
+enum {
+    LIMITS_SIZE = offsetof(bsmdec_limits, heap) + sizeof(double),
+    ALLOCATOR_SIZE = offsetof(bsmdec_allocator, host) + sizeof(void *),
+    PARALLEL_SIZE = offsetof(bsmdec_parallel, threads) + sizeof(int64_t),
+    OPTIONS_SIZE = offsetof(bsmdec_options, index_size) + sizeof(size_t),
+    MAX_SIZE = 4096
+};
+
+/* Copy a structure of a caller, which begins with its size, over the defaults. */
+static bool copy_given(void *own, size_t known, size_t least, const void *given) {
+    size_t size;
+    memcpy(&size, given, sizeof size);
+    if (size < least || size > MAX_SIZE) return false;
+    for (size_t i = known; i < size; i++)
+        if (((const unsigned char *)given)[i] != 0) return false;
+    memcpy(own, given, size < known ? size : known);
+    return true;
+}
+
+static bsmdec_limits default_limits(void) {
+    return (bsmdec_limits){
+        .size = sizeof(bsmdec_limits), .vertices = 1 << 24, .faces = 1 << 25, .blocks = 1 << 17, .block_size = 8192,
+        .coefficients = 4096, .frames = 1 << 20, .gop_frames = 1024, .frame_bytes = 1 << 28, .metadata_bytes = 1 << 23,
+        .attributes = 255, .attribute_values = 1 << 28, .sequence_bytes = 2147483648.0, .field_bytes = 4294967296.0,
+        .work = 8e8, .work_per_vertex = 3.2e4, .work_per_byte = 1.6e4, .most_work = 1e300, .memory = 1 << 26,
+        .memory_per_vertex = 1 << 10, .memory_per_byte = 64, .most_memory = 1e300,
         .heap = sizeof(size_t) > 4 ? 0x1p40 : 2147483648.0,
     };
 }
 
+bsmdec_status bsmdec_default_limits(bsmdec_limits *limits, size_t size) {
+    const bsmdec_limits usual = default_limits();
+    if (limits == NULL || size < LIMITS_SIZE || size > MAX_SIZE) return BSMDEC_MISUSED;
+    memset(limits, 0, size);
+    memcpy(limits, &usual, size < sizeof usual ? size : sizeof usual);
+    limits->size = size;
+    return BSMDEC_OK;
+}
+
+#if __STDC_HOSTED__
 static void *take_of_library(void *host, size_t size) {
     (void)host;
     return malloc(size);
@@ -23,25 +56,69 @@ static void give_to_library(void *host, void *memory, size_t size) {
     (void)size;
     free(memory);
 }
+#else /* there is no malloc: callers bring an allocator */
+static void *take_of_library(void *host, size_t size) { return (void)host, (void)size, NULL; }
+static void give_to_library(void *host, void *memory, size_t size) { (void)host, (void)memory, (void)size; }
+#endif
 
-bsmdec *bsmdec_open(const bsmdec_options *options) {
-    bsmdec_allocator host = {take_of_library, give_to_library, NULL};
-    if (options != NULL && options->allocator != NULL) host = *options->allocator;
-    if (host.allocate == NULL || host.release == NULL) return NULL;
+/* Take over the limits of a caller; the context fails if they are none. */
+static void take_limits(Context *context, const bsmdec_limits *given) {
+    bsmdec_limits *limits = &context->limits;
+    if (!copy_given(limits, sizeof *limits, LIMITS_SIZE, given))
+        FAIL(context, MISUSED,
+            "limits.size is not sizeof(bsmdec_limits), or fields are set that this release does not know");
+    const double *each = (const double *)((const char *)limits + offsetof(bsmdec_limits, vertices));
+    const int64_t count = (int64_t)((sizeof *limits - offsetof(bsmdec_limits, vertices)) / sizeof *each);
+    for (int64_t i = 0; i < count; i++)
+        if (!(each[i] >= 0.0)) FAIL(context, MISUSED, "field # of the limits is negative or not a number", i + 1);
+}
+
+bool copy_options(const bsmdec_options *given, bsmdec_options *options) {
+    return given == NULL || copy_given(options, sizeof *options, OPTIONS_SIZE, given);
+}
+
+EXACTLY(bsmdec *, bsmdec_open, (const bsmdec_options *given), (given)) {
+    bsmdec_options options = {.size = sizeof options};
+    bsmdec_allocator usual = {sizeof usual, take_of_library, give_to_library, NULL}, host = usual;
+    bool known = copy_options(given, &options);
+    bool own = known && options.allocator != NULL;
+    bool allocates = !own
+        || (copy_given(&host, sizeof host, ALLOCATOR_SIZE, options.allocator) && host.allocate != NULL
+            && host.release != NULL);
+    bsmdec_parallel parallel = {.size = sizeof parallel};
+    bool runs = !known || options.parallel == NULL
+        || (copy_given(&parallel, sizeof parallel, PARALLEL_SIZE, options.parallel) && parallel.run != NULL);
+    if (!allocates) host = usual;
+    bool limited = known && options.limits != NULL && options.limits->size >= LIMITS_SIZE;
+    double heap = limited ? options.limits->heap : default_limits().heap;
+    if (heap >= 0.0 && heap < (double)sizeof(bsmdec)) return NULL;
     bsmdec *decoder = host.allocate(host.host, sizeof *decoder);
     if (decoder == NULL) return NULL;
     memset(decoder, 0, sizeof *decoder);
     Context *context = &decoder->context;
     context->host = host;
     context->heap = sizeof *decoder;
+    context->limits = default_limits();
     context->error.offset = context->error.frame = context->error.block = -1;
-    if (options != NULL && options->limits != NULL) context->limits = *options->limits;
-    else bsmdec_default_limits(&context->limits);
-    decoder->tolerant = options != NULL && options->tolerant != 0;
-    decoder->sequence.start = options != NULL ? options->start : 0;
-    decoder->sequence.waiting = arena_of(context);
     decoder->loss = context->error;
-    decoder->scratch = decoder->shown = arena_of(context);
+    if (!known)
+        FAIL(context, MISUSED,
+            "options.size is not sizeof(bsmdec_options), or fields are set that this release does not know");
+    else if (!allocates)
+        FAIL(context, MISUSED, "allocator.size is not sizeof(bsmdec_allocator), or a function is NULL");
+    else if (!runs)
+        FAIL(context, MISUSED, "parallel.size is not sizeof(bsmdec_parallel), or run is NULL");
+    else if (options.limits != NULL) take_limits(context, options.limits);
+    decoder->parallel = parallel;
+    if (!is_exact())
+        FAIL(context, UNSUPPORTED,
+            "this build of bsmdec does not round as IEEE 754: compile it without fast or fused arithmetic");
+    decoder->tolerant = options.tolerant != 0;
+    decoder->base_alone = options.layers == 1;
+    decoder->sequence.start = options.start;
+    decoder->sequence.waiting = arena_of(context);
+    decoder->scratch = decoder->shown = decoder->split.arena = arena_of(context);
+    decoder->changes.memory = decoder->changes.answer = arena_of(context);
     begin_reader(&decoder->reader, context, decoder->tolerant);
     return decoder;
 }
@@ -51,19 +128,33 @@ void bsmdec_close(bsmdec *decoder) {
     Context *context = &decoder->context;
     if (decoder->has_mesh) end_mesh(&decoder->mesh);
     close_sequence(decoder);
+    forget_changes(&decoder->changes);
     release_all(&decoder->scratch);
     release_all(&decoder->shown);
+    forget_split(decoder);
     end_reader(&decoder->reader);
     host_give(context, decoder->queue, (size_t)decoder->room * sizeof *decoder->queue);
     host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *decoder->losses);
     context->host.release(context->host.host, decoder, sizeof *decoder);
 }
 
-bsmdec_status bsmdec_push(bsmdec *decoder, const void *bytes, size_t size) {
-    if (decoder == NULL || (bytes == NULL && size > 0) || size > INT64_MAX / 4 || decoder->reader.finished) return BSMDEC_MISUSED;
+bsmdec_status refuse(bsmdec *decoder, Message message) {
+    write_message(decoder->misuse, sizeof decoder->misuse, message);
+    return BSMDEC_MISUSED;
+}
+
+bool fits(bsmdec *decoder, const void *array, size_t count, int64_t expected) {
+    if (array == NULL) return REFUSE(decoder, "the array is NULL"), false;
+    return count == (size_t)expected || (REFUSE(decoder, "size #, expected #", (int64_t)count, expected), false);
+}
+
+EXACTLY(bsmdec_status, bsmdec_push, (bsmdec *decoder, const void *bytes, size_t size), (decoder, bytes, size)) {
+    if (decoder == NULL) return BSMDEC_MISUSED;
+    if (bytes == NULL && size > 0) return REFUSE(decoder, "bytes is NULL");
+    if ((uint64_t)size > INT64_MAX / 4) return REFUSE(decoder, "size is more than memory can hold");
+    if (decoder->reader.finished) return REFUSE(decoder, "bytes are pushed after bsmdec_finish");
     if (failed(&decoder->context) || size == 0) return decoder->context.error.status;
-    receive(&decoder->reader, (Span){bytes, (int64_t)size});
-    return decoder->context.error.status;
+    return receive(&decoder->reader, (Span){bytes, (int64_t)size}) ? BSMDEC_OK : decoder->context.error.status;
 }
 
 bsmdec_status bsmdec_finish(bsmdec *decoder) {
@@ -72,23 +163,27 @@ bsmdec_status bsmdec_finish(bsmdec *decoder) {
     return BSMDEC_OK;
 }
 
+/* An event of the present mesh: what its header claims, and what it is once the faces are known. */
+static bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
+    const Mesh *mesh = &decoder->mesh;
+    return (bsmdec_event){type, index, count, mesh->announced ? mesh->numbering.size : mesh->header.vertices,
+        mesh->header.faces, decoder->has_mesh ? mesh->header.frames : decoder->sequence.announced};
+}
+
 /* Have an event wait to be told. */
 bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
     Context *context = &decoder->context;
     if (decoder->waiting == decoder->room) {
         int64_t room = 2 * decoder->room + 16;
-        bsmdec_event *queue = host_take(context, (size_t)room * sizeof *queue);
-        if (queue == NULL) return false;
+        bsmdec_event *queue;
+        if (!TAKE_OF_HOST(context, room, queue)) return false;
         for (int64_t i = 0; i < decoder->waiting; i++) queue[i] = decoder->queue[(decoder->first + i) % decoder->room];
         host_give(context, decoder->queue, (size_t)decoder->room * sizeof *queue);
         decoder->queue = queue;
         decoder->room = room;
         decoder->first = 0;
     }
-    const Mesh *mesh = &decoder->mesh;
-    bool real = mesh->announced;
-    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room] = (bsmdec_event){type, index, count,
-        real ? mesh->numbering.size : type == BSMDEC_HEADER ? mesh->header.vertices : 0, real || type == BSMDEC_HEADER ? mesh->header.faces : 0};
+    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room] = event_of(decoder, type, index, count);
     return true;
 }
 
@@ -96,26 +191,31 @@ bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count)
 static bsmdec_event_type advance(bsmdec *decoder) {
     Context *context = &decoder->context;
     while (decoder->waiting == 0) {
+        if (decoder->over) return BSMDEC_END_OF_STREAM;
         Packet packet;
         Arrival arrival = next_packet(&decoder->reader, &packet);
-        if (arrival == NO_MORE && !decoder->ended) arrival = accept_end(decoder) ? A_PACKET : NOTHING_BUT_AN_ERROR; /* a tolerant reader may find no END */
+        if (arrival == NO_MORE && !decoder->ended)
+            arrival = accept_end(decoder) ? A_PACKET : NOTHING_BUT_AN_ERROR; /* a tolerant reader may find no END */
         else if (arrival == A_PACKET && !accept_packet(decoder, &packet)) arrival = NOTHING_BUT_AN_ERROR;
         else if (arrival == A_DAMAGE && !accept_damage(decoder)) arrival = NOTHING_BUT_AN_ERROR;
         if (arrival == NO_MORE_YET) return BSMDEC_NEED_DATA;
         if (arrival == NO_MORE) return BSMDEC_END_OF_STREAM;
         if (arrival == NOTHING_BUT_AN_ERROR) {
-            locate(&context->error, decoder->reader.offset, decoder->reader.frames, -1);
+            locate(&context->error, decoder->reader.last_offset, decoder->reader.last_frame, -1);
             if (decoder->waiting == 0) return BSMDEC_ERROR;
         }
     }
     return BSMDEC_END;
 }
 
-bsmdec_status bsmdec_next(bsmdec *decoder, bsmdec_event *event) {
-    if (decoder == NULL || event == NULL) return BSMDEC_MISUSED;
-    bsmdec_event_type type = decoder->waiting > 0 ? BSMDEC_END : failed(&decoder->context) ? BSMDEC_ERROR : advance(decoder);
+EXACTLY(bsmdec_status, bsmdec_next, (bsmdec *decoder, bsmdec_event *event), (decoder, event)) {
+    if (decoder == NULL) return BSMDEC_MISUSED;
+    if (event == NULL) return REFUSE(decoder, "event is NULL");
+    bsmdec_event_type type = decoder->waiting > 0 ? BSMDEC_END
+        : failed(&decoder->context)               ? BSMDEC_ERROR
+                                                  : advance(decoder);
     if (decoder->waiting == 0) {
-        *event = (bsmdec_event){.type = type};
+        *event = event_of(decoder, type, 0, 0);
         return type == BSMDEC_ERROR ? decoder->context.error.status : BSMDEC_OK;
     }
     *event = decoder->queue[decoder->first];
@@ -123,7 +223,7 @@ bsmdec_status bsmdec_next(bsmdec *decoder, bsmdec_event *event) {
     decoder->waiting--;
     if (event->type == BSMDEC_FRAME && !show(decoder, event->index)) {
         decoder->waiting = 0;
-        *event = (bsmdec_event){.type = BSMDEC_ERROR};
+        *event = event_of(decoder, BSMDEC_ERROR, 0, 0);
         return decoder->context.error.status;
     }
     if (event->type == BSMDEC_LOSS) {
@@ -134,33 +234,45 @@ bsmdec_status bsmdec_next(bsmdec *decoder, bsmdec_event *event) {
 }
 
 bsmdec_status bsmdec_faces(bsmdec *decoder, uint32_t *corners, size_t count) {
-    if (decoder == NULL || corners == NULL || !decoder->mesh.announced) return BSMDEC_MISUSED;
+    if (decoder == NULL) return BSMDEC_MISUSED;
+    if (!decoder->mesh.announced) return REFUSE(decoder, "faces are known after CONNECTIVITY");
     ConstInts2 faces = decoder->mesh.numbering.faces;
-    if (count != (size_t)(3 * faces.rows)) return BSMDEC_MISUSED;
+    if (!fits(decoder, corners, count, 3 * faces.rows)) return BSMDEC_MISUSED;
     for (int64_t i = 0; i < 3 * faces.rows; i++) corners[i] = (uint32_t)faces.data[i];
     return BSMDEC_OK;
 }
 
-/* Where vertex v of the user is; `loose` counts those in no face. */
-static const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose) {
+const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose) {
     const Numbering *numbering = &decoder->mesh.numbering;
     int64_t coded = numbering->source.size > 0 ? numbering->source.data[v] : v;
     return coded < 0 ? numbering->loose.data + 3 * (*loose)++ : decoder->positions.data + 3 * coded;
 }
 
-static bool can_show(bsmdec *decoder, const void *to, size_t count) {
-    return decoder != NULL && to != NULL && count == (size_t)(3 * decoder->mesh.numbering.size)
-        && (decoder->has_positions || look_at_positions(decoder));
+bool has_places(bsmdec *decoder) {
+    if (decoder->has_positions || (!decoder->ended && look_at_positions(decoder))) return true;
+    return REFUSE(decoder,
+               decoder->sequence.is_one ? "positions are known after FRAME"
+                                        : "positions are known after the first BLOCK"),
+           false;
 }
 
-bsmdec_status bsmdec_positions(bsmdec *decoder, double *coordinates, size_t count) {
+static bool can_show(bsmdec *decoder, const void *to, size_t count) {
+    return decoder != NULL && has_places(decoder) && fits(decoder, to, count, 3 * decoder->mesh.numbering.size);
+}
+
+EXACTLY(bsmdec_status, bsmdec_positions,
+    (bsmdec *decoder, double *coordinates, size_t count),
+    (decoder, coordinates, count)) {
     if (!can_show(decoder, coordinates, count)) return BSMDEC_MISUSED;
     int64_t loose = 0;
-    for (size_t v = 0; v < count / 3; v++) memcpy(coordinates + 3 * v, place_of(decoder, (int64_t)v, &loose), 3 * sizeof(double));
+    for (size_t v = 0; v < count / 3; v++)
+        memcpy(coordinates + 3 * v, place_of(decoder, (int64_t)v, &loose), 3 * sizeof(double));
     return BSMDEC_OK;
 }
 
-bsmdec_status bsmdec_positions_single(bsmdec *decoder, float *coordinates, size_t count) {
+EXACTLY(bsmdec_status, bsmdec_positions_single,
+    (bsmdec *decoder, float *coordinates, size_t count),
+    (decoder, coordinates, count)) {
     if (!can_show(decoder, coordinates, count)) return BSMDEC_MISUSED;
     int64_t loose = 0;
     for (size_t v = 0; v < count / 3; v++) {
@@ -170,58 +282,100 @@ bsmdec_status bsmdec_positions_single(bsmdec *decoder, float *coordinates, size_
     return BSMDEC_OK;
 }
 
-bsmdec_status bsmdec_metadata_at(const bsmdec *decoder, int64_t index, bsmdec_metadata *entry) {
-    if (decoder == NULL || entry == NULL || index < 0 || index >= decoder->reader.metadata.count) return BSMDEC_MISUSED;
-    const Saying *said = decoder->reader.metadata.said[index];
-    *entry = (bsmdec_metadata){(const char *)said->name.data, said->kind, said->whole, said->number, said->bytes.data, (size_t)said->bytes.size};
+static bsmdec_metadata entry_of(const Saying *said) {
+    return (bsmdec_metadata){(const char *)said->name.data, said->kind, said->whole, said->number, said->bytes.data,
+        (size_t)said->bytes.size};
+}
+
+bsmdec_status bsmdec_metadata_find(bsmdec *decoder, const char *name, bsmdec_metadata *entry) {
+    if (decoder == NULL) return BSMDEC_MISUSED;
+    if (name == NULL || entry == NULL) return REFUSE(decoder, "name or entry is NULL");
+    const Saying *found = find_name(&decoder->reader.metadata, (Span){(const uint8_t *)name, (int64_t)strlen(name)});
+    if (found == NULL) return REFUSE(decoder, "no entry of metadata has this name");
+    *entry = entry_of(found);
     return BSMDEC_OK;
 }
 
-/* An attribute that is whole; NULL if there is none of that number. */
-static const Attribute *attribute_of(const bsmdec *decoder, int index) {
-    if (decoder == NULL || !decoder->mesh.has_attributes || !decoder->mesh.announced || index < 0 || index >= MOST_ATTRIBUTES) return NULL;
-    const Attribute *one = decoder->mesh.attributes.one[index];
-    return one != NULL && one->whole ? one : NULL;
+bsmdec_status bsmdec_metadata_at(bsmdec *decoder, int64_t index, bsmdec_metadata *entry) {
+    if (decoder == NULL) return BSMDEC_MISUSED;
+    if (entry == NULL) return REFUSE(decoder, "entry is NULL");
+    int64_t known = decoder->reader.metadata.count;
+    if (index < 0 || index >= known) return REFUSE(decoder, "entry # of metadata, # are known", index, known);
+    *entry = entry_of(decoder->reader.metadata.said[index]);
+    return BSMDEC_OK;
+}
+
+const Attribute *begun_attribute(bsmdec *decoder, int index) {
+    if (decoder == NULL) return NULL;
+    int count = bsmdec_attribute_count(decoder);
+    if (index < 0 || index >= count) return REFUSE(decoder, "attribute #, # are known", index, count), NULL;
+    const Attribute *attribute = decoder->mesh.announced ? decoder->mesh.attributes.one[index] : NULL;
+    if (attribute == NULL || attribute->values == NULL)
+        return REFUSE(decoder, "attribute # is known after its ATTRIBUTE", index), NULL;
+    return attribute;
+}
+
+/* An attribute that is available; NULL, and the reason is noted, if there is none of that number. */
+static const Attribute *attribute_of(bsmdec *decoder, int index) {
+    const Attribute *attribute = begun_attribute(decoder, index);
+    if (attribute != NULL && !attribute->whole)
+        return REFUSE(decoder, "attribute # is known after its ATTRIBUTE", index), NULL;
+    return attribute;
 }
 
 int bsmdec_attribute_count(const bsmdec *decoder) {
     return decoder != NULL && decoder->mesh.has_attributes ? (int)decoder->mesh.header.attributes : 0;
 }
 
-bsmdec_status bsmdec_attribute_at(const bsmdec *decoder, int index, bsmdec_attribute *attribute) {
-    const Attribute *one = attribute_of(decoder, index);
-    if (one == NULL || attribute == NULL) return BSMDEC_MISUSED;
-    const Declaration *d = &one->declaration;
-    Given given = given_shape(one, &decoder->mesh.numbering);
+bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute) {
+    const Declaration *d = &attribute->declaration;
+    Given given = given_shape(attribute, &decoder->mesh.numbering);
     int64_t corners = given.domain == BSMDEC_CORNER ? 3 * decoder->mesh.faces.rows : 0;
-    *attribute = (bsmdec_attribute){d->name, given.domain, d->semantic, d->kind, d->components, given.rows, corners, d->moves};
+    return (bsmdec_attribute){d->name, given.domain, d->semantic, d->kind, d->components, given.rows, corners, d->moves};
+}
+
+bsmdec_status bsmdec_attribute_at(bsmdec *decoder, int index, bsmdec_attribute *attribute) {
+    const Attribute *one = attribute_of(decoder, index);
+    if (one == NULL) return BSMDEC_MISUSED;
+    if (attribute == NULL) return REFUSE(decoder, "attribute is NULL");
+    *attribute = shape_of(decoder, one);
     return BSMDEC_OK;
 }
 
-bsmdec_status bsmdec_attribute_values(bsmdec *decoder, int index, void *values, size_t size) {
+EXACTLY(bsmdec_status, bsmdec_attribute_values,
+    (bsmdec *decoder, int index, void *values, size_t size),
+    (decoder, index, values, size)) {
     const Attribute *one = attribute_of(decoder, index);
     bsmdec_attribute shape;
-    if (bsmdec_attribute_at(decoder, index, &shape) != BSMDEC_OK || values == NULL) return BSMDEC_MISUSED;
+    if (bsmdec_attribute_at(decoder, index, &shape) != BSMDEC_OK) return BSMDEC_MISUSED;
     size_t each = (size_t)shape.components * kind_size(shape.kind);
-    if (size != (size_t)shape.rows * each) return BSMDEC_MISUSED;
+    if (!fits(decoder, values, size, shape.rows * (int64_t)each)) return BSMDEC_MISUSED;
     Arena own = arena_of(&decoder->context);
-    Longs rows = take_longs(&own, shape.rows);
-    bool done = rows.data != NULL && given_rows(one, &decoder->mesh.numbering, &own, rows);
+    Longs rows;
+    bool done = take_longs(&own, shape.rows, &rows) && given_rows(one, &decoder->mesh.numbering, &own, rows);
     for (int64_t i = 0; done && i < shape.rows; i++)
-        memcpy((char *)values + (size_t)i * each, (const char *)(one->moved != NULL ? one->moved : one->values) + (size_t)rows.data[i] * each, each);
+        memcpy((char *)values + (size_t)i * each,
+            (const char *)(one->moved != NULL ? one->moved : one->values) + (size_t)rows.data[i] * each, each);
     release_all(&own);
     return done ? BSMDEC_OK : decoder->context.error.status;
 }
 
 bsmdec_status bsmdec_attribute_indices(bsmdec *decoder, int index, uint32_t *indices, size_t count) {
-    const Attribute *one = attribute_of(decoder, index);
-    bsmdec_attribute shape;
-    if (bsmdec_attribute_at(decoder, index, &shape) != BSMDEC_OK || indices == NULL || shape.indices == 0 || count != (size_t)shape.indices)
-        return BSMDEC_MISUSED;
+    const Attribute *one = begun_attribute(decoder, index);
+    if (one == NULL) return BSMDEC_MISUSED;
+    bsmdec_attribute shape = shape_of(decoder, one);
+    if (shape.indices == 0) return REFUSE(decoder, "attribute # has no indices: it is not of corners", index);
+    if (!fits(decoder, indices, count, shape.indices)) return BSMDEC_MISUSED;
     for (size_t i = 0; i < count; i++) indices[i] = (uint32_t)row_of_corner(one, &decoder->mesh.numbering, (int64_t)i);
     return BSMDEC_OK;
 }
 
-const bsmdec_error *bsmdec_last_error(const bsmdec *decoder) { return decoder != NULL ? &decoder->context.error : NULL; }
+const bsmdec_error *bsmdec_last_error(const bsmdec *decoder) {
+    return decoder != NULL ? &decoder->context.error : NULL;
+}
 
 const bsmdec_error *bsmdec_last_loss(const bsmdec *decoder) { return decoder != NULL ? &decoder->loss : NULL; }
+
+const char *bsmdec_last_misuse(const bsmdec *decoder) {
+    return decoder != NULL ? decoder->misuse : "the decoder is NULL";
+}

@@ -8,6 +8,8 @@
 #include "engine/gop.h"
 #include "engine/reader.h"
 
+typedef struct Ahead Ahead;
+
 /* What is known of the present mesh. */
 typedef struct {
     Header header;
@@ -21,6 +23,7 @@ typedef struct {
     bool has_chains, has_grid, has_layer, values_begun;
     Chains chains;
     Assembly assembly;
+    Ahead *ahead;         /* what other threads decoded, or NULL */
     int64_t next_block, chunks;
     GridField grid;
     Layer layer;
@@ -75,17 +78,42 @@ INLINE bool is_own(const Share *share, const Header *header, int64_t index) {
     return share->among == 0 || index / chain_length(header) % share->among == share->number;
 }
 
-/* Told of a block that a helper decodes: it has to be added before anything else is asked for. */
-enum { BLOCK_OF_HELPER = BSMDEC_ERROR + 1 };
+/* Vertices for graphics: those of the mesh, then copies of some, whose vertices are `sources`. `corners` has a corner of
+ * each, -1 if no face has it; `indices` has the vertex of each corner. The arrays are empty if nothing is split. */
+typedef struct {
+    Arena arena;
+    bool is_made, is_needed, by[MOST_ATTRIBUTES];
+    int64_t vertices;
+    Ints sources, corners;
+    Words indices;
+} Split;
+
+/* Reported for a block that a helper decodes: it has to be added before anything else is asked for. */
+enum { BLOCK_OF_HELPER = BSMDEC_VALUES + 1 };
+
+/* What is remembered of the present mesh to answer what has changed, and the last answer. */
+typedef struct {
+    Arena memory, answer;
+    bool begun;
+    Ints missing;            /* copies of each vertex that have not come */
+    Bytes final, marks;
+    Doubles2 blended;
+    Ints number, ringed;     /* of vertices around others */
+    Ints starts, members;    /* the user's numbers of each coded vertex; empty: the same */
+    int64_t blocks, reached; /* those of which changes were read: blocks; vertices of a grid or of refinement */
+} Changes;
+void forget_changes(Changes *changes);
 
 struct bsmdec {
     Context context;
     Share share;
+    bsmdec_parallel parallel;
     Reader reader;
     Arena scratch;
-    bool tolerant, has_mesh, ended;
+    bool tolerant, base_alone, has_mesh, ended, over; /* `over`: nothing more is read */
     Mesh mesh;
     Sequence sequence;
+    Changes changes;
     /* Events that wait to be told, a ring. */
     bsmdec_event *queue;
     int64_t first, waiting, room;
@@ -95,10 +123,37 @@ struct bsmdec {
     Arena shown;
     bool has_checksum;    /* whether the stream has told that of all positions: */
     uint32_t told, shown_sum; /* the one told, and that of all frames so far */
+    Split split;
+    char misuse[128];     /* why the last call was refused */
     bsmdec_error loss;
     bsmdec_error *losses; /* of the LOSS events that wait, by index */
     int64_t loss_count, loss_room;
 };
+
+/* Note why a call is refused; returns BSMDEC_MISUSED. */
+bsmdec_status refuse(bsmdec *decoder, Message message);
+#ifdef BSMDEC_TERSE
+INLINE bsmdec_status refuse_tersely(const bsmdec *decoder) { return (void)decoder, BSMDEC_MISUSED; }
+#define REFUSE(decoder, ...) refuse_tersely(decoder)
+#else
+#define REFUSE(decoder, ...) refuse(decoder, (Message){.text = __VA_ARGS__})
+#endif
+
+/* Copy the options of a caller over `options`, the defaults; false if their size is wrong. */
+bool copy_options(const bsmdec_options *given, bsmdec_options *options);
+/* Whether an array of a caller is there and has as many elements, or bytes, as it must. */
+bool fits(bsmdec *decoder, const void *array, size_t count, int64_t expected);
+/* Whether positions are available; if not, why is noted. */
+bool has_places(bsmdec *decoder);
+/* Where vertex v of the user is; `loose` counts those in no face. */
+const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose);
+INLINE void forget_split(bsmdec *decoder) {
+    release_all(&decoder->split.arena);
+    decoder->split = (Split){.arena = decoder->split.arena};
+}
+/* An attribute of which values may have come; NULL, and the reason is noted, if there is none. */
+const Attribute *begun_attribute(bsmdec *decoder, int index);
+bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute);
 
 bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
 /* Take a packet in; what follows from it is told. */

@@ -62,8 +62,8 @@ static void fill_bends(Bend bend, ConstDoubles2 x, Doubles2 columns) {
 
 /* Bends and first values at some vertices. */
 static bool fill_known(Bend bend, ConstDoubles2 first_frame, const Mover *movers, int count, ConstInts vertices, Arena *scratch, Doubles2 known) {
-    Doubles2 places = take_doubles2(scratch, vertices.size, 3);
-    if (failed(scratch->context)) return false;
+    Doubles2 places;
+    if (!take_doubles2(scratch, vertices.size, 3, &places)) return false;
     gather_rows(first_frame, vertices, places);
     fill_bends(bend, const_doubles2(places), known);
     for (int64_t r = 0; r < vertices.size; r++) {
@@ -80,16 +80,16 @@ static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, cons
     const Site *part = gops->part + index;
     int64_t n = part->patch.size, ends = part->around.size;
     Singles2 dictionary;
-    Doubles2 here = take_doubles2(scratch, n, columns), around = take_doubles2(scratch, ends, columns);
-    Doubles2 expected = take_doubles2(scratch, n, columns), differences = take_doubles2(scratch, part->width, columns);
-    if (failed(gops->context) || !lend_dictionary(gops, index, scratch, &dictionary)) return false;
-    Doubles2 places = take_doubles2(scratch, n, 3);
-    if (failed(gops->context)) return false;
+    Doubles2 here, around, expected, differences, places;
+    if (!take_doubles2(scratch, n, columns, &here) || !take_doubles2(scratch, ends, columns, &around)
+        || !take_doubles2(scratch, n, columns, &expected) || !take_doubles2(scratch, part->width, columns, &differences)
+        || !lend_dictionary(gops, index, scratch, &dictionary) || !take_doubles2(scratch, n, 3, &places))
+        return false;
     gather_rows(first_frame, part->patch.vertices, places);
     Bend bend = bend_of(const_doubles2(places));
     if (!fill_known(bend, first_frame, movers, count, part->patch.vertices, scratch, here)
         || !fill_known(bend, first_frame, movers, count, const_ints(part->around), scratch, around)
-        || !extend_part(gops, part, const_doubles2(around), scratch, expected))
+        || !extend_part(part, const_doubles2(around), scratch, expected))
         return false;
     for (int64_t i = 0; i < n * columns; i++) here.data[i] -= expected.data[i];
     project(const_singles2(dictionary), const_doubles2(here), differences);
@@ -113,21 +113,22 @@ bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph 
     if (!find_parts(gops, faces, first_frame, scratch) || !reserve_dictionaries(gops, 0, 0, &work) || !keep(context, TRACK_MEMORY * n * widths, 0)
         || !keep(context, 8 * (BENDING + widths) * gops->around, 0))
         return false;
-    gops->track = take_zeros(&gops->arena, gops->tracks, sizeof *gops->track);
-    for (int k = 0; fine(context) && k <= count; k++) {
+    if (!TAKE_ZEROS(&gops->arena, gops->tracks, gops->track)) return false;
+    for (int k = 0; k <= count; k++) {
         Track *track = gops->track + k;
         track->width = k > 0 ? movers[k - 1].width : 3;
         track->kept = k > 0 ? 2 : least(MOST_KEPT, largest(2, (1 << 19) / graph->size));
-        track->known = take_doubles2(&gops->arena, gops->rows, k > 0 ? track->width : BENDING);
+        if (!take_doubles2(&gops->arena, gops->rows, k > 0 ? track->width : BENDING, &track->known)) return false;
         track->starts_at_first = k == 0;
         columns += k > 0 ? track->width : 0;
     }
-    for (int64_t i = 0; fine(context) && i < gops->count; i++) {
+    bool done = true;
+    for (int64_t i = 0; done && i < gops->count; i++) {
         Mark mark = mark_of(scratch);
-        know_part(gops, i, first_frame, movers, count, columns, scratch);
+        done = know_part(gops, i, first_frame, movers, count, columns, scratch);
         release_to(scratch, mark);
     }
-    return fine(context);
+    return done;
 }
 
 void forget_frames(Gops *gops) { gops->can_follow = gops->can_inherit = false; }
@@ -152,14 +153,13 @@ void end_gops(Gops *gops) {
 }
 
 /* The orthonormal cosines of T frames: row t, column frequency (S 5.1). */
-static Doubles2 time_cosines(int64_t frames, Arena *arena) {
-    Doubles2 columns = take_doubles2(arena, frames, frames);
-    Doubles table = take_doubles(arena, frames + 8);
-    if (failed(arena->context)) return columns;
-    cosines(table, columns);
+static bool time_cosines(int64_t frames, Arena *arena, Doubles2 *columns) {
+    Doubles table;
+    if (!take_doubles2(arena, frames, frames, columns) || !take_doubles(arena, frames + 8, &table)) return false;
+    cosines(table, *columns);
     double scale = __builtin_sqrt(2.0 / (double)frames), first = __builtin_sqrt(1.0 / (double)frames);
-    for (int64_t i = 0; i < frames * frames; i++) columns.data[i] = i % frames == 0 ? first : columns.data[i] * scale;
-    return columns;
+    for (int64_t i = 0; i < frames * frames; i++) columns->data[i] = i % frames == 0 ? first : columns->data[i] * scale;
+    return true;
 }
 
 /* One payload of matrices of levels, of `rows[i]` rows (S 4); references begin where `references` tells, or are none. With a
@@ -173,8 +173,8 @@ typedef struct {
 
 static bool read_matrices(Context *context, Bank bank, Span payload, const Matrix *matrices, int64_t count, int64_t columns, int64_t stair, Arena *scratch) {
     Reading reading;
-    Longs slow = take_longs(scratch, columns);
-    if (failed(context) || !begin_reading(context, payload, &reading)) return false;
+    Longs slow;
+    if (!take_longs(scratch, columns, &slow) || !begin_reading(context, payload, &reading)) return false;
     for (int64_t i = 0; i < count && !ran_over(&reading); i++) {
         const Matrix *m = matrices + i;
         Ints2 levels = {m->levels, m->rows, columns};
@@ -194,13 +194,14 @@ static void add_row(double *to, double scalar, const double *from, int64_t count
 static bool decode_basis(Context *context, const GopField *field, int64_t frames, Arena *arena, Arena *scratch, Doubles2 *basis) {
     int64_t width = field->width, r = field->components, size = frames * r;
     Mark mark = mark_of(scratch);
-    *basis = zero_doubles2(arena, width * frames, r);
-    Bank bank = make_level_bank(scratch);
-    Matrix *matrices = take_memory(scratch, width, sizeof *matrices);
-    Ints levels = zero_ints(scratch, width * size);
-    Doubles2 turned = take_doubles2(scratch, width * frames, r), time = time_cosines(frames, scratch);
-    Doubles vector = take_doubles(scratch, width * frames), shares = take_doubles(scratch, r);
-    bool done = fine(context);
+    Bank bank;
+    Matrix *matrices;
+    Ints levels;
+    Doubles2 turned, time;
+    Doubles vector, shares;
+    bool done = zero_doubles2(arena, width * frames, r, basis) && make_level_bank(scratch, &bank) && TAKE(scratch, width, matrices)
+        && zero_ints(scratch, width * size, &levels) && take_doubles2(scratch, width * frames, r, &turned)
+        && time_cosines(frames, scratch, &time) && take_doubles(scratch, width * frames, &vector) && take_doubles(scratch, r, &shares);
     for (int64_t c = 0; done && c < width; c++)
         matrices[c] = (Matrix){frames, c + 1, levels.data + c * size, levels.data + (c > 0 ? c - 1 : 0) * size, c > 0 ? frames : 0};
     done = done && read_matrices(context, bank, field->basis, matrices, width, r, width, scratch);
@@ -227,26 +228,28 @@ static bool decode_basis(Context *context, const GopField *field, int64_t frames
 static bool follow_loop(Context *context, ConstDoubles2 around, ConstDoubles2 ends, ConstDoubles2 known, ConstInts2 levels, double step, Arena *scratch, Doubles2 decoded) {
     int64_t width = known.columns + levels.columns, rows = known.columns + least(levels.columns, INHERITED);
     Mark mark = mark_of(scratch);
-    Doubles2 moments = take_doubles2(scratch, rows, width), factor = zero_doubles2(scratch, rows, width);
-    Doubles row = take_doubles(scratch, width), expected = take_doubles(scratch, width);
+    Doubles2 moments, factor;
+    Doubles row, expected;
     double spoiled = 0.0;
-    if (fine(context)) {
+    bool done = take_doubles2(scratch, rows, width, &moments) && zero_doubles2(scratch, rows, width, &factor)
+        && take_doubles(scratch, width, &row) && take_doubles(scratch, width, &expected);
+    if (done) {
         learn_around(around, ends, moments, step, RULES, expected, row);
         follow_rows(known, levels, decoded, moments, step, RULES, factor, row, expected);
         for (int64_t i = 0; i < decoded.rows * decoded.columns; i++) spoiled += decoded.data[i] * 0.0;
     }
     release_to(scratch, mark);
-    return fine(context) && (spoiled == 0.0 || FAIL(context, NUMERIC, "the levels reconstruct to coefficients that are not finite"));
+    return done && (spoiled == 0.0 || FAIL(context, NUMERIC, "the levels reconstruct to coefficients that are not finite"));
 }
 
 /* Columns of two matrices side by side. */
-static Doubles2 beside(Doubles2 one, Doubles2 other, Arena *scratch) {
-    if (other.columns == 0) return one;
-    Doubles2 both = take_doubles2(scratch, one.rows, one.columns + other.columns);
-    if (failed(scratch->context)) return both;
-    copy_columns(const_doubles2(one), 0, one.columns, both, 0);
-    copy_columns(const_doubles2(other), 0, other.columns, both, one.columns);
-    return both;
+static bool join_columns(Doubles2 one, Doubles2 other, Arena *scratch, Doubles2 *both) {
+    *both = one;
+    if (other.columns == 0) return true;
+    if (!take_doubles2(scratch, one.rows, one.columns + other.columns, both)) return false;
+    copy_columns(const_doubles2(one), 0, one.columns, *both, 0);
+    copy_columns(const_doubles2(other), 0, other.columns, *both, one.columns);
+    return true;
 }
 
 /* What is told of each part, in turn. */
@@ -263,10 +266,11 @@ static bool decode_learnt_part(Gops *gops, const Telling *telling, int k, const 
     Track *track = gops->track + k;
     int64_t m = ends.rows, c = part->width;
     Doubles2 before = telling->gop->method == LEARNT_NEXT ? track->inherited : (Doubles2){NULL, gops->rows, 0};
-    Doubles2 known = beside(rows_from(track->known, part->first, m + c), rows_from(before, part->first, m + c), scratch), found = telling->found[k];
+    Doubles2 known, found = telling->found[k];
+    if (!join_columns(rows_from(track->known, part->first, m + c), rows_from(before, part->first, m + c), scratch, &known)) return false;
     if (field->components > 0
-        && (failed(gops->context) || !follow_loop(gops->context, const_doubles2(rows_from(known, 0, m)), ends, const_doubles2(rows_from(known, m, c)),
-               levels, field->step, scratch, differences)))
+        && !follow_loop(gops->context, const_doubles2(rows_from(known, 0, m)), ends, const_doubles2(rows_from(known, m, c)), levels,
+            field->step, scratch, differences))
         return false;
     copy_columns(ends, 0, found.columns, rows_from(found, part->first, m), 0);
     copy_columns(const_doubles2(differences), 0, found.columns, rows_from(found, part->first + m, c), 0);
@@ -319,8 +323,8 @@ static bool decode_next_part(Gops *gops, const Telling *telling, int k, const Si
     fill_base(track, field, const_doubles2(telling->time), part->first, own);
     if (field->components > 0) {
         int64_t wide = track->width * (2 + lags_of(track->kept) + (field->back > 0));
-        Doubles2 known = take_doubles2(scratch, m + c, wide), changes = take_doubles2(scratch, m, columns);
-        if (failed(gops->context)) return false;
+        Doubles2 known, changes;
+        if (!take_doubles2(scratch, m + c, wide, &known) || !take_doubles2(scratch, m, columns, &changes)) return false;
         fill_references(track, field, part->first, known);
         for (int64_t i = 0; i < m * columns; i++) changes.data[i] = ends.data[i] - own.data[i];
         if (!follow_loop(gops->context, const_doubles2(rows_from(known, 0, m)), const_doubles2(changes), const_doubles2(rows_from(known, m, c)),
@@ -335,20 +339,20 @@ static bool decode_next_part(Gops *gops, const Telling *telling, int k, const Si
 
 /* Fill a part of the field from what is told of it. */
 static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_t *begin, Arena *scratch) {
-    Context *context = gops->context;
     const Site *part = gops->part + index;
     int64_t n = part->patch.size, m = part->around.size, c = part->width, total = gops->field.columns, place = 0;
     Singles2 dictionary;
-    if (!lend_dictionary(gops, index, scratch, &dictionary)) return false;
-    Doubles2 around = take_doubles2(scratch, m, total), differences = take_doubles2(scratch, c, total);
-    Doubles2 positions = take_doubles2(scratch, n, total), extension = take_doubles2(scratch, n, total);
-    if (failed(context)) return false;
+    Doubles2 around, differences, positions, extension;
+    if (!lend_dictionary(gops, index, scratch, &dictionary) || !take_doubles2(scratch, m, total, &around)
+        || !take_doubles2(scratch, c, total, &differences) || !take_doubles2(scratch, n, total, &positions)
+        || !take_doubles2(scratch, n, total, &extension))
+        return false;
     gather_rows(const_doubles2(gops->field), const_ints(part->around), around);
     for (int k = 0; k < gops->tracks; k++) {
         int64_t columns = gops->basis[k].columns;
         Mark mark = mark_of(scratch);
-        Doubles2 ends = take_doubles2(scratch, m, columns), own = take_doubles2(scratch, c, columns);
-        if (failed(context)) return false;
+        Doubles2 ends, own;
+        if (!take_doubles2(scratch, m, columns, &ends) || !take_doubles2(scratch, c, columns, &own)) return false;
         copy_columns(const_doubles2(around), place, columns, ends, 0);
         ConstInts2 levels = {telling->levels[k].data + *begin * columns, c, columns};
         bool done = (has_basis(telling->gop) ? decode_learnt_part : decode_next_part)(gops, telling, k, part, const_doubles2(ends), levels, scratch, own);
@@ -359,7 +363,7 @@ static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_
     }
     *begin += c;
     if (total == 0) return true;
-    if (!extend_part(gops, part, const_doubles2(around), scratch, extension)) return false;
+    if (!extend_part(part, const_doubles2(around), scratch, extension)) return false;
     reconstruct(const_singles2(dictionary), const_doubles2(differences), positions);
     for (int64_t r = 0; r < n; r++)
         for (int64_t j = 0; j < total; j++)
@@ -369,7 +373,7 @@ static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_
 
 static bool place_parts(Gops *gops, const Telling *telling, Arena *scratch) {
     int64_t begin = 0;
-    bool done = fine(gops->context);
+    bool done = true;
     for (int64_t i = 0; done && i < gops->count; i++) {
         Mark mark = mark_of(scratch);
         done = place_part(gops, telling, i, &begin, scratch);
@@ -387,8 +391,8 @@ static int64_t coded_rows(const Gops *gops) {
 /* The levels of all parts in a field, whose references are the parts before (no `before`) or the same parts there. */
 static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int32_t *before, int64_t columns, Arena *scratch, Ints levels) {
     Mark mark = mark_of(scratch);
-    Matrix *matrices = take_memory(scratch, gops->count, sizeof *matrices);
-    if (failed(gops->context)) return false;
+    Matrix *matrices;
+    if (!TAKE(scratch, gops->count, matrices)) return false;
     int64_t begin = 0;
     for (int64_t i = 0; i < gops->count; i++) {
         int64_t rows = gops->part[i].width, earlier = i > 0 && before == NULL ? gops->part[i - 1].width : 0;
@@ -403,14 +407,13 @@ static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int3
 
 /* Make room for the field of a GOP, and for batches of its frames. */
 static bool begin_field(Gops *gops, const Gop *gop) {
-    Context *context = gops->context;
     int64_t columns = 0, n = gops->graph->size, shown = least(gop->frames, BATCH);
     for (int k = 0; k < gops->tracks; k++) columns += gops->basis[k].columns;
-    gops->field = zero_doubles2(&gops->frames, n, columns);
-    gops->batch = take_memory(&gops->frames, gops->tracks, sizeof *gops->batch);
-    for (int k = 0; fine(context) && k < gops->tracks; k++) gops->batch[k] = take_doubles2(&gops->frames, shown * n, gops->track[k].width);
     gops->batched = -1;
-    return fine(context);
+    if (!zero_doubles2(&gops->frames, n, columns, &gops->field) || !TAKE(&gops->frames, gops->tracks, gops->batch)) return false;
+    for (int k = 0; k < gops->tracks; k++)
+        if (!take_doubles2(&gops->frames, shown * n, gops->track[k].width, gops->batch + k)) return false;
+    return true;
 }
 
 static bool decode_learnt(Gops *gops, const Gop *gop, Arena *scratch) {
@@ -418,31 +421,34 @@ static bool decode_learnt(Gops *gops, const Gop *gop, Arena *scratch) {
     bool follows = gop->method == LEARNT_NEXT;
     if (follows && !gops->can_inherit) return FAIL(context, CORRUPT, "a GOP refers to one that is not there");
     forget_frames(gops);
-    Telling telling = {.gop = gop, .levels = take_memory(scratch, gops->tracks, sizeof(Ints)), .found = take_memory(scratch, gops->tracks, sizeof(Doubles2))};
-    if (failed(context)) return false;
+    Telling telling = {.gop = gop};
+    if (!TAKE(scratch, gops->tracks, telling.levels) || !TAKE(scratch, gops->tracks, telling.found)) return false;
     for (int k = 0; k < gops->tracks; k++) {
         const GopField *field = gop->field + k;
         if (field->step > 0) {
             if (!decode_basis(context, field, gop->told, &gops->frames, scratch, gops->basis + k)) return false;
         } else {
-            gops->basis[k] = (Doubles2){take_memory(&gops->frames, 0, 1), field->width * gop->told, 0};
+            gops->basis[k] = (Doubles2){NULL, field->width * gop->told, 0};
         }
     }
     for (int k = 0; k < gops->tracks; k++) {
         const GopField *field = gop->field + k;
-        telling.levels[k] = zero_ints(scratch, coded_rows(gops) * field->components);
-        telling.found[k] = take_doubles2(scratch, gops->rows, least(field->components, INHERITED));
+        Bank bank;
+        if (!zero_ints(scratch, coded_rows(gops) * field->components, telling.levels + k)
+            || !take_doubles2(scratch, gops->rows, least(field->components, INHERITED), telling.found + k))
+            return false;
         Mark mark = mark_of(scratch);
-        Bank bank = make_level_bank(scratch);
-        if (failed(context) || (field->step > 0 && !read_levels(gops, bank, field, NULL, field->components, scratch, telling.levels[k]))) return false;
+        if (!make_level_bank(scratch, &bank)
+            || (field->step > 0 && !read_levels(gops, bank, field, NULL, field->components, scratch, telling.levels[k])))
+            return false;
         release_to(scratch, mark);
     }
     if (!begin_field(gops, gop) || !place_parts(gops, &telling, scratch)) return false;
     release_all(&gops->history);
     for (int k = 0; k < gops->tracks; k++) {
-        gops->track[k].inherited = take_doubles2(&gops->history, gops->rows, telling.found[k].columns);
-        if (failed(context)) return false;
-        copy_columns(const_doubles2(telling.found[k]), 0, telling.found[k].columns, gops->track[k].inherited, 0);
+        Doubles2 found = telling.found[k], *inherited = &gops->track[k].inherited;
+        if (!take_doubles2(&gops->history, gops->rows, found.columns, inherited)) return false;
+        copy_columns(const_doubles2(found), 0, found.columns, *inherited, 0);
     }
     gops->can_inherit = true;
     return true;
@@ -452,18 +458,16 @@ static bool decode_learnt(Gops *gops, const Gop *gop, Arena *scratch) {
 static bool begin_history(Gops *gops) {
     release_all(&gops->history);
     gops->together = 0;
-    for (int k = 0; fine(gops->context) && k < gops->tracks; k++) {
+    for (int k = 0; k < gops->tracks; k++) {
         Track *track = gops->track + k;
         memset(track->ring, 0, sizeof track->ring);
-        track->bank = make_level_bank(&gops->history);
         track->latest = 0;
         track->count = 1;
-        track->ring[0] = zero_doubles(&gops->history, gops->rows * track->width);
-        if (failed(gops->context)) return false;
+        if (!make_level_bank(&gops->history, &track->bank) || !zero_doubles(&gops->history, gops->rows * track->width, track->ring)) return false;
         if (track->starts_at_first)
             copy_columns(const_doubles2(track->known), 0, track->width, (Doubles2){track->ring[0].data, gops->rows, track->width}, 0);
     }
-    return fine(gops->context);
+    return true;
 }
 
 /* Make frames the latest (S 7.2): `spectra` are of all stacked rows, as cosines over time. */
@@ -472,8 +476,7 @@ static bool keep_frames(Gops *gops, Track *track, ConstDoubles2 time, ConstDoubl
     for (int64_t t = largest(0, frames - track->kept); t < frames; t++) {
         track->latest = (track->latest + track->kept - 1) % track->kept;
         Doubles *frame = track->ring + track->latest;
-        if (frame->data == NULL) *frame = take_doubles(&gops->history, gops->rows * width);
-        if (failed(gops->context)) return false;
+        if (frame->data == NULL && !take_doubles(&gops->history, gops->rows * width, frame)) return false;
         for (int64_t r = 0; r < gops->rows; r++)
             for (int64_t d = 0; d < width; d++) {
                 double sum = 0.0;
@@ -486,12 +489,12 @@ static bool keep_frames(Gops *gops, Track *track, ConstDoubles2 time, ConstDoubl
 }
 
 /* The basis of low-delay frames: each cosine by itself in one number after the other. */
-static Doubles2 held_cosines(int64_t width, ConstDoubles2 time, Arena *arena) {
-    Doubles2 basis = zero_doubles2(arena, width * time.rows, width * time.rows);
-    for (int64_t d = 0; fine(arena->context) && d < width; d++)
+static bool hold_cosines(int64_t width, ConstDoubles2 time, Arena *arena, Doubles2 *basis) {
+    if (!zero_doubles2(arena, width * time.rows, width * time.rows, basis)) return false;
+    for (int64_t d = 0; d < width; d++)
         for (int64_t t = 0; t < time.rows; t++)
-            for (int64_t f = 0; f < time.rows; f++) basis.data[(d * time.rows + t) * basis.columns + f * width + d] = time.data[t * time.rows + f];
-    return basis;
+            for (int64_t f = 0; f < time.rows; f++) basis->data[(d * time.rows + t) * basis->columns + f * width + d] = time.data[t * time.rows + f];
+    return true;
 }
 
 static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
@@ -503,21 +506,21 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
         return FAIL(context, CORRUPT, "a frame refers to one that is not there");
     }
     forget_frames(gops);
-    Telling telling = {.gop = gop, .levels = take_memory(scratch, gops->tracks, sizeof(Ints)), .found = take_memory(scratch, gops->tracks, sizeof(Doubles2))};
-    telling.time = time_cosines(gop->frames, &gops->frames);
+    Telling telling = {.gop = gop};
     int64_t rows = coded_rows(gops);
-    if (failed(context)) return false;
+    if (!TAKE(scratch, gops->tracks, telling.levels) || !TAKE(scratch, gops->tracks, telling.found)
+        || !time_cosines(gop->frames, &gops->frames, &telling.time))
+        return false;
     if (gops->together != gop->frames) release_all(&gops->levels);
     for (int k = 0; k < gops->tracks; k++) {
         const GopField *field = gop->field + k;
         Track *track = gops->track + k;
         int64_t columns = track->width * gop->frames;
         if (field->back > track->count) return FAIL(context, CORRUPT, "a frame refers to one # before it, where # are kept", field->back, track->count);
-        if (gops->together != gop->frames) track->levels = zero_ints(&gops->levels, rows * columns);
-        telling.levels[k] = zero_ints(scratch, rows * columns);
-        telling.found[k] = take_doubles2(scratch, gops->rows, columns);
-        gops->basis[k] = held_cosines(track->width, const_doubles2(telling.time), &gops->frames);
-        if (failed(context)) return false;
+        if (gops->together != gop->frames && !zero_ints(&gops->levels, rows * columns, &track->levels)) return false;
+        if (!zero_ints(scratch, rows * columns, telling.levels + k) || !take_doubles2(scratch, gops->rows, columns, telling.found + k)
+            || !hold_cosines(track->width, const_doubles2(telling.time), &gops->frames, gops->basis + k))
+            return false;
         if (field->components > 0 && !read_levels(gops, track->bank, field, track->levels.data, columns, scratch, telling.levels[k])) return false;
     }
     gops->together = gop->frames;
@@ -534,9 +537,8 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
 bool decode_gop(Gops *gops, const Gop *gop, Arena *scratch) {
     release_all(&gops->frames);
     gops->gop = *gop;
-    gops->basis = take_memory(&gops->frames, gops->tracks, sizeof *gops->basis);
-    Longs shown = take_longs(&gops->frames, gop->frames);
-    if (failed(gops->context)) return false;
+    Longs shown;
+    if (!TAKE(&gops->frames, gops->tracks, gops->basis) || !take_longs(&gops->frames, gop->frames, &shown)) return false;
     memcpy(shown.data, gop->shown.data, (size_t)gop->frames * sizeof *shown.data);
     gops->gop.shown = shown;
     Mark mark = mark_of(scratch);
@@ -551,8 +553,7 @@ static bool show_batch(Gops *gops, int64_t first, Arena *scratch) {
         Doubles2 basis = gops->basis[k], weights;
         int64_t width = gops->track[k].width, told = basis.rows / width;
         Mark mark = mark_of(scratch);
-        weights = zero_doubles2(scratch, basis.columns, width * BATCH);
-        if (failed(gops->context)) return false;
+        if (!zero_doubles2(scratch, basis.columns, width * BATCH, &weights)) return false;
         for (int64_t i = 0; i < basis.columns; i++)
             for (int64_t d = 0; d < width; d++)
                 for (int64_t t = 0; t < shown; t++)

@@ -33,7 +33,7 @@ static bool parse_stretches(Cursor *cursor, Gop *gop) {
 
 static bool parse_exponents(Cursor *cursor, int64_t count, Arena *arena, Ints *exponents) {
     int64_t exponent = 0;
-    *exponents = take_ints(arena, count);
+    if (!take_ints(arena, count, exponents)) return false;
     for (int64_t i = 0; i < count; i++) {
         int64_t change = zigzag(take_varint(cursor));
         if (failed(cursor->context)) return false;
@@ -99,9 +99,7 @@ bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const 
     gop->frames = gop->told = take_varint(&cursor);
     if (failed(context)) return false;
     if (gop->frames < 1 || gop->frames > longest) return FAIL(context, CORRUPT, "a GOP of # frames where 1 to # are legal", gop->frames, longest);
-    gop->shown = take_longs(arena, gop->frames);
-    gop->field = take_zeros(arena, count + 1, sizeof *gop->field);
-    if (failed(context)) return false;
+    if (!take_longs(arena, gop->frames, &gop->shown) || !TAKE_ZEROS(arena, count + 1, gop->field)) return false;
     for (int64_t t = 0; t < gop->frames; t++) gop->shown.data[t] = t;
     for (int k = 0; k <= count; k++) gop->field[k].width = k > 0 ? movers[k - 1].width : 3;
     if (has_basis(gop) && !parse_stretches(&cursor, gop)) return false;

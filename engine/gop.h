@@ -110,6 +110,6 @@ void release_dictionaries(Gops *gops);
 /* U of a part, until `scratch` is released or room is reserved again. */
 bool lend_dictionary(Gops *gops, int64_t index, Arena *scratch, Singles2 *dictionary);
 /* What continues a field into a part, of which `ends` are the rows around it. */
-bool extend_part(Gops *gops, const Site *part, ConstDoubles2 ends, Arena *scratch, Doubles2 extension);
+bool extend_part(const Site *part, ConstDoubles2 ends, Arena *scratch, Doubles2 extension);
 
 #endif

@@ -20,47 +20,50 @@ static bool charge(Context *context, const Header *header) {
     return header->light != EXACT_FLOATS || (keep(context, 24 * (span + 1), 0) && spend(context, floats_work(n, span), 0));
 }
 
-static void begin_full(GridField *field, Arena *arena, Arena *scratch) {
+static bool begin_full(GridField *field, Arena *arena, Arena *scratch) {
+    Grid *grid = &field->grid;
     int64_t n = field->header->vertices, words = most_of(field->header) / 64 + 1;
-    if (!order_mesh(field->context, &field->corners, arena, scratch, &field->order)) return;
-    field->model = make_value_model(arena);
-    Longs2 learners = make_learners(arena, SUM_LEARNERS + SIZE_LEARNERS);
-    field->grid = (Grid){const_ints(field->largest), const_ints(field->order), field->values, zero_ints2(arena, n, AXES),
-        zero_longs2(arena, n, 4), zero_longs2(arena, AXES, words), learners};
-    for (int64_t k = 0; fine(field->context) && k < SUM_LEARNERS + SIZE_LEARNERS; k++) {
-        start_learner(learners, k, 0, 49152);
-        if (k >= SUM_LEARNERS) start_learner(learners, k, 1, 8192);
+    if (!order_mesh(&field->corners, arena, scratch, &field->order) || !make_value_model(arena, &field->model)) return false;
+    *grid = (Grid){.largest = const_ints(field->largest), .order = const_ints(field->order), .values = field->values};
+    if (!zero_ints2(arena, n, AXES, &grid->gaps) || !zero_longs2(arena, n, 4, &grid->sums) || !zero_longs2(arena, AXES, words, &grid->seen)
+        || !make_learners(arena, SUM_LEARNERS + SIZE_LEARNERS, &grid->learners))
+        return false;
+    for (int64_t k = 0; k < SUM_LEARNERS + SIZE_LEARNERS; k++) {
+        start_learner(grid->learners, k, 0, 49152);
+        if (k >= SUM_LEARNERS) start_learner(grid->learners, k, 1, 8192);
     }
+    return true;
 }
 
-static void begin_light(GridField *field, Arena *arena) {
+static bool begin_light(GridField *field, Arena *arena) {
+    Light *light = &field->light;
     field->order = field->corners.rank;
-    field->light = (Light){const_ints(field->largest), field->values, zero_ints2(arena, field->header->vertices, AXES), take_words(arena, LIGHT_SLOTS)};
-    for (int64_t i = 0; fine(field->context) && i < LIGHT_SLOTS; i++) field->light.slots.data[i] = 1u << 31;
+    *light = (Light){.largest = const_ints(field->largest), .values = field->values};
+    if (!zero_ints2(arena, field->header->vertices, AXES, &light->gaps) || !take_words(arena, LIGHT_SLOTS, &light->slots)) return false;
+    for (int64_t i = 0; i < LIGHT_SLOTS; i++) light->slots.data[i] = 1u << 31;
+    return true;
 }
 
-static void begin_floats(GridField *field, Arena *arena) {
+static bool begin_floats(GridField *field, Arena *arena) {
+    Floats *floats = &field->floats;
     int64_t span = most_of(field->header) + 1;
-    field->floats = (Floats){take_words(arena, FLOAT_SLOTS), zero_longs(arena, AXES), take_longs2(arena, AXES, span)};
-    if (failed(field->context)) return;
-    for (int64_t i = 0; i < FLOAT_SLOTS; i++) field->floats.slots.data[i] = 1u << 31;
-    for (int64_t i = 0; i < AXES * span; i++) field->floats.known.data[i] = NO_FLOAT;
+    if (!take_words(arena, FLOAT_SLOTS, &floats->slots) || !zero_longs(arena, AXES, &floats->latest) || !take_longs2(arena, AXES, span, &floats->known))
+        return false;
+    for (int64_t i = 0; i < FLOAT_SLOTS; i++) floats->slots.data[i] = 1u << 31;
+    for (int64_t i = 0; i < AXES * span; i++) floats->known.data[i] = NO_FLOAT;
+    return true;
 }
 
 bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena, Arena *scratch) {
     int64_t n = header->vertices;
     *field = (GridField){.context = context, .header = header, .faces = faces};
     if (!charge(context, header) || !link_mesh(context, faces, n, arena, scratch, &field->corners)) return false;
-    field->largest = take_ints(arena, AXES);
-    field->values = zero_ints2(arena, n, AXES);
-    field->positions = take_doubles2(arena, n, AXES);
-    if (failed(context)) return false;
+    if (!take_ints(arena, AXES, &field->largest) || !zero_ints2(arena, n, AXES, &field->values) || !take_doubles2(arena, n, AXES, &field->positions))
+        return false;
     for (int64_t i = 0; i < AXES * n; i++) field->positions.data[i] = __builtin_nan("");
     memcpy(field->largest.data, header->grid, sizeof header->grid);
-    if (header->light == LIGHT) begin_light(field, arena);
-    else begin_full(field, arena, scratch);
-    if (header->light == EXACT_FLOATS) begin_floats(field, arena);
-    return fine(context);
+    if (header->light == LIGHT) return begin_light(field, arena);
+    return begin_full(field, arena, scratch) && (header->light != EXACT_FLOATS || begin_floats(field, arena));
 }
 
 static bool decode_values(GridField *field, int64_t first, int64_t count, Span payload) {
@@ -105,11 +108,13 @@ static double float_of(int64_t number) {
 static bool place_floats(GridField *field, ConstInts vertices, Span payload, Arena *scratch) {
     const Header *header = field->header;
     int64_t count = vertices.size;
-    Ints2 values = take_ints2(scratch, count, AXES);
-    Longs2 low = take_longs2(scratch, count, AXES), near = take_longs2(scratch, count, AXES), high = take_longs2(scratch, count, AXES);
-    Longs2 chosen = zero_longs2(scratch, count, AXES);
+    Ints2 values;
+    Longs2 low, near, high, chosen;
     Reading reading;
-    if (failed(field->context) || !begin_reading(field->context, payload, &reading)) return false;
+    if (!take_ints2(scratch, count, AXES, &values) || !take_longs2(scratch, count, AXES, &low) || !take_longs2(scratch, count, AXES, &near)
+        || !take_longs2(scratch, count, AXES, &high) || !zero_longs2(scratch, count, AXES, &chosen)
+        || !begin_reading(field->context, payload, &reading))
+        return false;
     for (int64_t i = 0; i < AXES * count; i++) {
         int j = (int)(i % AXES);
         int32_t value = values.data[i] = field->values.data[AXES * (int64_t)vertices.data[i / AXES] + j];

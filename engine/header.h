@@ -27,6 +27,10 @@ typedef struct {
 
 bool parse_header(Context *context, Span payload, Arena *scratch, Header *header);
 
+/* All numbers of a header in a row, for other languages. */
+enum { HEADER_NUMBERS = 40 };
+void list_header(const Header *header, double *numbers);
+
 /* Blocks of a chain (M 10.1). */
 INLINE int64_t chain_length(const Header *header) { return header->key_interval > 0 ? header->key_interval : header->blocks; }
 

@@ -8,62 +8,80 @@ static Doubles2 rows_of(Doubles2 all, int64_t first, int64_t count) {
     return (Doubles2){all.data + first * all.columns, count, all.columns};
 }
 
+bool begin_levels(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Arena *scratch) {
+    int64_t n = header->vertices;
+    *layer = (Layer){.context = context, .header = header, .faces = faces, .own = arena_of(context), .models = arena_of(context), .begun = true};
+    Arena *models = &layer->models;
+    Levels *levels = &layer->levels;
+    if (!link_mesh(context, faces, n, models, scratch, &layer->corners)
+        || !make_bank(models, (BankPlan){.slots = LEVEL_SLOTS_ALL, .selectors = LEVEL_SELECTORS, .inputs = LEVEL_INPUTS, .rate = LEVEL_RATE}, &layer->bank)
+        || !zero_ints2(&layer->own, n, AXES, &levels->levels) || !zero_ints2(models, n, AXES, &levels->gaps)
+        || !zero_ints2(models, n, AXES, &levels->means) || !make_learners(models, LEARNERS, &levels->learners))
+        return false;
+    for (int k = 0; k < LEARNERS; k++) {
+        start_learner(levels->learners, k, 0, 52000);
+        if (k % 4 > 0) start_learner(levels->learners, k, 1, 28000);
+    }
+    return true;
+}
+
+void end_layer(Layer *layer) {
+    release_all(&layer->own);
+    release_all(&layer->models);
+}
+
 bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch) {
     int64_t n = header->vertices;
     double size = (double)n, m = (double)faces.rows;
-    *layer = (Layer){.context = context, .header = header, .faces = faces, .models = arena_of(context), .base = base, .whole = whole};
-    Arena *models = &layer->models;
     if (!keep(context, layer_memory(size, m), 0) || !spend(context, layer_work(size, m, AXES), 0)
-        || !WITHIN(context, field_bytes, levels_charge(size, m)) || !link_mesh(context, faces, n, models, scratch, &layer->corners))
+        || !WITHIN(context, field_bytes, levels_charge(size, m)) || !(layer->begun || begin_levels(layer, context, header, faces, scratch)))
         return false;
-    layer->bank = make_bank(models, (BankPlan){.slots = LEVEL_SLOTS_ALL, .selectors = LEVEL_SELECTORS, .inputs = LEVEL_INPUTS, .rate = LEVEL_RATE});
-    layer->levels = (Levels){zero_ints2(arena, n, AXES), zero_ints2(models, n, AXES), zero_ints2(models, n, AXES), make_learners(models, LEARNERS)};
-    layer->positions = take_doubles2(arena, n, AXES);
-    layer->frames = take_doubles2(arena, n, AXES * AXES);
-    if (failed(context)) return false;
-    for (int k = 0; k < LEARNERS; k++) {
-        start_learner(layer->levels.learners, k, 0, 52000);
-        if (k % 4 > 0) start_learner(layer->levels.learners, k, 1, 28000);
-    }
+    layer->base = base;
+    layer->whole = whole;
+    if (!take_doubles2(arena, n, AXES, &layer->positions) || !take_doubles2(arena, n, AXES * AXES, &layer->frames)) return false;
     memcpy(layer->positions.data, base.data, (size_t)(n * AXES) * sizeof(double));
     local_frames(const_doubles2(base), faces, layer->frames);
     return true;
 }
 
 /* Levels of some vertices, 0 for those that are not marked. */
-static ConstInts2 marked_levels(const Layer *layer, Bytes marked, int64_t first, int64_t count, Arena *scratch) {
-    ConstInts2 levels = {layer->levels.levels.data + AXES * first, count, AXES};
-    if (marked.size == 0) return levels;
-    Ints2 some = zero_ints2(scratch, count, AXES);
-    for (int64_t v = 0; fine(layer->context) && v < count; v++)
-        if (marked.data[first + v]) memcpy(some.data + AXES * v, levels.data + AXES * v, AXES * sizeof(int32_t));
-    return const_ints2(some);
+static bool mark_levels(const Layer *layer, Bytes marked, int64_t first, int64_t count, Arena *scratch, ConstInts2 *levels) {
+    *levels = (ConstInts2){layer->levels.levels.data + AXES * first, count, AXES};
+    if (marked.size == 0) return true;
+    Ints2 some;
+    if (!zero_ints2(scratch, count, AXES, &some)) return false;
+    for (int64_t v = 0; v < count; v++)
+        if (marked.data[first + v]) memcpy(some.data + AXES * v, levels->data + AXES * v, AXES * sizeof(int32_t));
+    *levels = const_ints2(some);
+    return true;
 }
 
-Bytes fit_vertices(const Layer *layer, Arena *scratch) {
-    Bytes fit = layer->whole;
-    for (int round = 0; fit.size > 0 && round < BENT_BY; round++) {
-        Bytes next = take_bytes(scratch, fit.size);
-        if (failed(layer->context)) return fit;
-        memcpy(next.data, fit.data, (size_t)fit.size);
+bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit) {
+    *fit = layer->whole;
+    for (int round = 0; fit->size > 0 && round < BENT_BY; round++) {
+        Bytes next;
+        if (!take_bytes(scratch, fit->size, &next)) return false;
+        memcpy(next.data, fit->data, (size_t)fit->size);
         for (int64_t f = 0; f < layer->faces.rows; f++) {
             const int32_t *face = layer->faces.data + 3 * f;
-            if (!(fit.data[face[0]] && fit.data[face[1]] && fit.data[face[2]])) next.data[face[0]] = next.data[face[1]] = next.data[face[2]] = 0;
+            if (!(fit->data[face[0]] && fit->data[face[1]] && fit->data[face[2]])) next.data[face[0]] = next.data[face[1]] = next.data[face[2]] = 0;
         }
-        fit = next;
+        *fit = next;
     }
-    return fit;
+    return true;
 }
 
 /* Move vertices along the surface by steps that follow from all heights (M 17.4). */
 static bool slide(Layer *layer, Arena *scratch) {
     int64_t n = layer->positions.rows;
     const double *refinement = layer->header->refinement;
-    Doubles2 room = take_doubles2(scratch, n, 8), upright = take_doubles2(scratch, n, AXES);
-    Doubles steps = take_doubles(scratch, n);
-    Bytes fit = fit_vertices(layer, scratch);
-    ConstInts2 some = marked_levels(layer, fit, 0, n, scratch);
-    if (failed(layer->context)) return false;
+    Doubles2 room, upright;
+    Doubles steps;
+    Bytes fit;
+    ConstInts2 some;
+    if (!take_doubles2(scratch, n, 8, &room) || !take_doubles2(scratch, n, AXES, &upright) || !take_doubles(scratch, n, &steps)
+        || !fit_vertices(layer, scratch, &fit) || !mark_levels(layer, fit, 0, n, scratch, &some))
+        return false;
     memcpy(upright.data, layer->base.data, (size_t)(n * AXES) * sizeof(double));
     add_heights(upright, const_doubles2(layer->frames), const_ints2(layer->levels.levels), refinement[0]);
     tangent_steps(const_doubles2(upright), layer->faces, refinement[0], refinement[1], room, steps);
@@ -77,12 +95,14 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
     if (!spend(context, chunk_work((double)payload.size, 0), (double)payload.size)) return false;
     if (layer->coded == layer->positions.rows) return FAIL(context, CORRUPT, "levels come behind the last vertex");
     if (first != layer->coded) return FAIL(context, CORRUPT, "the layer lacks the vertices before #: the rest is lost", first);
-    if (!begin_reading(context, payload, &reading)) return false;
-    int64_t done = code_levels(reading.coder, layer->bank, layer->corners, layer->levels, first, count);
-    if (!check_chunk_done(&reading, done, count)) return false;
+    if (first + count > layer->read) {
+        if (!begin_reading(context, payload, &reading)) return false;
+        int64_t done = code_levels(reading.coder, layer->bank, layer->corners, layer->levels, first, count);
+        if (!check_chunk_done(&reading, done, count)) return false;
+    }
     layer->coded += count;
-    ConstInts2 some = marked_levels(layer, layer->whole, first, count, scratch);
-    if (failed(context)) return false;
+    ConstInts2 some;
+    if (!mark_levels(layer, layer->whole, first, count, scratch, &some)) return false;
     add_heights(rows_of(layer->positions, first, count), const_doubles2(rows_of(layer->frames, first, count)), some, layer->header->refinement[0]);
     if (layer->coded < layer->positions.rows) return true;
     release_all(&layer->models);

@@ -4,10 +4,10 @@
 
 #include "engine/coding.h"
 
-INLINE Bank make_level_bank(Arena *arena) {
+MUST_CHECK INLINE bool make_level_bank(Arena *arena, Bank *bank) {
     enum { INPUTS = 6, UNARY = 14, SPAN = SIGNED_SPAN(UNARY) + 3, ALIKE = 12, PLACES = 40 };
     return make_bank(arena, (BankPlan){.slots = ((INPUTS - 1) * ALIKE * ALIKE + ALIKE * PLACES) * SPAN, .selectors = 3 * SPAN,
-                                .inputs = INPUTS, .limit = 400, .rate = 10});
+                                .inputs = INPUTS, .limit = 400, .rate = 10}, bank);
 }
 
 #endif

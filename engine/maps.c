@@ -13,8 +13,8 @@ static uint64_t take_unsigned(Cursor *cursor, int size) {
     return bytes.size == size ? big_endian(bytes.data, size) : 0;
 }
 
-static bool shortest(Cursor *cursor, bool is_shortest) {
-    return is_shortest || FAIL(cursor->context, CORRUPT, "a map is not in its shortest form");
+static void require_shortest(Cursor *cursor, bool is_shortest) {
+    if (!is_shortest) FAIL(cursor->context, CORRUPT, "a map is not in its shortest form");
 }
 
 /* Whether bytes are UTF-8: no form longer than needed, no surrogates, nothing above U+10FFFF. */
@@ -49,7 +49,7 @@ static Value negative_value(Cursor *cursor, int size) {
     static const int64_t ABOVE[] = {-32, -128, -32768, -(INT64_C(1) << 31)};
     uint64_t bits = take_unsigned(cursor, 1 << size);
     int64_t value = size == 0 ? (int8_t)bits : size == 1 ? (int16_t)bits : size == 2 ? (int32_t)bits : (int64_t)bits;
-    shortest(cursor, value < ABOVE[size]);
+    require_shortest(cursor, value < ABOVE[size]);
     return (Value){.kind = INTEGER, .whole = value, .number = (double)value};
 }
 
@@ -59,7 +59,7 @@ static Value real_value(Cursor *cursor, bool is_double) {
         uint64_t bits = take_unsigned(cursor, 8);
         memcpy(&number, &bits, sizeof number);
         bool single = number >= -FLT_MAX && number <= FLT_MAX && (double)(float)number == number;
-        shortest(cursor, !single);
+        require_shortest(cursor, !single);
     } else {
         uint32_t bits = (uint32_t)take_unsigned(cursor, 4);
         float single;
@@ -78,18 +78,18 @@ static Value take_single(Cursor *cursor, uint8_t tag) {
     if (tag >= 0xa0 && tag <= 0xbf) return bytes_value(cursor, TEXT, tag & 31);
     if (tag >= 0xc4 && tag <= 0xc6) {
         uint64_t size = take_unsigned(cursor, 1 << (tag - 0xc4));
-        shortest(cursor, size >= BINARIES[tag - 0xc4]);
+        require_shortest(cursor, size >= BINARIES[tag - 0xc4]);
         return bytes_value(cursor, BINARY, (int64_t)size);
     }
     if (tag >= 0xd9 && tag <= 0xdb) {
         uint64_t size = take_unsigned(cursor, 1 << (tag - 0xd9));
-        shortest(cursor, size >= TEXTS[tag - 0xd9]);
+        require_shortest(cursor, size >= TEXTS[tag - 0xd9]);
         return bytes_value(cursor, TEXT, (int64_t)size);
     }
     if (tag == 0xca || tag == 0xcb) return real_value(cursor, tag == 0xcb);
     if (tag >= 0xcc && tag <= 0xcf) {
         uint64_t bits = take_unsigned(cursor, 1 << (tag - 0xcc));
-        shortest(cursor, bits >= LONGER[tag - 0xcc]);
+        require_shortest(cursor, bits >= LONGER[tag - 0xcc]);
         return unsigned_value(bits);
     }
     if (tag >= 0xd0 && tag <= 0xd3) return negative_value(cursor, tag - 0xd0);
@@ -102,7 +102,7 @@ static int64_t count_of(Cursor *cursor, uint8_t tag, uint8_t few, uint8_t many) 
     if ((tag & 0xf0) == few) return tag & 15;
     if (tag != many) return -1;
     int64_t count = (int64_t)take_unsigned(cursor, 2);
-    shortest(cursor, count >= 16);
+    require_shortest(cursor, count >= 16);
     if (count > MOST_ENTRIES) FAIL(cursor->context, CORRUPT, "# entries of a map or an array are too many", count);
     return failed(cursor->context) ? 0 : count;
 }
@@ -228,8 +228,8 @@ static bool read_record(Context *context, const Map *map, const Field *fields, i
 
 bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record) {
     Mark mark = mark_of(scratch);
-    Map *map = take_memory(scratch, 1, sizeof *map);
-    bool done = map != NULL && parse_map(context, payload, map) && read_record(context, map, fields, count, record);
+    Map *map;
+    bool done = TAKE(scratch, 1, map) && parse_map(context, payload, map) && read_record(context, map, fields, count, record);
     release_to(scratch, mark);
     return done;
 }

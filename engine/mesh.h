@@ -30,11 +30,11 @@ typedef struct {
 bool decode_connectivity(Context *context, Span payload, const Header *header, Arena *arena, Arena *scratch, Ints2 *faces);
 bool decode_labels(Context *context, Span payload, const Graph *graph, int64_t parts, Arena *scratch, Ints labels);
 
-bool make_graph(Context *context, Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph);
+bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph);
 /* `labels`: the part of each vertex, or no array for what follows from the graph. */
 bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch, Blocks *blocks);
 /* Order the rows of a block of these vertices (M 6), and find what its factorisation needs. */
-bool order_patch(Context *context, const Graph *graph, ConstInts members, Arena *arena, Patch *patch);
+bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *patch);
 bool find_patch_fronts(Context *context, Arena *arena, Patch *patch);
 /* Members of a block, or the `count` first of them. */
 INLINE ConstInts members_of(const Blocks *blocks, int64_t index, int64_t count) {

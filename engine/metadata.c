@@ -35,24 +35,25 @@ static int64_t difference(Span a, Span b) {
     return bit;
 }
 
-bool knows_name(const Metadata *metadata, Span name) {
+const Saying *find_name(const Metadata *metadata, Span name) {
     const Saying *saying = nearest(metadata, name);
-    return saying != NULL && difference(saying->name, name) < 0;
+    return saying != NULL && difference(saying->name, name) < 0 ? saying : NULL;
 }
 
-static Span copied(Arena *arena, Span bytes) {
-    uint8_t *copy = take_memory(arena, bytes.size + 1, 1);
-    if (copy == NULL) return (Span){NULL, 0};
-    if (bytes.size > 0) memcpy(copy, bytes.data, (size_t)bytes.size);
-    copy[bytes.size] = 0;
-    return (Span){copy, bytes.size};
+static bool copy_span(Arena *arena, Span *bytes) {
+    uint8_t *copy;
+    if (!TAKE(arena, bytes->size + 1, copy)) return false;
+    if (bytes->size > 0) memcpy(copy, bytes->data, (size_t)bytes->size);
+    copy[bytes->size] = 0;
+    bytes->data = copy;
+    return true;
 }
 
 static bool list_saying(Metadata *metadata, Saying *saying) {
     if (metadata->count == metadata->room) {
         int64_t room = 2 * metadata->room + 16;
-        Saying **said = take_memory(&metadata->arena, room, sizeof *said);
-        if (said == NULL) return false;
+        Saying **said;
+        if (!TAKE(&metadata->arena, room, said)) return false;
         if (metadata->count > 0) memcpy(said, metadata->said, (size_t)metadata->count * sizeof *said);
         metadata->said = said;
         metadata->room = room;
@@ -64,12 +65,13 @@ static bool list_saying(Metadata *metadata, Saying *saying) {
 /* Take note of an entry whose name is not known yet. */
 bool add_saying(Metadata *metadata, const Value *key, const Value *value) {
     Arena *arena = &metadata->arena;
-    Saying *saying = take_memory(arena, 1, sizeof *saying), *beside = nearest(metadata, key->bytes);
-    if (saying == NULL) return false;
-    Span name = copied(arena, key->bytes), bytes = copied(arena, value->bytes);
+    Saying *saying, *beside = nearest(metadata, key->bytes);
+    Branch *branch = NULL;
+    Span name = key->bytes, bytes = value->bytes;
+    if (!TAKE(arena, 1, saying) || !copy_span(arena, &name) || !copy_span(arena, &bytes) || (beside != NULL && !TAKE(arena, 1, branch))
+        || !list_saying(metadata, saying))
+        return false;
     *saying = (Saying){name, value->kind, value->whole, value->number, bytes};
-    Branch *branch = beside != NULL ? take_memory(arena, 1, sizeof *branch) : NULL;
-    if (failed(arena->context) || !list_saying(metadata, saying)) return false;
     void *leaf = (char *)saying + 1;
     if (branch == NULL) {
         metadata->root = leaf;

@@ -9,25 +9,26 @@ enum { MOST_GIVEN = 1 << 24, STEP_UNARY = 6, STEP_SPAN = SIGNED_SPAN(STEP_UNARY)
 enum { FIRST, COPY, LOOSE };
 
 static bool read_permutation(Reading *reading, Arena *scratch, Ints values) {
-    Bank bank = make_bank(scratch, (BankPlan){.slots = (1 + CLASSES + 2 * CLASSES * CLASSES) * STEP_SPAN, .selectors = STEP_SPAN, .inputs = STEP_INPUTS});
-    Ints tree = take_ints(scratch, values.size + 1);
-    if (failed(reading->context)) return false;
+    Bank bank;
+    Ints tree;
+    BankPlan plan = {.slots = (1 + CLASSES + 2 * CLASSES * CLASSES) * STEP_SPAN, .selectors = STEP_SPAN, .inputs = STEP_INPUTS};
+    if (!make_bank(scratch, plan, &bank) || !take_ints(scratch, values.size + 1, &tree)) return false;
     bool legal = code_steps(reading->coder, bank, values, tree);
     return (legal && !ran_over(reading)) || nonsense(reading, "a payload is not a permutation");
 }
 
 static bool read_turns(Reading *reading, Arena *scratch, Ints values) {
-    Bank bank = make_bank(scratch, (BankPlan){.slots = TURN_SLOTS, .selectors = 2, .inputs = 2});
-    if (failed(reading->context)) return false;
+    Bank bank;
+    if (!make_bank(scratch, (BankPlan){.slots = TURN_SLOTS, .selectors = 2, .inputs = 2}, &bank)) return false;
     bool legal = code_turns(reading->coder, bank, values);
     return (legal && !ran_over(reading)) || nonsense(reading, "a payload is not numbers from 0 to 2");
 }
 
 /* Whole numbers, as a matrix of one column (F 9.3). */
 static bool read_column(Reading *reading, Arena *scratch, Ints values) {
-    Bank bank = make_level_bank(scratch);
-    Longs slow = take_longs(scratch, 1);
-    if (failed(reading->context)) return false;
+    Bank bank;
+    Longs slow;
+    if (!make_level_bank(scratch, &bank) || !take_longs(scratch, 1, &slow)) return false;
     code_matrix(reading->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, 0, 1, 0, values.size, 1, slow);
     return !ran_over(reading) || nonsense(reading, "");
 }
@@ -44,8 +45,8 @@ static int32_t sorted_corner(const int32_t *face, int k) {
 /* Faces by their largest corner, then the middle one, then the smallest, stably (C 9.5): sorted by the last first. */
 static bool suggest(ConstInts2 faces, int64_t vertices, Arena *scratch, Ints *order) {
     int64_t m = faces.rows;
-    Ints from = take_ints(scratch, m), to = take_ints(scratch, m), ends = take_ints(scratch, vertices + 1);
-    if (failed(scratch->context)) return false;
+    Ints from, to, ends;
+    if (!take_ints(scratch, m, &from) || !take_ints(scratch, m, &to) || !take_ints(scratch, vertices + 1, &ends)) return false;
     for (int64_t f = 0; f < m; f++) from.data[f] = (int32_t)f;
     for (int k = 0; k < 3; k++) {
         memset(ends.data, 0, (size_t)(vertices + 1) * sizeof *ends.data);
@@ -62,9 +63,7 @@ static bool suggest(ConstInts2 faces, int64_t vertices, Arena *scratch, Ints *or
 
 /* Where the values of each number below `count` are in an array whose entries below 0 count for nothing. */
 static bool invert(ConstInts values, int64_t count, Arena *arena, Ints *starts, Ints *members) {
-    *starts = zero_ints(arena, count + 2);
-    *members = take_ints(arena, values.size);
-    if (failed(arena->context)) return false;
+    if (!zero_ints(arena, count + 2, starts) || !take_ints(arena, values.size, members)) return false;
     int32_t *ends = starts->data + 1;
     for (int64_t i = 0; i < values.size; i++)
         if (values.data[i] >= 0) ends[values.data[i] + 1]++;
@@ -94,8 +93,10 @@ static void arrange(ConstInts2 faces, Ints numbers, Ints order, Ints places, Int
 /* What each given vertex is, as C 9 numbers vertices, -1 for a loose one (F 9.2, F 9.3). */
 static bool read_sources(Reading *reading, int64_t vertices, int64_t copies, Arena *scratch, Ints met) {
     Context *context = reading->context;
-    Ints kinds = zero_ints(scratch, met.size), back = zero_ints(scratch, copies);
-    if (failed(context) || !read_turns(reading, scratch, kinds) || !read_column(reading, scratch, back)) return false;
+    Ints kinds, back;
+    if (!zero_ints(scratch, met.size, &kinds) || !zero_ints(scratch, copies, &back) || !read_turns(reading, scratch, kinds)
+        || !read_column(reading, scratch, back))
+        return false;
     int64_t counted[3] = {0}, known = 0, copied = 0;
     for (int64_t i = 0; i < met.size; i++) counted[kinds.data[i]]++;
     if (counted[FIRST] != vertices || counted[COPY] != copies)
@@ -115,8 +116,10 @@ static bool read_sources(Reading *reading, int64_t vertices, int64_t copies, Are
 
 /* Corners as given vertices (F 9.4): the copies of vertex v are `members` from starts[v] on. */
 static bool read_corners(Reading *reading, int64_t copies, Ints starts, Ints members, Arena *scratch, Ints2 faces) {
-    Ints steps = zero_ints(scratch, 3 * faces.rows), visits = zero_ints(scratch, starts.size);
-    if (failed(reading->context) || (copies > 0 && !read_column(reading, scratch, steps))) return false;
+    Ints steps, visits;
+    if (!zero_ints(scratch, 3 * faces.rows, &steps) || !zero_ints(scratch, starts.size, &visits)
+        || (copies > 0 && !read_column(reading, scratch, steps)))
+        return false;
     for (int64_t i = 0; i < 3 * faces.rows; i++) {
         int64_t v = faces.data[i], count = starts.data[v + 1] - starts.data[v];
         if (steps.data[i] < 0 || steps.data[i] >= count) return FAIL(reading->context, CORRUPT, "a corner names a copy that there is not");
@@ -126,12 +129,13 @@ static bool read_corners(Reading *reading, int64_t copies, Ints starts, Ints mem
 }
 
 static bool read_order(Reading *reading, ConstInts2 faces, int64_t vertices, int64_t copies, int64_t loose, Arena *arena, Arena *scratch, Numbering *numbering) {
-    Context *context = reading->context;
     int64_t m = faces.rows;
-    Ints numbers = zero_ints(scratch, vertices), places = zero_ints(scratch, m), turns = zero_ints(scratch, m), order;
-    Ints2 arranged = take_ints2(arena, m, 3), renumbered = take_ints2(scratch, m, 3);
-    Ints corners = take_ints(arena, 3 * m), source = take_ints(arena, vertices + copies + loose), starts, members, coded;
-    if (failed(context) || !read_permutation(reading, scratch, numbers) || !read_permutation(reading, scratch, places)
+    Ints numbers, places, turns, order, corners, source, starts, members, coded;
+    Ints2 arranged, renumbered;
+    if (!zero_ints(scratch, vertices, &numbers) || !zero_ints(scratch, m, &places) || !zero_ints(scratch, m, &turns)
+        || !take_ints2(arena, m, 3, &arranged) || !take_ints2(scratch, m, 3, &renumbered) || !take_ints(arena, 3 * m, &corners)
+        || !take_ints(arena, vertices + copies + loose, &source) || !read_permutation(reading, scratch, numbers)
+        || !read_permutation(reading, scratch, places)
         || !read_turns(reading, scratch, turns))
         return false;
     for (int64_t i = 0; i < 3 * m; i++) renumbered.data[i] = numbers.data[faces.data[i]];
@@ -159,8 +163,8 @@ bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *h
     if (header->vertices + copies > 3 * faces.rows || size >= MOST_GIVEN)
         return FAIL(context, CORRUPT, "# copies of # vertices, and # in no face", copies, header->vertices, loose);
     Span bytes_of_loose = take_span(&cursor, 24 * loose);
-    Doubles2 positions = take_doubles2(arena, loose, 3);
-    if (failed(context)) return false;
+    Doubles2 positions;
+    if (failed(context) || !take_doubles2(arena, loose, 3, &positions)) return false;
     for (int64_t i = 0; i < 3 * loose; i++) {
         uint64_t bits = little_endian(bytes_of_loose.data + 8 * i, 8);
         memcpy(positions.data + i, &bits, sizeof bits);

@@ -39,19 +39,18 @@ static void sort_numbers(int32_t *numbers, int64_t count) {
 }
 
 /* Number the vertices around a part, ascending; `place`, one for each vertex of the mesh, holds -1 before and after. */
-static Ints number_around(Ints outer, Ints place, Arena *scratch) {
-    Ints around = take_ints(scratch, outer.size);
-    if (failed(scratch->context)) return around;
-    around.size = 0;
+static bool number_around(Ints outer, Ints place, Arena *scratch, Ints *around) {
+    if (!take_ints(scratch, outer.size, around)) return false;
+    around->size = 0;
     for (int64_t i = 0; i < outer.size; i++) {
-        if (place.data[outer.data[i]] < 0) around.data[around.size++] = outer.data[i];
+        if (place.data[outer.data[i]] < 0) around->data[around->size++] = outer.data[i];
         place.data[outer.data[i]] = 0;
     }
-    sort_numbers(around.data, around.size);
-    for (int64_t i = 0; i < around.size; i++) place.data[around.data[i]] = (int32_t)i;
+    sort_numbers(around->data, around->size);
+    for (int64_t i = 0; i < around->size; i++) place.data[around->data[i]] = (int32_t)i;
     for (int64_t i = 0; i < outer.size; i++) outer.data[i] = place.data[outer.data[i]];
-    for (int64_t i = 0; i < around.size; i++) place.data[around.data[i]] = -1;
-    return around;
+    for (int64_t i = 0; i < around->size; i++) place.data[around->data[i]] = -1;
+    return true;
 }
 
 /* S 3.2. */
@@ -59,54 +58,39 @@ static bool hang_part(const Graph *graph, ConstDoubles weights, ConstInts rank, 
     Patch *patch = &part->patch;
     int64_t n = patch->size, room = 0;
     for (int64_t r = 0; r < n; r++) room += graph->offsets.data[patch->vertices.data[r] + 1] - graph->offsets.data[patch->vertices.data[r]];
-    Doubles inner = take_doubles(scratch, patch->neighbours.size);
-    part->springs = take_doubles(scratch, n);
-    part->starts = take_ints(scratch, n + 1);
-    part->outer = take_ints(scratch, room);
-    part->stiffness = take_doubles(scratch, room);
-    if (failed(scratch->context)) return false;
+    Doubles inner;
+    if (!take_doubles(scratch, patch->neighbours.size, &inner) || !take_doubles(scratch, n, &part->springs) || !take_ints(scratch, n + 1, &part->starts)
+        || !take_ints(scratch, room, &part->outer) || !take_doubles(scratch, room, &part->stiffness))
+        return false;
     part->outer.size = part->stiffness.size = hold(graph->offsets, graph->neighbours, weights, rank, patch->vertices, patch->offsets,
         patch->neighbours, inner, part->springs, part->starts, part->outer, part->stiffness);
-    part->around = number_around(part->outer, place, scratch);
+    if (!number_around(part->outer, place, scratch, &part->around)) return false;
     patch->weights = const_doubles(inner);
-    for (int64_t r = 0; fine(scratch->context) && r < n; r++) {
+    for (int64_t r = 0; r < n; r++) {
         patch->diagonal.data[r] = 0.0;
         for (int64_t i = patch->offsets.data[r]; i < patch->offsets.data[r + 1]; i++) patch->diagonal.data[r] += inner.data[i];
     }
-    return fine(scratch->context);
+    return true;
+}
+
+/* A copy in an arena of `bytes` bytes, or NULL. */
+static void *copied(Arena *arena, const void *data, int64_t bytes) {
+    uint8_t *copy;
+    if (TAKE(arena, bytes, copy) && bytes > 0) memcpy(copy, data, (size_t)bytes);
+    return copy;
 }
 
 /* What stays of a part, from where it was made. */
-#define STAY(arena, array)                                                                                              \
-    do {                                                                                                                \
-        void *copy_ = take_memory(arena, (array).size, sizeof *(array).data);                                           \
-        if (copy_ == NULL) return false;                                                                                \
-        if ((array).size > 0) memcpy(copy_, (array).data, (size_t)(array).size * sizeof *(array).data);                 \
-        (array).data = copy_;                                                                                           \
-    } while (false)
+#define STAYS(arena, array) is_there((array).data = copied(arena, (array).data, (array).size * (int64_t)sizeof *(array).data))
 
 static bool keep_part(Arena *arena, Site *part) {
     Patch *patch = &part->patch;
     Fronts *fronts = &patch->fronts;
-    STAY(arena, patch->vertices);
-    STAY(arena, patch->offsets);
-    STAY(arena, patch->neighbours);
-    STAY(arena, patch->weights);
-    STAY(arena, patch->diagonal);
-    STAY(arena, fronts->rows);
-    STAY(arena, fronts->steps);
-    STAY(arena, fronts->owners);
-    STAY(arena, fronts->firsts);
-    STAY(arena, fronts->starts);
-    STAY(arena, fronts->borders);
-    STAY(arena, fronts->places);
-    STAY(arena, fronts->sums);
-    STAY(arena, part->springs);
-    STAY(arena, part->stiffness);
-    STAY(arena, part->starts);
-    STAY(arena, part->outer);
-    STAY(arena, part->around);
-    return true;
+    return STAYS(arena, patch->vertices) && STAYS(arena, patch->offsets) && STAYS(arena, patch->neighbours) && STAYS(arena, patch->weights)
+        && STAYS(arena, patch->diagonal) && STAYS(arena, fronts->rows) && STAYS(arena, fronts->steps) && STAYS(arena, fronts->owners)
+        && STAYS(arena, fronts->firsts) && STAYS(arena, fronts->starts) && STAYS(arena, fronts->borders) && STAYS(arena, fronts->places)
+        && STAYS(arena, fronts->sums) && STAYS(arena, part->springs) && STAYS(arena, part->stiffness) && STAYS(arena, part->starts)
+        && STAYS(arena, part->outer) && STAYS(arena, part->around);
 }
 
 static bool find_part(Gops *gops, int64_t index, ConstDoubles weights, ConstInts rank, Ints place, Arena *scratch, Site *part) {
@@ -114,7 +98,7 @@ static bool find_part(Gops *gops, int64_t index, ConstDoubles weights, ConstInts
     int64_t size = gops->blocks->cores.data[index];
     *part = (Site){.work = -1, .first = gops->rows};
     if (!spend(context, block_work((double)size, (double)gops->blocks->edges.data[index], 0) - UNCODED_WORK, 0)
-        || !order_patch(context, gops->graph, members_of(gops->blocks, index, size), scratch, &part->patch)
+        || !order_patch(gops->graph, members_of(gops->blocks, index, size), scratch, &part->patch)
         || !hang_part(gops->graph, weights, rank, place, scratch, part) || !find_patch_fronts(context, scratch, &part->patch))
         return false;
     const Fronts *fronts = &part->patch.fronts;
@@ -124,18 +108,20 @@ static bool find_part(Gops *gops, int64_t index, ConstDoubles weights, ConstInts
         return false;
     part->width = least(gops->header->coefficients, size);
     part->making = patch_memory(fronts, part->width);
-    return factorize_patch(context, &part->patch, const_doubles(part->springs), TETHER, &gops->arena, &part->factor);
+    return factorize_patch(&part->patch, const_doubles(part->springs), TETHER, &gops->arena, &part->factor);
 }
 
 bool find_parts(Gops *gops, ConstInts2 faces, ConstDoubles2 first_frame, Arena *scratch) {
     Context *context = gops->context;
     const Graph *graph = gops->graph;
     const Blocks *blocks = gops->blocks;
-    Doubles weights = zero_doubles(scratch, graph->neighbours.size);
-    Ints rank = take_ints(scratch, graph->size), place = take_ints(scratch, graph->size);
+    Doubles weights;
+    Ints rank, place;
+    if (!zero_doubles(scratch, graph->neighbours.size, &weights) || !take_ints(scratch, graph->size, &rank) || !take_ints(scratch, graph->size, &place)
+        || !TAKE_ZEROS(&gops->arena, blocks->count, gops->part))
+        return false;
     gops->count = blocks->count;
-    gops->part = take_zeros(&gops->arena, blocks->count, sizeof *gops->part);
-    if (failed(context) || !weigh_edges(context, graph, faces, first_frame, weights)) return false;
+    if (!weigh_edges(context, graph, faces, first_frame, weights)) return false;
     for (int64_t v = 0; v < graph->size; v++) place.data[v] = -1;
     for (int64_t i = 0; i < blocks->count; i++) {
         ConstInts core = members_of(blocks, i, blocks->cores.data[i]);
@@ -215,16 +201,17 @@ bool lend_dictionary(Gops *gops, int64_t index, Arena *scratch, Singles2 *dictio
     return made;
 }
 
-bool extend_part(Gops *gops, const Site *part, ConstDoubles2 ends, Arena *scratch, Doubles2 extension) {
+bool extend_part(const Site *part, ConstDoubles2 ends, Arena *scratch, Doubles2 extension) {
     int64_t n = part->patch.size, m = ends.columns;
     Mark mark = mark_of(scratch);
-    Doubles2 pulls = take_doubles2(scratch, n, m);
-    Singles room = take_singles(scratch, solving_space(n, m));
-    if (fine(gops->context)) {
+    Doubles2 pulls;
+    Singles room;
+    bool done = take_doubles2(scratch, n, m, &pulls) && take_singles(scratch, solving_space(n, m), &room);
+    if (done) {
         pull(const_ints(part->starts), const_ints(part->outer), const_doubles(part->stiffness), ends, pulls);
         continue_known(part->patch.fronts, part->factor.values, const_singles(part->factor.inverse), const_doubles(part->springs),
             const_doubles2(pulls), room, extension);
     }
     release_to(scratch, mark);
-    return fine(gops->context);
+    return done;
 }

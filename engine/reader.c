@@ -23,14 +23,12 @@ void end_reader(Reader *reader) {
 
 bool receive(Reader *reader, Span bytes) {
     int64_t size = reader->end - reader->begin;
-    if (bytes.size > INT64_MAX / 4 - size) return FAIL(reader->context, LIMIT, "# bytes at once are too many", bytes.size);
     if (reader->room - reader->end < bytes.size) {
         int64_t room = reader->room;
         uint8_t *buffer = reader->buffer;
         if (size + bytes.size > room / 2) {
             room = 2 * (size + bytes.size) + 1024;
-            buffer = host_take(reader->context, (size_t)room);
-            if (buffer == NULL) return false;
+            if (!TAKE_OF_HOST(reader->context, room, buffer)) return false;
         }
         if (size > 0) memmove(buffer, reader->buffer + reader->begin, (size_t)size);
         if (buffer != reader->buffer) host_give(reader->context, reader->buffer, (size_t)reader->room);
@@ -60,7 +58,7 @@ static Arrival incomplete(Reader *reader) {
     return NOTHING_BUT_AN_ERROR;
 }
 
-/* Spend; what there is no more work for is no damage. */
+/* Spend; what there is no more work or memory for is no damage. */
 static bool pay(Reader *reader, double work, double received) {
     if (spend(reader->context, work, received)) return true;
     reader->refused = true;
@@ -140,14 +138,14 @@ static bool read_metadata(Reader *reader, Span payload, bool adding) {
     Context *context = reader->context;
     if (!WITHIN(context, metadata_bytes, payload.size)) return false;
     Mark mark = mark_of(&reader->scratch);
-    Map *map = take_memory(&reader->scratch, 1, sizeof *map);
-    bool done = map != NULL && parse_map(context, payload, map);
+    Map *map;
+    bool done = TAKE(&reader->scratch, 1, map) && parse_map(context, payload, map);
     for (int i = 0; done && i < map->count; i++) {
         if (map->key[i].kind != TEXT || map->value[i].kind == LIST) done = FAIL(context, CORRUPT, "metadata of a wrong type");
     }
     for (int i = 0; done && i < map->count; i++) {
         if (adding) done = add_saying(&reader->metadata, &map->key[i], &map->value[i]);
-        else if (reader->grammar.header != NULL && knows_name(&reader->metadata, map->key[i].bytes))
+        else if (reader->grammar.header != NULL && find_name(&reader->metadata, map->key[i].bytes))
             done = FAIL(context, CORRUPT, "METADATA speaks of a name again");
     }
     if (done && adding) done = pay(reader, METADATA_WORK + ENTRY_WORK * map->count, 0);
@@ -237,8 +235,7 @@ static bool accept_frame(Reader *reader, Frame frame, const Packet *packet) {
             release_all(&reader->meshes);
         }
         if (packet->type == ATTRIBUTE_FRAME) {
-            own = take_memory(&reader->meshes, 1, sizeof *own);
-            if (own == NULL) return false;
+            if (!TAKE(&reader->meshes, 1, own)) return false;
             *own = *packet->declaration;
         }
         if (packet->type == METADATA_FRAME) {
@@ -248,7 +245,8 @@ static bool accept_frame(Reader *reader, Frame frame, const Packet *packet) {
         advance_grammar(&reader->grammar, packet, own);
     }
     reader->sum = crc32_of(&reader->sums, bytes, reader->sum);
-    reader->frames++;
+    reader->last_offset = reader->offset;
+    reader->last_frame = reader->frames++;
     drop(reader, frame.size);
     return true;
 }
@@ -272,6 +270,17 @@ static Arrival next_whole(Reader *reader, Packet *packet) {
         return NOTHING_BUT_AN_ERROR;
     }
     return reader->finished ? NO_MORE : NO_MORE_YET;
+}
+
+bool peek_packet(Reader *reader, int64_t *place, Packet *packet) {
+    Frame frame = {0};
+    Span present = waiting(reader);
+    if (failed(reader->context)) return false;
+    bool sound = read_frame(reader, (Span){present.data + *place, present.size - *place}, &frame) && frame.size > 0
+        && (frame.type == BLOCK_FRAME || frame.type == REFINEMENT_FRAME) && read_payload(reader, frame, packet);
+    if (failed(reader->context)) take_error(reader->context);
+    if (sound) *place += frame.size;
+    return sound;
 }
 
 /* Take note of damage at the first byte that waits (F 8.2). */
@@ -310,6 +319,7 @@ static int64_t step_from(Reader *reader, int64_t place, bool sure) {
         if (!pay(reader, MAP_WORK + BYTE_WORK * (double)frame.size, 0)) return MORE_FIRST;
         bool legal = read_packet(reader, frame, &packet);
         take_error(context);
+        reader->refused = context->starved;
         if (legal) return GO_ON;
     }
     return frame.size;
@@ -346,9 +356,9 @@ static Arrival recover(Reader *reader) {
     if (length == 0) reader->damage.type = END_FRAME;
     reader->damage.found = false;
     reader->behind_damage = true;
-    reader->damaged_offset = reader->offset;
+    reader->damaged_offset = reader->last_offset = reader->offset;
     reader->damaged_size = length;
-    reader->frames++;
+    reader->last_frame = reader->frames++;
     drop(reader, length);
     return A_DAMAGE;
 }
@@ -366,8 +376,7 @@ Arrival next_packet(Reader *reader, Packet *packet) {
             reader->behind_damage = reader->behind_damage && arrival == NO_MORE_YET;
             return arrival;
         }
-        bool beyond = reader->context->error.status == BSMDEC_NO_MEMORY;
-        if (!reader->tolerant || reader->grammar.header == NULL || reader->refused || beyond) {
+        if (!reader->tolerant || reader->grammar.header == NULL || reader->refused || reader->context->starved) {
             locate(&reader->context->error, reader->offset, reader->started ? reader->frames : -1, -1);
             return NOTHING_BUT_AN_ERROR;
         }

@@ -42,7 +42,8 @@ typedef struct {
     int64_t count, room;
 } Metadata;
 
-bool knows_name(const Metadata *metadata, Span name);
+/* The entry of a name, NULL if there is none. */
+const Saying *find_name(const Metadata *metadata, Span name);
 bool add_saying(Metadata *metadata, const Value *key, const Value *value);
 
 enum { MOST_ATTRIBUTES = 256 };
@@ -82,6 +83,7 @@ typedef struct {
     Arena meshes, scratch; /* what belongs to the present mesh; what a frame takes while it is read */
     uint8_t *buffer;
     int64_t room, begin, end;
+    int64_t last_offset, last_frame; /* where the last packet began, and its number */
     int64_t offset, frames, told; /* bytes and frames behind; bytes of metadata */
     uint32_t sum;
     bool started, finished;
@@ -102,5 +104,8 @@ void end_reader(Reader *reader);
 bool receive(Reader *reader, Span bytes);
 /* What comes next; an error is the context's. */
 Arrival next_packet(Reader *reader, Packet *packet);
+/* Look at the frame that starts `*place` bytes behind the last packet and move `*place` to its end: true if all of it has
+ * come and it is a sound frame of blocks or refinements. Nothing else changes, and nothing is charged. */
+bool peek_packet(Reader *reader, int64_t *place, Packet *packet);
 
 #endif

@@ -1,9 +1,9 @@
 /* Sequences: runs, one behind the other, each a mesh and its GOPs (specification, S 1, S 9): codec/sequence/decoder.py and
  * run_decoding.py. */
-#include "engine/decoder.h"
+#include "engine/ahead.h"
 
 static bool is_tolerable(const bsmdec *decoder) {
-    return decoder->tolerant && failed(&decoder->context) && decoder->context.error.status != BSMDEC_NO_MEMORY;
+    return decoder->tolerant && failed(&decoder->context) && !decoder->context.starved;
 }
 
 /* Frames are lost; how many is known when the next ones come. */
@@ -72,6 +72,7 @@ static void leave_run(bsmdec *decoder) {
     Sequence *sequence = &decoder->sequence;
     Context *context = &decoder->context;
     forget(decoder);
+    forget_changes(&decoder->changes);
     suspend_gops(&decoder->mesh.gops);
     double memory = context->spent.kept - sequence->kept;
     int64_t vertices = context->spent.vertices - sequence->vertices;
@@ -84,6 +85,7 @@ static void leave_run(bsmdec *decoder) {
         give_back(context, memory, vertices);
         if (decoder->has_mesh) end_mesh(&decoder->mesh);
     }
+    forget_split(decoder);
     decoder->mesh = (Mesh){.arena = arena_of(context)};
     decoder->has_mesh = decoder->has_positions = false;
     count_anew(decoder);
@@ -103,8 +105,8 @@ static void make_room(bsmdec *decoder) {
 static bool put_on_shelf(bsmdec *decoder) {
     Sequence *sequence = &decoder->sequence;
     if (place_of_mesh(sequence, sequence->mesh) >= 0) return true;
-    Shelved *place = host_take(&decoder->context, sizeof *place);
-    if (place == NULL) return false;
+    Shelved *place;
+    if (!TAKE_OF_HOST(&decoder->context, 1, place)) return false;
     *place = (Shelved){.run = sequence->mesh, .mesh.arena = arena_of(&decoder->context)};
     sequence->shelf[sequence->shelved++] = place;
     return true;
@@ -164,7 +166,7 @@ static bool begin_run(bsmdec *decoder, const Header *header) {
 /* What comes before the GOPs of the run is not whole; the next run is waited for. */
 static bool lose_run(bsmdec *decoder) {
     if (!is_tolerable(decoder) || !decoder->sequence.is_one) return false;
-    locate(&decoder->context.error, decoder->reader.offset, decoder->reader.frames, -1);
+    locate(&decoder->context.error, decoder->reader.last_offset, decoder->reader.last_frame, -1);
     decoder->sequence.why = take_error(&decoder->context);
     lose(&decoder->sequence, decoder->sequence.why);
     return decoder->sequence.lost = true;
@@ -180,19 +182,20 @@ static bool begin_first_frame(bsmdec *decoder) {
 static bool find_movers(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     Context *context = &decoder->context;
-    mesh->movers = take_zeros(&mesh->arena, mesh->has_attributes ? mesh->attributes.count : 0, sizeof *mesh->movers);
-    for (int k = 0; mesh->has_attributes && k < MOST_ATTRIBUTES && fine(context); k++) {
+    if (!TAKE_ZEROS(&mesh->arena, mesh->has_attributes ? mesh->attributes.count : 0, mesh->movers)) return false;
+    for (int k = 0; mesh->has_attributes && k < MOST_ATTRIBUTES; k++) {
         const Attribute *one = mesh->attributes.one[k];
         if (one == NULL || !one->declaration.moves) continue;
         if (one->declaration.rows != mesh->header.vertices)
-            return FAIL(context, CORRUPT, "attribute # moves, and what no face uses has values of it", k);
-        if (!one->whole && !decoder->tolerant) return FAIL(context, CORRUPT, "attribute # moves, and not all of its first values have come", k);
+            return FAIL(context, CORRUPT, "attribute '$' moves, and what no face uses has values of it", .name = one->declaration.name);
+        if (!one->whole && !decoder->tolerant)
+            return FAIL(context, CORRUPT, "attribute '$' moves, and not all of its first values have come", .name = one->declaration.name);
         Mover *mover = mesh->movers + mesh->mover_count++;
         *mover = (Mover){.number = k, .width = one->declaration.components};
-        mover->start = take_doubles2(&mesh->arena, one->whole ? one->rows : 0, mover->width);
-        if (fine(context)) beyond_one(one, mover->start);
+        if (!take_doubles2(&mesh->arena, one->whole ? one->rows : 0, mover->width, &mover->start)) return false;
+        beyond_one(one, mover->start);
     }
-    return fine(context);
+    return true;
 }
 
 /* The first frame is there, and GOPs come. */
@@ -203,6 +206,7 @@ static bool enter_gops(bsmdec *decoder) {
     if (mesh->next_block < mesh->header.blocks)
         return FAIL(&decoder->context, CORRUPT, "the first frame ends after # of # blocks", mesh->next_block, mesh->header.blocks);
     end_chains(&mesh->chains);
+    end_ahead(mesh);
     mesh->in_gops = find_movers(decoder)
         && blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &mesh->first_frame);
     return mesh->in_gops;
@@ -211,7 +215,7 @@ static bool enter_gops(bsmdec *decoder) {
 /* A GOP cannot be decoded, or was not there. */
 static bool lose_gop(bsmdec *decoder) {
     if (!is_tolerable(decoder)) return false;
-    locate(&decoder->context.error, decoder->reader.offset, decoder->reader.frames, -1);
+    locate(&decoder->context.error, decoder->reader.last_offset, decoder->reader.last_frame, -1);
     lose(&decoder->sequence, take_error(&decoder->context));
     forget(decoder);
     return true;
@@ -247,9 +251,9 @@ static bool pay_for(bsmdec *decoder, const Gop *gop, double received) {
 }
 
 static bool skip_gop(Sequence *sequence, Span data) {
-    Skipped *one = take_memory(&sequence->waiting, 1, sizeof *one);
-    uint8_t *copy = take_memory(&sequence->waiting, data.size, 1);
-    if (one == NULL || copy == NULL) return false;
+    Skipped *one;
+    uint8_t *copy;
+    if (!TAKE(&sequence->waiting, 1, one) || !TAKE(&sequence->waiting, data.size, copy)) return false;
     memcpy(copy, data.data, (size_t)data.size);
     *one = (Skipped){NULL, {copy, data.size}};
     if (sequence->first == NULL) sequence->first = one;
@@ -309,8 +313,8 @@ bool show(bsmdec *decoder, int64_t index) {
     for (int k = 0; k < mesh->mover_count && decoder->has_positions; k++) {
         Attribute *one = mesh->attributes.one[mesh->movers[k].number];
         if (!one->whole) continue;
-        void *moved = one->moved != NULL ? one->moved : take_memory(&mesh->arena, one->rows * one->declaration.components, kind_size(one->declaration.kind));
-        if (moved == NULL || !show_frame(gops, t, &decoder->scratch, k + 1, &frame)) return false;
+        void *moved = one->moved;
+        if ((moved == NULL && !take_values(&mesh->arena, one, &moved)) || !show_frame(gops, t, &decoder->scratch, k + 1, &frame)) return false;
         decoder->has_positions = move_values(&decoder->context, one, frame, moved);
     }
     return decoder->has_positions;

@@ -1,5 +1,5 @@
 /* The stages of one mesh: faces, blocks or grids, refinements, attributes (specification, F 3.8, F 8.3). */
-#include "engine/decoder.h"
+#include "engine/ahead.h"
 
 /* Whether a frame's place is before what has begun: behind a loss the grammar does not know what came before it. */
 static bool comes_late(const Mesh *mesh, FrameType type) {
@@ -9,9 +9,10 @@ static bool comes_late(const Mesh *mesh, FrameType type) {
 }
 
 void end_mesh(Mesh *mesh) {
+    end_ahead(mesh);
     if (mesh->has_chains) end_chains(&mesh->chains);
     if (mesh->has_attributes) end_attributes(&mesh->attributes);
-    release_all(&mesh->layer.models);
+    end_layer(&mesh->layer);
     end_gops(&mesh->gops);
     release_all(&mesh->arena);
 }
@@ -20,8 +21,8 @@ bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count
     Context *context = &decoder->context;
     if (decoder->loss_count == decoder->loss_room) {
         int64_t room = 2 * decoder->loss_room + 16;
-        bsmdec_error *losses = host_take(context, (size_t)room * sizeof *losses);
-        if (losses == NULL) return false;
+        bsmdec_error *losses;
+        if (!TAKE_OF_HOST(context, room, losses)) return false;
         if (decoder->loss_count > 0) memcpy(losses, decoder->losses, (size_t)decoder->loss_count * sizeof *losses);
         host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *losses);
         decoder->losses = losses;
@@ -33,14 +34,15 @@ bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count
 
 bool bear(bsmdec *decoder, int64_t block, bool anywhere) {
     Context *context = &decoder->context;
-    bsmdec_status status = context->error.status;
-    if (!decoder->tolerant || !anywhere || status == BSMDEC_NO_MEMORY || status == BSMDEC_OK) return false;
-    locate(&context->error, decoder->reader.offset, -1, block);
+    if (!decoder->tolerant || !anywhere || context->starved || fine(context)) return false;
+    locate(&context->error, decoder->reader.last_offset, decoder->reader.last_frame, block);
     if (block >= 0 && decoder->mesh.has_chains) lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, block);
     return tell_loss(decoder, take_error(context), block, 0);
 }
 
 void begin_mesh(bsmdec *decoder, const Header *header) {
+    forget_split(decoder);
+    forget_changes(&decoder->changes);
     decoder->mesh = (Mesh){.header = *header, .arena = arena_of(&decoder->context)};
     decoder->has_mesh = true;
 }
@@ -60,7 +62,7 @@ static bool accept_connectivity(bsmdec *decoder, Span data) {
 static bool graph_of(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (!mesh->has_graph)
-        mesh->has_graph = make_graph(&decoder->context, mesh->faces, mesh->header.vertices, &mesh->arena, &decoder->scratch, &mesh->graph);
+        mesh->has_graph = make_graph(mesh->faces, mesh->header.vertices, &mesh->arena, &decoder->scratch, &mesh->graph);
     return mesh->has_graph;
 }
 
@@ -69,8 +71,7 @@ static bool accept_partition(bsmdec *decoder, Span data) {
     Mesh *mesh = &decoder->mesh;
     if (!graph_of(decoder)) return false;
     double n = (double)mesh->graph.size, ends = (double)mesh->graph.neighbours.size, bytes = (double)data.size;
-    mesh->labels = zero_ints(&mesh->arena, mesh->graph.size);
-    return fine(context) && spend(context, labels_work(n, ends, bytes), bytes)
+    return zero_ints(&mesh->arena, mesh->graph.size, &mesh->labels) && spend(context, labels_work(n, ends, bytes), bytes)
         && decode_labels(context, data, &mesh->graph, mesh->header.blocks, &decoder->scratch, mesh->labels);
 }
 
@@ -87,7 +88,7 @@ bool build(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (mesh->has_chains) return true;
     if (!graph_of(decoder) || !make_blocks(context, &mesh->header, &mesh->graph, mesh->labels, &mesh->arena, &decoder->scratch, &mesh->blocks)
-        || !begin_assembly(&mesh->assembly, mesh->graph.size, &mesh->arena))
+        || !begin_assembly(&mesh->assembly, mesh->graph.size, mesh->blocks.count, &mesh->arena))
         return false;
     mesh->has_chains = begin_chains(&mesh->chains, context, &mesh->header, &mesh->graph, &mesh->blocks, &mesh->arena);
     return mesh->has_chains && announce(decoder);
@@ -105,31 +106,42 @@ static bool skip_to(bsmdec *decoder, int64_t index) {
 }
 
 /* Keep a block for whoever asked for it. */
-static void hand_over(bsmdec *decoder, const DecodedBlock *block) {
-    int64_t n = block->vertices.size;
-    Arena *arena = &decoder->shown;
-    release_all(arena);
-    Ints vertices = take_ints(arena, n);
-    Doubles2 positions = take_doubles2(arena, n, 3);
-    Doubles weights = take_doubles(arena, n);
-    if (failed(&decoder->context)) return;
-    memcpy(vertices.data, block->vertices.data, (size_t)n * sizeof *vertices.data);
-    memcpy(positions.data, block->positions.data, (size_t)(3 * n) * sizeof *positions.data);
-    memcpy(weights.data, block->weights.data, (size_t)n * sizeof *weights.data);
-    decoder->share.handed = (DecodedBlock){block->index, {vertices.data, n}, {positions.data, n, 3}, {weights.data, n}};
+static bool hand_over(bsmdec *decoder, const DecodedBlock *block) {
+    release_all(&decoder->shown);
+    return copy_block(block, &decoder->shown, &decoder->share.handed);
+}
+
+static bool find_block(bsmdec *decoder, const Packet *packet, DecodedBlock *block) {
+    Chains *chains = &decoder->mesh.chains;
+    look_ahead(decoder, packet);
+    const ReadyBlock *ready = find_ready(decoder, packet);
+    if (ready == NULL) return decode_block(chains, packet->index, packet->coefficients, packet->data, &decoder->scratch, block);
+    *block = ready->block;
+    return settle_block(chains, packet->index, &ready->ledger);
+}
+
+/* Whether no packet behind the blocks is wanted. */
+static bool ends_with_blocks(const bsmdec *decoder) {
+    return decoder->base_alone && decoder->mesh.header.refined && decoder->mesh.header.gop_frames == 0;
+}
+
+static bool end_with_blocks(bsmdec *decoder) {
+    decoder->over = true;
+    return accept_end(decoder);
 }
 
 static bool accept_block(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     DecodedBlock block;
-    if (!build(decoder) || !skip_to(decoder, packet->index)) return false;
+    if (!(mesh->has_chains ? build(decoder) : build_beside(decoder)) || !skip_to(decoder, packet->index)) return false;
     mesh->next_block++;
-    if (!is_own(&decoder->share, &mesh->header, packet->index)) return decoder->share.helps || tell(decoder, BLOCK_OF_HELPER, packet->index, 0);
-    if (!decode_block(&mesh->chains, packet->index, packet->coefficients, packet->data, &decoder->scratch, &block))
-        return bear(decoder, packet->index, mesh->header.gop_frames == 0);
-    if (decoder->share.helps) hand_over(decoder, &block);
-    else add_block(&mesh->assembly, &block);
-    return fine(&decoder->context) && tell(decoder, BSMDEC_BLOCK, packet->index, 0);
+    if (!is_own(&decoder->share, &mesh->header, packet->index)) return decoder->share.helps || tell(decoder, (bsmdec_event_type)BLOCK_OF_HELPER, packet->index, 0);
+    bool last = ends_with_blocks(decoder) && mesh->next_block == mesh->header.blocks;
+    if (!find_block(decoder, packet, &block))
+        return bear(decoder, packet->index, mesh->header.gop_frames == 0) && (!last || end_with_blocks(decoder));
+    if (!decoder->share.helps) add_block(&mesh->assembly, &block);
+    else if (!hand_over(decoder, &block)) return false;
+    return tell(decoder, BSMDEC_BLOCK, packet->index, 0) && (!last || end_with_blocks(decoder));
 }
 
 static bool begun_grid(bsmdec *decoder) {
@@ -155,6 +167,8 @@ static bool begun_layer(bsmdec *decoder) {
     if (mesh->has_layer) return true;
     if (!build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
     end_chains(&mesh->chains);
+    end_chains_ahead(mesh);
+    adopt_levels(decoder);
     mesh->has_layer = blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &base)
         && mark_whole(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, 1, &whole)
         && begin_layer(&mesh->layer, &decoder->context, &mesh->header, const_ints2(mesh->faces), base, whole, &mesh->arena, &decoder->scratch);
@@ -163,6 +177,7 @@ static bool begun_layer(bsmdec *decoder) {
 
 static bool accept_refinement(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
+    if (ends_with_blocks(decoder)) return end_with_blocks(decoder);
     if (!begun_layer(decoder)) return false;
     if (decode_layer(&mesh->layer, packet->first, packet->count, packet->data, &decoder->scratch))
         return tell(decoder, BSMDEC_REFINEMENT, packet->first + packet->count, 0);
@@ -193,7 +208,7 @@ static bool accept_values(bsmdec *decoder, const Packet *packet) {
     if (!begun_values(decoder)) return false;
     if (mesh->has_grid && !mesh->grid.broken && mesh->grid.coded == mesh->header.vertices) places = const_ints2(mesh->grid.values);
     if (!decode_values(&mesh->attributes, packet, places, &decoder->scratch)) return bear(decoder, -1, mesh->header.gop_frames == 0);
-    return !mesh->attributes.one[packet->index]->whole || tell(decoder, BSMDEC_ATTRIBUTE, packet->index, 0);
+    return tell(decoder, mesh->attributes.one[packet->index]->whole ? BSMDEC_ATTRIBUTE : BSMDEC_VALUES, packet->index, 0);
 }
 
 /* Positions as the encoder had them, in whatever unit, if they are there; no rows otherwise. */
@@ -221,7 +236,7 @@ static bool finish_attributes(bsmdec *decoder) {
         Attribute *one = mesh->attributes.one[k];
         if (one == NULL || one->declaration.coding != RECOMPUTED) continue;
         if (solid.rows == 0 && !find_solid(decoder, &solid)) return false;
-        if (solid.rows > 0 && (!recompute(&mesh->attributes, one, solid, &decoder->scratch) || !tell(decoder, BSMDEC_ATTRIBUTE, k, 0))) return false;
+        if (solid.rows > 0 && (!recompute(one, solid, &decoder->scratch) || !tell(decoder, BSMDEC_ATTRIBUTE, k, 0))) return false;
     }
     return true;
 }
@@ -288,8 +303,7 @@ static bool finish_positions(bsmdec *decoder) {
         return true;
     }
     if (mesh->has_layer) {
-        positions = take_doubles2(&decoder->shown, mesh->graph.size, 3);
-        if (failed(&decoder->context)) return false;
+        if (!take_doubles2(&decoder->shown, mesh->graph.size, 3, &positions)) return false;
         memcpy(positions.data, mesh->layer.positions.data, (size_t)(3 * mesh->graph.size) * sizeof(double));
     } else if (!blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &decoder->shown, &decoder->scratch, &positions)) {
         return false;

@@ -5,25 +5,29 @@
 
 enum { PASSES = 2, CHAIN_NUMBERS = 7, LEAF = 8, MOST_WORK = 1 << 16, FULL = -1, TOO_MUCH = -2 };
 
-bool make_graph(Context *context, Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph) {
+bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph) {
     Mark mark = mark_of(scratch);
-    Ints offsets = take_ints(arena, size + 1), filled = take_ints(scratch, size), ends = take_ints(scratch, 6 * faces.rows);
-    if (fine(context)) {
-        int64_t kept = collect_edges(const_ints2(faces), offsets, filled, ends);
-        Ints neighbours = take_ints(arena, kept);
-        if (fine(context)) memcpy(neighbours.data, ends.data, (size_t)kept * sizeof *ends.data);
-        *graph = (Graph){size, const_ints(offsets), const_ints(neighbours)};
+    Ints offsets, filled, ends, second, neighbours;
+    bool done = take_ints(arena, size + 1, &offsets) && take_ints(scratch, size, &filled)
+        && take_ints(scratch, 6 * faces.rows, &ends) && take_ints(scratch, 6 * faces.rows, &second);
+    if (done) {
+        int64_t kept = collect_edges(const_ints2(faces), offsets, filled, ends, second);
+        done = take_ints(arena, kept, &neighbours);
+        if (done) memcpy(neighbours.data, ends.data, (size_t)kept * sizeof *ends.data);
+        if (done) *graph = (Graph){size, const_ints(offsets), const_ints(neighbours)};
     }
     release_to(scratch, mark);
-    return fine(context);
+    return done;
 }
 
 /* The partition that follows from the graph alone (M 4). */
 static bool derive_labels(Context *context, const Graph *graph, int64_t parts, Arena *scratch, Ints labels) {
-    Ints order = take_ints(scratch, graph->size), bounds = take_ints(scratch, parts + 1), votes = take_ints(scratch, parts);
-    Words room = take_words(scratch, bisection_scratch(graph->size));
-    Longs sizes = take_longs(scratch, parts);
-    if (failed(context)) return false;
+    Ints order, bounds, votes;
+    Words room;
+    Longs sizes;
+    if (!take_ints(scratch, graph->size, &order) || !take_ints(scratch, parts + 1, &bounds) || !take_ints(scratch, parts, &votes)
+        || !take_words(scratch, bisection_scratch(graph->size), &room) || !take_longs(scratch, parts, &sizes))
+        return false;
     if (!bisect(graph->offsets, graph->neighbours, order, bounds, room))
         return FAIL(context, CORRUPT, "# vertices cannot be cut into # parts", graph->size, parts);
     label_parts(const_ints(order), const_ints(bounds), labels);
@@ -33,23 +37,24 @@ static bool derive_labels(Context *context, const Graph *graph, int64_t parts, A
 
 static bool grow(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch, Blocks *blocks) {
     int64_t parts = header->blocks, n = graph->size, size = header->block_size;
-    Ints bounds = take_ints(scratch, parts + 1), order = take_ints(scratch, n), seen = take_ints(scratch, n);
-    Ints chain = take_ints(scratch, parts), members = take_ints(scratch, parts * least(size, n));
-    if (failed(context)) return false;
+    Ints bounds, order, seen, chain, members, linked;
+    Longs shares, room;
+    if (!take_ints(scratch, parts + 1, &bounds) || !take_ints(scratch, n, &order) || !take_ints(scratch, n, &seen)
+        || !take_ints(scratch, parts, &chain) || !take_ints(scratch, parts * least(size, n), &members))
+        return false;
     group_by_label(const_ints(labels), bounds, order);
     int64_t most = 0;
     for (int64_t p = 0; p < parts; p++) most = largest(most, bounds.data[p + 1] - bounds.data[p]);
     if (most > size) return FAIL(context, CORRUPT, "a part of # vertices in blocks of #", most, size);
     double pairs = (double)parts * (double)(parts - 1);
     int64_t links = pairs < (double)graph->neighbours.size ? parts * (parts - 1) : graph->neighbours.size;
-    Ints linked = take_ints(scratch, links);
-    Longs shares = take_longs(scratch, links), room = take_longs(scratch, CHAIN_NUMBERS * parts);
-    *blocks = (Blocks){parts, take_ints(arena, parts), take_longs(arena, parts + 1), take_longs(arena, parts), {NULL, 0}};
-    if (failed(context)) return false;
+    blocks->count = parts;
+    if (!take_ints(scratch, links, &linked) || !take_longs(scratch, links, &shares) || !take_longs(scratch, CHAIN_NUMBERS * parts, &room)
+        || !take_ints(arena, parts, &blocks->cores) || !take_longs(arena, parts + 1, &blocks->starts) || !take_longs(arena, parts, &blocks->edges))
+        return false;
     int64_t count = chain_blocks(graph->offsets, graph->neighbours, const_ints(order), const_ints(bounds), const_ints(labels), size,
         linked, shares, room, seen, chain, blocks->starts, blocks->edges, members);
-    blocks->members = take_ints(arena, count);
-    if (failed(context)) return false;
+    if (!take_ints(arena, count, &blocks->members)) return false;
     memcpy(blocks->members.data, members.data, (size_t)count * sizeof *members.data);
     for (int64_t i = 0; i < parts; i++) blocks->cores.data[i] = bounds.data[chain.data[i] + 1] - bounds.data[chain.data[i]];
     return true;
@@ -60,23 +65,20 @@ bool make_blocks(Context *context, const Header *header, const Graph *graph, Int
     if (!keep(context, COPY_MEMORY * copies, 0) || !spend(context, partition_work(n, (double)graph->neighbours.size, header->blocks, copies), 0))
         return false;
     Mark mark = mark_of(scratch);
-    bool done = true;
-    if (labels.size == 0) {
-        labels = take_ints(scratch, graph->size);
-        done = fine(context) && derive_labels(context, graph, header->blocks, scratch, labels);
-    }
+    bool done = labels.size > 0
+        || (take_ints(scratch, graph->size, &labels) && derive_labels(context, graph, header->blocks, scratch, labels));
     done = done && grow(context, header, graph, labels, arena, scratch, blocks);
     release_to(scratch, mark);
     return done;
 }
 
-bool order_patch(Context *context, const Graph *graph, ConstInts members, Arena *arena, Patch *patch) {
+bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *patch) {
     int64_t size = members.size, room = 8 * size;
-    Ints vertices = take_ints(arena, size), offsets = take_ints(arena, size + 1);
+    Ints vertices, offsets, neighbours;
+    Words scratch;
+    if (!take_ints(arena, size, &vertices) || !take_ints(arena, size + 1, &offsets)) return false;
     for (;;) {
-        Ints neighbours = take_ints(arena, room);
-        Words scratch = take_words(arena, order_scratch(size, room));
-        if (failed(context)) return false;
+        if (!take_ints(arena, room, &neighbours) || !take_words(arena, order_scratch(size, room), &scratch)) return false;
         int64_t ends = order_block(graph->offsets, graph->neighbours, members, vertices, offsets, neighbours, scratch);
         if (ends <= room) {
             *patch = (Patch){.size = size, .vertices = const_ints(vertices), .offsets = const_ints(offsets), .neighbours = {neighbours.data, ends}};
@@ -84,9 +86,9 @@ bool order_patch(Context *context, const Graph *graph, ConstInts members, Arena 
         }
         room = ends;
     }
-    patch->diagonal = take_doubles(arena, size);
-    for (int64_t r = 0; fine(context) && r < size; r++) patch->diagonal.data[r] = (double)(offsets.data[r + 1] - offsets.data[r]);
-    return fine(context);
+    if (!take_doubles(arena, size, &patch->diagonal)) return false;
+    for (int64_t r = 0; r < size; r++) patch->diagonal.data[r] = (double)(offsets.data[r + 1] - offsets.data[r]);
+    return true;
 }
 
 static ConstWords some(Words words, int64_t count) { return (ConstWords){words.data, count}; }
@@ -94,12 +96,14 @@ static ConstWords some(Words words, int64_t count) { return (ConstWords){words.d
 /* Which rows are eliminated when. */
 bool find_patch_fronts(Context *context, Arena *arena, Patch *patch) {
     int64_t n = patch->size, room = 16 * n + 64, count = FULL;
-    Words rows = take_words(arena, n), steps = take_words(arena, n), owners = take_words(arena, n), scratch = take_words(arena, 3 * n);
-    Words firsts = take_words(arena, n + 1), starts = take_words(arena, n + 1), places = take_words(arena, n + 1), borders = {NULL, 0};
-    Doubles sums = take_doubles(arena, 2);
+    Words rows, steps, owners, scratch, firsts, starts, places, borders = {NULL, 0};
+    Doubles sums;
+    if (!take_words(arena, n, &rows) || !take_words(arena, n, &steps) || !take_words(arena, n, &owners) || !take_words(arena, 3 * n, &scratch)
+        || !take_words(arena, n + 1, &firsts) || !take_words(arena, n + 1, &starts) || !take_words(arena, n + 1, &places)
+        || !take_doubles(arena, 2, &sums))
+        return false;
     for (; count == FULL; room *= 4) {
-        borders = take_words(arena, room);
-        if (failed(context)) return false;
+        if (!take_words(arena, room, &borders)) return false;
         count = find_fronts(patch->offsets, patch->neighbours, LEAF, (double)MOST_WORK * (double)n, scratch, rows, steps, owners,
             firsts, starts, borders, places, sums);
     }

@@ -3,7 +3,7 @@
 
 enum { MOST_WHOLE = (1 << 20) - 1, PIECE_BITS = 16 };
 
-static void store_number(void *values, int64_t place, int kind, double number) {
+void store_number(void *values, int64_t place, int kind, double number) {
     switch (kind) {
         case BSMDEC_UINT8: ((uint8_t *)values)[place] = (uint8_t)number; break;
         case BSMDEC_INT8: ((int8_t *)values)[place] = (int8_t)number; break;
@@ -16,7 +16,7 @@ static void store_number(void *values, int64_t place, int kind, double number) {
     }
 }
 
-static double load_number(const void *values, int64_t place, int kind) {
+double load_number(const void *values, int64_t place, int kind) {
     switch (kind) {
         case BSMDEC_UINT8: return ((const uint8_t *)values)[place];
         case BSMDEC_INT8: return ((const int8_t *)values)[place];
@@ -124,10 +124,10 @@ static void cross_of(const double *a, const double *b, const double *c, double *
     }
 }
 
-bool recompute(Attributes *attributes, Attribute *one, ConstDoubles2 positions, Arena *scratch) {
+bool recompute(Attribute *one, ConstDoubles2 positions, Arena *scratch) {
     int64_t rows = one->rows;
-    Doubles2 sums = zero_doubles2(scratch, 3 * rows, 3); /* of first corners, second ones, third ones */
-    if (failed(attributes->context)) return false;
+    Doubles2 sums; /* of first corners, second ones, third ones */
+    if (!zero_doubles2(scratch, 3 * rows, 3, &sums)) return false;
     for (int64_t f = 0; f < one->faces.rows; f++) {
         const int32_t *face = one->faces.data + 3 * f;
         const double *at[3];
@@ -172,8 +172,7 @@ bool given_rows(const Attribute *one, const Numbering *numbering, Arena *scratch
         for (int64_t f = 0; f < rows.size; f++) rows.data[f] = numbering->corners.data[3 * f] / 3;
     if (d->domain == BSMDEC_FACE || !by_vertex(one, numbering) || numbering->source.size == 0) return true;
     if (d->domain == BSMDEC_CORNER) { /* the value of the first corner of each vertex */
-        first = zero_ints(scratch, numbering->size);
-        if (failed(scratch->context)) return false;
+        if (!zero_ints(scratch, numbering->size, &first)) return false;
         for (int64_t i = 3 * numbering->faces.rows - 1; i >= 0; i--) first.data[numbering->faces.data[i]] = row_of_corner(one, numbering, i);
     }
     int64_t loose = one->rows - numbering->loose.rows;

@@ -370,11 +370,9 @@ bool unpack_zstd(Context *context, Span frame, uint8_t *content, int64_t size, A
     }
     head = read_header(frame, size, &window);
     if (head == 0) return FAIL(context, CORRUPT, "a zstd frame that is not of # bytes of content", size);
-    Unpacker *own = take_zeros(scratch, 1, sizeof *own);
+    Unpacker *own;
     int64_t most = least(window, MOST_BLOCK);
-    uint8_t *literals = take_memory(scratch, most + 1, 1);
-    if (failed(context)) return false;
-    own->literals = literals;
+    if (!TAKE_ZEROS(scratch, 1, own) || !TAKE(scratch, most + 1, own->literals)) return false;
     own->content = content;
     own->size = size;
     own->lengths.log = own->offsets.log = own->matches.log = -1;

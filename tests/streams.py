@@ -7,10 +7,9 @@ import tracemalloc
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from bsm.bitstream.container.reader import END_OF_STREAM, Reader, Signal
-from bsm.codec.sequence.decoder import SequenceDecoder
-from bsm.codec.sequence.events import FrameEvent
-from bsm.codec.static.decoder import Decoder
+from bsm.bitstream.container.scanner import scan
+from bsm.decoding import Decoder, SequenceDecoder
+from bsm.events import END_OF_STREAM, FrameEvent, Signal
 
 
 def events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any) -> list[Any]:
@@ -44,13 +43,7 @@ def frames_in(events: Sequence[Any]) -> dict[int, FrameEvent]:
 
 def packets_of(data: bytes) -> list[tuple[Any, int, int]]:
     """The packets of a stream, with offset and length of the frame of each."""
-    reader = Reader()
-    reader.receive_data(data)
-    found = []
-    while not isinstance(packet := reader.next_packet(), Signal):
-        assert reader.last_frame is not None
-        found.append((packet, reader.last_frame.offset, reader.last_frame.length))
-    return found
+    return [(packet, span.offset, span.length) for packet, span in scan([data])]
 
 
 def without(data: bytes, packet: type, index: int, how: str) -> bytes:

@@ -21,11 +21,15 @@ _HEAD = """#include "bsmdec.h"
 #pragma GCC diagnostic ignored "-Wunused-function"
 #if !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"
+#pragma GCC diagnostic ignored "-Wattributes"
+#elif __has_warning("-Wpsabi")
+#pragma clang diagnostic ignored "-Wpsabi"
 #endif
 """
 _MANY = """
+/* GCC for Windows keeps vectors of 32 and 64 bytes in a stack that is aligned to 16. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(_MSC_VER) && !defined(__AVX512F__) \\
-    && !defined(KERNEL_ONE_TARGET)
+    && !defined(KERNEL_ONE_TARGET) && (!defined(_WIN32) || defined(__clang__))
 #define KERNEL_LEVELS 3
 #else
 #define KERNEL_LEVELS 1
@@ -45,14 +49,13 @@ _END = """#if defined(__clang__)
 #endif
 """
 _OWN = re.compile(r'^#include "([^"]+)"\n', re.MULTILINE)
-_PROTOTYPE = re.compile(r"^(?=(?:u?int\d+_t|void|bool|double|[A-Z]\w+) [^=;{]*\([^;{]*\);)", re.MULTILINE)
+_WORDS = r"(?!typedef|static|extern|return|INLINE|SHARED|KERNEL|OFTEN|struct|enum|union)(?:const )?"
+_PROTOTYPE = re.compile(rf"^(?={_WORDS}\w+ \**(?!bsmdec_)[^=;{{]*\([^;{{]*\);)", re.MULTILINE)
 _FUNCTION = re.compile(
     r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:const )?\w+ \**(?:LEVEL\()?(\w+)\)?\(", re.MULTILINE
 )
 _BARE = re.compile(
-    r"^(?=(?:KERNEL |OFTEN )*(?:u?int\d+_t|void|bool|double|float|[A-Z]\w+) "
-    r"\**(?!bsmdec_)(?:LEVEL\()?\w+\)?\([^;{]*\) \{)",
-    re.MULTILINE,
+    rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_)(?:LEVEL\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE
 )
 _DOUBLES = '#define VECTORS_OF_DOUBLES\n#include "codec/basis/vectors.h"\n'
 _TYPE = re.compile(r"^(?:typedef .*?|\} )(\w+);$", re.MULTILINE)

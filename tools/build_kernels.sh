@@ -14,3 +14,4 @@ cmake --install build/kernels --prefix src > /dev/null
 for package in bsm bsm/bitstream bsm/codec; do
     PYTHONPATH=src "$python" -m nanobind.stubgen -q -m "${package//\//.}._kernels" -o src/$package/_kernels.pyi
 done
+PYTHONPATH=src "$python" -m nanobind.stubgen -q -m bsm._engine -o src/bsm/_engine.pyi

@@ -17,7 +17,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console
 from bsm.evaluation.curve import decode_draco, encode_draco
-from bsm.pictures import Image, bounds_of, render, view_matrix
+from bsm.pictures import Image, bounds_of, render, view_matrix, with_titles
 from tools.command import run_command
 
 TOOLS = Path(__file__).parent
@@ -29,24 +29,25 @@ FRAMES = 24
 def main(args: argparse.Namespace, console: Console) -> None:
     """Write both pictures."""
     folder = Path(args.folder)
-    _save_row([*scan(folder / "static" / "bunny_34834.ply"), *part(folder)], TOOLS / "front.png")
+    pictures, figures = scan(folder / "static" / "bunny_34834.ply")
+    titles, images = zip(*pictures, *part(folder), strict=True)
+    (TOOLS / "front.png").write_bytes(with_titles(images, titles, figures=figures))
     text = _save_motion(folder / "dynamic" / "samba.npz", TOOLS / "motion.gif")
     console.note(text)
 
 
-def scan(path: Path) -> list[tuple[str, Image]]:
-    """A scan, what the default makes of it, and the finest Draco file that is no larger."""
+def scan(path: Path) -> tuple[list[tuple[str, Image]], dict[str, str]]:
+    """A scan, what the default makes of it, and the finest Draco file that is no larger; the sizes of the first two, as
+    they stand in the table of the README, for the text of the picture."""
     mesh = bsm.load(path)
     data = bsm.encode(mesh)
     theirs = max((encode_draco(mesh, bits, 10) for bits in range(4, 15)), key=lambda file: _fits(file, len(data)))
     upright = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], float)
     bounds = bounds_of(mesh.positions @ upright.T, FRONT)
-    rows = (
-        (f"scan: {path.stat().st_size // 1000} kB", mesh),
-        (f"BSM, default: {len(data) / 1000:.1f} kB", bsm.decode(data)),
-    )
+    figures = {"file": f"{path.stat().st_size / 1000:,.0f} kB", "balanced": f"{len(data) / 1000:.1f} kB"}
+    rows = ((f"scan: {figures['file']}", mesh), (f"BSM, default: {figures['balanced']}", bsm.decode(data)))
     last = (f"Draco at that size: {len(theirs) / 1000:.1f} kB", decode_draco(theirs))
-    return [(name, _drawn(one.positions @ upright.T, one.faces, bounds)) for name, one in (*rows, last)]
+    return [(name, _drawn(one.positions @ upright.T, one.faces, bounds)) for name, one in (*rows, last)], figures
 
 
 def _fits(file: bytes, size: int) -> int:
@@ -64,20 +65,6 @@ def part(folder: Path) -> list[tuple[str, Image]]:
 
 def _drawn(positions: Positions, faces: Faces, bounds: tuple[Image, float]) -> Image:
     return render(positions, faces, PIXELS, view=FRONT, bounds=bounds)
-
-
-def _save_row(pictures: list[tuple[str, Image]], path: Path) -> None:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(3.2 * len(pictures), 3.6), dpi=100)
-    FigureCanvasAgg(figure)
-    for axes, (title, picture) in zip(figure.subplots(1, len(pictures)), pictures, strict=True):
-        axes.imshow(picture)
-        axes.set_title(title, fontsize=11)
-        axes.axis("off")
-    figure.tight_layout()
-    figure.savefig(path)
 
 
 def _save_motion(path: Path, target: Path) -> str:

@@ -2,24 +2,22 @@
 
 import zlib
 
-from bsm.bitstream.container.grammar import Grammar
-from bsm.bitstream.container.packets import FRAME_TYPES, PARSERS, WRITERS, End, Packet
+from bsm.bitstream.container.packets import FRAME_TYPES, WRITERS, End, Packet
 from bsm.bitstream.container.wire import write_frame, write_preamble
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 
 class Writer:
-    """Turns packets into the bytes of a stream, and refuses to write one that no reader would accept."""
+    """Turns packets into the bytes of a stream; encoders decode what it wrote before they hand it out."""
 
     def __init__(self, limits: Limits = DEFAULT_LIMITS) -> None:
         self._limits = limits
-        self._grammar = Grammar()
         self._frames = 0
         self._crc: int | None = None
 
     def start(self) -> bytes:
-        """The preamble; must come first."""
+        """Return the preamble, which comes first."""
         if self._crc is not None:
             raise OptionError("the stream has been started already")
         preamble = write_preamble()
@@ -27,33 +25,28 @@ class Writer:
         return preamble
 
     def write(self, packet: Packet) -> bytes:
-        """The frame of one packet (not END, which `end` makes)."""
+        """Return the frame of one packet; `end` makes that of END."""
         if isinstance(packet, End):
             raise OptionError("END is made by Writer.end()")
         return self._frame(packet)
 
     def end(self, positions: int | None = None) -> bytes:
-        """The END frame, with the checksum of decoded positions if it is known; nothing may be written after it."""
+        """Return the END frame, with the checksum of decoded positions if it is known."""
         return self._frame(End(self._frames, self._crc or 0, positions))
 
     def _frame(self, packet: Packet) -> bytes:
         if self._crc is None:
             raise OptionError("call Writer.start() first")
-        problem = self._grammar.problem(packet)
-        if problem:
-            raise OptionError(problem)
         frame_type = FRAME_TYPES[type(packet)]
         payload = WRITERS[frame_type](packet)
         self._limits.check("frame_bytes", len(payload))
-        PARSERS[frame_type](payload, self._limits)  # for the limits that only a reader knows
         frame = write_frame(frame_type, payload)
-        self._grammar.advance(packet)
         self._frames += 1
         self._crc = zlib.crc32(frame, self._crc)
         return frame
 
 
 def write_stream(packets: list[Packet], limits: Limits = DEFAULT_LIMITS) -> bytes:
-    """A whole stream: preamble, the packets given, END."""
+    """Return a whole stream: preamble, the packets given, END."""
     writer = Writer(limits)
     return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])

@@ -30,7 +30,7 @@ static bool open_bank_for(Mixer *mixer, Bank bank, ConstLongs contexts, int64_t 
 
 int64_t code_one_mixed_bit(Coder given, Bank bank, ConstLongs contexts, int64_t node, int64_t selector, int64_t bit) {
     RangeCoder coder;
-    Mixer mixer;
+    Mixer mixer = {0};
     if (node < 0 || node > MOST_UNARY || !open_coder(&coder, given)
         || !open_bank_for(&mixer, bank, contexts, selector, node + 1))
         return MISUSED;
@@ -42,7 +42,7 @@ int64_t code_one_mixed_bit(Coder given, Bank bank, ConstLongs contexts, int64_t 
 int64_t code_one_unsigned(
     Coder given, Bank bank, ConstLongs contexts, int64_t selector, int64_t unary, int64_t value, int64_t node) {
     RangeCoder coder;
-    Mixer mixer;
+    Mixer mixer = {0};
     if (unary < 0 || unary > MOST_UNARY || node < 0 || node > MOST_UNARY || value < 0 || value > MOST_VALUE
         || !open_coder(&coder, given) || !open_bank_for(&mixer, bank, contexts, selector, node + UNSIGNED_SPAN(unary)))
         return MISUSED;
@@ -54,7 +54,7 @@ int64_t code_one_unsigned(
 
 int64_t code_one_signed(Coder given, Bank bank, ConstLongs contexts, int64_t selector, int64_t unary, int64_t value) {
     RangeCoder coder;
-    Mixer mixer;
+    Mixer mixer = {0};
     if (unary < 0 || unary > MOST_UNARY || value < -MOST_VALUE || value > MOST_VALUE || !open_coder(&coder, given)
         || !open_bank_for(&mixer, bank, contexts, selector, SIGNED_SPAN(unary)))
         return MISUSED;

@@ -25,8 +25,17 @@ typedef struct { /* n, as what a number is multiplied with and shifted by instea
     uint32_t half;
 } Divisor;
 
+typedef int32_t OfAxes __attribute__((vector_size(16))); /* a number of each axis, and one that nobody looks at */
+
+INLINE OfAxes row_at(const Ints2 *rows, int32_t v) {
+    const int32_t *row = rows->data + (int64_t)AXES * v;
+    return (OfAxes){row[0], row[1], row[2], 0};
+}
+INLINE OfAxes sizes_of(OfAxes x) { return (x ^ (x >> 31)) - (x >> 31); }
+
 typedef struct { /* what is known of a vertex before its axes */
     Around around;
+    OfAxes sum, size, gaps, errors, means, across, tips; /* of at most 16 neighbours and 8 flaps: below 2^30 */
     Divisor near, with_own, all_flaps; /* neighbours, these and the vertex itself, flaps */
     int32_t flaps, valence, busy; /* busy: mean size of the levels around, all axes added, 1/16 */
     int32_t latest, earliest;     /* neighbours coded last and first */
@@ -57,14 +66,21 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
     p->flaps = (int32_t)least(r->flaps, 3);
     p->valence = within(faces_at(corners, v) - 3, 0, 7);
     p->latest = p->earliest = r->neighbours > 0 ? r->neighbour[0] : v;
-    int64_t all = 0;
+    OfAxes sum = {0}, size = {0}, gaps = {0}, errors = {0}, means = {0}, across = {0}, tips = {0};
     for (int i = 0; i < r->neighbours; i++) {
         int32_t u = r->neighbour[i];
         if (u > p->latest) p->latest = u;
         if (u < p->earliest) p->earliest = u;
-        for (int j = 0; j < AXES; j++) all += size_of(l->levels.data[(int64_t)AXES * u + j]);
+        OfAxes level = row_at(&l->levels, u), gap = row_at(&l->gaps, u);
+        sum += level, size += sizes_of(level), gaps += gap, errors += sizes_of(gap), means += row_at(&l->means, u);
     }
-    p->busy = r->neighbours > 0 ? mean_of(all * FINE, p->near) : 4 * FINE;
+    for (int i = 0; i < r->flaps; i++) {
+        OfAxes tip = row_at(&l->levels, r->flap[i].c);
+        across += row_at(&l->levels, r->flap[i].a) + row_at(&l->levels, r->flap[i].b) - tip;
+        tips += tip;
+    }
+    p->sum = sum, p->size = size, p->gaps = gaps, p->errors = errors, p->means = means, p->across = across, p->tips = tips;
+    p->busy = r->neighbours > 0 ? mean_of((int64_t)(size[0] + size[1] + size[2]) * FINE, p->near) : 4 * FINE;
 }
 
 INLINE int decide(const Level *w, int node, int bit) {
@@ -101,17 +117,8 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     const Around *r = &p->around;
     const int64_t axes = AXES;
     int32_t *x = l->levels.data + j, near = r->neighbours;
-    int64_t sum = 0, size = 0, gaps = 0, errors = 0, means = 0, across = 0, tips = 0;
-    for (int i = 0; i < near; i++) {
-        int64_t at = axes * r->neighbour[i];
-        int32_t gap = l->gaps.data[at + j];
-        sum += x[at], size += size_of(x[at]), gaps += gap, errors += size_of(gap), means += l->means.data[at + j];
-    }
-    for (int i = 0; i < r->flaps; i++) {
-        Flap f = r->flap[i];
-        tips += x[axes * f.c];
-        across += (int64_t)x[axes * f.a] + x[axes * f.b] - x[axes * f.c];
-    }
+    int64_t sum = p->sum[j], size = p->size[j], gaps = p->gaps[j], errors = p->errors[j], means = p->means[j];
+    int64_t across = p->across[j], tips = p->tips[j];
     int32_t mean = 0, typical = 2 * FINE, drift = 0, error_near = 2 * FINE, ring = 0, late = 0, early = 0;
     if (near > 0) {
         mean = mean_of(sum * FINE, p->near), typical = mean_of(size * FINE, p->near);

@@ -33,6 +33,7 @@ int64_t LEVEL(complete_columns)(ConstSingles2 first, double least_pivot, Singles
 void LEVEL(cosines)(Doubles table, Doubles2 columns);
 void LEVEL(resize_columns)(ConstSingles2 previous, Doubles table, Singles2 columns);
 void hash_columns(Doubles2 columns);
+bool LEVEL(are_vectors_exact)(void);
 
 /* Entry of a hash column (specification, M 8.6): the splitmix64 of row * 2^32 + column, as a number in [-1, 1). */
 INLINE double hash_at(int64_t row, int64_t column) {

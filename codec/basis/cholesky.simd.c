@@ -194,7 +194,9 @@ INLINE void substitute_forward(const int vectors, int64_t lane, const Fronts *fr
         const float *matrix = matrices + front.place;
         int64_t k = 0;
         for (; k + ROWS <= front.own; k += ROWS) take_forward(vectors, ROWS, lane, &front, k, border, matrix, x);
-        for (; k < front.own; k++) take_forward(vectors, 1, lane, &front, k, border, matrix, x);
+        if (ROWS > 3 && front.own - k == 3) take_forward(vectors, 3, lane, &front, k, border, matrix, x);
+        else if (ROWS > 2 && front.own - k == 2) take_forward(vectors, 2, lane, &front, k, border, matrix, x);
+        else if (front.own > k) take_forward(vectors, 1, lane, &front, k, border, matrix, x);
     }
 }
 
@@ -206,7 +208,9 @@ INLINE void substitute_back(const int vectors, int64_t lane, const Fronts *front
         const float *matrix = matrices + front.place;
         int64_t k = front.own;
         for (; k >= ROWS; k -= ROWS) take_back(vectors, ROWS, lane, &front, k - ROWS, border, matrix, inverse, x);
-        for (; k > 0; k--) take_back(vectors, 1, lane, &front, k - 1, border, matrix, inverse, x);
+        if (ROWS > 3 && k == 3) take_back(vectors, 3, lane, &front, 0, border, matrix, inverse, x);
+        else if (ROWS > 2 && k == 2) take_back(vectors, 2, lane, &front, 0, border, matrix, inverse, x);
+        else if (k > 0) take_back(vectors, 1, lane, &front, 0, border, matrix, inverse, x);
     }
 }
 

@@ -50,26 +50,54 @@ static int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, In
     return n - count;
 }
 
-/* Enter a step in the border of front t, which ends before step `end`, unless it is there. Without a branch, which the
- * processor could not predict: what is not entered is overwritten, and marks of steps before the end do not count. */
-INLINE int64_t enter(uint32_t step, uint32_t t, int64_t end, uint32_t *mark, uint32_t *borders, int64_t size) {
-    borders[size] = step;
-    size += (step >= end) & (mark[step] != t);
-    mark[step] = t;
-    return size;
+typedef uint64_t StepBits __attribute__((aligned(4), may_alias));
+
+/* Sets of steps, of `words` words each. A set waits for the front whose step is its first after the front that left it. That
+ * front is a separator of a part around: sets wait for one front of each level at most, and those are fewer than 31. */
+typedef struct {
+    StepBits *bits;
+    int64_t words;
+    uint64_t free;     /* bit k: set k */
+    uint32_t *waiting; /* of each front, the set that waits for it */
+} Sets;
+
+/* Sets in 3 n numbers of scratch: there is room for 32 where n is 64 or more, and for n where it is less. */
+static Sets open_sets(uint32_t *scratch, int64_t n) {
+    int64_t words = (n + 63) / 64, most = words > 0 ? n / words : 0;
+    for (int64_t t = 0; t < n; t++) scratch[2 * n + t] = NONE;
+    return (Sets){(StepBits *)scratch, words, most < 64 ? (UINT64_C(1) << most) - 1 : UINT64_MAX, scratch + 2 * n};
+}
+
+/* An empty set; NONE if there is none left. */
+INLINE uint32_t take_set(Sets *sets) {
+    if (sets->free == 0) return NONE;
+    uint32_t set = (uint32_t)__builtin_ctzll(sets->free);
+    sets->free &= sets->free - 1;
+    for (int64_t w = 0; w < sets->words; w++) sets->bits[set * sets->words + w] = 0;
+    return set;
+}
+
+/* Leave the later steps of a set, the first of which is in front `owner`, to that front. */
+static void leave_set(Sets *sets, uint32_t set, int64_t from, uint32_t owner) {
+    const StepBits *bits = sets->bits + set * sets->words;
+    uint32_t other = sets->waiting[owner];
+    if (other == NONE) {
+        sets->waiting[owner] = set;
+        return;
+    }
+    for (int64_t w = from; w < sets->words; w++) sets->bits[other * sets->words + w] |= bits[w];
+    sets->free |= UINT64_C(1) << set;
 }
 
 /* The borders of the fronts that `dissect` found, and all else that `Fronts` holds.
  *
  * Returns the size of `borders`; -1 if there is no room for them; -2 if a factorisation takes more operations than
- * `most_work`. `scratch` has room for n + 2 t, `starts` and `places` for t + 1.
+ * `most_work`, or rows are not in the order of a bisection. `scratch` has room for 3 n, `starts` and `places` for t + 1.
  */
 static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, ConstWords firsts, double most_work,
                      Words scratch, Words steps, Words owners, Words starts, Words borders, Words places) {
     int64_t n = rows.size, count = firsts.size - 1;
-    /* Fronts whose borders begin in the same front, as linked lists. */
-    uint32_t *mark = scratch.data, *child = mark + n, *sibling = child + count;
-    for (int64_t i = 0; i < scratch.size; i++) scratch.data[i] = NONE;
+    Sets sets = open_sets(scratch.data, n);
     for (int64_t t = 0; t < count; t++) {
         for (int64_t k = firsts.data[t]; k < firsts.data[t + 1]; k++) {
             steps.data[rows.data[k]] = (uint32_t)k;
@@ -80,26 +108,24 @@ static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords 
     double work = 0.0;
     starts.data[0] = places.data[0] = 0;
     for (int64_t t = 0; t < count; t++) {
-        int64_t first = firsts.data[t], end = firsts.data[t + 1], begin = size;
+        int64_t first = firsts.data[t], end = firsts.data[t + 1], begin = size, from = end >> 6;
+        uint32_t set = sets.waiting[t] != NONE ? sets.waiting[t] : take_set(&sets);
         if (borders.size < size + n + 2) return -1;
+        if (set == NONE) return -2;
+        StepBits *bits = sets.bits + set * sets.words;
         for (int64_t k = first; k < end; k++) {
             for (int64_t i = offsets.data[rows.data[k]]; i < offsets.data[rows.data[k] + 1]; i++) {
-                size = enter(steps.data[neighbours.data[i]], (uint32_t)t, end, mark, borders.data, size);
+                uint32_t step = steps.data[neighbours.data[i]];
+                bits[step >> 6] |= UINT64_C(1) << (step & 63);
             }
         }
-        for (uint32_t c = child[t]; c != NONE; c = sibling[c]) {
-            int64_t last = starts.data[c + 1];
-            last -= last > starts.data[c] && borders.data[last - 1] == n;
-            for (int64_t i = starts.data[c]; i < last; i++)
-                size = enter(borders.data[i], (uint32_t)t, end, mark, borders.data, size);
-        }
-        sort_ascending((int32_t *)borders.data + begin, size - begin);
-        if (size > begin) {
-            uint32_t owner = owners.data[borders.data[begin]];
-            sibling[t] = child[owner];
-            child[owner] = (uint32_t)t;
-            if ((size - begin) % 2 > 0) borders.data[size++] = (uint32_t)n;
-        }
+        uint64_t later = UINT64_MAX << (end & 63);
+        for (int64_t w = from; w < sets.words; w++, later = UINT64_MAX)
+            for (uint64_t left = bits[w] & later; left != 0; left &= left - 1)
+                borders.data[size++] = (uint32_t)(64 * w + __builtin_ctzll(left));
+        if (size > begin) leave_set(&sets, set, from, owners.data[borders.data[begin]]);
+        else sets.free |= UINT64_C(1) << set;
+        if ((size - begin) % 2 > 0) borders.data[size++] = (uint32_t)n;
         double own = (double)(end - first), width = own + (double)(size - begin);
         work += own * width * width;
         place += (end - first) * whole_lines(end - first + size - begin);
@@ -123,7 +149,7 @@ int64_t find_fronts(ConstInts offsets, ConstInts neighbours, int64_t leaf, doubl
     int64_t count = dissect(offsets, neighbours, leaf, (Ints){(int32_t *)scratch.data, n}, rows, firsts);
     for (int64_t t = 0; t <= count; t++) firsts.data[t] = firsts.data[n - count + t];
     int64_t size = find_borders(offsets, neighbours, (ConstWords){rows.data, n}, (ConstWords){firsts.data, count + 1},
-                                most_work, (Words){scratch.data, n + 2 * count}, steps, owners, starts, borders, places);
+                                most_work, scratch, steps, owners, starts, borders, places);
     if (size < 0) return size;
     sums.data[0] = sums.data[1] = 0.0;
     for (int64_t t = 0; t < count; t++) {

@@ -1,8 +1,7 @@
 /* Vector registers: some floats as one value, or doubles where VECTORS_OF_DOUBLES is defined.
  *
- * Every lane is computed by itself and in the order that is written, each operation rounded as IEEE 754 has it (compilers
- * are told not to fuse products and sums), so the result is the same to the last bit whatever the processor's registers
- * hold.
+ * Every lane is computed by itself and in the order that is written, each operation rounded as IEEE 754 has it
+ * (bitstream/kernel.h), so the result is the same to the last bit whatever the processor's registers hold.
  */
 #ifndef BSM_VECTORS_H
 #define BSM_VECTORS_H
@@ -33,6 +32,11 @@ typedef float Real;
 #define WIDTH LINE
 #define SIDE 1
 #define ROWS 4
+#elif defined(__ARM_NEON) && !defined(__aarch64__) /* registers that flush subnormal numbers */
+#define REGISTER 1
+#define WIDTH 8
+#define SIDE 1
+#define ROWS 1
 #else
 #define REGISTER (16 / REAL_BYTES)
 #define WIDTH 8

@@ -18,10 +18,11 @@ from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.recipe import RAYS, Patient, Recipe, Step
-from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Progress, Rehearsal, silent
+from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Progress, Rehearsal, discrepant, silent
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats
 from bsm.codec.geometry.graph import graph_of_faces
+from bsm.codec.geometry.metrics import Reference
 from bsm.codec.geometry.welding import weld
 
 WHOLE = 8000
@@ -67,6 +68,10 @@ SEEN_HERALDS = (*SEEN[:3], *SEEN[7:9])
 FINE = (("patches", 0.35), ("own", 0.25), ("own", 0.4))
 FUSED = tuple(Recipe("positions", keep, *fine) for keep in (0.2, 0.1, 0.3) for fine in FINE)
 """For views that are fused, whose triangles are slivers: their vertices slide."""
+UNEVEN_FUSED, UNEVEN_RATIO, UNEVEN_MOST = Recipe("positions", 0.1, "own", 0.4), 3.0, 150
+"""For fused views of a real camera. Their noise is broader than any that is drawn here, so nothing is rehearsed: the
+filter goes on until vertices have moved this many times the fine noise."""
+LEFT_UNEVEN = 0.55  # share of the angle that stays then
 LARGEST_KEEP = max(recipe.keep for recipe in CANDIDATES)
 HERALDED, REHEARSED, CHOSEN = 0.05, 0.4, 0.5  # of all work, what is done before heralds, candidates and the filter
 HERALDS = (CANDIDATES[0], *CANDIDATES[1:3], CANDIDATES[7], CANDIDATES[-2])  # those that compete for the second guess
@@ -84,6 +89,10 @@ normals turned by less than they are said to be off are no nearer to the clean o
 meshes that were taken for noisy 1.1 and 2.1."""
 
 
+DETAIL = 2.5
+"""Error that came over the expected one, at most: .9 to 1 on CAD, 1.1 to 1.6 on scans, 2.5 on the armadillo."""
+
+
 @dataclass(frozen=True)
 class AutomaticChoice:
     steps: tuple[Step, ...]
@@ -96,6 +105,11 @@ class AutomaticChoice:
     learnt: float = 0.0
     outliers: int = 0
     ripples: tuple[float, ...] = ()
+
+    @property
+    def at_most(self) -> float:
+        """The error to expect where detail is as fine as the noise, which a rehearsal does not see."""
+        return min(DETAIL * self.expected, self.untreated) if self.rehearsals else self.expected
 
     def after(self, outliers: Outliers, ripples: Ripples) -> AutomaticChoice:
         """The choice for a mesh of which outliers and ripples have been put back."""
@@ -139,6 +153,8 @@ def choose(
     """Rehearse on `positions`, shape (n, 3), or a part of them if they are many, and pick what did best."""
     if not finding.noisy:
         return AutomaticChoice((), finding.kind, finding.reason, NoiseLevel(0.0, 0.0), 0.0, 0.0, 0)
+    if finding.kind == "uneven fused":
+        return _persist(positions, finding, patient)
     members, part = sample(patient.topology.faces, finding.levels)
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
     if len(members) < patient.topology.n:
@@ -171,6 +187,16 @@ def choose(
     level = rehearsal.level
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
     return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
+
+
+def _persist(positions: Positions, finding: Finding, patient: Patient) -> AutomaticChoice:
+    """Filter for as long as the noise of a real camera asks."""
+    guesses = patient.treatments(positions).iterates(UNEVEN_FUSED)
+    times = discrepant(positions, guesses, patient.probe, finding.level, UNEVEN_RATIO, UNEVEN_MOST)
+    steps = (Step(UNEVEN_FUSED, times),)
+    untreated = Reference(positions, patient.topology.faces).theta(patient.treatments(positions).mean(steps))
+    noise = NoiseLevel(finding.level / finding.edge, 0.0)
+    return AutomaticChoice(steps, finding.kind, finding.reason, noise, untreated, LEFT_UNEVEN * untreated, 0)
 
 
 def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tuple[Recipe, ...]:

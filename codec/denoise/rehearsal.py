@@ -17,6 +17,7 @@ import numpy as np
 from bsm.codec.arrays import Positions
 from bsm.codec.denoise.learnt.cascade import joined
 from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
 from bsm.codec.denoise.recipe import Patient, Recipe, Step, blend
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
@@ -58,6 +59,21 @@ GOALS: dict[str, Goal] = {
 }
 
 
+def discrepant(
+    noisy: Positions,
+    guesses: Iterator[Positions],
+    probe: Probe,
+    level: float,
+    ratio: float = DISCREPANCY,
+    most: int = MOST_DISCREPANT,
+) -> int:
+    """Return after how many of `most` iterations the vertices have moved `ratio` times as far as the fine noise."""
+    normals = probe.smooth_normals(noisy, DISCREPANCY_PASSES)
+    moves = (np.einsum("ij,ij->i", noisy - guess, normals) for guess in islice(guesses, most))
+    far = (np.nanmedian(probe.levels(moved)) > ratio * level for moved in moves)
+    return next((count for count, enough in enumerate(far) if enough), most)
+
+
 @dataclass(frozen=True, eq=False)
 class Outcome:
     """Steps, the error of their mean in a rehearsal, and what it made of the noisy mesh there."""
@@ -81,7 +97,7 @@ class Rehearsal:
         self._synthesis = Synthesis(finding, patient.probe, self.level.tangential)
         given, done, self.rounds = 1, -1, 0
         if finding.kind == "fused":
-            given = self._discrepant(patient.treatments(noisy).iterates(base))
+            given = discrepant(noisy, patient.treatments(noisy).iterates(base), patient.probe, finding.level)
         while True:
             guess = self._within(next(islice(guesses, given - done - 1, None)), noisy)
             done = given
@@ -92,14 +108,6 @@ class Rehearsal:
                 break
             given = wanted
         self.rehearse(guess)
-
-    def _discrepant(self, guesses: Iterator[Positions]) -> int:
-        """After how many iterations the vertices have moved as far as the noise has moved them."""
-        probe = self._patient.probe
-        normals = probe.smooth_normals(self._given, DISCREPANCY_PASSES)
-        moves = (np.einsum("ij,ij->i", self._given - guess, normals) for guess in islice(guesses, MOST_DISCREPANT))
-        far = (np.nanmedian(probe.levels(moved)) > DISCREPANCY * self._finding.level for moved in moves)
-        return next((count for count, enough in enumerate(far) if enough), MOST_DISCREPANT)
 
     def rehearse(self, guess: Positions) -> None:
         """Make another guess, shape (n, 3), noisy, with other noise."""

@@ -59,8 +59,8 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
     judged = windows.valid & (known > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0
-    most = MOST_SEEN if finding.kind in ("view", "fused") else MOST
-    if finding.kind in ("correlated", "view", "fused"):
+    most = MOST_SEEN if finding.kind in ("view", "fused", "uneven fused") else MOST
+    if finding.kind in ("correlated", "view", "fused", "uneven fused"):
         most *= min(max(movement, 1.0), MOST_CORRELATED)
     bad = windows.valid & ~(ratio <= most)
     failed = float(bad[judged].mean()) if judged.any() else 0.0

@@ -9,7 +9,7 @@ INLINE bool fits_graph(ConstInts offsets, ConstInts neighbours) {
     return offsets.size > 0 && offsets.data[offsets.size - 1] >= 0 && neighbours.size >= offsets.data[offsets.size - 1];
 }
 
-int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends);
+int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second);
 int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Ints waiting, Ints sizes);
 int64_t reaches_all(ConstInts offsets, ConstInts neighbours, Ints scratch);
 void vertex_faces(ConstInts2 faces, Longs starts, Ints members);

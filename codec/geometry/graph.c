@@ -1,20 +1,17 @@
 /* The graph of a mesh, compressed rows in ascending order (specification, M 2). */
 #include "codec/geometry/geometry.h"
 
-/* Edges of `faces`, whose entries are below `offsets.size - 1`. Returns the number of neighbours kept in `ends`,
- * which has room for six a face; `filled` is scratch, one entry a vertex. */
-int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends) {
+/* Edges of `faces`, whose entries are below `offsets.size - 1`. Returns the number of neighbours kept in `ends`, which has
+ * room for six a face; `filled` and `second` are scratch, one entry a vertex and six a face. */
+int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second) {
     int64_t size = offsets.size - 1;
     for (int64_t v = 0; v <= size; v++) offsets.data[v] = 0;
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
-        for (int i = 0; i < 3; i++) {
-            int32_t a = face[i], b = face[(i + 1) % 3];
-            if (a != b) {
-                offsets.data[a + 1]++;
-                offsets.data[b + 1]++;
-            }
-        }
+        int32_t a = face[0], b = face[1], c = face[2];
+        offsets.data[a + 1] += (a != b) + (a != c);
+        offsets.data[b + 1] += (b != c) + (b != a);
+        offsets.data[c + 1] += (c != a) + (c != b);
     }
     for (int64_t v = 0; v < size; v++) {
         filled.data[v] = offsets.data[v];
@@ -23,26 +20,28 @@ int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends) {
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         for (int i = 0; i < 3; i++) {
-            int32_t a = face[i], b = face[(i + 1) % 3];
-            if (a != b) {
-                ends.data[filled.data[a]++] = b;
-                ends.data[filled.data[b]++] = a;
-            }
+            int32_t a = face[i], b = face[i < 2 ? i + 1 : 0], c = face[i > 0 ? i - 1 : 2];
+            if (a != b) second.data[filled.data[a]++] = b;
+            if (a != c) second.data[filled.data[a]++] = c;
         }
     }
-    /* Each row is now complete but unsorted, and an edge stands in it once for every face beside it. */
+    /* Each row is complete now, but in no order, and an edge stands in it once for every face beside it. Turned over, the
+     * rows are ascending: vertex v comes to its neighbours after all vertices before it. A row holds as many entries as
+     * come to it, so that what is written twice stays within it. */
+    for (int64_t v = 0; v < size; v++) filled.data[v] = offsets.data[v];
+    for (int64_t v = 0; v < size; v++) {
+        for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
+            int32_t w = second.data[i], at = filled.data[w];
+            bool is_new = at == offsets.data[w] || ends.data[at - 1] != v;
+            ends.data[at] = (int32_t)v;
+            filled.data[w] = at + is_new;
+        }
+    }
     int64_t kept = 0;
     for (int64_t v = 0; v < size; v++) {
-        int64_t first = offsets.data[v], last = offsets.data[v + 1];
-        sort_ascending(ends.data + first, last - first);
+        int64_t first = offsets.data[v], last = filled.data[v];
         offsets.data[v] = (int32_t)kept;
-        int32_t previous = -1;
-        for (int64_t i = first; i < last; i++) {
-            if (ends.data[i] != previous) {
-                previous = ends.data[i];
-                ends.data[kept++] = previous;
-            }
-        }
+        for (int64_t i = first; i < last; i++) ends.data[kept++] = ends.data[i];
     }
     offsets.data[size] = (int32_t)kept;
     return kept;

@@ -27,8 +27,9 @@ class Graph:
 
 def graph_of_faces(faces: Indices, size: int) -> Graph:
     """Graph on `size` vertices of the triangles `faces`, shape (m, 3); degenerate corners make no edges."""
-    offsets, filled, ends = np.empty(size + 1, np.int32), np.empty(size, np.int32), np.empty(6 * len(faces), np.int32)
-    kept = _kernels.collect_edges(np.ascontiguousarray(faces, np.int32), offsets, filled, ends)
+    offsets, filled = np.empty(size + 1, np.int32), np.empty(size, np.int32)
+    ends, second = np.empty(6 * len(faces), np.int32), np.empty(6 * len(faces), np.int32)
+    kept = _kernels.collect_edges(np.ascontiguousarray(faces, np.int32), offsets, filled, ends, second)
     return Graph(offsets, ends[:kept].copy())
 
 

@@ -1,7 +1,10 @@
 """How much alike two meshes look: a distance, up to 1 they look the same on a screen (`spec/look.md`)."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,10 +28,10 @@ from bsm.codec.look.pictures import (
     Normals,
     Picture,
     Shape,
+    Size,
     cameras,
     difference,
     in_colours,
-    pixels_for,
 )
 from bsm.codec.threads import Result, ordered_map
 
@@ -41,6 +44,8 @@ TURNED = 1.5  # degrees that normals may be turned, on average over the picture 
 MOST_TILES = 2.0**20  # how often a texture may be repeated
 LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
 _LARGEST = 1e150
+MOST_WORK, WORK_PER_FACE = 120_000_000, 10_000
+"""Pixels to draw before an encoder no longer looks for still smaller streams: about half a second, and 50 us a face."""
 
 Paint = Callable[[Canvas, Positions, Faces, Matrix, Matrix], list[Picture]]
 Shading = Callable[[Positions], Normals]  # normals of corners, where vertices are known
@@ -105,16 +110,28 @@ class LookMetric:
         self._middle = low + (high - low) / 2
         positions = self._placed(mesh.positions)
         self._shape = Shape.of(positions, mesh.faces)
-        self.pixels = min(pixels_for(positions, mesh.faces), most_pixels)
+        self._size, self._drawn_pictures = Size.of(positions, mesh.faces, most_pixels), 0
+        self.pixels = self._size.pixels
         self._cameras = cameras(self._placed(used), self.pixels)
         self._idle = list[Canvas]()
         self._pictures = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
-        if not any(picture.min() < BACKGROUND for picture in self._pictures):
+        if self._size.largest < LEAST_AREA or not any(picture.min() < BACKGROUND for picture in self._pictures):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
         own = own_normals(mesh)
         self._own = None if own is None else (self._drawn(positions, self._shape.faces, own), own)
         self._shading = shading
         self._worst = list(FEW)
+
+    def shaded_by(self, shading: Shading) -> LookMetric:
+        """Return the same metric for versions with normals that `shading` makes."""
+        other = copy(self)
+        other._shading = shading
+        return other
+
+    @property
+    def is_spent(self) -> bool:
+        """Whether so much was drawn that nothing should be drawn that need not be."""
+        return self._drawn_pictures * self._size.work > MOST_WORK + WORK_PER_FACE * len(self._mesh.faces)
 
     def look(self, positions: Positions) -> Look:
         """How these positions look on the faces of the original, with normals that follow from them."""
@@ -254,6 +271,7 @@ class LookMetric:
             self._idle.append(canvas)
             return result
 
+        self._drawn_pictures += len(sides)
         return list(ordered_map(done, sides, self._threads))
 
     def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:

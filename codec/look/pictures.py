@@ -34,9 +34,15 @@ FEW = (0, 3, 6, 9, 12)  # those from which a mesh looks about as it does from al
 LIGHT = (0.35, 0.5, 0.79)  # where the light is: right, up, towards the camera
 AIR = 1.03  # the side of the picture over the longer side of what it shows
 LEAST_PIXELS, MOST_PIXELS = 512, 2048
-EDGE_PIXELS = 2.0  # what a mean edge has, where `MOST_PIXELS` allow it
+FEWEST_PIXELS = 16  # where so many faces cover each other that `LEAST_PIXELS` take too long
+FACE_PIXELS = 8  # by which a picture of more than the least pixels grows for each face, at most
+EDGE_PIXELS = 2.0  # of a mean edge, where `MOST_PIXELS` and `MOST_COVERED` allow it
+MOST_COVERED, COVERED_BY_FACE, ROW = 5 * LEAST_PIXELS**2, 16, 4
+"""Pixels that faces may cover in a picture, each as often as it is covered, and how many more for each face; and pixels
+that take as long to cover as a row of a face takes."""
 CHECKS, DARK, TEXELS = 8, 0.35, 128  # of a checker: squares a side, how bright dark ones are, texels of their sides
 _GRID = 2.0**24
+EMPTY = 2  # work of a pixel that no face covers, where covering one is 1
 _SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}
 _SCRATCH_ROWS, _TILE = 75, 8
 _NOWHERE = np.empty((0, 0), np.float32)
@@ -117,16 +123,36 @@ def cameras(positions: Positions, pixels: int) -> list[Matrix]:
     return found
 
 
-def pixels_for(positions: Positions, faces: Faces) -> int:
-    """Pixels of a side of the pictures: enough that the mean edge has `EDGE_PIXELS`."""
-    first, second, third = (positions[corner] for corner in np.ascontiguousarray(faces.T))
-    sides = [first - second, second - third, third - first]
-    edge = float(sum(np.sqrt(np.einsum("fd,fd->f", side, side)).sum() for side in sides)) / (3 * len(faces))
-    ends = np.array([box_around(corner) for corner in (first, second, third)])
-    side = AIR * float((ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)).max())
-    if not edge * MOST_PIXELS > EDGE_PIXELS * side:
-        return MOST_PIXELS
-    return max(LEAST_PIXELS, math.ceil(EDGE_PIXELS * side / edge))
+@dataclass(frozen=True)
+class Size:
+    """How large pictures are, and the work of one: pixels to clear and compare, and those that faces cover."""
+
+    pixels: int
+    work: float
+    largest: float  # of the areas of faces, in a box of diagonal 1
+
+    @classmethod
+    def of(cls, positions: Positions, faces: Faces, most_pixels: int = MOST_PIXELS) -> Size:
+        """Enough pixels that the mean edge has `EDGE_PIXELS`, but no more than `MOST_COVERED` ones that are covered."""
+        corners = [positions[corner] for corner in np.ascontiguousarray(faces.T)]
+        sides = [corners[0] - corners[1], corners[1] - corners[2], corners[2] - corners[0]]
+        lengths = np.sqrt([np.einsum("fd,fd->f", side, side) for side in sides])
+        crosses = np.cross(sides[0], sides[1])
+        ends = np.array([box_around(corner) for corner in corners])
+        extent = AIR * float((ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0)).max())
+        edge = float(lengths.sum()) / (3 * len(faces))
+        if not edge > 0.0:
+            return cls(LEAST_PIXELS, 0.0, 0.0)
+        # On average over all sides, a face covers half of its area, and has rows for half of its longest side.
+        areas = np.sqrt(np.einsum("fd,fd->f", crosses, crosses)) / 2.0
+        covered = float(areas.sum()) / (2.0 * extent**2)
+        rows = ROW * float(lengths.max(axis=0).sum()) / (2.0 * extent)
+        room = MOST_COVERED + COVERED_BY_FACE * len(faces)
+        most = 2.0 * room / (rows + math.sqrt(rows**2 + 4.0 * covered * room))
+        wanted = max(LEAST_PIXELS, math.ceil(min(EDGE_PIXELS * extent / edge, MOST_PIXELS)))
+        grown = math.isqrt(LEAST_PIXELS**2 + FACE_PIXELS * len(faces))
+        pixels = max(FEWEST_PIXELS, min(wanted, grown, most_pixels, int(min(most, MOST_PIXELS))))
+        return cls(pixels, (EMPTY + covered) * pixels**2 + rows * pixels, float(areas.max()))
 
 
 @dataclass(frozen=True, eq=False)

@@ -139,6 +139,17 @@ class Bound:
         off = float(np.abs(wide - now).max(initial=0.0))
         return off if math.isfinite(off) else math.inf
 
+    def between(self, decoded: Matrix, given: Matrix) -> float:
+        """How far decoded values, shape (k, c), are off the given ones, as a share of what is allowed."""
+        apart = np.abs(decoded - given)
+        most = float(apart.max(initial=0.0))
+        if self._is_rms:
+            most = max(float(np.sqrt(np.square(apart).mean())), most / OUTLIER)
+        # Decoded floats are rounded once more.
+        rounding = float(np.finfo(np.float32).eps) * float(np.abs(given).max(initial=0.0))
+        allowed = (self.amount or 0.0) * (1.0 + MARGIN) + rounding
+        return float(most / allowed) if most > 0.0 else 0.0
+
     @property
     def _is_rms(self) -> bool:
         return self.quality.way == "rms"
@@ -147,6 +158,15 @@ class Bound:
         if not self.amount:
             return "exact"
         return f"within {self.amount:.3g}{' on average' if self._is_rms else ''}"
+
+
+@dataclass(frozen=True, eq=False)
+class Expected:
+    """Values of an attribute in one frame, shape (n, d) in the order of coding, and how far decoded ones may be off."""
+
+    number: int
+    values: Values
+    bound: Bound
 
 
 def moved(one: PreparedAttribute) -> PreparedAttribute:
@@ -177,6 +197,10 @@ class Mover:
         if self.bound.amount is None:
             return self._carried.note
         return f"{self.name}: per vertex, moves, {self.bound} in every frame"
+
+    def expected(self, values: Values) -> Expected:
+        """What a decoder must have in a frame whose values, shape (n, d), these are."""
+        return Expected(self.number, self.first if self.bound.amount is None else values, self.bound)
 
     def begin(self, positions: GopEncoder, setting: Setting, number: int) -> None:
         """Begin a run, in which this attribute has the track of this number; `positions` has its dictionaries."""

@@ -17,24 +17,25 @@ from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError, public
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.codec.arrays import Matrix, Order
+from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.sequence.attributes import Bound, Mover, moved, with_fields
-from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.frames import Group, next_group, require_same
 from bsm.codec.sequence.gop import GopEncoder, silent
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.run_encoding import PARTS, EncodedGops, FirstFrame, RunEncoder, finest_step
 from bsm.codec.sequence.runs import Cutter, Frame, JoinedRun, Run, Shelf, joined_runs
 from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
+from bsm.codec.sequence.verification import ExpectedFrame, SequenceVerifier
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import qualities
 from bsm.codec.static.encoder import PROMISED_SIZES
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
+from bsm.codec.static.verification import Original
 from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
 from bsm.codec.static.work import Allowance, run_cost
 
@@ -165,13 +166,25 @@ class SequenceEncoder:
 
     def attempt(self, frames: Sequence[Frame], step: float, progress: Progress | None = None) -> SequenceAttempt:
         """Encode frames, each of shape (n, 3), or meshes, with a given step, and see what the decoder will."""
-        chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress))
-        decoded, faces = decode_sequence(b"".join(chunks), NAMED_LIMITS[self.options.limits](), self.options.threads)
+        shown: list[Positions] = []
+        chunks = tuple(self._chunks(frames, replace(self.options, step=step), progress, shown))
+        if len(self.run_starts) > 1:
+            raise MeshError("the faces change: there is no target for this")
+        decoded = np.array(shown)
         original = np.array([_positions(frame)[self.vertex_order] for frame in frames])
-        return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, faces))
+        return SequenceAttempt(chunks, decoded.size // 3, compare_sequences(original, decoded, self._verifier.faces))
 
-    def _chunks(self, frames: Iterable[Frame], options: SequenceOptions, progress: Progress | None) -> Iterator[bytes]:
+    def _chunks(
+        self,
+        frames: Iterable[Frame],
+        options: SequenceOptions,
+        progress: Progress | None,
+        shown: list[Positions] | None = None,
+    ) -> Iterator[bytes]:
         steps: Progress = silent
+        self._verifier = verifier = SequenceVerifier(
+            NAMED_LIMITS[options.limits](), self._metadata, options.threads, shown
+        )
         shelf = Meshes(options)
         writer = Writer()
         number = 0
@@ -182,9 +195,11 @@ class SequenceEncoder:
             if not index:
                 gops = -(-self._count // options.together(len(run.joined.first)))
                 steps = _Rounds(progress if gops else None, gops + (options.promise is None))
-                yield writer.start()
+                yield verifier.take(writer.start())
             for packet in self._run(run, index, shelf, options, steps):
-                yield writer.write(packet)
+                with as_of_decoders(options.limits):
+                    chunk = verifier.take(writer.write(packet))
+                yield chunk
             number = run.first + self._done
         if not self.run_starts:
             raise MeshError("a sequence needs at least one frame")
@@ -192,7 +207,7 @@ class SequenceEncoder:
             raise OptionError(f"{self._count} frames were announced and {number} came")
         changes = (f"{name} changes at frame {first}, but stays as before" for name, first in cutter.changed.items())
         self.notes = (*self.notes, *changes)
-        yield writer.end(self._checksum)
+        yield verifier.take(writer.end(self._checksum), last=True)
 
     def _dressed(self, cutter: Cutter) -> Iterator[Run]:
         """Runs with the attributes that each is sent with."""
@@ -217,13 +232,16 @@ class SequenceEncoder:
         if opened is None:
             more = len(group) == longest and run.first + longest != self._count
             carried, movers = self._carried(run, prepared, options, group, more=more)
+            resting = tuple(attribute for attribute in carried if not attribute.declaration.moves)
             gops = encoder.first(group, shelf.allowance, [mover.start for mover in movers])
+            self._verifier.expect_mesh(Original(run.given, run.joined, prepared), resting)
             yield from self._opened(run, index, prepared, gops.first_frame, carried)
         else:
-            movers, before = opened.movers, opened.gops
+            movers, before, resting = opened.movers, opened.gops, opened.resting
             fresh = GopEncoder(before.first_frame.setting, replace(options, step=before.encoder.step))
             gops = encoder.next(group, 0, EncodedGops(before.first_frame, fresh, ()))
             mesh = before.first_frame.header
+            self._verifier.expect_mesh(Original(run.given, run.joined, prepared), resting)
             yield Header(
                 vertices=mesh.vertices, faces=mesh.faces, sequence=(self._count, longest), run=(index, opened.run)
             )
@@ -233,20 +251,26 @@ class SequenceEncoder:
         numbers = [mover.number for mover in movers]
         still = {name: values[0] for name, values in group.moving.items() if name not in {one.name for one in movers}}
         while len(group):
-            for body in with_fields(gops.bodies, movers, group.moving):
+            bodies = with_fields(gops.bodies, movers, group.moving)
+            for number, frame in enumerate(gops.decoded_frames()):
+                positions = prepared.units.back(frame)
+                self._checksum = checksum_of(positions, self._checksum)
+                moving = tuple(mover.expected(group.moving[mover.name][number]) for mover in movers)
+                self._verifier.expect_frame(ExpectedFrame(positions, moving))
+            for body in bodies:
+                if 0 < self._count < run.first + self._done + body.frames:
+                    raise OptionError(f"{self._count} frames were announced and more came")
                 first_frame.admit(body, self._done)
                 yield packets.Gop(run.first + self._done, write_gop_body(body, index, numbers))
                 self._done += body.frames
                 self.samples += body.frames * len(self.vertex_order)
-            for frame in gops.decoded_frames():
-                self._checksum = checksum_of(prepared.units.back(frame), self._checksum)
             del group  # before the next one is read
             group = next_group(frames, longest, prepared, run.moving)
             if len(group):
                 gops = encoder.next(group, self._done, gops)
                 require_same(still, group)
         self.notes = tuple(dict.fromkeys((*self.notes, *(mover.note for mover in movers))))
-        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, gops, movers), run)
+        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, gops, movers, resting), run)
 
     def _prepared(self, joined: JoinedMesh, options: SequenceOptions) -> Prepared:
         joined.mesh.require_sizes(*PROMISED_SIZES)
@@ -268,6 +292,8 @@ class SequenceEncoder:
             if one.name in move:
                 bounds[one.name] = bounds[one.name].over(group.moving[one.name])
                 quality = bounds[one.name].of_first
+            elif quality.way == "recompute":
+                raise OptionError(f"{one.name!r}: normals of a sequence cannot be recomputed; ask for 2deg or none")
             elif one.name not in may or (quality.way == "exact" and one.values.dtype.kind == "f"):
                 del bounds[one.name]
             wanted.append((one, quality))
@@ -301,6 +327,7 @@ class OpenedMesh:
     prepared: Prepared
     gops: EncodedGops
     movers: tuple[Mover, ...]
+    resting: tuple[PreparedAttribute, ...]
 
 
 class Meshes:

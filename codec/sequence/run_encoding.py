@@ -19,11 +19,10 @@ from bsm.codec.sequence.row_prediction import LARGEST_LEVEL, ROUNDS
 from bsm.codec.sequence.step_search import StepSearch
 from bsm.codec.sequence.tracks import Setting, gop_memory, make_setting
 from bsm.codec.signal.transform import smallest_step
-from bsm.codec.static.assembly import blended
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, admit, as_of_decoders, encode_blocks
+from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, admit, as_of_decoders, blended, encode_blocks
 from bsm.codec.static.work import Allowance, run_cost
 
 FIRST_STEP = 0.3

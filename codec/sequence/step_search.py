@@ -19,6 +19,7 @@ from bsm.codec.sequence.frames import same_frames
 from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.row_prediction import ROUNDS
 from bsm.codec.static.targets import COARSEST_STEP
+from bsm.codec.threads import ordered_map
 
 KNOTS = 10  # frames, evenly over a GOP, that small pictures are drawn of at every attempt, beside those that were large
 SMALL = 256  # pixels of the side of these
@@ -159,7 +160,10 @@ class StepSearch:
         farthest = math.sqrt(max(float(np.square(a - b).sum(axis=1).max()) for a, b in pairs)) / self._reach
         if not self._knots:
             return Measured(farthest, np.zeros(0), {})
-        errors = np.array([self._shading.error(self._shading.normals(a), b) for a, b in pairs]).clip(1e-12)
+        wrong = ordered_map(
+            lambda pair: self._shading.error(self._shading.normals(pair[0]), pair[1]), pairs, self._threads
+        )
+        errors = np.array(list(wrong)).clip(1e-12)
         small = {index: self._look(index, decoded, SMALL) for index in self._knots} if len(pairs) > 1 else {}
         self._power = self._power or _power_of(errors[list(small)], np.array(list(small.values())))
         errors **= self._power
@@ -213,7 +217,10 @@ class StepSearch:
                 self._metrics[key] = metric
         else:
             metric = self._metrics[key]
-        return 0.0 if metric is None else metric.look(decoded).moving / self._promise.look
+        if metric is None:
+            return 0.0
+        few, whole = metric.glance(decoded, *((math.inf, math.inf) if key[1] == SMALL else (0.0, math.inf)))
+        return (whole or few).moving / self._promise.look
 
     def _metric(self, index: int, most_pixels: int) -> LookMetric | None:
         """None for a frame of which nothing is seen."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
+from operator import itemgetter
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference
 from bsm.codec.geometry.welding import row_numbers
-from bsm.codec.look.measure import Shading, Worn, is_worn, own_normals
+from bsm.codec.look.measure import Worn, is_worn, own_normals
 from bsm.codec.look.pictures import FEW, Normals
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
@@ -27,10 +28,10 @@ from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.choice.bounds import Measures
 from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.choice.search import Search
-from bsm.codec.static.decoder import decode
-from bsm.codec.static.options import EncodeOptions
+from bsm.codec.static.options import LARGE_BLOCKS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
 from bsm.codec.static.targets import SLACK, TRIES, WIDEST, Contract, Target, search_step
+from bsm.codec.static.verification import Original, verify
 from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
 
 
@@ -92,7 +93,9 @@ class Encoder:
         if not (self.options.target or self.options.promise or self.options.is_grid or self.options.says_how):
             raise OptionError("nothing is asked for: give a bound or a target, or another preset than none")
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
-        self._given = mesh
+        self._given, self._coded = mesh, self.options  # how it is coded, which the best effort chooses
+        promise, unit = self.options.promise, mesh.metadata.get("unit")
+        self._doubt = "" if promise is None else promise.doubt(mesh.diagonal, unit if isinstance(unit, str) else "")
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -100,7 +103,8 @@ class Encoder:
         sent = {one.name for one, _ in self._wanted}
         left = [one.name for one in self._given.attributes if one.name not in sent]
         said = (*(one.note for one in self._carried), *([f"left out: {', '.join(left)}"] if left else []))
-        return (*self._joined.notes, *said)
+        doubt = [f"the preset's bound holds, and no other: {self._doubt}"] if self._doubt else []
+        return (*self._joined.notes, *said, *doubt)
 
     @property
     def mesh(self) -> TriangleMesh:
@@ -110,9 +114,7 @@ class Encoder:
     @property
     def vertex_order(self) -> Order:
         """The decoder's vertex j is vertex `vertex_order[j]` of the given mesh, or at its place; int64, shape (k,)."""
-        if self._joined.splits is not None:
-            return np.arange(len(self._given.positions))
-        return self._joined.first[self._prepared.vertex_order]
+        return Original(self._given, self._joined, self._prepared).vertex_order
 
     @property
     def vertex_index(self) -> Order:
@@ -159,7 +161,7 @@ class Encoder:
         self._take_attributes()
         promise = self.options.promise
         kept = self._dressed(self._bare(progress)) if promise is None else self._smallest(promise, progress)
-        return self._admitted(kept)
+        return self._verified(kept)
 
     def _bare(self, progress: Progress | None) -> Draft:
         options = self.options
@@ -192,7 +194,7 @@ class Encoder:
             found = self._as_said(target, progress)
         else:
             found = self._sized(target, progress) if target.shrinks_with_step else self._bounded(target, progress)
-        self._admitted(found.draft)
+        self._verified(found.draft)
         return found
 
     def _bounded(self, target: Target, progress: Progress | None) -> Attempt:
@@ -206,6 +208,8 @@ class Encoder:
 
     def _smallest(self, contract: Contract, progress: Progress | None) -> Draft:
         """The smallest stream that keeps a contract, in colours and under a checker where it has them, too."""
+        if self.options.effort == "best":
+            self._choose_blocks(contract)
         search = self._search(contract, progress)
         worn = self._worn(contract.look) if search.metric is not None and contract.look < math.inf else []
         asked = contract
@@ -219,6 +223,19 @@ class Encoder:
                 break
             asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
         return kept
+
+    def _choose_blocks(self, contract: Contract) -> None:
+        """Go on with the size of blocks with which the shape alone takes fewest bytes."""
+        found: list[tuple[int, EncodeOptions, Prepared]] = []
+        for coded in (self.options, replace(self.options, **LARGE_BLOCKS)):
+            self._coded = coded
+            self.__dict__.pop("_prepared", None)
+            draft = self._search(contract, None).smallest(contract)
+            found.append((draft.size, self._coded, self._prepared))
+            if draft.places is not None:
+                break  # a grid has no blocks
+        _, self._coded, self._prepared = min(found, key=itemgetter(0))
+        self._carried = carry(place_of(self._given, self._joined, self._prepared), self._wanted)
 
     def _worn(self, look: float) -> list[tuple[int, Worn]]:
         """Which attributes are colours or texture coordinates nothing is said of, now as rough as looks right."""
@@ -268,9 +285,9 @@ class Encoder:
             else:
                 least = bits + 1
         kept = self._dressed(bare)
-        if may and looks(again, self._prepared.positions):  # finer ones are, too, perhaps
+        if may and not metric.is_spent and looks(again, self._prepared.positions):  # finer ones are, too, perhaps
             with suppress(TargetError):
-                finer = self._search(contract, progress, again[free].normals).smallest(contract)
+                finer = search.shaded_by(again[free].normals).smallest(contract)
                 other = with_attributes(finer, again, self._given.metadata)
                 if other.size < kept.size and looks(again, self._prepared.units.into(finer.decoded)):
                     self._carried, kept = again, other
@@ -333,11 +350,12 @@ class Encoder:
     def _size(self, draft: Draft) -> int:
         return self._dressed(draft).size
 
-    def _admitted(self, draft: Draft) -> Draft:
-        """The draft, once it is known that decoders take what it carries besides positions: it is decoded."""
-        if self._carried:
-            with as_of_decoders(self.options.limits):
-                decode(b"".join(draft.frames), NAMED_LIMITS[self.options.limits](), self.options.threads)
+    def _verified(self, draft: Draft) -> Draft:
+        """The draft, once the decoder has given back what it promises."""
+        original = Original(self._given, self._joined, self._prepared)
+        with as_of_decoders(self.options.limits):
+            limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
+            verify(draft, original, self._carried, self._given.metadata, limits, threads)
         return draft
 
     @cached_property
@@ -357,7 +375,7 @@ class Encoder:
 
     @cached_property
     def _prepared(self) -> Prepared:
-        options = self.options
+        options = self._coded
         parts = Parts(options.block_size, options.overlap, options.paper.partition == "metis")
         return prepare(
             self._joined.mesh, parts, keep_order=options.keep_order, splits=self._joined.splits, light=options.quick
@@ -379,11 +397,11 @@ class Encoder:
         said = one.name in dict(options.attributes) or not np.isfinite(self._normals).all()
         return None if said or one.domain == "face" or quality.way != "bits" else first
 
-    def _search(self, contract: Contract, progress: Progress | None, shading: Shading | None = None) -> Search:
-        measures = Measures(self._prepared, self.options.threads, self._normals, shading, alike=contract.alike)
+    def _search(self, contract: Contract, progress: Progress | None) -> Search:
+        measures = Measures(self._prepared, self.options.threads, self._normals, alike=contract.alike)
         # About as long as blocks take, drawing and weighing take behind them.
         half = None if progress is None else lambda done, blocks: progress(done, 2 * blocks)
-        return Search(measures, self.options, half, self._size)
+        return Search(measures, self._coded, half, self._size)
 
     @cached_property
     def _normals(self) -> Normals | None:
@@ -399,7 +417,7 @@ class Encoder:
 
     @cached_property
     def _spectral(self) -> Spectral:
-        return Spectral(self._prepared, self.options)
+        return Spectral(self._prepared, self._coded)
 
     @cached_property
     def _reference(self) -> Reference:

@@ -16,6 +16,7 @@ CHOICES = {
     "key_seed": KEY_SEEDS,
     "partition": ("derived", "metis"),
     "normals": ("look", "keep", "recompute"),
+    "effort": ("quick", "normal", "best"),
     "limits": tuple(NAMED_LIMITS),
 }
 RANGES: dict[str, tuple[float, float]] = {
@@ -116,7 +117,7 @@ class EncodeOptions:
     coefficients : int, optional
         c itself; overrides `keep`.
     block_size : int
-        Vertices of a part before overlap, about.
+        Vertices of a part before overlap, about. Smaller ones decode faster: 1 % of bytes is worth 8 % of that time.
     overlap : float
         n_d as a multiple of the largest part.
     key_interval : int
@@ -137,9 +138,12 @@ class EncodeOptions:
         What is promised, beside the target if there is one; the encoder finds the cheapest way to keep it. None:
         nothing but the target. It says nothing where `grid`, `grid_cell` or any of `CODING` is given:
         who says how to code gets that.
+    effort : str
+        "quick": only what is quick to decode, which is positions on a grid, without dictionaries, coded
+        by a small model, with `grid` and `grid_cell` as well; "normal"; "best": blocks of several sizes and more
+        steps, for the smallest file. It takes several times as long, and larger blocks are slower to decode.
     quick : bool
-        Of all ways that keep a contract or reach a target only what is quick to decode: positions on a grid, without
-        dictionaries. With `grid` and `grid_cell`, too, values are coded by a small model, in some more bytes.
+        Another name of ``effort="quick"``.
     exact : bool
         Keep every position as single precision has it, to the bit.
     grid : int, optional
@@ -178,13 +182,14 @@ class EncodeOptions:
     coefficients: int | None = None
     block_size: int = 550
     overlap: float = 1.05
-    key_interval: int = 32
+    key_interval: int = 8
     step: float | None = None
     smoothing: float | None = None
     keep_order: bool = False
     paper: Paper = Paper()
     target: Target | None = None
     contract: Contract | None = BALANCED
+    effort: str = "normal"
     quick: bool = False
     exact: bool = False
     grid: int | None = None
@@ -199,6 +204,10 @@ class EncodeOptions:
         if self.target is not None and not isinstance(self.target, Target):
             raise ArgumentError(f"target must be a Target, not {self.target!r}")
         check_options(self, CHOICES, RANGES)
+        if self.quick and self.effort == "best":
+            raise OptionError("quick is another name of one effort, and best is another effort")
+        object.__setattr__(self, "effort", "quick" if self.quick else self.effort)
+        object.__setattr__(self, "quick", self.effort == "quick")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
         if not isinstance(self.paper, Paper):
             raise ArgumentError(f"paper must be a Paper, not {self.paper!r}")
@@ -265,21 +274,24 @@ class EncodeOptions:
 
 def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
     """The options with fields changed, those of `Paper` among them."""
+    if "effort" in changes or "quick" in changes:
+        quick = changes.get("quick", False)
+        changes = {"quick": quick, "effort": "normal", **changes}
     of_paper = {one.name: changes.pop(one.name) for one in fields(Paper) if one.name in changes}
     if of_paper:
         changes["paper"] = replace(changes.get("paper", options.paper), **of_paper)
     return replace(options, **changes)
 
 
+LARGE_BLOCKS: dict[str, Any] = {"block_size": 1500, "overlap": 1.0, "key_interval": 0}
+"""What the best effort compares with the blocks that were asked for: fewer bytes, and slower to decode."""
 CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
 FINE, SMALL = 0.001, 0.02  # promises of positions, from which on attributes are kept better, or less well
 STEP = 0.004  # of blocks alone
 
 PRESETS: dict[str, EncodeOptions] = {
-    "small": EncodeOptions(
-        block_size=1500, overlap=1.0, key_interval=0, contract=Contract(0.02, look=3.0, by_part=0.02)
-    ),
+    "small": EncodeOptions(**LARGE_BLOCKS, contract=Contract(0.02, look=3.0, by_part=0.02)),
     "balanced": EncodeOptions(contract=BALANCED),
     "fine": EncodeOptions(contract=Contract(0.005, look=0.5, by_part=0.005)),
     "near-lossless": EncodeOptions(contract=Contract(0.0005, look=0.25, by_part=0.005)),

@@ -14,14 +14,6 @@ ANY_ANGLE = 180.0
 WIDEST = 0.1  # of the diagonal: who asks for a wider bound took one unit for another
 
 
-def _refuse_wide(what: str, share: float) -> None:
-    if share > WIDEST:
-        raise OptionError(
-            f"{what} may be at most {WIDEST:.0%} of the bounding box's diagonal away, not {share:.4g} times it; a "
-            "number without a unit is a share of the diagonal: 0.001 is 0.1%"
-        )
-
-
 @public
 @dataclass(frozen=True)
 class Contract:
@@ -68,8 +60,11 @@ class Contract:
     def __post_init__(self) -> None:
         if not 0.0 < self.farthest < float("inf"):
             raise OptionError(f"a bound on the farthest vertex must be above 0, not {self.farthest:g}")
-        if not self.absolute:
-            _refuse_wide("the farthest vertex", self.farthest)
+        if not self.absolute and self.farthest > WIDEST:
+            raise OptionError(
+                f"the farthest vertex may be at most {WIDEST:.0%} of the bounding box's diagonal away, not "
+                f"{self.farthest:.4g} times it; a number without a unit is a share of the diagonal: 0.001 is 0.1%"
+            )
         if not 0.0 < self.angle <= ANY_ANGLE:
             raise OptionError(f"a mean angle must be within 0 to {ANY_ANGLE:g} degrees, not {self.angle:g}")
         if not self.visual > 0.0:
@@ -80,16 +75,27 @@ class Contract:
             raise OptionError(f"a look must be above 0, not {self.look:g}: 1 looks the same, 3 is a preview")
 
     def reach(self, diagonal: float, unit: float) -> float:
-        """How far a vertex of a mesh of this diagonal may come to lie from its place, in multiples of `unit`.
+        """How far a vertex of a mesh of this diagonal may come to lie from its place, in multiples of `unit`."""
+        return (self.farthest if self.absolute else self.farthest * diagonal) / unit
+
+    def doubt(self, diagonal: float, unit: str) -> str:
+        """Ask for the unit, named `unit`, where a bound is about as large as a mesh of this diagonal; empty if not.
 
         Raises
         ------
         OptionError
-            If that is so far that nothing of the mesh would be left to be recognised.
+            If no other bound would leave anything of the mesh to be recognized.
         """
-        if self.absolute and diagonal > 0.0:
-            _refuse_wide(f"a bound of {self.farthest:g}", self.farthest / diagonal)
-        return (self.farthest if self.absolute else self.farthest * diagonal) / unit
+        if not self.absolute or self.farthest <= WIDEST * diagonal or not diagonal > 0.0:
+            return ""
+        named = f" {unit}" if unit else ""
+        text = (
+            f"{self.farthest:.3g}{named} is {self.farthest / diagonal:.0%} of this mesh's size ({diagonal:.3g}{named})"
+        )
+        text += f": is its unit {unit}?" if unit else ": is that its unit?"
+        if math.isinf(self.by_part):
+            raise OptionError(text)
+        return text
 
     def worded(self, farther: float, angle: float, look: float, visual: float) -> str:
         """The bounds that are broken, in words: a vertex so many times as far as it may be; degrees; looks; error."""
@@ -206,6 +212,7 @@ def secant(
     most: float,
     tries: int = TRIES,
     rise: float = 1.0,
+    slack: float = SLACK,
 ) -> None:
     """Try numbers, to come to about the largest one whose excess is at most 0; None says that no other is wanted."""
     low, high = math.log(least), math.log(most)
@@ -224,14 +231,14 @@ def secant(
         bad = min((one for one in tried if one[1] > 0.0 and (good is None or one[0] > good[0])), default=None)
         if good is None and len(tried) > 2 and value > tried[0][1] - abs(at - tried[0][0]) / STEEPEST**2:
             return  # what breaks a bound is not the step
-        if (-SLACK < value <= 0.0) or (bad is None and at >= high) or (good is None and at <= low):
+        if (-slack < value <= 0.0) or (bad is None and at >= high) or (good is None and at <= low):
             return
         if good is None or bad is None:
-            at += min(max((-SLACK / 2.0 - value) / slope, -STRIDE), STRIDE)
-        elif bad[0] - good[0] < SLACK / STEEPEST:
+            at += min(max((-slack / 2.0 - value) / slope, -STRIDE), STRIDE)
+        elif bad[0] - good[0] < slack / STEEPEST:
             return
         else:
-            share = (-SLACK / 2.0 - good[1]) / (bad[1] - good[1])
+            share = (-slack / 2.0 - good[1]) / (bad[1] - good[1])
             at = good[0] + min(max(share, NEAREST), 1.0 - NEAREST) * (bad[0] - good[0])
         at = min(max(at, low), high)
 

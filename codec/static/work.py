@@ -23,6 +23,13 @@ FRESH, MOST_FRESH = 2.0, 4e6
 """Of a vertex of the mesh for each chain, in memory that is fresh; beyond some size that costs nothing."""
 
 
+FRAME_COST, BYTE_COST = 8e3, 8.0  # of reading a frame of the stream, whatever it is, and each of its bytes
+
+
+def reading_cost(size: int) -> float:
+    return FRAME_COST + BYTE_COST * size
+
+
 def mesh_cost(vertices: int, faces: int, received: int) -> float:
     """Work of faces and graph; what meets at more vertices than a closed surface has was cut and is sewn again."""
     sewn = max(0.0, faces / 2.0 - vertices)

@@ -1,9 +1,10 @@
 /* In the place of what a smaller build is without (tools/web/scripts/kernels.mjs): the linker takes these where there is nothing else. */
-#include "engine/decoder.h"
+#include "engine/ahead.h"
 
 #define ABSENT __attribute__((weak))
 
-static bool absent(Context *context) { return FAIL(context, UNSUPPORTED, "this build decodes less than all; bsm.js decodes the rest"); }
+#define ABSENT_PART "this build decodes less than all; bsm.js decodes the rest"
+static bool absent(Context *context) { return FAIL(context, UNSUPPORTED, ABSENT_PART); }
 
 ABSENT bool accept_in_sequence(bsmdec *decoder, const Packet *packet) {
     (void)packet;
@@ -18,13 +19,24 @@ ABSENT bool show(bsmdec *decoder, int64_t index) {
 ABSENT void close_sequence(bsmdec *decoder) { (void)decoder; }
 ABSENT void end_gops(Gops *gops) { (void)gops; }
 
+/* A page has no threads: its workers have decoders of their own. */
+ABSENT bool build_beside(bsmdec *decoder) { return build(decoder); }
+ABSENT void look_ahead(bsmdec *decoder, const Packet *packet) { (void)decoder, (void)packet; }
+ABSENT const ReadyBlock *find_ready(const bsmdec *decoder, const Packet *packet) {
+    (void)decoder, (void)packet;
+    return NULL;
+}
+ABSENT void end_chains_ahead(Mesh *mesh) { (void)mesh; }
+ABSENT void adopt_levels(bsmdec *decoder) { (void)decoder; }
+ABSENT void end_ahead(Mesh *mesh) { (void)mesh; }
+
 ABSENT bool parse_declaration(Context *context, Span payload, Arena *scratch, Declaration *declaration) {
     (void)payload, (void)scratch, (void)declaration;
     return absent(context);
 }
 ABSENT void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena) {
     (void)attributes, (void)header, (void)faces, (void)arena;
-    absent(context);
+    FAIL(context, UNSUPPORTED, ABSENT_PART);
 }
 ABSENT void end_attributes(Attributes *attributes) { (void)attributes; }
 ABSENT bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams, Arena *scratch) {
@@ -43,9 +55,13 @@ ABSENT bool decode_values(Attributes *attributes, const Packet *packet, ConstInt
     (void)attributes, (void)packet, (void)places;
     return absent(scratch->context);
 }
-ABSENT bool recompute(Attributes *attributes, Attribute *one, ConstDoubles2 positions, Arena *scratch) {
-    (void)attributes, (void)one, (void)positions;
+ABSENT bool recompute(Attribute *one, ConstDoubles2 positions, Arena *scratch) {
+    (void)one, (void)positions;
     return absent(scratch->context);
+}
+ABSENT bool take_values(Arena *arena, const Attribute *one, void **values) {
+    (void)one, (void)values;
+    return absent(arena->context);
 }
 ABSENT void beyond_one(const Attribute *one, Doubles2 beyond) { (void)one, (void)beyond; }
 ABSENT bool move_values(Context *context, Attribute *one, ConstDoubles2 change, void *moved) {
@@ -73,6 +89,7 @@ ABSENT bool decode_grid(GridField *field, int64_t first, int64_t count, Span pay
     (void)field, (void)first, (void)count, (void)payload;
     return absent(scratch->context);
 }
+ABSENT void end_layer(Layer *layer) { (void)layer; }
 ABSENT bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch) {
     (void)layer, (void)header, (void)faces, (void)base, (void)whole, (void)arena, (void)scratch;
     return absent(context);
@@ -81,9 +98,9 @@ ABSENT bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payloa
     (void)layer, (void)first, (void)count, (void)payload;
     return absent(scratch->context);
 }
-ABSENT Bytes fit_vertices(const Layer *layer, Arena *scratch) {
-    (void)layer, (void)scratch;
-    return (Bytes){NULL, 0};
+ABSENT bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit) {
+    (void)layer, (void)fit;
+    return absent(scratch->context);
 }
 
 ABSENT bool unpack_zstd(Context *context, Span frame, uint8_t *content, int64_t size, Arena *scratch) {

@@ -36,12 +36,12 @@ __path__ = [__file__.removesuffix("__init__.py")]
 # fmt: off
 # isort: off
 if TYPE_CHECKING:
-    from bsm.bitstream.container.reader import END_OF_STREAM as END_OF_STREAM, NEED_DATA as NEED_DATA, Signal as Signal
     from bsm.bitstream.errors import (
         ArgumentError as ArgumentError, BsmError as BsmError, CorruptError as CorruptError,
         DependencyError as DependencyError, FormatError as FormatError, HarmError as HarmError,
         LimitError as LimitError, MeshError as MeshError, NumericError as NumericError, OptionError as OptionError,
         TargetError as TargetError, TruncatedError as TruncatedError, UnsupportedError as UnsupportedError,
+        VerificationError as VerificationError,
     )
     from bsm.bitstream.limits import Limits as Limits
     from bsm.api import (
@@ -59,16 +59,16 @@ if TYPE_CHECKING:
     from bsm.codec.geometry.mesh import TriangleMesh as TriangleMesh
     from bsm.codec.geometry.metrics import Comparison as Comparison
     from bsm.codec.look.measure import Look as Look
-    from bsm.codec.sequence.decoder import SequenceDecoder as SequenceDecoder
+    from bsm.decoding import Decoder as Decoder, SequenceDecoder as SequenceDecoder
     from bsm.codec.sequence.encoder import SequenceEncoder as SequenceEncoder
-    from bsm.codec.sequence.events import FrameEvent as FrameEvent
     from bsm.codec.sequence.options import SequenceOptions as SequenceOptions
     from bsm.codec.sequence.targets import SequenceTarget as SequenceTarget
-    from bsm.codec.static.decoder import Decoder as Decoder
     from bsm.codec.static.encoder import Encoder as Encoder
-    from bsm.codec.static.events import (
-        AttributeEvent as AttributeEvent, BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent,
-        EndEvent as EndEvent, HeaderEvent as HeaderEvent, LossEvent as LossEvent, RefinementEvent as RefinementEvent,
+    from bsm.events import (
+        END_OF_STREAM as END_OF_STREAM, NEED_DATA as NEED_DATA, AttributeEvent as AttributeEvent,
+        BlockEvent as BlockEvent, ConnectivityEvent as ConnectivityEvent, EndEvent as EndEvent,
+        FrameEvent as FrameEvent, HeaderEvent as HeaderEvent, LossEvent as LossEvent,
+        RefinementEvent as RefinementEvent, Signal as Signal,
     )
     from bsm.codec.static.options import PRESETS as PRESETS, EncodeOptions as EncodeOptions, Paper as Paper
     from bsm.codec.static.targets import Contract as Contract, Target as Target
@@ -89,10 +89,9 @@ if _built != __version__:
 
 # Where each name lives, loaded when it is first asked for.
 _ROOMS = {
-    "bsm.bitstream.container.reader": "END_OF_STREAM NEED_DATA Signal",
     "bsm.bitstream.errors": (
         "ArgumentError BsmError CorruptError DependencyError FormatError HarmError LimitError MeshError NumericError "
-        "OptionError TargetError TruncatedError UnsupportedError"
+        "OptionError TargetError TruncatedError UnsupportedError VerificationError"
     ),
     "bsm.bitstream.limits": "Limits",
     "bsm.api": (
@@ -109,15 +108,14 @@ _ROOMS = {
     "bsm.codec.geometry.mesh": "TriangleMesh",
     "bsm.codec.geometry.metrics": "Comparison",
     "bsm.codec.look.measure": "Look",
-    "bsm.codec.sequence.decoder": "SequenceDecoder",
+    "bsm.decoding": "Decoder SequenceDecoder",
     "bsm.codec.sequence.encoder": "SequenceEncoder",
-    "bsm.codec.sequence.events": "FrameEvent",
     "bsm.codec.sequence.options": "SequenceOptions",
     "bsm.codec.sequence.targets": "SequenceTarget",
-    "bsm.codec.static.decoder": "Decoder",
     "bsm.codec.static.encoder": "Encoder",
-    "bsm.codec.static.events": (
-        "AttributeEvent BlockEvent ConnectivityEvent EndEvent HeaderEvent LossEvent RefinementEvent"
+    "bsm.events": (
+        "END_OF_STREAM NEED_DATA AttributeEvent BlockEvent ConnectivityEvent EndEvent FrameEvent HeaderEvent LossEvent "
+        "RefinementEvent Signal"
     ),
     "bsm.codec.static.options": "PRESETS EncodeOptions Paper",
     "bsm.codec.static.targets": "Contract Target",

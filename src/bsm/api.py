@@ -20,7 +20,7 @@ from bsm.files.formats.metadata import Written
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
 from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
-from bsm.lengths import LENGTHS, refuse_other_units
+from bsm.lengths import in_own_unit
 from bsm.libraries import as_mesh, read_any, with_metadata
 
 if TYPE_CHECKING:
@@ -80,7 +80,8 @@ def encode(
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
     check_mapping("metadata", {} if metadata is None else metadata)
     told = with_metadata(as_mesh(mesh), chosen, metadata or {})
-    refuse_other_units({name: keywords.get(name) for name in LENGTHS}, told.metadata)
+    if lengths := in_own_unit(keywords, told.metadata):
+        chosen = keywords_to.encode_options(**{**keywords, **lengths})
     with watched("encoding") as progress:
         return b"".join(Encoder(told, chosen).chunks(progress))
 
@@ -141,7 +142,8 @@ def encode_many(
     [(False, 'streams/a.bsm'), (False, 'streams/b.bsm')]
     """
     from bsm.jobs.encode import EncodeJob, encode_one
-    from bsm.jobs.run import Run, plan, run_many
+    from bsm.jobs.plan import plan
+    from bsm.jobs.run import Run, run_many
 
     keywords_to.encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
@@ -339,8 +341,8 @@ def decode_frames(
     >>> for frame in bsm.decode_frames("dance.bsm"):
     ...     bounds = frame.positions.min(axis=0), frame.positions.max(axis=0)
     """
-    from bsm.codec.sequence.decoder import SequenceDecoder
-    from bsm.codec.sequence.events import FrameEvent
+    from bsm.decoding import SequenceDecoder
+    from bsm.events import FrameEvent
 
     with SequenceDecoder(limits, threads) as decoder:
         for event in decoder.events(read_chunks(stream)):
@@ -376,7 +378,7 @@ def decode_sequence(
     >>> positions.ndim, faces.shape[1]
     (3, 3)
     """
-    from bsm.codec.sequence.decoder import decode_sequence as decode_frames
+    from bsm.decoding import decode_sequence as decode_frames
 
     return decode_frames(read_bytes(stream), limits, threads)
 
@@ -579,7 +581,7 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     --------
     >>> import bsm
     >>> seen = bsm.look("bunny.ply", "bunny.bsm")
-    >>> seen.distance <= 1  # it looks the same
+    >>> seen.distance <= 1  # as the default promises
     True
     """
     from bsm.codec.look.measure import look as look_at

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import difflib
 import importlib
+import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NoReturn
@@ -12,7 +13,7 @@ from typing import Any, NoReturn
 from bsm import __version__
 from bsm.console import Console
 from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, tell
-from bsm.files.output import Terminated
+from bsm.files.output import Terminated, refuse_collisions
 
 COMMANDS = {
     "encode": "compress meshes",
@@ -30,21 +31,27 @@ COMMANDS = {
     "bench": "measure speed against exact solvers and Draco",
     "completion": "print what makes a shell complete commands and options",
 }
-FILES = ("IN", "OUT", "FILE", "FILE.npy", "FILE.json", "REPORT.html", "MESH", "FOLDER", "A", "B")
+FILES = (
+    *("IN", "MESH", "SCENE", "A", "B", "FOLDER", "OUT", "OUT.glb"),
+    *("FILE", "FILE.npy", "FILE.json", "FILE.png", "PAGE.html"),
+)
 """What files and folders are called in the help."""
+_WRITTEN = {"output", "report", "save", "picture", "map", "work"}
 _WITHOUT_FILES = ("info", "compare", "verify", "bench", "completion", "curve")
 """Commands that replace no file; they take -f as all do, so that scripts may always give it."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; the return value is the exit code of the table of `bsm.exits`."""
-    words = list(sys.argv[1:] if arguments is None else arguments)
+    words, as_json = list(sys.argv[1:] if arguments is None else arguments), False
     try:
         if not words or words[0] not in COMMANDS:
             return _no_command(words)
         parser = command_parser(words[0])
         args = parser.parse_command(words[1:])
-        code: int | None = args.run(args, Console(quiet=args.quiet, json=getattr(args, "json", False)))
+        as_json = getattr(args, "json", False)
+        refuse_collisions(*named_files(words[0], parser, args))
+        code: int | None = args.run(args, Console(quiet=args.quiet, json=as_json))
         if sys.stdout is not None:  # closed by the shell
             sys.stdout.flush()
         return code or 0
@@ -52,8 +59,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         error = behind(raised)
         if not is_expected(error):
             raise
-        tell(error)
+        tell(error, as_json=as_json)
         return exit_of(error).code
+
+
+def named_files(command: str, parser: Parser, args: argparse.Namespace) -> tuple[list[str], list[str]]:
+    """The files that a command line names to be read, and to be written."""
+    named: tuple[list[str], list[str]] = [], []
+    written = _WRITTEN | ({"permutation"} if command == "encode" else set())
+    for action in parser.file_arguments():
+        given = getattr(args, action.dest) or []
+        named[action.dest in written].extend([given] if isinstance(given, str) else given)
+    return named[0], [name for name in named[1] if not name.endswith("/") and not os.path.isdir(name)]
 
 
 def command_parser(name: str) -> Parser:

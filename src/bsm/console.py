@@ -33,7 +33,7 @@ class Console:
         if self.kept is not None:
             self.kept.append(text)
         elif not self.quiet:
-            say(text)
+            say(text, "note" if self.json else None)
 
     def progress(self, what: str, unit: str = "blocks") -> Progress:
         told = not self.quiet and self.kept is None
@@ -152,8 +152,11 @@ def printable(text: str) -> str:
     return "".join(char if char.isprintable() else char.encode("unicode_escape").decode() for char in text)
 
 
-def say(text: str) -> None:
-    """Write a text to standard error, above any bar."""
+def say(text: str, key: str | None = None) -> None:
+    """Write a text to standard error, above any bar; with `key` as a line of JSON."""
+    if key:
+        print(json.dumps({key: text}), file=sys.stderr, flush=True)
+        return
     text = "\n".join(map(printable, text.split("\n")))
     bars = sys.modules.get("tqdm")
     if bars is None:

@@ -33,12 +33,16 @@ EXITS = (
     Exit(6, "the input asks for more memory or work than allowed", (failures.LimitError, MemoryError)),
     Exit(7, "the mathematics broke down", (failures.NumericError,)),
     Exit(8, "an optional package is missing", (failures.DependencyError,)),
-    Exit(10, "the quality or size asked for cannot be reached", (failures.TargetError,)),
+    Exit(
+        10,
+        "the quality or size asked for cannot be reached, or the result does not decode to it",
+        (failures.TargetError, failures.VerificationError),
+    ),
     Exit(11, "the result would be worse than the input; --force writes it nevertheless", (failures.HarmError,)),
     Exit(12, "the input ends too early", (failures.TruncatedError,)),
     Exit(130, "interrupted", (KeyboardInterrupt,)),
     Exit(141, "the reader of a pipe went away", (BrokenPipeError,)),
-    Exit(9, "a file cannot be read or written", (OSError,)),
+    Exit(9, "a file cannot be read or written, or exists already", (OSError,)),
     Exit(143, "terminated", (Terminated,)),
 )
 # A compiler or a loader that they hit may raise something else on top of them.
@@ -68,14 +72,16 @@ def behind(error: BaseException) -> BaseException:
     return error
 
 
-def tell(error: BaseException) -> None:
+def tell(error: BaseException, *, as_json: bool = False) -> None:
+    """Write what went wrong to standard error, as a line of JSON where all of its lines are."""
     if isinstance(error, BrokenPipeError):
         # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     elif isinstance(error, _SIGNALS):
-        say(f"bsm: {exit_of(error).meaning}")
+        said = exit_of(error).meaning
+        say(said if as_json else f"bsm: {said}", "error" if as_json else None)
     else:
-        say(f"bsm: {worded(error)}")
+        say(worded(error) if as_json else f"bsm: {worded(error)}", "error" if as_json else None)
 
 
 def worded(error: BaseException) -> str:

@@ -44,12 +44,20 @@ def parse_bytes(name: str, value: Any) -> float:
         raise ArgumentError(f"{name} must be a number of bytes, such as 20000 or 20kB, not {value!r}") from None
 
 
-def refuse_other_units(lengths: Mapping[str, Any], metadata: Mapping[str, Any]) -> None:
-    """Raise `OptionError` where an option's length is in a unit, and the mesh has no unit or another one."""
+def in_own_unit(options: Mapping[str, Any], metadata: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options that are lengths in another unit than the mesh's, converted to that.
+
+    Raises
+    ------
+    OptionError
+        If a length has a unit and the mesh has none.
+    """
+    found = {}
     own = metadata.get("unit")
     own = own if isinstance(own, str) else ""
     size = metres(own)
-    for name, value in lengths.items():
+    for name in LENGTHS:
+        value = options.get(name)
         number, unit = _parts(name, value) if isinstance(value, str) else (0.0, "")
         if unit in ("", "%"):
             continue
@@ -60,8 +68,8 @@ def refuse_other_units(lengths: Mapping[str, Any], metadata: Mapping[str, Any]) 
             )
         other = metres(unit)
         if size is not None and other is not None and other != size:
-            meant = f"{number * other / size:g}{own}"
-            raise OptionError(f"{name} is in {unit}, and the mesh says that its unit is {own}: give it as {meant}")
+            found[name] = f"{number * other / size:.12g}{own.strip()}"
+    return found
 
 
 def _parts(name: str, value: Any) -> tuple[float, str]:

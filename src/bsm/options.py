@@ -66,7 +66,7 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
 
 
 def sequence_options(
-    *, preset: str | None = None, low_delay: int = 0, quick: bool | None = None, **keywords: Any
+    *, preset: str | None = None, low_delay: int = 0, effort: str = "normal", quick: bool | None = None, **keywords: Any
 ) -> SequenceOptions:
     from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
     from bsm.codec.sequence.targets import SequenceTarget
@@ -76,7 +76,8 @@ def sequence_options(
     given = _fields("a sequence", SequenceOptions, keywords, SEQUENCE_TARGETS, SequenceTarget)
     together = _checked("low_delay", low_delay, int)
     base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), low_delay=together)
-    if _checked("quick", bool(quick), bool) and (bounds or given.get("target") is not None):
+    quick = bool(quick) or _named("effort", {"quick": True, "normal": False, "best": False}, effort)
+    if quick and (bounds or given.get("target") is not None):
         raise OptionError("what is quick to encode looks for no step; it excludes bounds and targets")
     if bounds:
         if given.get("target") is not None or given.get("step") is not None:

@@ -1,17 +1,21 @@
-"""Pictures without a graphics card and without a library: shaded meshes, colours of numbers, PNG files."""
+"""Pictures without a graphics card, and without a library but for titles: meshes, colors of numbers, PNG files."""
 
+import io
 import struct
 import zlib
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.errors import imported
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Positions
 
 SCALE = np.array([(49, 54, 149), (116, 173, 209), (255, 255, 191), (244, 109, 67), (165, 0, 38)], np.float64)
 """Colours from 0 to 1, evenly: after ColorBrewer's RdYlBu."""
+Image = npt.NDArray[np.float64]
 _LOUDER = 4.0  # how much larger a difference is drawn than it is
 
 
@@ -32,13 +36,36 @@ def png(picture: npt.NDArray[Any]) -> bytes:
     )
 
 
+def with_titles(
+    pictures: Sequence[Image], titles: Sequence[str], top: float | None = None, figures: Mapping[str, str] | None = None
+) -> bytes:
+    """A PNG file of pictures under titles, with a bar of `colors_of` up to `top` percent, and text; by matplotlib."""
+    imported("matplotlib", "titles need matplotlib", "eval")
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import ListedColormap, Normalize
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(3.2 * len(pictures), 3.6), dpi=120, layout="constrained")
+    places = figure.subplots(1, len(pictures))
+    for axes, title, picture in zip(places, titles, pictures, strict=True):
+        axes.imshow(picture.clip(0.0, 1.0))
+        axes.set_title(title, fontsize=11)
+        axes.axis("off")
+    if top is not None:
+        colors = ListedColormap(colors_of(np.linspace(0.0, 1.0, 256)) / 255.0)
+        bar = ScalarMappable(Normalize(0.0, top), colors)
+        figure.colorbar(bar, ax=places[-1], location="bottom", shrink=0.8, label="% of the diagonal")
+    with io.BytesIO() as file:
+        figure.savefig(file, format="png", metadata={"Software": None, **(figures or {})})
+        return file.getvalue()
+
+
 def colors_of(shares: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """Colours of numbers from 0 to 1, shape (n,), from 0 to 255, shape (n, 3); larger ones have the last."""
     places = np.linspace(0.0, 1.0, len(SCALE))
     return np.stack([np.interp(shares, places, channel) for channel in SCALE.T], axis=1)
 
 
-Image = npt.NDArray[np.float64]
 _LIGHT = np.array([0.35, 0.5, 0.79])
 _BASE = np.array([0.72, 0.76, 0.82])
 _SUPERSAMPLING = 2

@@ -7,8 +7,8 @@
 ...     return np.linalg.eigh(site.laplacian + np.diag(site.springs))[1][:, :width]
 >>> idea = research.Idea(dictionary=eigenvectors)
 >>> mesh = knot(300)
->>> data = research.encode(mesh, idea, step=0.01)
->>> research.decode(data, idea).faces.shape == mesh.faces.shape
+>>> encoded = research.encode(mesh, idea, step=0.01)
+>>> encoded.mesh.faces.shape == mesh.faces.shape
 True
 
 All else stays as it is: connectivity, quantisation, entropy coding, smoothing. `curves` measures ideas beside what the
@@ -17,33 +17,28 @@ codec does, `blocks` gives what the codec itself works on. Names here may change
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from types import SimpleNamespace
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import ArgumentError, CorruptError, FormatError, OptionError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.blocks.overlap import Partition, partition_of_labels
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.signal.chain import Columns, Overrides, Surroundings
 from bsm.codec.static.choice.blocks import Spectral
-from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Draft, Parts, Prepared, join, prepare
-from bsm.files.pipes import Source, read_chunks
 from bsm.libraries import as_mesh
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Integers: TypeAlias = npt.NDArray[np.int32]
 
 MARK = b"BSM research\n"
-"""Before streams that only their own idea can decode, so that no decoder takes them for ordinary ones."""
-__all__ = ["BlockArrays", "Idea", "Site", "blocks", "curves", "decode", "encode"]
-CLOSE = 1e-6  # how far what is decoded may be from what the encoder expects, in diagonals
+"""Before streams that hold the dictionary or predictor of an idea, so that no decoder takes them for ordinary ones."""
+__all__ = ["BlockArrays", "Encoded", "Idea", "Site", "blocks", "curves", "encode"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,10 +83,10 @@ class Site:
 class Idea:
     """What is to be done in another way; None: as the codec does it.
 
-    `dictionary` is a function of a `Site` and a number of columns c: U, shape (n, c), orthonormal. Both sides call it,
-    the decoder perhaps with a smaller c, for which it must give the first columns of the same U. `predictor` is one of
-    a `Site`: positions, shape (n, 3); what is coded is the difference. `partition` is one of the mesh's graph (offsets,
-    neighbours) and a number of parts: a part for each vertex, shape (n,), which is sent, so any decoder decodes it.
+    `dictionary` is a function of a `Site` and a number of columns c: U, shape (n, c), orthonormal. `predictor` is one
+    of a `Site`: positions, shape (n, 3); what is coded is the difference. `partition` is one of the mesh's graph
+    (offsets, neighbours) and a number of parts: a part for each vertex, shape (n,), which is sent, so any decoder
+    decodes it.
     """
 
     dictionary: Callable[[Site, int], npt.ArrayLike] | None = None
@@ -100,7 +95,7 @@ class Idea:
 
     @property
     def needed_to_decode(self) -> bool:
-        """Whether ordinary decoders cannot know what it does."""
+        """Whether decoders cannot decode a stream made with it."""
         return self.dictionary is not None or self.predictor is not None
 
 
@@ -119,34 +114,29 @@ class BlockArrays:
         return product
 
 
-def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any) -> bytes:
+class Encoded(NamedTuple):
+    """A stream, and the mesh that decoding it gives."""
+
+    data: bytes
+    mesh: TriangleMesh
+
+
+def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any) -> Encoded:
     """Encode the shape of a mesh, as `bsm.encode` takes it, in blocks; `keywords` are fields of `EncodeOptions`.
 
-    It is an ordinary stream unless only this idea can decode it: then `decode` here, with the same idea. ArgumentError:
-    a function gives another shape, or what is not finite; OptionError: it does other things on both sides.
+    With a dictionary or a predictor of your own, no decoder can decode the stream: it begins with `MARK`, and the mesh
+    is what a decoder that knew the idea would give. ArgumentError: a function gives another shape, or what is not
+    finite; OptionError: it does not give the same for the same site.
     """
     idea, options = idea or Idea(), EncodeOptions(step=step, **keywords)
-    given = join(as_mesh(mesh).bare, keep=False).mesh
-    draft = _draft(_prepared(given, idea, options), idea, options)
+    prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, idea, options)
+    draft = _draft(prepared, idea, options)
     stream = b"".join(draft.frames)
-    try:
-        decoded = _decoded(stream, idea, DEFAULT_LIMITS, options.threads).positions
-    except CorruptError:  # the checksum of positions says so
-        decoded = np.full_like(draft.decoded, np.nan)
-    if not np.abs(decoded - draft.decoded).max() <= CLOSE * given.diagonal:
-        raise OptionError(
-            "decoding gives other positions: the dictionary or predictor is not a function of the site alone, or its "
-            "first columns depend on how many are asked for"
-        )
-    return MARK + stream if idea.needed_to_decode else stream
-
-
-def decode(stream: Source, idea: Idea | None = None, /, *, limits: Limits = DEFAULT_LIMITS) -> TriangleMesh:
-    """Decode what `encode` gave, as `bsm.decode` takes it, with the same idea."""
-    idea, data = idea or Idea(), b"".join(read_chunks(stream))
-    if data.startswith(MARK) and not idea.needed_to_decode:
-        raise FormatError("this stream was made with a dictionary or predictor of somebody's own, which is not given")
-    return _decoded(data.removeprefix(MARK), idea, limits)
+    if idea.needed_to_decode:
+        if b"".join(_draft(prepared, idea, options).frames) != stream:
+            raise OptionError("the dictionary or predictor does not give the same for the same site")
+        stream = MARK + stream
+    return Encoded(stream, _decoded(prepared, draft, options))
 
 
 def blocks(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **keywords: Any) -> list[BlockArrays]:
@@ -189,13 +179,17 @@ def _tried(idea: Idea, options: EncodeOptions) -> Any:
     """An idea at one operating point, as a codec of `bsm.evaluation.curve`."""
     from bsm.evaluation.curve import Spectral as Ours
 
+    meshes: dict[bytes, TriangleMesh] = {}
+
     def encode(mesh: TriangleMesh) -> tuple[bytes, Any]:
         prepared = _prepared(mesh, idea, options)
-        place = np.argsort(prepared.vertex_order)
-        return b"".join(_draft(prepared, idea, options).frames), lambda decoded: decoded.positions[place]
+        draft, place = _draft(prepared, idea, options), np.argsort(prepared.vertex_order)
+        stream = b"".join(draft.frames)
+        meshes[stream] = _decoded(prepared, draft, options)
+        return stream, lambda decoded: decoded.positions[place]
 
-    decode = partial(_decoded, idea=idea, limits=DEFAULT_LIMITS, threads=options.threads)
-    return SimpleNamespace(settings={"step": options.step}, encode=encode, decode=decode, parts=Ours(options).parts)
+    parts = Ours(options).parts
+    return SimpleNamespace(settings={"step": options.step}, encode=encode, decode=meshes.__getitem__, parts=parts)
 
 
 def _draft(prepared: Prepared, idea: Idea, options: EncodeOptions) -> Draft:
@@ -210,10 +204,13 @@ def _prepared(mesh: TriangleMesh, idea: Idea, options: EncodeOptions) -> Prepare
     return prepare(mesh, parts, keep_order=options.keep_order)
 
 
-def _decoded(stream: bytes, idea: Idea, limits: Limits, threads: int | None = None) -> TriangleMesh:
-    with Decoder(limits, threads, overrides=_overrides(idea)) as decoder:
-        decoder.receive_data(stream)
-        return decoder.finish()
+def _decoded(prepared: Prepared, draft: Draft, options: EncodeOptions) -> TriangleMesh:
+    """The mesh that a decoder gives, with vertices in the order of the stream."""
+    if not options.keep_order:
+        return TriangleMesh(draft.decoded, prepared.mesh.faces)
+    positions = np.empty_like(draft.decoded)
+    positions[np.argsort(np.argsort(prepared.coding_order))] = draft.decoded
+    return TriangleMesh(positions, prepared.joined_faces)
 
 
 def _overrides(idea: Idea) -> Overrides:

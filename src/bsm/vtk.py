@@ -23,11 +23,11 @@ from bsm.bitstream.errors import OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
+from bsm.files.motion.frames import USUAL_RATE
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import SequenceStream, decode_through, decode_whole, peek_header
 
 __all__ = ["Playback", "StreamSource"]
-USUAL_RATE = 24.0
 
 
 class Playback:

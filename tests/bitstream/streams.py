@@ -16,7 +16,7 @@ from bsm.bitstream.container.packets import (
     Partition,
     Refinement,
 )
-from bsm.bitstream.container.reader import Reader, read_packets
+from bsm.bitstream.container.scanner import scan
 from bsm.bitstream.container.writer import write_stream
 
 SMALL_HEADER = Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10)
@@ -59,19 +59,6 @@ def encoded(name: str) -> bytes:
     return write_stream(STREAMS[name])
 
 
-def read_all(data: bytes, step: int | None = None, reader: Reader | None = None) -> list:
-    """All packets of `data`, given in pieces of `step` bytes (None: whole)."""
-    step = step or max(len(data), 1)
-    chunks = [data[start : start + step] for start in range(0, len(data), step)]
-    return list(read_packets(chunks, reader or Reader()))
-
-
 def frame_ends(data: bytes) -> list[int]:
     """Offsets behind the preamble and behind every frame."""
-    reader = Reader()
-    reader.receive_data(data)
-    ends = [5]
-    while ends[-1] < len(data):
-        reader.next_packet()
-        ends.append(reader.last_frame.offset + reader.last_frame.length)
-    return ends
+    return [5, *(span.offset + span.length for _, span in scan([data]))]

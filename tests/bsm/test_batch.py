@@ -18,7 +18,7 @@ from bsm.cli import main
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
-from bsm.jobs.run import plan
+from bsm.jobs.plan import plan
 from tests.bsm import program
 from tools.noise import gaussian_along_normals
 
@@ -59,7 +59,8 @@ def test_there_and_back(meshes, tmp_path, jobs):
         assert file["input_bytes"] == os.path.getsize(file["input"])
         assert 0 < file["theta_deg"] < 30
     taken, given = (sum(file[key] for file in files) for key in ("input_bytes", "output_bytes"))
-    *each, summary = done.stderr.splitlines()
+    lines = map(json.loads, done.stderr.splitlines())
+    *each, summary = (line["note"] for line in lines if "note" in line)
     assert [line.partition(" ->")[0] for line in each if " -> " in line] == list(map(str, inputs))
     assert summary.startswith(f"3 of 3 files, {taken} -> {given} bytes ({taken / given:.1f} : 1), ")
     assert (
@@ -83,8 +84,9 @@ def test_failures_are_told_and_the_others_go_on(streams, tmp_path, jobs):
     done = bsm("verify", *inputs, "--json", "-j", jobs)
     assert done.returncode == 12, "the code of the first failure"
     assert [file.get("exit") for file in json.loads(done.stdout)["files"]] == [None, 12, 9, None]
-    said = [line for line in done.stderr.splitlines() if not line.startswith("{")]  # how far it has come
-    assert f"bsm: {tmp_path / 'cut.bsm'}: " in said[1] and f"bsm: {tmp_path / 'none.bsm'}: No such file" in said[2]
+    lines = map(json.loads, done.stderr.splitlines())
+    said = [line.get("note") or line["error"] for line in lines if "stage" not in line]  # how far it has come
+    assert f"{tmp_path / 'cut.bsm'}: " in said[1] and f"{tmp_path / 'none.bsm'}: No such file" in said[2]
     assert said[-1].startswith("2 of 4 files")
 
 
@@ -130,7 +132,9 @@ def test_outputs_that_would_replace_something(tmp_path):
     with pytest.raises(OptionError, match="replace the input"):
         plan([a, b], str(tmp_path), to_ply)
     with pytest.raises(OptionError, match="two outputs"):
-        plan([a, obj], None, to_bsm)
+        plan([a, a], None, to_bsm)
+    apart = [str(tmp_path / "a.ply.bsm"), str(tmp_path / "a.obj.bsm")]
+    assert [job.output for job in plan([a, obj], None, to_bsm)] == apart
     with pytest.raises(OptionError, match="to a folder"):
         plan([a, b], str(tmp_path / "c.bsm"), to_bsm)
     with pytest.raises(OptionError, match="pipe"):

@@ -20,7 +20,8 @@ from bsm.console import Console
 from bsm.evaluation.sample import knot
 from bsm.files.mesh import read_mesh, write_mesh
 from bsm.files.output import open_output
-from bsm.jobs.run import Job, Run, Task, run_many
+from bsm.jobs.run import Run, run_many
+from bsm.jobs.task import Job, Task
 from tests.bsm.deadly import deadly
 from tests.bsm.program import ROOT
 from tests.bsm.program import bsm as program

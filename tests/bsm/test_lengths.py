@@ -3,7 +3,7 @@
 import pytest
 
 import bsm
-from bsm.lengths import parse_length, refuse_other_units
+from bsm.lengths import in_own_unit, parse_length
 from tests.bsm.program import bsm as program
 from tests.shapes import torus
 
@@ -24,23 +24,26 @@ def test_what_is_no_length(given):
 
 @pytest.mark.parametrize("unit", ["mm", "millimeters", "Millimetre", "furlong"])
 def test_the_same_unit_or_an_unknown_one(unit):
-    refuse_other_units({"gap": "0.5mm", "other": 0.1, "none": None}, {"unit": unit})
-    refuse_other_units({"gap": "0.5%"}, {"unit": unit})
+    assert in_own_unit({"max_error": "0.5mm", "size": "3kB"}, {"unit": unit}) == {}
+    assert in_own_unit({"max_error": "0.5%"}, {"unit": unit}) == {}
 
 
 @pytest.mark.parametrize("metadata", [{}, {"unit": ""}, {"unit": 7}, {"name": "mm"}])
 def test_a_length_with_a_unit_needs_a_mesh_that_has_one(metadata):
-    refuse_other_units({"gap": "0.5%", "other": 0.1, "plain": "0.1"}, metadata)
+    for plain in ("0.5%", 0.1, "0.1"):
+        assert in_own_unit({"max_error": plain}, metadata) == {}
     with pytest.raises(bsm.OptionError, match=r"does not say what its unit is: add unit=mm .* such as 0\.1%"):
-        refuse_other_units({"gap": "0.5mm"}, metadata)
+        in_own_unit({"max_error": "0.5mm"}, metadata)
 
 
-def test_another_unit_is_refused(tmp_path):
-    mesh = torus(8, 7)
-    with pytest.raises(bsm.OptionError, match=r"in mm, .* is meters: give it as 0\.05meters"):
-        bsm.encode(mesh, metadata={"unit": "meters"}, max_error="50mm")
+def test_another_unit_is_converted(tmp_path):
+    mesh, metadata = torus(8, 7), {"unit": "meters"}
+    assert in_own_unit({"max_error": "0.05mm"}, metadata) == {"max_error": "5e-05meters"}
+    own, other = (bsm.encode(mesh, metadata=metadata, max_error=text) for text in ("0.05meters", "50mm"))
+    assert own == other
     bsm.save(mesh, tmp_path / "a.ply")
-    words = ("encode", tmp_path / "a.ply", "-q", "-o", tmp_path / "a.bsm", "--max-error", "0.1in")
-    done = program(*words, "--meta", "unit=cm", text=True)
-    assert done.returncode == 2 and "give it as 0.254cm" in done.stderr and not (tmp_path / "a.bsm").exists()
-    assert program(*words, "--meta", "unit=inches").returncode == 0
+    words = ("encode", tmp_path / "a.ply", "-q", "-f", "-o", tmp_path / "a.bsm", "--meta", "unit=cm", "--max-error")
+    assert program(*words, "0.01in").returncode == 0
+    inches = (tmp_path / "a.bsm").read_bytes()
+    assert program(*words, "0.0254cm").returncode == 0
+    assert inches == (tmp_path / "a.bsm").read_bytes()

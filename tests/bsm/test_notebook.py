@@ -1,5 +1,6 @@
 """bsm.show: what the widget of a notebook is given."""
 
+import base64
 import sys
 
 import numpy as np
@@ -17,16 +18,17 @@ MESH = torus()
 def test_stream_is_shown_as_it_is():
     data = bsm.encode(MESH)
     widget = bsm.show(data, height=300)
-    assert (widget.stream, widget.original, widget.height, widget.name) == (data, b"", 300, "mesh")
+    (layer,) = widget.content["layers"]
+    assert (base64.b64decode(layer["data"]), widget.height, widget.content["name"]) == (data, 300, "mesh")
     assert "render" in widget._esm and str(widget._esm) == script(embedded)
 
 
 def test_mesh_is_encoded_and_compared_with_itself():
     widget = bsm.show((MESH.positions, MESH.faces), theta=4)
-    decoded = bsm.decode(widget.stream)
-    original = np.frombuffer(widget.original, "<f4").reshape(-1, 3)
-    assert bsm.compare((original, decoded.faces), decoded).theta_deg < 4
-    assert sorted(map(tuple, original)) == sorted(map(tuple, MESH.positions.astype(np.float32)))
+    original, decoded = (bsm.decode(base64.b64decode(layer["data"])) for layer in widget.content["layers"][:2])
+    assert widget.content["facts"]["theta"] < 4
+    assert widget.content["facts"]["theta"] == pytest.approx(bsm.compare(MESH, decoded).theta_deg)
+    assert bsm.compare(MESH, original).max_error < 1e-6
 
 
 def test_mesh_is_shown_without_scipy(monkeypatch):
@@ -35,13 +37,13 @@ def test_mesh_is_shown_without_scipy(monkeypatch):
     monkeypatch.delattr(bsm, "evaluation", raising=False)
     monkeypatch.setitem(sys.modules, "scipy", None)
     widget = bsm.show(MESH)
-    assert len(widget.original) == 12 * len(MESH.positions)
+    assert [layer["title"] for layer in widget.content["layers"]] == ["Original", "BSM"]
 
 
 def test_sequence_is_encoded():
     positions = np.stack([MESH.positions, 1.1 * MESH.positions])
     widget = bsm.show((positions, MESH.faces), frame_rate=10)
-    assert len(bsm.decode_sequence(widget.stream)[0]) == 2
+    assert len(bsm.decode_sequence(base64.b64decode(widget.content["layers"][0]["data"]))[0]) == 2
 
 
 def test_what_is_encoded_is_not_encoded_again():
@@ -64,7 +66,7 @@ def test_a_name_is_handed_over_as_text(name, tmp_path):
     path = tmp_path / f"{name.replace(chr(47), chr(32))}.bsm"
     path.write_bytes(bsm.encode(MESH))
     widget = bsm.show(path)
-    assert widget.name == path.name
+    assert widget.content["name"] == path.name
     assert path.name not in str(widget._esm)
 
 

@@ -9,7 +9,7 @@ from bsm.bitstream.errors import ArgumentError, OptionError
 from bsm.codec.denoise import DenoiseOptions
 from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget
-from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions
+from bsm.codec.static.options import BALANCED, PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import Contract, Target
 from bsm.commands import flags
 from bsm.options import BOUNDS, SEQUENCE_STEPS, TARGETS, denoise_options, encode_options, sequence_options
@@ -141,6 +141,16 @@ def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
 def test_a_preset_that_is_a_grid_gives_way_to_a_target():
     options = encode_options(preset="grid14", theta=3)
     assert (options.grid, options.target) == (None, Target("theta_deg", 3.0))
+
+
+def test_quick_is_another_name_of_an_effort() -> None:
+    assert encode_options(quick=True) == encode_options(effort="quick") and encode_options(effort="quick").quick
+    assert encode_options(quick=False) == encode_options(effort="normal") == encode_options()
+    assert changed(encode_options(quick=True), effort="best").effort == "best"
+    assert sequence_options(effort="quick") == sequence_options(quick=True)
+    for keywords in ({"effort": "best", "quick": True}, {"effort": "more"}):
+        with pytest.raises(OptionError, match="effort"):
+            encode_options(**keywords)
 
 
 def test_quick_sequences_search_for_nothing() -> None:

@@ -10,11 +10,13 @@ from contextlib import suppress
 import pytest
 
 from bsm.files.output import open_output
-from bsm.jobs.run import Task, plan, task_of
+from bsm.jobs.plan import plan
+from bsm.jobs.run import task_of
+from bsm.jobs.task import Task
 
 PROGRAM = """
 import os, sys, time
-from bsm.jobs.run import Task
+from bsm.jobs.task import Task
 from bsm.jobs.workers import in_processes
 
 def sleeping(task, console):

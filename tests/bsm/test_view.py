@@ -4,6 +4,7 @@ import base64
 import gzip
 import hashlib
 import json
+import multiprocessing
 import os
 import re
 import shutil
@@ -14,7 +15,6 @@ import threading
 import time
 import urllib.error
 import urllib.request
-from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +24,9 @@ import pytest
 import bsm
 from bsm.bitstream.container.wire import MAGIC
 from bsm.cli import main
-from bsm.evaluation.curve import encode_draco
-from bsm.viewer.page import DRACO_LEVEL, Growing, PageServer, Ranged, Tiled, compared, written_to
+from bsm.evaluation.curve import decode_draco, encode_draco
+from bsm.viewer.contents import DRACO_LEVEL, Content, compared, uploaded
+from bsm.viewer.page import MOST_BYTES, UPLOAD, Growing, PageServer, Ranged, Tiled, written_to
 from tests.bitstream.streams import frame_ends
 from tests.shapes import curved, torus
 from tests.streams import moving_events_of
@@ -60,7 +61,7 @@ def frames_sent(data: bytes) -> tuple[list[np.ndarray], list[int]]:
     return [event.positions for event in events if isinstance(event, bsm.FrameEvent)], lost
 
 
-def listed(page: str) -> list[dict[str, str]]:
+def listed(page: str) -> list[dict[str, Any]]:
     found = SLOT.search(page)
     assert found
     return list(json.loads(found[1]))
@@ -73,16 +74,23 @@ def test_saved_page_holds_the_streams(tmp_path):
     assert main(["view", str(stream), str(VECTORS / "good-tetrahedron.bsm"), "--save", str(page)]) == 0
     first, second = listed(page.read_text("utf-8"))
     assert first["name"] == stream.name and second["name"] == "good-tetrahedron.bsm"
-    assert base64.b64decode(first["data"]) == stream.read_bytes()
+    assert base64.b64decode(first["layers"][0]["data"]) == stream.read_bytes()
 
 
-def test_meshes_are_encoded_on_the_way(tmp_path, capsys):
+def test_meshes_are_encoded_and_shown_beside_their_original(tmp_path, capsys):
     mesh, source, page = torus(), tmp_path / "ball.ply", tmp_path / "page.html"
     bsm.save(mesh, source)
-    assert main(["view", str(source), "--save", str(page)]) == 0
+    assert main(["view", str(source), "--preset", "fine", "--save", str(page)]) == 0
     (entry,) = listed(page.read_text("utf-8"))
-    assert base64.b64decode(entry["data"]) == bsm.encode(source)
-    assert f"{len(bsm.encode(source))} bytes as a stream" in capsys.readouterr().err
+    first, ours = entry["layers"][:2]
+    stream = base64.b64decode(ours["data"])
+    assert entry["main"] == 1 and ours["title"] == "BSM" and stream == bsm.encode(source, preset="fine")
+    assert first["size"] == source.stat().st_size
+    exact = bsm.decode(base64.b64decode(first["data"]))
+    assert sorted(map(tuple, exact.positions)) == sorted(map(tuple, mesh.positions.astype(np.float32).astype(float)))
+    assert entry["facts"]["promised"] == {"look": 0.5, "farthest": 0.005}
+    assert entry["facts"]["look"] <= 0.5 and 0.0 < entry["facts"]["farthest"] <= 0.005
+    assert f"{len(stream)} bytes as a stream" in capsys.readouterr().err
 
 
 def test_server_has_the_page_and_its_streams():
@@ -113,7 +121,10 @@ def test_server_has_the_page_and_its_streams():
                 assert len(data) == int(answer.headers["Content-Length"])
                 data = gzip.decompress(data) if packed else data
                 assert data == ((WEB / "built" / path).read_bytes() if path else page.encode())
-            assert urllib.request.urlopen(address + entries[1]["url"].lstrip("/")).read() == stream.read_bytes()
+            assert (
+                urllib.request.urlopen(address + entries[1]["layers"][0]["url"].lstrip("/")).read()
+                == stream.read_bytes()
+            )
             with pytest.raises(urllib.error.HTTPError, match="404"):
                 urllib.request.urlopen(address + "2")
             elsewhere = urllib.request.Request(address, headers={"Host": "example.org"})
@@ -271,7 +282,7 @@ def test_tiles_are_seen_coarse_first_and_fine_from_near(tmp_path):
 )
 def test_files_are_sent_by_ranges(tmp_path, asked, code):
     (tmp_path / "a").write_bytes(b"0123456789abcdef")
-    files = {"manifest.json": b"{}", "a": Ranged(str(tmp_path / "a"), 16)}
+    files = {"manifest.json": b"{}", "a": Ranged(str(tmp_path), "a", 16)}
     with PageServer([Tiled("some", files)]) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
         request = urllib.request.Request(f"http://{server.host}/0/a", headers={"Range": asked} if asked else {})
@@ -301,27 +312,38 @@ def javascript(tests: str, **environment: str) -> None:
     assert run.returncode == 0, run.stdout + run.stderr
 
 
-def test_original_is_numbered_as_the_stream(tmp_path):
+def test_distances_are_those_of_the_stream_s_vertices(tmp_path):
     mesh = torus()
     source, stream, page = tmp_path / "ball.ply", tmp_path / "ball.bsm", tmp_path / "page.html"
     bsm.save(mesh, source)
     stream.write_bytes(bsm.encode(mesh))
     assert main(["view", str(stream), "--original", str(source), "--save", str(page)]) == 0
     (entry,) = listed(page.read_text("utf-8"))
-    original = np.frombuffer(base64.b64decode(entry["original"]["data"]), "<f4").reshape(-1, 3)
-    decoded = bsm.decode(stream)
-    here, there = bsm.compare((original, decoded.faces), decoded), bsm.compare(mesh, decoded)
-    assert astuple(here)[:-1] == pytest.approx(astuple(there)[:-1], rel=1e-3)  # attributes aside: there are none
+    off = np.frombuffer(base64.b64decode(entry["layers"][1]["off"]["data"]), "<f4")
+    there = bsm.compare(mesh, stream)
+    assert (off.max(), np.sqrt(np.mean(off**2))) == pytest.approx((there.max_error, there.rms), rel=1e-3)
+    assert entry["facts"]["theta"] == pytest.approx(there.theta_deg, rel=1e-3)
+    assert "promised" not in entry["facts"], "a stream does not say what it was made with"
 
 
-def test_draco_beside_it_keeps_the_normals_as_well(tmp_path):
+def test_draco_beside_it_has_as_many_bytes_and_needs_more_for_the_look():
     pytest.importorskip("DracoPy")
     mesh = torus()
-    data = bsm.encode(mesh, theta=5)
-    draco = compared("ball", data, mesh).draco
-    assert draco
-    assert draco.theta <= bsm.compare(mesh, data).theta_deg
-    assert 100 < draco.bytes == len(encode_draco(in_order(data, mesh), draco.bits, DRACO_LEVEL))
+    data = bsm.encode(mesh)
+    content = compared("ball", data, mesh)
+    assert [layer.title for layer in content.layers] == ["Original", "BSM", "Draco"]
+    draco = content.layers[2]
+    bits = int(draco.detail.split()[0])
+    assert draco.size == len(encode_draco(mesh, bits, DRACO_LEVEL)) <= len(data)
+    assert len(encode_draco(mesh, bits + 1, DRACO_LEVEL)) > len(data)
+    carried = bsm.decode(draco.stream)
+    assert draco.off is not None and len(draco.off) == len(carried.positions)
+    tree = np.linalg.norm(carried.positions[:, None] - mesh.positions[None], axis=2).min(axis=1)
+    assert np.all(draco.off >= tree - 1e-6) and draco.off.max() < 0.3
+    good = content.facts["draco"]
+    files = [encode_draco(mesh, good["bits"] - less, DRACO_LEVEL) for less in (0, 1)]
+    looks = [bsm.look(mesh, decode_draco(file)).distance for file in files]
+    assert good["bytes"] == len(files[0]) and looks[0] <= content.facts["look"] < looks[1]
 
 
 def test_what_draco_does_not_take_is_shown_without_it():
@@ -329,13 +351,74 @@ def test_what_draco_does_not_take_is_shown_without_it():
     line = bsm.TriangleMesh(np.eye(3), np.array([[0, 1, 1]], np.int32))
     with pytest.raises(bsm.MeshError, match="Draco does not take"):
         encode_draco(line, 11, DRACO_LEVEL)
-    assert compared("line", bsm.encode(line), line).draco is None
+    assert len(compared("line", bsm.encode(line), line).layers) == 2
 
 
-def in_order(data: bytes, mesh: bsm.TriangleMesh) -> bsm.TriangleMesh:
-    original = compared("ball", data, mesh).original
-    assert original is not None
-    return bsm.TriangleMesh(original.astype(float), bsm.decode(data).faces)
+def test_an_upload_is_encoded_in_a_process_of_its_own(tmp_path):
+    bsm.save(torus(), tmp_path / "ball.ply")
+    data = (tmp_path / "ball.ply").read_bytes()
+    *before, content = uploaded("../../ball.ply", data, "small")
+    assert isinstance(content, Content) and content.name == "ball.ply" and content.facts["preset"] == "small"
+    assert content.layers[1].stream == bsm.encode(tmp_path / "ball.ply", preset="small")
+    shares = [share for _, share in before]
+    assert shares == sorted(shares) and len({stage for stage, _ in before}) > 2
+    *_, sentence = uploaded("ball.ply", data[:200], "small")
+    assert isinstance(sentence, str) and str(tmp_path) not in sentence
+
+
+def test_an_upload_ends_with_its_page(tmp_path):
+    bsm.save(curved(torus(200, 100)), tmp_path / "ball.ply")
+    reports = uploaded("ball.ply", (tmp_path / "ball.ply").read_bytes(), "balanced")
+    next(reports)
+    (process,) = multiprocessing.active_children()
+    reports.close()
+    assert not process.is_alive()
+
+
+def sent(server: PageServer, head: dict[str, str], body: bytes = b"", query: str = "?preset=small&name=a.ply") -> bytes:
+    """What a server answers to an upload."""
+    lines = [f"POST {UPLOAD}{query} HTTP/1.0", *(f"{name}: {value}" for name, value in head.items()), "", ""]
+    with socket.create_connection(server.server_address) as page:
+        page.sendall("\r\n".join(lines).encode() + body)
+        return b"".join(iter(lambda: page.recv(1 << 16), b""))
+
+
+def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path):
+    bsm.save(torus(), tmp_path / "ball.ply")
+    data = (tmp_path / "ball.ply").read_bytes()
+    with PageServer([]) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        ours = {"Host": server.host, "Origin": f"http://{server.host}", "Content-Length": str(len(data))}
+        for changes, code in (
+            ({"Origin": "http://example.org"}, 403),
+            ({"Origin": "null"}, 403),
+            ({"Host": "example.org"}, 403),
+            ({"Content-Length": str(MOST_BYTES + 1)}, 413),
+            ({"Content-Length": "-1"}, 411),
+        ):
+            assert f" {code} ".encode() in sent(server, ours | changes).splitlines()[0]
+        assert b" 403 " in sent(server, {name: text for name, text in ours.items() if name != "Origin"}).splitlines()[0]
+        assert b" 404 " in sent(server, ours, query="?preset=../etc").splitlines()[0]
+        with server.encoding:
+            assert b" 503 " in sent(server, ours, data).splitlines()[0]
+        answer = sent(server, ours, data)
+        lines = [json.loads(line) for line in answer.partition(b"\r\n\r\n")[2].splitlines()]
+        paths = [layer["url"] for layer in lines[-1]["entry"]["layers"]]
+        stream = urllib.request.urlopen(f"http://{server.host}{paths[1]}").read()
+        assert stream == bsm.encode(tmp_path / "ball.ply", preset="small")
+        assert "error" in json.loads(sent(server, ours | {"Content-Length": "9"}, b"no mesh, ").splitlines()[-1])
+        server.shutdown()
+
+
+@pytest.mark.slow
+@needs_packages
+def test_a_mesh_that_is_dropped_is_encoded_and_shown(tmp_path):
+    bsm.save(torus(), tmp_path / "ball.ply")
+    with PageServer([]) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        given = {"address": f"http://{server.host}/", "mesh": str(tmp_path / "ball.ply")}
+        javascript("drop", BSM_DROP=json.dumps(given))
+        server.shutdown()
 
 
 def test_what_is_neither_stream_nor_mesh_is_refused(tmp_path, capsys):
@@ -431,6 +514,26 @@ def test_damage_is_survived_as_in_python(tmp_path):
         (tmp_path / f"{number}.bsm").write_bytes(data)
         (tmp_path / f"{number}.json").write_text(json.dumps(told_by_python(bytes(data), kind)))
     javascript("recovery", BSM_DAMAGED=str(tmp_path))
+
+
+@pytest.mark.slow
+@needs_packages
+@pytest.mark.real
+def test_pages_are_drawn_as_in_the_documents(meshes, tmp_path):
+    """With BSM_PICTURES=docs/guides this makes the pictures of the documents anew."""
+    target = Path(os.environ.get("BSM_PICTURES", tmp_path)).resolve()
+    scan, duck = tmp_path / "scan.html", tmp_path / "duck.html"
+    assert main(["view", str(meshes / "static" / "bunny_34834.ply"), "--save", str(scan), "-q"]) == 0
+    assert main(["view", str(meshes / "assets" / "Duck.glb"), "--save", str(duck), "-q"]) == 0
+    shots = [
+        {"page": scan, "picture": "page-scan.jpg", "layers": 3, "keys": "", "dark": False, "size": [1280, 800]},
+        {"page": scan, "picture": "page-errors.jpg", "layers": 3, "keys": "e3", "dark": True, "size": [1280, 800]},
+        {"page": duck, "picture": "page-phone.jpg", "layers": 2, "keys": "", "dark": True, "size": [390, 780]},
+    ]
+    for shot in shots:
+        shot |= {"page": str(shot["page"]), "picture": str(target / str(shot["picture"]))}
+    javascript("pages", BSM_PAGES=json.dumps(shots))
+    assert all(Path(str(shot["picture"])).stat().st_size > 10_000 for shot in shots)
 
 
 @pytest.mark.slow

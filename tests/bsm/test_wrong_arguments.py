@@ -12,9 +12,8 @@ import bsm
 from bsm.bitstream.errors import ArgumentError, BsmError, OptionError
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.decoder import SequenceDecoder
-from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.options import EncodeOptions
+from bsm.decoding import Decoder, SequenceDecoder
 from tools.vectors.meshes import torus
 
 

@@ -9,10 +9,10 @@ from bsm.codec.basis.laplacian import factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions, changed
-from bsm.codec.threads import Lanes, ordered_map, side_by_side
+from bsm.codec.threads import ordered_map, side_by_side
+from bsm.decoding import decode
 from tests.shapes import patch
 
 
@@ -64,20 +64,6 @@ def test_an_error_of_either_comes_when_both_have_ended(failing):
     with pytest.raises(ValueError, match=str(failing)):
         side_by_side(lambda: work(0), lambda: work(1))
     assert sorted(ended) == [0, 1]
-
-
-def test_a_lane_keeps_its_order_and_lanes_run_side_by_side():
-    lanes, log, meeting = Lanes(2), [], threading.Barrier(2, timeout=20)
-    for lane in (0, 1):
-        # Both must be inside at once, or the barrier breaks.
-        lanes.submit(lane, meeting.wait)
-        for step in range(30):
-            last = lanes.submit(lane, lambda lane=lane, step=step: log.append((lane, step)))
-    last.result()
-    lanes.submit(0, lambda: None).result()
-    lanes.close()
-    for lane in (0, 1):
-        assert [step for number, step in log if number == lane] == list(range(30))
 
 
 @pytest.mark.parametrize("start", ["cosines", "svd"])

@@ -6,9 +6,13 @@ import ctypes
 import fcntl
 import hashlib
 import subprocess
+import tarfile
+from collections.abc import Callable
 from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -16,7 +20,8 @@ import numpy.typing as npt
 
 from tools.amalgamate import ROOT, amalgamated, interface
 
-FLAGS = ("-std=gnu11", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-w")
+FLAGS = ("-std=gnu11", "-O2", "-fPIC", "-shared")
+WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, END_OF_STREAM, ERROR = range(1, 12)
 
 
@@ -25,7 +30,7 @@ KINDS = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "floa
 
 
 class Event(Structure):
-    _fields_ = [("type", c_int), *((name, c_int64) for name in ("index", "count", "vertices", "faces"))]
+    _fields_ = [("type", c_int), *((name, c_int64) for name in ("index", "count", "vertices", "faces", "frames"))]
 
 
 class Failure(Structure):
@@ -36,33 +41,6 @@ class Failure(Structure):
         ("block", c_int64),
         ("message", c_char * 160),
     ]
-
-
-NO_MEMORY = 8
-_TAKE = CFUNCTYPE(c_void_p, c_void_p, c_size_t)
-_GIVE = CFUNCTYPE(None, c_void_p, c_void_p, c_size_t)
-
-
-class Allocator(Structure):
-    """Gives memory so many times, and takes note of what is held."""
-
-    _fields_ = [("allocate", _TAKE), ("release", _GIVE), ("host", c_void_p)]
-
-    def __init__(self, most: int) -> None:
-        self.held: dict[int, Any] = {}
-        self.left = most
-        super().__init__(_TAKE(self._take), _GIVE(self._give), None)
-
-    def _take(self, host: int, size: int) -> int | None:
-        self.left -= 1
-        if self.left < 0:
-            return None
-        memory = ctypes.create_string_buffer(size)
-        self.held[ctypes.addressof(memory)] = memory
-        return ctypes.addressof(memory)
-
-    def _give(self, host: int, memory: int, size: int) -> None:
-        assert len(self.held.pop(memory)) == size
 
 
 class Shape(Structure):
@@ -89,7 +67,51 @@ class Entry(Structure):
         return (self.whole, self.number, data.decode() if self.type == 3 else "", data)[self.type - 1]
 
 
+_TASK = CFUNCTYPE(None, c_void_p, c_int)
+_RUN = CFUNCTYPE(None, c_void_p, c_int, _TASK, c_void_p)
+
+
+class Parallel(Structure):
+    """Runs tasks in threads, and counts them."""
+
+    _fields_ = [("size", c_size_t), ("run", _RUN), ("host", c_void_p), ("threads", c_int64)]
+
+    def __init__(self, threads: int) -> None:
+        self.tasks = 0
+        super().__init__(ctypes.sizeof(Parallel), _RUN(self._run), None, threads)
+
+    def _run(self, host: int, count: int, task: Callable[[int, int], None], context: int) -> None:
+        self.tasks += count
+        workers = [Thread(target=task, args=(context, index)) for index in reversed(range(count))]
+        for worker in workers:
+            worker.start()
+        for worker in workers:
+            worker.join()
+
+
 class Options(Structure):
+    _fields_ = [
+        *(("size", c_size_t), ("limits", c_void_p), ("allocator", c_void_p)),
+        *(("tolerant", c_int), ("start", c_int64), ("fields", c_void_p)),
+        *((name, c_size_t) for name in ("field_count", "stride", "index_size")),
+        ("parallel", c_void_p),
+        ("layers", c_int64),
+    ]
+
+    def __init__(
+        self,
+        limits: int | None = None,
+        allocator: int | None = None,
+        tolerant: bool = False,
+        start: int = 0,
+        parallel: int | None = None,
+    ) -> None:
+        super().__init__(ctypes.sizeof(Options), limits, allocator, tolerant, start, parallel=parallel)
+
+
+class ReleasedOptions(Structure):
+    """Those of release 1.0."""
+
     _fields_ = [("limits", c_void_p), ("allocator", c_void_p), ("tolerant", c_int), ("start", c_int64)]
 
 
@@ -111,7 +133,7 @@ class Decoded:
 def compiled(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = None) -> Path:
     """A folder with bsmdec.c, bsmdec.h and bsmdec.so, compiled once of these files and flags, whoever asks."""
     source, header = files or (amalgamated(), interface())
-    command = [compiler, *FLAGS, *flags]
+    command = [compiler, *FLAGS, *(WARNINGS if files is None else ["-w"]), *flags]
     name = hashlib.sha256("\0".join([source, header, *command]).encode()).hexdigest()[:16]
     folder = ROOT / "build" / "bsmdec" / name
     folder.mkdir(parents=True, exist_ok=True)
@@ -130,6 +152,8 @@ def build(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = Non
     library = ctypes.CDLL(str(compiled(*flags, compiler=compiler, files=files) / "bsmdec.so"))
     library.bsmdec_open.restype = c_void_p
     library.bsmdec_last_error.restype = POINTER(Failure)
+    if hasattr(library, "bsmdec_last_misuse"):
+        library.bsmdec_last_misuse.argtypes, library.bsmdec_last_misuse.restype = [c_void_p], c_char_p
     names = "close push finish next faces positions last_error"
     for name in (
         *names.split(),
@@ -149,6 +173,17 @@ def build(*flags: str, compiler: str = "cc", files: tuple[str, str] | None = Non
     return library
 
 
+@cache
+def released() -> ctypes.CDLL:
+    """The decoder of release 1.0: a second opinion on streams, also damaged ones."""
+    with tarfile.open(ROOT / "tests/spec/bsmdec-1.0.tar.xz") as tar:
+        texts = [tar.extractfile(name) for name in ("bsmdec.c", "bsmdec.h")]
+        source, header = (text.read().decode() for text in texts if text is not None)
+    library = build("-O1", "-DKERNEL_ONE_TARGET", files=(source, header))
+    library.is_released = True
+    return library
+
+
 def decode(
     library: ctypes.CDLL,
     stream: bytes,
@@ -156,13 +191,14 @@ def decode(
     tolerant: bool = False,
     pieces: int = 0,
     start: int = 0,
-    allocator: Allocator | None = None,
+    parallel: Parallel | None = None,
 ) -> Decoded:
     """Decode a stream, given at once or so many bytes at a time."""
-    host = ctypes.addressof(allocator) if allocator else None
-    decoder = library.bsmdec_open(byref(Options(None, host, tolerant, start)))
-    if not decoder:
-        return Decoded(NO_MEMORY)
+    threads = ctypes.addressof(parallel) if parallel else None
+    options = Options(None, None, tolerant, start, threads)
+    if getattr(library, "is_released", False):
+        options = ReleasedOptions(None, None, tolerant, start)
+    decoder = library.bsmdec_open(byref(options))
     try:
         found, event = Decoded(), Event()
         for begin in range(0, len(stream), pieces or max(len(stream), 1)):
@@ -229,7 +265,7 @@ def _attributes(library: ctypes.CDLL, decoder: Any, found: Decoded) -> dict[str,
         if library.bsmdec_attribute_at(decoder, index, byref(shape)) != 0:
             continue
         values = np.zeros((shape.rows, shape.components), KINDS[shape.kind])
-        assert library.bsmdec_attribute_values(decoder, index, values.ctypes.data, values.nbytes) in (0, NO_MEMORY)
+        assert library.bsmdec_attribute_values(decoder, index, values.ctypes.data, values.nbytes) == 0
         label = f"{SEMANTICS[shape.semantic]} {DOMAINS[shape.domain]} {shape.name.decode()}"
         arrays[f"attribute {number} {label}"] = values
         found.moving |= {f"attribute {number} {label}"} if shape.moves else set()

@@ -4,12 +4,26 @@ import ctypes
 import subprocess
 from ctypes import byref
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import bsm
-from tests.engine.decoding import BLOCK, END, END_OF_STREAM, NO_MEMORY, Allocator, Entry, Event, compiled, decode
+from tests.engine.decoding import (
+    BLOCK,
+    CONNECTIVITY,
+    END,
+    END_OF_STREAM,
+    ERROR,
+    HEADER,
+    Entry,
+    Event,
+    Options,
+    Shape,
+    compiled,
+    decode,
+)
 from tools.amalgamate import ROOT
 
 MISUSED = 2
@@ -58,28 +72,86 @@ def test_what_authors_say_comes_back(library: ctypes.CDLL) -> None:
 
 
 def test_calls_out_of_order_are_refused_and_touch_nothing(library: ctypes.CDLL) -> None:
-    event, faces = Event(), np.full(3, 7, np.uint32)
-    assert library.bsmdec_push(None, b"", 0) == MISUSED
-    assert library.bsmdec_next(None, byref(event)) == MISUSED
+    event, faces, entry, shape = Event(), np.full(3, 7, np.uint32), Entry(), Shape()
     decoder = library.bsmdec_open(None)
-    assert library.bsmdec_next(decoder, None) == MISUSED
-    assert library.bsmdec_push(decoder, None, 3) == MISUSED
-    assert library.bsmdec_faces(decoder, faces.ctypes.data, faces.size) == MISUSED
-    assert library.bsmdec_positions(decoder, faces.ctypes.data, 3) == MISUSED
+
+    def refused(call: str, *arguments: Any) -> str:
+        assert getattr(library, f"bsmdec_{call}")(decoder, *arguments) == MISUSED
+        assert faces.tolist() == [7, 7, 7]
+        return str(library.bsmdec_last_misuse(decoder).decode())
+
+    assert library.bsmdec_push(None, b"", 0) == library.bsmdec_next(None, byref(event)) == MISUSED
+    assert library.bsmdec_last_misuse(None) == b"the decoder is NULL"
+    assert library.bsmdec_last_misuse(decoder) == b""
+    assert refused("next", None) == "event is NULL"
+    assert refused("push", None, 3) == "bytes is NULL"
+    assert refused("faces", faces.ctypes.data, faces.size) == "faces are known after CONNECTIVITY"
+    assert refused("positions", faces.ctypes.data, 3) == "positions are known after the first BLOCK"
+    assert refused("metadata_at", 0, byref(entry)) == "entry 0 of metadata, 0 are known"
+    assert refused("attribute_at", 0, byref(shape)) == "attribute 0, 0 are known"
+    stream = (VECTORS / "good-attribute-colors.bsm").read_bytes()
+    library.bsmdec_push(decoder, stream, len(stream))
+    while library.bsmdec_next(decoder, byref(event)) == 0 and event.type != CONNECTIVITY:
+        pass
+    assert refused("attribute_at", 0, byref(shape)) == "attribute 0 is known after its ATTRIBUTE"
     assert library.bsmdec_finish(decoder) == 0
-    assert library.bsmdec_push(decoder, b"x", 1) == MISUSED
-    assert faces.tolist() == [7, 7, 7]
+    assert refused("push", b"x", 1) == "bytes are pushed after bsmdec_finish"
+    while library.bsmdec_next(decoder, byref(event)) == 0 and event.type != END:
+        pass
+    assert refused("faces", faces.ctypes.data, 3) == f"size 3, expected {3 * event.faces}"
+    assert refused("faces", None, 3 * event.faces) == "the array is NULL"
+    assert refused("positions", faces.ctypes.data, 3) == f"size 3, expected {3 * event.vertices}"
+    assert refused("attribute_values", 0, faces.ctypes.data, 1).startswith("size 1, expected ")
+    assert refused("attribute_indices", 0, faces.ctypes.data, 1) == "attribute 0 has no indices: it is not of corners"
     library.bsmdec_close(decoder)
     library.bsmdec_close(None)
 
 
-def test_a_host_without_memory_gets_an_error_wherever_that_is(library: ctypes.CDLL) -> None:
-    stream, statuses = (VECTORS / "good-attribute-colors.bsm").read_bytes(), set()
-    for most in range(200):
-        allocator = Allocator(most)
-        statuses.add(decode(library, stream, allocator=allocator).status)
-        assert not allocator.held
-    assert statuses == {0, NO_MEMORY}
+class LongerOptions(Options):
+    """What a program fills that was compiled with a later header."""
+
+    _fields_ = (("later", ctypes.c_int64),)
+
+
+@pytest.mark.parametrize(
+    ("size", "later", "opens"),
+    [(72, 1, True), (88, 1, True), (96, 0, True), (96, 1, False), (0, 0, False), (71, 0, False), (8192, 0, False)],
+)
+def test_options_have_a_size(library: ctypes.CDLL, size: int, later: int, opens: bool) -> None:
+    stream, event = (VECTORS / "good-tetrahedron.bsm").read_bytes(), Event()
+    options = LongerOptions()
+    options.size, options.later = size, later
+    decoder = library.bsmdec_open(byref(options))
+    expected = 0 if opens else MISUSED
+    assert library.bsmdec_push(decoder, stream, len(stream)) == expected
+    assert library.bsmdec_next(decoder, byref(event)) == expected
+    assert event.type == (HEADER if opens else ERROR)
+    assert (b"options.size" in library.bsmdec_last_error(decoder).contents.message) is not opens
+    library.bsmdec_close(decoder)
+
+
+class Limits(ctypes.Structure):
+    _fields_ = [("size", ctypes.c_size_t), ("bounds", ctypes.c_double * 22), ("later", ctypes.c_double)]
+
+
+def test_limits_have_a_size_and_are_numbers(library: ctypes.CDLL) -> None:
+    known, larger = ctypes.sizeof(Limits) - 8, ctypes.sizeof(Limits)
+    limits = Limits(5, (7.0,) * 22, 7.0)
+    for size in (0, known - 1, 8192):
+        assert library.bsmdec_default_limits(byref(limits), size) == MISUSED
+    assert limits.size == 5 and limits.bounds[0] == limits.later == 7.0
+    assert library.bsmdec_default_limits(byref(limits), known) == 0
+    assert limits.size == known and limits.bounds[0] == 1 << 24 and limits.later == 7.0
+    assert library.bsmdec_default_limits(byref(limits), larger) == 0
+    assert limits.size == larger and limits.later == 0.0
+    for place, bound, expected in ((0, 1e9, 0), (0, -1.0, MISUSED), (21, float("nan"), MISUSED)):
+        assert library.bsmdec_default_limits(byref(limits), larger) == 0
+        limits.bounds[place] = bound
+        decoder = library.bsmdec_open(byref(Options(ctypes.addressof(limits), None, False, 0)))
+        assert library.bsmdec_push(decoder, b"\x89", 1) == expected
+        said = f"field {place + 1} of the limits is negative or not a number" if expected else ""
+        assert library.bsmdec_last_error(decoder).contents.message.decode() == said
+        library.bsmdec_close(decoder)
 
 
 def test_the_example_writes_what_python_decodes(tmp_path: Path) -> None:

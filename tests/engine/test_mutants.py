@@ -1,12 +1,11 @@
-"""A few mutants by the decoder in C and by Python's; `python -m tests.engine.mutants` takes any number."""
+"""A few mutants by the decoder of release 1.0 and by today's; `python -m tests.engine.mutants` takes any number."""
 
-import ctypes
-
+from tests.engine.decoding import released
 from tests.engine.mutants import compare
 
 
-def test_both_decoders_agree_on_mutants(library: ctypes.CDLL) -> None:
-    tally, found = compare(library, 150, "test", tolerant=True)
+def test_the_decoder_of_1_0_and_todays_agree_on_mutants() -> None:
+    tally, found = compare(released(), 150, "test", tolerant=True)
     assert not found
     assert tally["status 4"] > 50
     assert tally["status 0"] > 0

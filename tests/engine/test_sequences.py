@@ -69,8 +69,8 @@ def test_the_example_goes_through_all_frames(tmp_path: Path) -> None:
     ).stdout.splitlines()
     positions, faces = bsm.decode_sequence(vector.read_bytes())
     expected = [
-        f"frame {index}: {len(faces)} faces, x from {frame[:, 0].min():.6g} to {frame[:, 0].max():.6g}"
-        for index, frame in enumerate(positions)
+        f"frame {index} of {len(positions)}: {len(faces)} faces, x from {x.min():.6g} to {x.max():.6g}"
+        for index, x in enumerate(positions[:, :, 0].astype(np.float32))
     ]
     assert lines == expected[2:]
     refused = subprocess.run(

@@ -1,6 +1,10 @@
 """Both decoders treat every vector alike, and as the manifest says."""
 
 import importlib
+import importlib.util
+import json
+import shutil
+import subprocess
 import sys
 import threading
 from pathlib import Path
@@ -10,20 +14,29 @@ import pytest
 
 from bsm.api import decode_frames
 from bsm.bitstream import errors
-from bsm.bitstream.container.reader import END_OF_STREAM
-from bsm.codec.sequence.decoder import decode_sequence
-from bsm.codec.static.decoder import Decoder, decode
-from bsm.codec.static.events import AttributeEvent
-from tools.vectors.__main__ import try_command, try_product
+from bsm.decoding import Decoder, decode, decode_sequence
+from bsm.events import END_OF_STREAM, AttributeEvent
+from tools.vectors.__main__ import try_product
 from tools.vectors.bad_attributes import BAD_ATTRIBUTES
+from tools.vectors.large import LARGE
 from tools.vectors.made import BADS, GOODS
-from tools.vectors.store import FOLDER, Vector, arrays_of, read_manifest
+from tools.vectors.store import FOLDER, NEEDS, Vector, arrays_of, needs_of, read_manifest
 
 VECTORS = read_manifest()
 GOOD = [vector for vector in VECTORS if vector.error is None]
+LONG = {"good-grid-large", *LARGE}
+"""What takes the reference decoder seconds."""
 OF_SKIPPED = {*BAD_ATTRIBUTES}
 LACKING = [f"extension {name}" for name in ("light", "sequence", "paper")]
 SPEC = Path(__file__).parents[2] / "spec"
+
+
+def runner():
+    """The runner that stands beside the vectors."""
+    spec = importlib.util.spec_from_file_location("runner", FOLDER.parent / "run.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def named(vectors):
@@ -47,7 +60,9 @@ def triangles(positions, faces):
     return sorted(min(np.roll(triangle, -k, 0).ravel().tolist() for k in range(3)) for triangle in positions[faces])
 
 
-@named(VECTORS)
+@pytest.mark.parametrize(
+    "vector", [pytest.param(one, id=one.name, marks=[pytest.mark.slow] * (one.name in LONG)) for one in VECTORS]
+)
 def test_reference_decoder(vector, reference):
     """All of the core as the manifest says; of extensions that it says it lacks, and shapes without what it skips."""
     try:
@@ -81,17 +96,32 @@ def test_every_prefix_says_what_its_error_is():
 @pytest.mark.parametrize("name", ["good-chain", "bad-block-missing", "unsupported-type-0"])
 def test_command_lines(name):
     vector = next(vector for vector in VECTORS if vector.name == name)
-    for command in (f"{sys.executable} {SPEC / 'reference_decoder.py'} {{in}} {{out}}",):
-        assert try_command(vector, command) is None
+    command = f"{sys.executable} {SPEC / 'reference_decoder.py'} {{in}} {{out}}"
+    assert runner().complaint(vector.stream, vector.error, command) is None
 
 
 def test_a_wrong_decoder_is_found_out():
     chain = next(vector for vector in VECTORS if vector.name == "good-chain")
-    assert "ended with code 1" in try_command(chain, f"{sys.executable} -c 'raise SystemExit(1)' {{in}} {{out}}")
+    complaint = runner().complaint
+    refusal = f"{sys.executable} -c 'raise SystemExit(1)' {{in}} {{out}}"
+    assert "ended with code 1" in complaint(chain.stream, None, refusal)
     copy = f"{sys.executable} -c 'import shutil, sys; shutil.copy(\"{chain.expected}\", sys.argv[2])' {{in}} {{out}}"
-    assert try_command(chain, copy) is None
+    assert complaint(chain.stream, None, copy) is None
     other = next(vector for vector in GOOD if vector.name == "good-independent")
-    assert "positions are off" in try_command(other, copy)
+    assert "positions is off by" in complaint(other.stream, None, copy)
+
+
+def test_the_runner_needs_nothing_of_the_project(tmp_path):
+    """A copy of the folder, and a decoder of the core."""
+    shutil.copytree(FOLDER.parent, tmp_path / "vectors")
+    decoder = f"{sys.executable} {SPEC / 'reference_decoder.py'} {{in}} {{out}}"
+    command = [sys.executable, "-I", "run.py", decoder, "--needs", "core", "--only", "good-one"]
+    done = subprocess.run(command, cwd=tmp_path / "vectors", capture_output=True, text=True)
+    assert done.stdout == "3 of 3 vectors are treated as they should be\n", done.stdout + done.stderr
+
+
+def test_it_is_known_what_each_vector_needs():
+    assert json.loads(NEEDS.read_text()) == {vector.name: needs_of(vector.stream.read_bytes()) for vector in VECTORS}
 
 
 @named([vector for vector in GOOD if not vector.name.startswith("good-sequence")])

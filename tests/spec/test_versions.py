@@ -3,7 +3,6 @@
 import hashlib
 import importlib
 import re
-import tarfile
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +10,8 @@ import pytest
 
 import bsm
 from bsm.cli import main
-from bsm.codec.static.decoder import decode as decode_mesh
-from tests.engine.decoding import build, decode, of_sequence
+from bsm.decoding import decode as decode_mesh
+from tests.engine.decoding import build, decode, of_sequence, released
 from tests.spec.test_law import RULES
 from tools.vectors.good_attributes import charts, colors, creases, groups, worn
 from tools.vectors.meshes import shuffled, torus
@@ -59,9 +58,7 @@ def test_the_vectors_of_1_0_are_what_they_were():
 @pytest.fixture(scope="module")
 def earlier():
     """The decoder that 1.0 released, in C, without comments."""
-    with tarfile.open(HERE / "bsmdec-1.0.tar.xz") as tar:
-        source, header = (tar.extractfile(name).read().decode() for name in ("bsmdec.c", "bsmdec.h"))
-    return build("-O1", "-DKERNEL_ONE_TARGET", files=(source, header))
+    return released()
 
 
 WRITTEN = {

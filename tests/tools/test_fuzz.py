@@ -5,10 +5,10 @@ from collections import Counter
 
 import pytest
 
-from bsm.bitstream.container.reader import END_OF_STREAM, Reader, read_packets
+from bsm.bitstream.container.scanner import scan
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError
-from bsm.bitstream.limits import DEFAULT_LIMITS
-from bsm.codec.static.decoder import Decoder
+from bsm.decoding import Decoder
+from bsm.events import END_OF_STREAM
 from bsm.files.mesh import format_mesh, read_mesh
 from tools.attack.mutate import mutate_stream
 from tools.surgery import frames_of, stream_of, with_header
@@ -29,7 +29,7 @@ def test_mutated_streams_get_past_the_checksums():
     for k in range(300):
         mutated = mutate_stream(stream, 1 << 16, k, change_a_byte)
         try:
-            list(read_packets([mutated], Reader()))
+            list(scan([mutated]))
             reached["whole"] += 1
         except BsmError as error:
             reached["checksum" if "checksum" in str(error) else "payload"] += 1
@@ -38,10 +38,10 @@ def test_mutated_streams_get_past_the_checksums():
 
 def test_headers_are_changed_by_name():
     stream = (FOLDER / "good-chain.bsm").read_bytes()
-    header = next(iter(read_packets([with_header(stream, smoothing=2.5)], Reader(DEFAULT_LIMITS))))
+    header, _ = next(scan([with_header(stream, smoothing=2.5)]))
     assert header.smoothing == 2.5
     with pytest.raises(CorruptError):
-        list(read_packets([with_header(stream, vertices=None)], Reader()))
+        list(scan([with_header(stream, vertices=None)]))
 
 
 # ------------------------------------------------------------------------------------------------- what it has found

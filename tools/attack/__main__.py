@@ -7,6 +7,8 @@ charges  many small and few large of all that can be many: time by what was char
 walk     every frame type and field as large as its bytes allow, held against the law
 readers  every reader of files, with every number as large as it can be, held against the law
 growth   files that are large in one place, read at four times the size
+costly   small files of meshes that take long to encode, found by a search
+manifests  manifests and indexes of tiles, mutated by their grammar
 proof    mutants and random streams by all decoders, on all processors, in all environments
 """
 
@@ -14,7 +16,7 @@ from __future__ import annotations
 
 from tools.command import dispatch
 
-COMMANDS = {name: f"{name}:main" for name in ("fuzz", "sweep", "readers", "growth", "proof")}
+COMMANDS = {name: f"{name}:main" for name in ("fuzz", "sweep", "readers", "growth", "proof", "costly", "manifests")}
 COMMANDS |= {name: f"bombs:{name}" for name in ("bombs", "charges", "walk")}
 
 if __name__ == "__main__":

@@ -19,8 +19,8 @@ from pathlib import Path
 from typing import get_type_hints
 
 from bsm.bitstream.container.gop import GopBody, GopField, GopMethod
-from bsm.bitstream.container.grammar import FOLLOWERS, _reachable
 from bsm.bitstream.container.packets import LIMITED_FIELDS
+from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import NAMED_LIMITS
 from tools.attack.streams import BOMBS
 from tools.attack.taken import (
@@ -85,8 +85,8 @@ THINGS = {
 
 
 def things() -> set[str]:
-    """What there can be many of, by the grammar: frames that come again, ways of GOPs, counts, and lists in GOPs."""
-    again = {kind.name for kind in FOLLOWERS if kind is not None and kind in _reachable(kind)}
+    """Return what there can be many of: frames of each type but END, methods of GOPs, counts, and lists in GOPs."""
+    again = {kind.name for kind in FrameType if kind is not FrameType.END}
     lists = {name for one in (GopBody, GopField) for name, kind in get_type_hints(one).items() if kind not in _SINGLE}
     return again | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | set(LIMITED_FIELDS) | lists
 

@@ -8,14 +8,20 @@ from random import Random
 import numpy as np
 
 from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.decoder import SequenceDecoder
-from bsm.codec.sequence.events import FrameEvent
-from bsm.codec.static.decoder import Decoder, decode
-from bsm.codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, LossEvent, RefinementEvent
+from bsm.decoding import Decoder, SequenceDecoder, decode
+from bsm.events import (
+    END_OF_STREAM,
+    NEED_DATA,
+    AttributeEvent,
+    BlockEvent,
+    ConnectivityEvent,
+    FrameEvent,
+    LossEvent,
+    RefinementEvent,
+)
 from tools.attack.tally import Decoded, Outcome
 from tools.surgery import first_entries
 from tools.vectors.store import Arrays, arrays_of, arrays_of_frames

@@ -8,7 +8,7 @@
 |---|---|
 | mutants | streams of all kinds with something changed behind right checksums: strict, in pieces, tolerant |
 | browser | mutants by the browser's decoder, in Node |
-| differential | mutants and random streams by both decoders |
+| differential | mutants and random streams by today's decoder and that of release 1.0 |
 | encodes | random meshes and sequences with random options: threads, pieces, tolerance, every kind of processor |
 | surroundings | the same in environments of every kind |
 

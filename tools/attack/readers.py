@@ -294,7 +294,7 @@ def _grown(size: int) -> dict[str, Callable[[], Sample]]:
     found["stl of text, lines"] = partial(_text, "stl", b"solid\n", b"vertex 0 0 0\n", size, b"endsolid")
     found["stl of text, facets"] = partial(_text, "stl", b"solid\n", _FACET, size, b"endsolid")
     found["stl of text, spaces"] = partial(_text, "stl", b"solid\n", b" ", size, b"endsolid")
-    found |= _grown_ply(size) | _grown_archives(size) | _grown_gltf(size) | _grown_caches(size)
+    found |= _grown_ply(size) | _grown_archives(size) | _grown_gltf(size) | _grown_caches(size) | _grown_3mf(size)
     if "usda" in samples():
         found |= _grown_usd(size)
     return found
@@ -329,6 +329,12 @@ def _grown_ply(size: int) -> dict[str, Callable[[], Sample]]:
     def faces(fill: bytes, count: int) -> Sample:
         return Sample("ply", _ply_head(little, 1, "char", count) + bytes(3) + fill)
 
+    def polygons(corners: int) -> Sample:
+        row = bytes([corners, *(number % 3 for number in range(corners))])
+        count = size // len(row)
+        head = _ply_head(little, 3, "char", count).replace(b"uchar int vertex", b"uchar uchar vertex")
+        return Sample("ply", head + bytes((0, 0, 0, 1, 0, 0, 0, 1, 0)) + row * count)
+
     empty = b"\0" * size
     mixed = b"\3" + bytes(12) + b"\0" * size
     long = struct.pack("<I", size // 4) + bytes(size)
@@ -338,6 +344,8 @@ def _grown_ply(size: int) -> dict[str, Callable[[], Sample]]:
         "ply, faces without corners": partial(faces, empty, size),
         "ply, rows that differ": partial(faces, mixed, size),
         "ply, triangles": partial(faces, (b"\3" + bytes(12)) * (size // 13), size // 13),
+        "ply, quads of bytes": partial(polygons, 4),
+        "ply, long polygons of bytes": partial(polygons, 255),
         "ply, one face": lambda: Sample("ply", _ply_head(little, 1, "char", 1, length="uint") + bytes(3) + long),
         "ply, properties": partial(properties, "property char a{}\n", bytes(8000)),
         "ply, properties in a row": partial(properties, "property char a_{}\n", bytes(8000)),
@@ -435,6 +443,45 @@ def _zip(entries: dict[str, bytes]) -> bytes:
         for name, data in entries.items():
             archive.writestr(name, data)
     return buffer.getvalue()
+
+
+def three_mf(resources: str, items: str) -> bytes:
+    """A 3MF archive with a triangle as object 0, and what else is given."""
+    triangle = (
+        '<object id="0"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>'
+        '<vertex x="0" y="1" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>'
+    )
+    model = (
+        '<?xml version="1.0"?><model unit="millimeter" '
+        'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">'
+        f"<resources>{triangle}{resources}</resources><build>{items}</build></model>"
+    )
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("3D/3dmodel.model", model)
+    return buffer.getvalue()
+
+
+def chained_objects(count: int) -> str:
+    """Objects of two components each, the next one deeper: 2^count triangles."""
+    component = '<component objectid="{}"/>'
+    return "".join(
+        f'<object id="{number}"><components>{component.format(number - 1) * 2}</components></object>'
+        for number in range(1, count + 1)
+    )
+
+
+def _grown_3mf(size: int) -> dict[str, Callable[[], Sample]]:
+    def made(resources: str, items: str) -> Sample:
+        return Sample("3mf", three_mf(resources, items))
+
+    item = '<item objectid="{}"/>'
+    return {
+        "3mf, items": lambda: made("", item.format(0) * size),
+        "3mf, some components": lambda: made(chained_objects(10), item.format(10)),
+        "3mf, components": lambda: made(chained_objects(40), item.format(40)),
+        "3mf, a chain": lambda: made(chained_objects(size // 90), item.format(size // 90)),
+    }
 
 
 def _grown_caches(size: int) -> dict[str, Callable[[], Sample]]:
@@ -551,6 +598,9 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
     def attributes(t: Tree) -> None:
         t["meshes"][0]["primitives"][0]["attributes"] |= {f"_A{number}": 0 for number in range(size // 12)}
 
+    def unused(t: Tree) -> None:
+        t["accessors"] += [{"componentType": 5126, "count": 10**7, "type": "MAT4"}] * (size // 60)
+
     def empty(t: Tree) -> None:
         nodes(t, [{"mesh": 0}] + [{}] * (size // 8))
 
@@ -567,6 +617,7 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
         "a chain of nodes": (chained, 0),
         "nodes of nothing": (empty, 0),
         "attributes": (attributes, 0),
+        "accessors of no bytes": (unused, 0),
         "targets": (targets, 0),
         "skins": (skinned, 0),
     }

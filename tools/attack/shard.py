@@ -15,7 +15,6 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
-from functools import cache
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -24,7 +23,7 @@ import numpy as np
 
 from bsm.bitstream import errors
 from bsm.bitstream.errors import BsmError, LimitError
-from tests.engine.decoding import build, decode, of_sequence
+from tests.engine.decoding import decode, of_sequence, released
 from tests.engine.mutants import STATUS
 from tools.attack.decoding import is_sequence, piecewise, whole
 from tools.attack.encodes import random_streams, stored
@@ -127,7 +126,7 @@ def browser(shard: Shard, number: int, size: int) -> None:
 
 
 def differential(shard: Shard, number: int, size: int) -> None:
-    """Mutants and random streams by Python's decoder and the one in C."""
+    """Mutants and random streams by today's decoder and that of release 1.0."""
     seeds = shard.seeds()
     for k in range(size):
         if k % 10 == 0:
@@ -142,7 +141,7 @@ def differential(shard: Shard, number: int, size: int) -> None:
             shard.tally.skipped += 1
             continue
         shard.tally.saw(ours)
-        shard.found(stream, shard.tally.hold(stream, ours, in_c(stream)))
+        shard.found(stream, shard.tally.hold(stream, ours, by_release(stream)))
 
 
 def encodes(shard: Shard, number: int, size: int) -> None:
@@ -173,7 +172,7 @@ def _elsewhere(shard: Shard, size: int, places: tuple[Place, ...]) -> None:
                 if other != stream:
                     # An encoder may choose otherwise there; what it writes must mean the same everywhere.
                     shard.tally.otherwise += 1
-                    found = shard.tally.hold(other, whole(other), in_c(other))
+                    found = shard.tally.hold(other, whole(other), by_release(other))
                     shard.found(other, found and f"encoded by {place.name}: {found}")
 
 
@@ -228,12 +227,9 @@ def not_finite(outcome: Outcome, tolerant: bool) -> str | None:
     return "positions that are not finite"
 
 
-_library = cache(build)
-
-
-def in_c(stream: bytes) -> Outcome:
-    """By bsmdec, its errors translated."""
-    found = decode(_library(), stream)
+def by_release(stream: bytes) -> Outcome:
+    """By the decoder of release 1.0, its errors translated."""
+    found = decode(released(), stream)
     if found.status:
         names = {status: name for name, status in STATUS.items()}
         kind: type[BsmError] = getattr(errors, names[found.status])

@@ -18,15 +18,12 @@ from pathlib import Path
 
 from bsm.bitstream.container.gop import METHODS, parse_gop_body
 from bsm.bitstream.container.header import HEADER_FIELDS
-from bsm.bitstream.container.reader import END_OF_STREAM, NEED_DATA
 from bsm.bitstream.container.wire import Cursor, FrameType
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
-from bsm.codec.sequence.decoder import SequenceDecoder
-from bsm.codec.sequence.events import FrameEvent
-from bsm.codec.static.decoder import Decoder
 from bsm.codec.static.encoder import encode
-from bsm.codec.static.events import HeaderEvent, LossEvent
+from bsm.decoding import Decoder, SequenceDecoder
+from bsm.events import END_OF_STREAM, NEED_DATA, FrameEvent, HeaderEvent, LossEvent
 from bsm.files.stream import peek_header
 from tools.surgery import frames_of, header_entries
 from tools.vectors.meshes import torus

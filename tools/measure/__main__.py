@@ -7,6 +7,8 @@ nmsve       bytes at a visual error (NMSVE), against Draco's
 contract    what presets give, checked by themselves and by surfaces, against Draco's bytes
 grids       whole files with exact positions on a grid, against Draco's
 attributes  what attributes take, against Draco's
+encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
+targets     bytes with a target beside the preset, over the larger of what either takes alone
 speed       links on which it is there first
 sequences   moving meshes, against Draco frame by frame and principal components
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
@@ -33,6 +35,8 @@ COMMANDS = {
     "denoise": "denoise:main",
     "tables": "denoise:write_tables",
     "figures": "figures:main",
+    "encoding": "encoding:encoding_command",
+    "targets": "encoding:targets_command",
     "speed": "speed:main",
     "house": "house:main",
     "paper": "paper:main",

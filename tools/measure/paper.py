@@ -47,12 +47,12 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference, decibel, theta
 from bsm.codec.signal.chain import Chain, ChainRules, unheld
 from bsm.codec.static.choice.blocks import Planner
-from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.preamble_encoding import Parts, join, prepare
 from bsm.codec.static.ways.block_coder import encode_blocks
 from bsm.console import Console, print_json
+from bsm.decoding import decode
 from bsm.evaluation.curve import PAPER_KEEPS, Curve, Spectral, paper_curves, paper_options, run_curve
 from bsm.evaluation.sample import knot
 from bsm.files.formats.npz import read_arrays

@@ -26,11 +26,11 @@ from bsm.bitstream.errors import BsmError, MeshError
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original, Reference, decibel, surface_distance, theta
-from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS
 from bsm.codec.static.preamble_encoding import join
 from bsm.codec.static.targets import Target
+from bsm.decoding import decode
 from bsm.evaluation.curve import encode_draco
 from bsm.files.mesh import read_mesh
 

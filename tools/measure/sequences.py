@@ -21,10 +21,10 @@ import numpy as np
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
+from bsm.decoding import decode_sequence
 from bsm.evaluation.curve import Point, draco_point
 from bsm.files.formats.npz import read_arrays
 from bsm.files.output import open_output

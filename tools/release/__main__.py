@@ -9,7 +9,8 @@ Needs the extra `release`, Linux on x86-64, Python 3.11 and a later one, npm, ca
 published. Checks: versions agree; the source distribution builds where there is nothing but Python and a compiler;
 wheels hold one name and no sources, are what auditwheel calls manylinux, satisfy twine, and run both commands of README
 where no compiler is; npm takes the package, and Node decodes with it; the C archive decodes by one command, by CMake
-and by pkg-config; cargo builds the crate that it packed. With them go a list of what a wheel brings along (SBOM,
+and by pkg-config; the DLL for Windows decodes all vectors to the same bits, where Wine is installed (apt: wine64);
+cargo builds the crate that it packed. With them go a list of what a wheel brings along (SBOM,
 CycloneDX), and digests.
 """
 
@@ -31,6 +32,7 @@ from tools.release.npm import make_npm
 from tools.release.trial import try_newcomer, try_wheel
 from tools.release.versions import check_versions, notes
 from tools.release.wheels import ARM, INTEL, clean, make_sdist, make_wheel
+from tools.release.windows import make_windows
 
 ROOT = Path(__file__).parents[2]
 PARTS = ("sdist", "wheels", "arm64", "npm", "engine")
@@ -97,7 +99,7 @@ def make(
         if "npm" in only:
             made.append(make_npm(sources, ROOT, output))
         if "engine" in only:
-            made += [part(sources, version, output) for part in (make_archive, make_crate, make_suite)]
+            made += [part(sources, version, output) for part in (make_archive, make_windows, make_crate, make_suite)]
     return made
 
 

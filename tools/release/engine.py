@@ -18,18 +18,20 @@ from tools.release.trial import try_newcomer
 from tools.release.wheels import clean
 
 STREAM = "spec/vectors/1.0/good-tetrahedron.bsm"
-EXAMPLES = ("obj.c", "frames.cpp")
-README = """# bsmdec: decoder of BSM streams of triangle meshes and their sequences
+EXAMPLES = ("obj.c", "frames.cpp", "threads.c")
+README = """# bsmdec: decoder for BSM streams of triangle meshes and mesh sequences
 
-From the archive to a mesh, beside it:
+From the archive to a mesh:
 
     tar xf bsmdec-*.tar.gz
-    cc -O2 -ffp-contract=off bsmdec-*/obj.c bsmdec-*/bsmdec.c -lm -o obj && ./obj mesh.bsm > mesh.obj
+    cc -O2 bsmdec-*/obj.c bsmdec-*/bsmdec.c -lm -o obj && ./obj mesh.bsm > mesh.obj
 
-`bsmdec.h` is all of the interface; GCC or Clang, no dependency. A static and a shared library, `bsmdecConfig.cmake`
-(`bsmdec::bsmdec`) and `bsmdec.pc` are installed by
+`bsmdec.h` documents the whole interface. The library needs GCC or Clang and nothing else. To install it:
 
     cmake -S . -B build && cmake --build build && cmake --install build --prefix PREFIX
+
+CMake finds it by `find_package(bsmdec 1.0)`; the targets are `bsmdec::bsmdec` and `bsmdec::bsmdec_static`. pkg-config
+finds it as `bsmdec`.
 """
 CONSUMER = """cmake_minimum_required(VERSION 3.20)
 project(consumer C)
@@ -98,10 +100,10 @@ def _try_archive(inside: Path, stream: Path) -> None:
     made = inside.parent / "made"
     made.mkdir()
     prefix, build = made / "prefix", made / "build"
-    _run(["cc", "-O2", "-ffp-contract=off", "obj.c", "bsmdec.c", "-lm", "-o", made / "alone"], inside)
-    _run(["cmake", "-S", inside, "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}"], made)
+    _run(["cc", "-O2", "obj.c", "bsmdec.c", "-lm", "-o", made / "alone"], inside)
+    _run(["cmake", "-S", inside, "-B", build], made)
     _run(["cmake", "--build", build], made)
-    _run(["cmake", "--install", build], made)
+    _run(["cmake", "--install", build, "--prefix", prefix], made)
     consumer = made / "consumer"
     consumer.mkdir()
     (consumer / "CMakeLists.txt").write_text(CONSUMER)

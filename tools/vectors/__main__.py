@@ -1,37 +1,35 @@
 """The vectors of the specification.
 
     python -m tools.vectors                            hold this project's decoder against all of them
-    python -m tools.vectors --run "CMD {in} {out}"     hold another one against them, by its command line
     python -m tools.vectors --new                      make those that are missing, for the next minor version
-    python -m tools.vectors --example                  print the worked example of spec/vectors/README.md
+    python -m tools.vectors --example                  print the worked examples of spec/vectors/README.md
 
-A command must write an npz with `positions`, `faces` and attributes, and end with code 0, or refuse and end with the
-code of its error: 3 format, 4 corrupt, 12 truncated, 5 unsupported, 6 limit, 7 numeric.
+spec/vectors/run.py runs any other decoder, by its command line.
 """
 
 from __future__ import annotations
 
 import argparse
-import shlex
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import numpy as np
 
-from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.bitstream.errors import BsmError
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.decoder import SequenceDecoder
-from bsm.codec.sequence.events import FrameEvent
-from bsm.codec.static.decoder import decode
-from bsm.codec.static.events import ConnectivityEvent
+from bsm.decoding import SequenceDecoder, decode
+from bsm.events import END_OF_STREAM, ConnectivityEvent, FrameEvent
 from tools.vectors.example import example
-from tools.vectors.store import NEXT, Arrays, Vector, arrays_of, arrays_of_frames, read_manifest, write_vectors
-
-EXIT_CODES = {"format": 3, "corrupt": 4, "truncated": 12, "unsupported": 5, "limit": 6, "numeric": 7}
-SECONDS = 120
+from tools.vectors.store import (
+    NEXT,
+    Arrays,
+    Vector,
+    arrays_of,
+    arrays_of_frames,
+    read_manifest,
+    write_needs,
+    write_vectors,
+)
+from tools.vectors.worked_blocks import worked_blocks
 
 
 def main() -> int:
@@ -39,20 +37,19 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python -m tools.vectors", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--run", metavar="COMMAND", help="a decoder's command line with {in} and {out} in it")
     parser.add_argument("--new", action="store_true", help="make the vectors that are missing")
-    parser.add_argument("--example", action="store_true", help="print the worked example of the specification")
+    parser.add_argument("--example", action="store_true", help="print the worked examples of the specification")
     parser.add_argument("--only", metavar="TEXT", default="", help="only vectors whose names hold this")
     args = parser.parse_args()
     if args.new:
         return write()
     if args.example:
-        print(example(), end="")
+        print(example(), worked_blocks(), sep="\n", end="")
         return 0
     vectors = [vector for vector in read_manifest() if args.only in vector.name]
     wrong = 0
     for vector in vectors:
-        complaint = try_command(vector, args.run) if args.run else try_product(vector)
+        complaint = try_product(vector)
         wrong += complaint is not None
         if complaint:
             print(f"{vector.name}: {complaint} ({vector.probes})")
@@ -98,24 +95,6 @@ def _decode_sequence(data: bytes) -> tuple[np.ndarray, np.ndarray, Arrays]:
     return np.concatenate(frames), np.concatenate(faces), arrays | {"runs": np.array(runs, np.int32)}
 
 
-def try_command(vector: Vector, command: str) -> str | None:
-    """What a decoder's command line does wrong with a vector, or None."""
-    with tempfile.TemporaryDirectory() as folder:
-        output = Path(folder) / "out.npz"
-        names = {"in": shlex.quote(str(vector.stream)), "out": shlex.quote(str(output))}
-        done = subprocess.run(
-            shlex.split(command.format(**names)), capture_output=True, text=True, timeout=SECONDS, check=False
-        )
-        expected = EXIT_CODES[vector.error] if vector.error else 0
-        if done.returncode != expected:
-            return f"ended with code {done.returncode} instead of {expected}: {done.stderr.strip()[-200:]}"
-        if vector.error:
-            return "refused, and yet it wrote a file" if output.exists() else None
-        with np.load(output) as file:
-            attributes = {name: file[name] for name in file if name not in ("positions", "faces")}
-            return vector.complaint(file["positions"], file["faces"], attributes)
-
-
 def write() -> int:
     """Make the vectors that no earlier version has; write none if the decoder does not treat one as it should."""
     from tools.vectors.made import BADS, GOODS
@@ -146,6 +125,7 @@ def write() -> int:
         print(f"{name} is decoded and not refused", file=sys.stderr)
         return 1
     write_vectors(streams, meshes)
+    write_needs()
     print(f"{len(streams)} vectors, {sum(map(len, streams.values()))} bytes of streams")
     return 0
 

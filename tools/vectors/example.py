@@ -10,13 +10,13 @@ import numpy.typing as npt
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients, points_of_levels
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.packets import Header
-from bsm.bitstream.container.reader import Reader
+from bsm.bitstream.container.scanner import Scanner
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain
 from bsm.codec.static.coding import chain_rules
-from bsm.codec.static.decoder import decode
+from bsm.decoding import decode
 from tools.surgery import frames_of, header_entries
 from tools.vectors.store import FOLDER
 
@@ -69,9 +69,7 @@ def _header(payload: bytes) -> Iterator[tuple[bytes, str]]:
 
 
 def _numbers(stream: bytes) -> list[str]:
-    reader = Reader()
-    reader.receive_data(stream)
-    header = reader.next_packet()
+    header, _ = next(Scanner().receive(stream))
     assert isinstance(header, Header)
     mesh = decode(stream)
     graph = graph_of_faces(mesh.faces, header.vertices)

@@ -9,6 +9,7 @@ import numpy as np
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
+from bsm.bitstream.container.scanner import Scanner
 from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.fields.corners import FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, levels_field
@@ -97,11 +98,7 @@ def _exact_lattice() -> TriangleMesh:
 
 def header_of(stream: bytes) -> Header:
     """The header of a stream."""
-    from bsm.bitstream.container.reader import Reader
-
-    reader = Reader()
-    reader.receive_data(stream)
-    header = reader.next_packet()
+    header, _ = next(Scanner().receive(stream))
     assert isinstance(header, Header)
     return header
 

@@ -13,7 +13,8 @@ from tools.vectors.good_attributes import ATTRIBUTES
 from tools.vectors.good_fields import FIELDS
 from tools.vectors.good_light import LIGHT
 from tools.vectors.good_sequences import SEQUENCES
+from tools.vectors.large import LARGE
 
-GOODS: dict[str, Good] = {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **LIGHT, **EXACT, **EDGES, **BOUNDS}
+GOODS: dict[str, Good] = {**STATIC, **FIELDS, **SEQUENCES, **ATTRIBUTES, **LIGHT, **EXACT, **EDGES, **BOUNDS, **LARGE}
 BADS: dict[str, Bad] = {**BAD, **BAD_FIELDS, **BAD_SEQUENCES, **BAD_ATTRIBUTES, **BAD_LIGHT, **BAD_EXACT}
 BADS |= EDGES_BAD | BOUNDS_BAD

@@ -12,12 +12,20 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.bitstream.container.header import HEADER_FIELDS
+from bsm.bitstream.container.wire import FrameType
+from bsm.bitstream.errors import BsmError
 from bsm.codec.geometry.attributes import Attribute
+from tools.surgery import frames_of, header_entries
 
 FOLDER = Path(__file__).parents[2] / "spec" / "vectors" / "1.0"
 """The vectors of 1.0, which stay what they are."""
 NEXT = FOLDER.parent / "1.1"
 """Those that came since, and stay from the next minor version on."""
+NEEDS = FOLDER.parent / "needs.json"
+"""The documents that each vector needs, of all versions."""
+FRAME_NEEDS = {FrameType.ORDER: "order", FrameType.PARTITION: "paper", FrameType.ATTRIBUTE: "attributes"}
+FIELD_NEEDS = ("light", "paper", "attributes", "sequence")
 MANIFEST = "manifest.json"
 ROUNDING = 1e-6
 """How far floats of attributes may be, for ones above 1 relatively."""
@@ -118,6 +126,24 @@ def read_manifest() -> list[Vector]:
             if not path.is_file():
                 raise FileNotFoundError(f"{path} is missing")
     return vectors
+
+
+def needs_of(stream: bytes) -> list[str]:
+    """Return the documents that a decoder of a stream needs, as far as its frames and header can be read."""
+    try:
+        frames = frames_of(stream)
+        found = {"core"} | {name for kind, name in FRAME_NEEDS.items() if kind in {kind for kind, _ in frames}}
+        fields = set().union(*(header_entries(payload) for kind, payload in frames if kind == FrameType.HEADER))
+    except (BsmError, TypeError, ValueError):
+        return ["core"]
+    return sorted(found | {name for name in FIELD_NEEDS if HEADER_FIELDS[name].key in fields})
+
+
+def write_needs() -> None:
+    """Write which documents each vector needs, of all folders."""
+    needs = {vector.name: needs_of(vector.stream.read_bytes()) for vector in read_manifest()}
+    lines = (f" {json.dumps(name)}: {json.dumps(documents)}" for name, documents in sorted(needs.items()))
+    NEEDS.write_text("{\n" + ",\n".join(lines) + "\n}\n")
 
 
 def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, Any, Arrays]]) -> None:

@@ -44,6 +44,8 @@ FUSED, EVEN_FUSED, NOT_BROADER = (0.065, 0.08), (0.15, 0.225), 1.04
 """Levels of the noise of views fused on a lattice, in mean edges, how uneven they may be there, and how much of it
 broader filters may see. They read .07 to .11, .06 to .21 and .93 to 1.01; fields without noise .01 to .07, .23 and more
 and 1.09 to 1.7."""
+FUSED_UNEVEN, NARROWER = 0.45, 0.97
+"""Fused views of a real camera: how uneven their noise may be, and how much of it broader filters may see then."""
 MARCHED = 1.06
 """Mean edge, in steps of the lattice, that marching cubes do not reach: it is .94 to .97, of regular triangles 1.14."""
 SMOOTH_VIEW = "what a camera saw, without its noise"
@@ -126,16 +128,18 @@ def _fused(positions: Positions, evidence: Evidence) -> Finding | None:
     valid = evidence.probe.windows.valid
     levels = evidence.levels[valid]
     level = float(np.median(levels))
-    allowed = np.interp(level, FUSED, EVEN_FUSED)
-    regular = evidence.edge > MARCHED * lattice_step(positions)
-    if level < FUSED[0] or regular or spread(levels, evidence.probe.windows) > allowed:
+    real = level < FUSED[0] or spread(levels, evidence.probe.windows) > np.interp(level, FUSED, EVEN_FUSED)
+    if level < FAINTEST or (real and spread(levels, evidence.probe.windows) > FUSED_UNEVEN):
+        return None
+    if evidence.edge > MARCHED * lattice_step(positions):
         return None
     broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))[valid]
     random = is_random(_standardised(evidence, evidence.probe.counted))
-    if not random or not np.nanquantile(broad / levels, 0.25) <= NOT_BROADER:
+    if not random or not np.nanquantile(broad / levels, 0.25) <= (NARROWER if real else NOT_BROADER):
         return None
     amount = np.full(len(positions), level * evidence.edge)
-    return Finding("fused", level * evidence.edge, amount, evidence.edge, "noise of views fused on a lattice")
+    kind, reason = ("uneven fused", " of a real camera") if real else ("fused", "")
+    return Finding(kind, level * evidence.edge, amount, evidence.edge, f"noise of views{reason} fused on a lattice")
 
 
 def _everywhere(positions: Positions, evidence: Evidence) -> Finding | None:

@@ -8,11 +8,10 @@ import numpy.typing as npt
 
 from bsm.bitstream.attributes import values as coders
 from bsm.bitstream.container.header import BITS, COLOR, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration
-from bsm.bitstream.container.wire import Cursor, write_varint
-from bsm.bitstream.errors import CorruptError, OptionError, TargetError
-from bsm.bitstream.fields.corners import Field, FieldDecoder, FieldEncoder
-from bsm.bitstream.limits import Limits
-from bsm.codec.arrays import Indices, Levels
+from bsm.bitstream.container.wire import write_varint
+from bsm.bitstream.errors import OptionError, TargetError
+from bsm.bitstream.fields.corners import Field, FieldEncoder
+from bsm.codec.arrays import Levels
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality
 from bsm.codec.static.attributes.surface import Surface
 
@@ -247,21 +246,6 @@ def to_pieces(declaration: Declaration, levels: Words) -> Levels:
     return np.stack(columns, axis=1).astype(np.int32)
 
 
-def from_pieces(declaration: Declaration, pieces: Levels) -> Words:
-    """Twin of `to_pieces`, of shape (k, pieces); raises `CorruptError` for levels that are too large."""
-    columns, at = [], 0
-    for largest in declaration.largest:
-        level = pieces[:, at].astype(np.int64)
-        if largest > MOST_WHOLE:
-            at += 1
-            level = level << PIECE_BITS | pieces[:, at]
-        if level.max(initial=0) > largest:
-            raise CorruptError(f"a level is above {largest}")
-        columns.append(level)
-        at += 1
-    return np.stack(columns, axis=1)
-
-
 def kind_of(declaration: Declaration) -> coders.Kind:
     """How numbers are predicted."""
     if declaration.coding == OCTAHEDRAL:
@@ -300,27 +284,6 @@ class PieceEncoder:
         """Code the next `count` values: where there are several groups, each with its length before it."""
         parts = [coder.chunk(count) for coder in self._coders]
         return parts[0] if len(parts) == 1 else b"".join(write_varint(len(part)) + part for part in parts)
-
-
-class PieceDecoder:
-    """Twin of `PieceEncoder`; raises as `FieldDecoder`."""
-
-    def __init__(self, declaration: Declaration, surface: Surface, places: Levels | None, limits: Limits) -> None:
-        self._coders = [FieldDecoder(field, limits) for field in _fields(declaration, surface, places)]
-
-    @property
-    def coded(self) -> int:
-        return min(coder.coded for coder in self._coders)
-
-    def chunk(self, payload: bytes, count: int) -> tuple[Indices, Levels]:
-        """The numbers of the next `count` values, and their pieces, shape (count, pieces)."""
-        cursor, found = Cursor(payload), []
-        for coder in self._coders:
-            part = cursor.take(cursor.varint()) if len(self._coders) > 1 else cursor.rest()
-            rows, pieces = coder.chunk(part, count)
-            found.append(pieces)
-        cursor.finish()
-        return rows, np.concatenate(found, axis=1)
 
 
 def _groups(declaration: Declaration) -> list[slice]:

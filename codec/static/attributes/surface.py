@@ -5,10 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from bsm.bitstream.attributes.seams import Joins
-from bsm.bitstream.container.header import FACE, VERTEX, Declaration
-from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order
-from bsm.codec.geometry.attributes import Domain
-from bsm.codec.static.numbering import Numbering
+from bsm.bitstream.container.header import FACE
+from bsm.codec.arrays import Faces, Indices, Levels, Matrix
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,42 +36,6 @@ def surface_of(domain: int, faces: Faces, vertices: int, loose: int, joins: Join
     return Surface(corners, np.concatenate([at, np.full(loose, -1, np.int32)]).astype(np.int32))
 
 
-@dataclass(frozen=True, eq=False)
-class Arrangement:
-    """How an attribute is given to the user."""
-
-    domain: Domain
-    rows: Order
-    indices: Indices | None = None
-
-
-def arrangement_of(declaration: Declaration, surface: Surface, numbering: Numbering, rows: int) -> Arrangement:
-    """How the `rows` coded values of an attribute lie on the surface."""
-    everything = np.arange(rows, dtype=np.int64)
-    corners = numbering.corners
-    if declaration.domain == FACE:
-        return Arrangement("face", everything if corners is None else corners[:, 0].astype(np.int64) // 3)
-    indices = surface.faces if corners is None else surface.faces.ravel()[corners]
-    by_vertex = declaration.by_vertex and (declaration.domain == VERTEX or numbering.splits)
-    if not by_vertex:
-        return Arrangement("corner", everything, indices)
-    if declaration.domain == VERTEX and numbering.source is None:
-        return Arrangement("vertex", everything)
-    assert numbering.source is not None
-    loose = np.cumsum(numbering.source < 0) - 1 + rows - int((numbering.source < 0).sum())
-    if declaration.domain == VERTEX:
-        found = numbering.source.astype(np.int64)
-    else:
-        found = np.zeros(len(numbering.source), np.int64)
-        found[numbering.faces.ravel()[::-1]] = indices.ravel()[::-1]
-    return Arrangement("vertex", np.where(numbering.source < 0, loose, found))
-
-
-def loose_of(declaration: Declaration, numbering: Numbering) -> int:
-    """How many values there are for vertices that no face uses."""
-    return len(numbering.loose) if declaration.by_vertex else 0
-
-
 def recomputed(surface: Surface, positions: Matrix) -> Matrix:
     """Normals of the values of a surface: those of the faces around, by area (A 7); shape (k, 3)."""
     places = positions[surface.vertices] if len(surface.vertices) else positions
@@ -85,11 +47,3 @@ def recomputed(surface: Surface, positions: Matrix) -> Matrix:
             normals[:, axis] += np.bincount(surface.faces[:, corner], weights=across[:, axis], minlength=len(normals))
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
-
-
-@dataclass(frozen=True, eq=False)
-class Solid:
-    """Decoded positions."""
-
-    positions: Matrix
-    places: Levels | None = None

@@ -1,6 +1,7 @@
 """Blocks, alone or with a layer of refinement on them: ways to code a mesh, and the drafts that they come to."""
 
 import math
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -16,16 +17,15 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
 from bsm.codec.signal.transform import MeasuredSpectrum, packed_range, project, smallest_step
-from bsm.codec.static.assembly import blended
 from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
 from bsm.codec.static.choice.settling import RATIO, Sensitivity
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import STIFFNESS, Adaptive, Packed, Scheme
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
-from bsm.codec.static.targets import ANY_ANGLE
+from bsm.codec.static.targets import ANY_ANGLE, secant
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import Progress, admit, encode_blocks, patience
+from bsm.codec.static.ways.block_coder import Progress, admit, blended, encode_blocks, patience
 from bsm.codec.static.ways.refinement import encode_layer
 from bsm.codec.static.work import Allowance
 from bsm.codec.threads import ordered_map
@@ -158,7 +158,8 @@ PULLED, NEAR = 0.11, 16.0
 far a vertex may be brought from its place, in steps of the layer."""
 NOISE = 0.008
 """Errors that are looked at to learn where they are seen, over the look that is asked for and the mean edge."""
-WITHIN_REACH = 0.8  # how far levels are chosen off a place, of how far they may be: what moves others moves steps, too
+ASLANT = 1.5
+"""The most that steps in the plane are, over those that would be right if errors counted alike seen or not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,6 +195,18 @@ class Base:
         """The nearest levels to steps, both of shape (n, 3), and what one of each moves, shape (n, 3, 3)."""
         directions = self.frames.reshape(-1, 3, 3) * steps[:, :, None]
         return np.rint(self.offsets / steps).astype(np.int32), directions
+
+    def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> Levels:
+        """Return these levels, but the nearest ones where a vertex is farther from its place than it may be."""
+        levels = levels.copy()
+        for _ in range(3):  # heights that are mended change steps of others
+            known = self.known_steps(layer, levels)
+            error = levels * known - self.offsets
+            far = np.square(error).sum(axis=1) > reaches**2
+            if not far.any():
+                break
+            levels[far] = np.rint(self.offsets[far] / known[far])
+        return levels
 
     def moved(self, layer: Layer, levels: Levels) -> Matrix:
         """Where levels, shape (n, 3), bring the base, in BSM units, shape (n, 3)."""
@@ -258,6 +271,12 @@ class Plain:
         self.least, self.most = 1.01 * smallest_step(prepared.size), COARSEST
         self.first = ALONE * bounds.first_step
 
+    def under(self, bounds: Bounds) -> "Plain":
+        """Return the same way for other bounds."""
+        other = copy(self)
+        other._bounds = bounds
+        return other
+
     def at(self, step: float) -> Candidate:
         """What a step of coefficients comes to."""
         base = self._spectral.base(step, self._progress)
@@ -281,6 +300,12 @@ class Refined:
         self._progress = progress
         self.least, self.most = FINEST_LAYER, COARSEST
 
+    def under(self, bounds: Bounds) -> "Refined":
+        """Return the same way, and the same blocks, for other bounds."""
+        other = copy(self)
+        other._bounds = bounds
+        return other
+
     @cached_property
     def first(self) -> float:
         return self._bounds.first_step if self._sensitivity is None else self._sensitivity.first_step(self._look)
@@ -289,10 +314,7 @@ class Refined:
         """What a step of the layer comes to."""
         base = self._base
         if self._sensitivity is not None:
-            layer = Layer(single(step), RATIO)
-            steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
-            reach = np.minimum(WITHIN_REACH * self._bounds.reaches, NEAR * layer.step)
-            levels = self._sensitivity.levels(base.offsets, base.frames, steps, known, PULLED, reach)
+            layer, levels = self._evened(step, self._sensitivity)
         elif self._bounds.contract.angle < ANY_ANGLE:
             layer = Layer(single(step), RATIO)
             levels = self._shaped(base, layer)
@@ -307,7 +329,30 @@ class Refined:
             turned = self._bounds.measures.shaper.unfold(candidate.positions, levels, directions, self._bounds.reaches)
             return None if turned is None else _candidate(step, base, layer, turned)
 
-        return replace(candidate, unfold=unfold)
+        return replace(candidate, unfold=unfold, evened=self._sensitivity is not None)
+
+    def _evened(self, step: float, seen: Sensitivity) -> tuple[Layer, Levels]:
+        """Return levels that cost little where they are seen, and are no more exact elsewhere than the bounds ask."""
+        base, bounds = self._base, self._bounds
+        kept = dict[float, tuple[Layer, Levels]]()
+
+        def settle(even: float) -> tuple[Layer, Levels]:
+            layer = Layer(single(step), min(max(ASLANT * even / step, 1.0), RATIO))
+            steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
+            reach = np.minimum(bounds.reaches, NEAR * layer.step)
+            levels = seen.levels(base.offsets, base.frames, steps, known, PULLED, reach, even)
+            return layer, base.within(bounds.reaches, layer, levels)
+
+        def excess(even: float) -> float:
+            found = settle(even)
+            over = bounds.spread(base.moved(*found))
+            if over <= 0.0 or not kept:
+                kept[even if over <= 0.0 else 0.0] = found
+            return over
+
+        if excess(math.inf) > 0.0:
+            secant(excess, bounds.even_step, step, COARSEST)
+        return kept[max(kept)]
 
     @cached_property
     def _base(self) -> Base:

@@ -13,17 +13,15 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.graph import component_sizes
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original, Reference, distances_to_surface
-from bsm.codec.look.measure import LookMetric, Shading
+from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import Draft, Prepared
-from bsm.codec.static.targets import ANY_ANGLE, Contract
+from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
 
 COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
 """Largest step, in BSM units; and the mean angle of normals, degrees, that rounding comes with at a look of 1."""
-NEARLY = 0.87, 1.08
-"""Shares of what is asked for outside of which a few sides are enough; half as far where it is known how much more all
-sides tell."""
+NEARLY = 0.87, 1.08  # shares of what is asked for outside of which a few sides are enough
 LEAST = 1e-6  # share of a bound below which all is as good as it can be
 MARGIN = 1e-9  # of a bound on distances, for what rounding may add
 FINEST_PART = 0.1
@@ -38,19 +36,13 @@ class Measures:
     """What is measured of an original once, whatever is asked for; `alike`: angles count all faces alike."""
 
     def __init__(
-        self,
-        prepared: Prepared,
-        threads: int | None,
-        normals: Normals | None = None,
-        shading: Shading | None = None,
-        *,
-        alike: bool = False,
+        self, prepared: Prepared, threads: int | None, normals: Normals | None = None, *, alike: bool = False
     ) -> None:
         self.prepared = prepared
         self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
         self.shaper = Shaper(self.original, prepared.graph)
         self._threads = threads
-        self._normals, self._shading = normals, shading
+        self._normals = normals
 
     @cached_property
     def reference(self) -> Reference:
@@ -62,7 +54,7 @@ class Measures:
         own = () if self._normals is None else (Attribute("normal", self._normals.reshape(-1, 3), "corner", "normal"),)
         mesh = TriangleMesh(self.prepared.positions, self.prepared.mesh.faces, own)
         try:
-            return LookMetric(mesh, threads=self._threads, shading=self._shading)
+            return LookMetric(mesh, threads=self._threads)
         except MeshError:
             return None
 
@@ -76,6 +68,7 @@ class Candidate:
     positions: Matrix
     make: Callable[[], Draft]
     unfold: Callable[[], "Candidate | None"] = lambda: None
+    evened: bool = False  # whether another search than that for the step keeps the bounds that all vertices count in
 
     @cached_property
     def draft(self) -> Draft:
@@ -91,23 +84,30 @@ class Bounds:
         self.reaches = reaches(measures.prepared, contract) * (1.0 - MARGIN)
         self._best: tuple[float, ...] | None = None
 
-    def excess(self) -> Callable[[Matrix], tuple[float, float | None]]:
+    def excess(self) -> Callable[[Candidate], tuple[float, float | None]]:
         """The logarithm of the largest share of a bound, for one search, and the look from all sides where that was
         looked at: a few of them tell enough elsewhere, for what all tell beside these is about as it was before."""
         skew, near = 1.0, NEARLY
 
-        def excess(positions: Matrix) -> tuple[float, float | None]:
+        def excess(candidate: Candidate) -> tuple[float, float | None]:
             nonlocal skew, near
-            shares = self._shares(positions)
+            positions = candidate.positions
+            farther, angle, visual = self._shares(positions)
+            shares = (angle,) if candidate.evened and max(farther, visual) <= 1.0 else (farther, angle, visual)
             least = 0.0 if NEARLY[0] < max(shares) <= 1.0 else near[0]  # a search may end where another bound is near
             few, whole = self._glance(positions, *(share * self.contract.look / skew for share in (least, near[1])))
             if whole is not None:
-                near = math.sqrt(NEARLY[0]), math.sqrt(NEARLY[1])
+                near = math.exp(-SLACK), math.exp(SLACK / 2.0)  # about what the search ends with
                 skew = max(whole, LEAST) / max(few, LEAST)
             look = skew * few if whole is None else whole
             return math.log(max(*shares, look / self.contract.look, LEAST)), whole
 
         return excess
+
+    def spread(self, positions: Matrix) -> float:
+        """Return the logarithm of the largest share of the bounds that all vertices count in, seen or not."""
+        farther, _, visual = self._shares(positions)
+        return math.log(max(farther, visual, LEAST))
 
     def breaks(self, positions: Matrix) -> bool:
         """Whether some sides show, one after another, that positions look far worse than they may."""
@@ -138,15 +138,20 @@ class Bounds:
     @cached_property
     def first_step(self) -> float:
         """A step at which what comes of rounding is about as bad as it may be, in BSM units."""
-        step, positions = COARSEST, self.measures.prepared.positions
         if self.contract.look == math.inf:
-            for _ in range(3):
-                # Of errors, or of their squares.
-                step /= math.sqrt(max(*self._shares(np.rint(positions / step) * step), LEAST))
-            return min(step, COARSEST)
-        step = self.rough_step
+            return self.even_step
+        step, positions = self.rough_step, self.measures.prepared.positions
         few, _ = self._glance(np.rint(positions / step) * step, math.inf, math.inf)
         return step * min(max(self.contract.look / max(few, LEAST), 0.1), 10.0)
+
+    @cached_property
+    def even_step(self) -> float:
+        """A step at which rounding about keeps the bounds that are not in pictures, in BSM units."""
+        step, positions = COARSEST, self.measures.prepared.positions
+        for _ in range(3):
+            # Of errors, or of their squares.
+            step /= math.sqrt(max(*self._shares(np.rint(positions / step) * step), LEAST))
+        return min(step, COARSEST)
 
     @property
     def had(self) -> str:

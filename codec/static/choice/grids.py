@@ -168,6 +168,10 @@ class Gridded:
         self.most = COARSEST
         self._bounds = bounds
 
+    def under(self, bounds: Bounds) -> "Gridded":
+        """Return the same way for other bounds."""
+        return Gridded(self._prepared, bounds, self._worth)
+
     @cached_property
     def first(self) -> float:
         return min(self._bounds.first_step, COARSEST)

@@ -1,8 +1,13 @@
 """The smallest stream that keeps a contract, and the best one of a size: one secant for every way to code a mesh."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from copy import copy
+from dataclasses import dataclass, replace
+from itertools import takewhile
 from operator import attrgetter
 from typing import Protocol
 
@@ -11,13 +16,13 @@ import numpy as np
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.geometry.metrics import folded_edges
 from bsm.codec.geometry.welding import first_of, weld
-from bsm.codec.look.measure import LookMetric
+from bsm.codec.look.measure import LookMetric, Shading
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
-from bsm.codec.static.targets import STEEPEST, Contract, secant
+from bsm.codec.static.targets import SLACK, STEEPEST, TRIES, Contract, secant
 from bsm.codec.static.ways.block_coder import Progress
 
 DEARER = 1.08  # a way is left alone whose first step takes so many times the bytes of what was found
@@ -34,6 +39,9 @@ class Way(Protocol):
     def first(self) -> float:
         """A step that is about right."""
 
+    def under(self, bounds: Bounds) -> Way:
+        """Return the same way for other bounds."""
+
     def at(self, step: float) -> Candidate:
         """What a step comes to."""
 
@@ -44,10 +52,23 @@ class Unfolding:
     def __init__(self, way: Way, first: float) -> None:
         self.least, self.most, self.first, self._way = way.least, way.most, first, way
 
+    def under(self, bounds: Bounds) -> Way:
+        """Return the same way for other bounds."""
+        return Unfolding(self._way.under(bounds), self.first)
+
     def at(self, step: float) -> Candidate:
         """What a step comes to."""
         candidate = self._way.at(step)
         return candidate.unfold() or candidate
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a search ended with."""
+
+    way: Way
+    step: float
+    contract: Contract
 
 
 class Search:
@@ -64,6 +85,7 @@ class Search:
         self._options = options
         self._progress = progress
         self._size = size
+        self._before: Found | None = None
 
     @property
     def metric(self) -> LookMetric | None:
@@ -81,29 +103,56 @@ class Search:
         if not self._prepared.mesh.diagonal > 0.0:
             return rounded(self._prepared, 1)  # a point
         bounds = Bounds(self._measures, contract)
+        before, self._before = self._before, None
+        if before is not None and replace(contract, look=before.contract.look) == before.contract:
+            way = before.way.under(bounds)
+            found = widest(way, bounds, first=before.step * contract.look / before.contract.look)
+            if found is not None:
+                return self._noted(unfolded(found, way, bounds), way, contract)
         kept = [one for one in Gridded(self._prepared, bounds, 0.0).made() if bounds.keeps(one.positions)]
         least, made = min((one.draft.size for one in kept), default=math.inf), list[Candidate]()
+        ways = dict[int, Way]()
         for way in self._ways(bounds, contract.look):
+            if made and self._spent:
+                break
             on_grid = any(one.draft.places is not None for one in (*kept, *made))
             if isinstance(way, Gridded) and not on_grid and way.guess() > GUESSED * least:
                 continue
             # Where a step of blocks alone should begin cannot be told, and so not what they take from their first one.
-            found = widest(way, bounds, math.inf if isinstance(way, Plain) else least)
+            patient = self._options.effort == "best"
+            found = widest(way, bounds, math.inf if isinstance(way, Plain) else least, patient=patient)
             if found is not None:
                 made.append(unfolded(found, way, bounds))
+                ways[id(made[-1])] = way
                 least = min(least, made[-1].draft.size)
         kept += made
         near = bounds.excess()
         for candidate in self._made_on(bounds, made or kept):
             if candidate.draft.size < least and not bounds.breaks(candidate.positions):
-                over, look = near(candidate.positions)
+                over, look = near(candidate)
                 if over <= 0.0 and bounds.keeps(candidate.positions, look):
                     kept.append(candidate)
                     least = candidate.draft.size
         if not kept:
             kept += self._last_resort(bounds)
         best = min(kept, key=lambda one: self._size(one.draft))
-        return (best if best.draft.places is None else self._flatter(best, bounds)).draft
+        way = ways.get(id(best), Gridded(self._prepared, bounds, 0.0))
+        return self._noted(best if best.draft.places is None else self._flatter(best, bounds), way, contract)
+
+    def shaded_by(self, shading: Shading) -> Search:
+        """Return a search for the same mesh, where decoded meshes are drawn with normals that `shading` makes."""
+        other = copy(self)
+        other._before = None  # other normals may want another way
+        other._measures = copy(self._measures)
+        if self.metric is not None:
+            other._measures.look = self.metric.shaded_by(shading)
+        return other
+
+    def _noted(self, found: Candidate, way: Way, contract: Contract) -> Draft:
+        """Take note of what was found: a contract of another look begins there."""
+        if found.step > 0.0:
+            self._before = Found(way, found.step, contract)
+        return found.draft
 
     def _flatter(self, best: Candidate, bounds: Bounds) -> Candidate:
         """The one with fewest edges folded over, of this and plain grids that take little more, where it has many."""
@@ -111,15 +160,15 @@ class Search:
         faces = np.ascontiguousarray(first_of(index)[faces], np.int32)
         most = folded_edges(self._prepared.positions, faces) - -len(faces) // 10_000
 
-        def rank(one: Candidate) -> tuple[int, int]:
-            return max(folded_edges(one.positions, faces), most), one.draft.size
+        def folds(one: Candidate) -> int:
+            return max(folded_edges(one.positions, faces), most)
 
-        least, dearest = rank(best), DEARER * best.draft.size
-        if least[0] > most:
+        least, dearest = folds(best), DEARER * best.draft.size
+        if least > most:
             way = Unfolding(Gridded(self._prepared, bounds, 0.0), best.step)
             for one in map(way.at, np.geomspace(best.step, best.step / 2.0, 9).tolist()):
-                if rank(one) < least and one.draft.size < dearest and bounds.keeps(one.positions):
-                    best, least = one, rank(one)
+                if not self._spent and folds(one) < least and one.draft.size < dearest and bounds.keeps(one.positions):
+                    best, least = one, folds(one)
         return best
 
     def _last_resort(self, bounds: Bounds) -> list[Candidate]:
@@ -158,6 +207,10 @@ class Search:
         found = [one for one in found if self._size(one.draft) <= most_bytes and bounds.keeps(one.positions)]
         return min(found, key=lambda one: bounds.quality(one.positions)).draft if found else None
 
+    @property
+    def _spent(self) -> bool:
+        return self.metric is not None and self.metric.is_spent
+
     def seen(self, draft: Draft) -> str:
         """What is visible of a draft, in words."""
         metric = self._measures.look
@@ -182,7 +235,7 @@ class Search:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""
         prepared, steps = self._prepared, [one.step for one in found if one.draft.places is not None]
         if prepared.graph.size < FEW_VERTICES:
-            yield from Gridded(prepared, bounds, 0.0).fitting()
+            yield from takewhile(lambda _: not self._spent, Gridded(prepared, bounds, 0.0).fitting())
         elif steps and self._measures.shaper.character.is_sharp:
             yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
 
@@ -197,17 +250,19 @@ def unfolded(found: Candidate, way: Way, bounds: Bounds) -> Candidate:
     return turned or found
 
 
-def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf) -> Candidate | None:
+def widest(
+    way: Way, bounds: Bounds, most_bytes: float = math.inf, first: float | None = None, patient: bool = False
+) -> Candidate | None:
     """The smallest candidate that is found to keep bounds, unless it would not be smaller than so many bytes."""
     kept, excess = list[tuple[Candidate, float | None]](), bounds.excess()
-    begin = min(max(way.first, way.least), way.most)
-    first = way.at(begin) if most_bytes < math.inf else None
-    if first is not None and first.draft.size > DEARER * most_bytes:
+    begin = min(max(first or way.first, way.least), way.most)
+    tried = way.at(begin) if most_bytes < math.inf else None
+    if tried is not None and tried.draft.size > DEARER * most_bytes:
         return None
 
     def at(step: float) -> float | None:
-        candidate = first if first is not None and math.isclose(step, begin) else way.at(step)
-        over, look = excess(candidate.positions)
+        candidate = tried if tried is not None and math.isclose(step, begin) else way.at(step)
+        over, look = excess(candidate)
         if over <= 0.0:
             kept.append((candidate, look))
         # A step twice as wide saves three bits of a vertex at most; one half as wide costs about one at least.
@@ -217,6 +272,6 @@ def widest(way: Way, bounds: Bounds, most_bytes: float = math.inf) -> Candidate 
         return over
 
     with suppress(LimitError):  # blocks that decoders would refuse
-        secant(at, way.first, way.least, way.most)
+        secant(at, begin, way.least, way.most, *((3 * TRIES, 1.0, SLACK / 4.0) if patient else ()))
     kept.sort(key=lambda one: one[0].draft.size)
     return next((one for one, look in kept if bounds.keeps(one.positions, look)), None)

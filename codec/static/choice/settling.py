@@ -84,12 +84,16 @@ class Sensitivity:
         known: Callable[[Levels], Matrix],
         worth: float,
         reach: Matrix,
+        even: float = math.inf,
     ) -> Levels:
-        """Levels that are worth their bits, shape (n, axes)."""
+        """Return levels that are worth their bits, shape (n, axes), also if errors count whether seen or not: as much
+        as rounding to steps of `even` would trade them for bits."""
         normal, tangent = self.costs
         count, axes = steps.shape
         unit = worth * float(normal.mean()) * float(steps[0, 0]) ** 2
         losses = np.column_stack([np.maximum(normal - tangent, 0.0), tangent]) / max(unit, 1e-300)
+        if even < math.inf:
+            losses[:, 1] += 1.0 / (worth * even**2)
         normals = in_frames(self._frames[:, 0], frames)
         levels = np.rint(offsets[:, :axes] / steps).astype(np.int32)
         creases = self._creases.priced(SHADED / max(unit, 1e-300))

@@ -1,24 +1,21 @@
-"""One block after the other: around, dictionary, prediction, code, commit; the same steps on both sides."""
+"""One block after the other: around, dictionary, prediction, code, commit."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.reader import reading_cost
-from bsm.bitstream.errors import BsmError, CorruptError, LimitError, NumericError, OptionError
+from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
-from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Basis, Matrix
+from bsm.codec.arrays import Basis, Indices, Matrix
 from bsm.codec.basis.laplacian import Price, Spend, free, settle
 from bsm.codec.basis.orthogonal_iteration import DynamicSize
-from bsm.codec.blocks.overlap import degree_weights
+from bsm.codec.blocks.overlap import Blend, degree_weights
 from bsm.codec.signal.chain import Chain, Surroundings
-from bsm.codec.static.assembly import DecodedBlock
-from bsm.codec.static.coding import Coding, Ground, Scheme
+from bsm.codec.static.coding import Ground, Scheme
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.work import (
     Allowance,
@@ -29,11 +26,30 @@ from bsm.codec.static.work import (
     mesh_cost,
     mesh_memory,
     partition_cost,
+    reading_cost,
 )
 from bsm.codec.threads import ordered_map
 
 FRAME = 5  # bytes of a block's frame besides its levels, at least
 Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, eq=False)
+class DecodedBlock:
+    """A block's own reconstruction, before it is blended with others; positions in BSM units."""
+
+    index: int
+    vertices: Indices
+    positions: Matrix
+    weights: Matrix
+
+
+def blended(size: int, blocks: Iterable[DecodedBlock]) -> Matrix:
+    """Positions of all `size` vertices, shape (size, 3), in BSM units, from all blocks."""
+    blend = Blend(size)
+    for block in blocks:
+        blend.add(block.vertices, block.positions, block.weights)
+    return blend.all_positions()
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +63,7 @@ class CodedBlock:
 
 
 class ChainEncoder:
-    """Encodes the blocks of one chain, in their order; the twin of `ChainDecoder`."""
+    """Encodes the blocks of one chain, in their order."""
 
     def __init__(self, scheme: Scheme, doi: tuple[float, float] | None = None, spend: Spend = free) -> None:
         self._scheme = scheme
@@ -89,62 +105,6 @@ class ChainEncoder:
         if index % rules.chain_length(blocks.count) == 0:
             work += chain_cost(blocks.graph.size)
         return work + ground_cost(around.laplacian, coded)
-
-
-class ChainDecoder:
-    """Decodes the blocks of chain `number`, in their order."""
-
-    def __init__(self, scheme: Scheme, number: int, allowance: Allowance) -> None:
-        self.number = number
-        self._scheme = scheme
-        self._allowance = allowance
-        self._next = number * scheme.rules.chain_length(scheme.blocks.count)
-
-    # Made by the first block that is decoded: chains may wait for their turn in any number.
-
-    @cached_property
-    def _chain(self) -> Chain:
-        rules, graph = self._scheme.rules, self._scheme.blocks.graph
-        if rules.stiffness and not rules.alone:
-            self._allowance.spend(chain_cost(graph.size))
-        return Chain(rules, graph)
-
-    @cached_property
-    def _coding(self) -> Coding:
-        return self._scheme.coding.begin()
-
-    def decode(self, packet: packets.Block) -> DecodedBlock:
-        """Decode the chain's next block; once one is missing or broken, the rest of the chain cannot be decoded."""
-        try:
-            if packet.index != self._next:
-                raise CorruptError(f"the block depends on block {self._next}, which is lost")
-            decoded = self._decode(packet)
-        except BsmError as error:
-            raise error.located(block=packet.index) from None
-        self._next += 1
-        return decoded
-
-    def _decode(self, packet: packets.Block) -> DecodedBlock:
-        scheme, allowance, received = self._scheme, self._allowance, len(packet.data) + FRAME
-        index = packet.index
-        rows, edges = scheme.blocks.size_of(index), scheme.blocks.edges_of(index)
-        allowance.spend(block_cost(rows, edges, 3 * packet.coefficients), received)
-        chain, coding = self._chain, self._coding
-        block = scheme.blocks.block(index)
-        if not 1 <= packet.coefficients <= block.size:
-            raise CorruptError(f"{packet.coefficients} coefficients for a block of {block.size} vertices")
-        levels = coding.read(packet.data, packet.coefficients)
-        around = chain.around(block)
-        with allowance.hold(block_memory(around.laplacian, len(levels))):
-            steps = chain.steps(around, len(levels))
-            dictionary = settle(steps, lambda price: allowance.spend(price(len(levels))))
-            allowance.spend(ground_cost(around.laplacian, len(levels)))
-            ground = Ground(block, chain.continuation(around), dictionary)
-            decoded = coding.positions(ground, levels)
-            chain.commit(block, dictionary, decoded)
-        if not np.isfinite(decoded).all():
-            raise NumericError("the coefficients reconstruct to positions that are not finite")
-        return DecodedBlock(packet.index, block.vertices, decoded, degree_weights(block.degrees))
 
 
 def encode_blocks(

@@ -21,7 +21,9 @@ from bsm.files.motion.frames import Shared
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
-from bsm.jobs.run import Facts, Run, Task, anywhere, came_to, plan, run_jobs
+from bsm.jobs.plan import plan
+from bsm.jobs.run import Run, run_jobs
+from bsm.jobs.task import Facts, Task, anywhere, came_to
 
 
 @dataclass(frozen=True, kw_only=True)

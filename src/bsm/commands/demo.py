@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
+from bsm.bitstream.errors import DependencyError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.commands.flags import add_preset_flags, options_of
 from bsm.console import Console, print_json
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.options import encode_options
-from bsm.pictures import bounds_of, colors_of, png, render
+from bsm.pictures import bounds_of, colors_of, png, render, with_titles
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -29,8 +30,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     Path(args.output).mkdir(parents=True, exist_ok=True)
 
     from bsm.codec.geometry.metrics import compare
-    from bsm.codec.static.decoder import decode
     from bsm.codec.static.encoder import Encoder
+    from bsm.decoding import decode
     from bsm.evaluation.sample import knot
 
     sample = knot(args.vertices)
@@ -64,10 +65,17 @@ def run(args: argparse.Namespace, console: Console) -> None:
     write_output(stream_path, stream, overwrite=args.force)
     with console.progress("drawing"):
         bounds, far = bounds_of(sample.positions), np.linalg.norm(decoded.positions - sample.positions, axis=1)
-        heat = colors_of(far / (float(np.percentile(far, 99)) or 1.0))[sample.faces].mean(axis=1) / 255.0
+        top = float(np.percentile(far, 99)) or 1.0
+        heat = colors_of(far / top)[sample.faces].mean(axis=1) / 255.0
         looks = ((sample, None), (decoded, None), (sample, heat))
         pictures = [render(mesh.positions, mesh.faces, bounds=bounds, colors=colors) for mesh, colors in looks]
-        write_output(picture_path, png(np.hstack(pictures)), overwrite=args.force)
+        titles = (f"original, {plain / 1000:,.0f} kB", f"decoded, {len(stream) / 1000:,.1f} kB", "error")
+        try:
+            drawn = with_titles(pictures, titles, 100.0 * top * error.max_error_relative / (error.max_error or 1.0))
+        except DependencyError as problem:
+            console.note(f"no titles: {problem}")
+            drawn = png(np.hstack(pictures))
+        write_output(picture_path, drawn, overwrite=args.force)
     written = [str(stream_path), str(picture_path)]
     console.note(f"written    {', '.join(written)}")
     if args.json:

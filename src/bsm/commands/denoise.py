@@ -23,7 +23,9 @@ from bsm.files.motion.frames import Frames
 from bsm.files.output import output_inside, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_sequence, sequence_kind, sequence_writer
-from bsm.jobs.run import Facts, Run, Task, plan, run_jobs
+from bsm.jobs.plan import plan
+from bsm.jobs.run import Run, run_jobs
+from bsm.jobs.task import Facts, Task
 from bsm.lengths import length, unit_of
 
 if TYPE_CHECKING:
@@ -218,7 +220,9 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
     if goal == "shape":
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
     elif choice.kind != "unsteady":
-        line += f"; normals about {choice.untreated:.0f} -> {choice.expected:.0f} degrees off, more in detail"
+        line += f"; normals about {choice.untreated:.0f} -> {choice.expected:.0f}"
+        most = f" to {choice.at_most:.0f}" if choice.rehearsals else ""
+        line += f"{most} degrees off, the more the finer the detail"
     lines.append(line)
     for step, times in Counter(choice.steps).items():
         share = times / len(choice.steps) * (1.0 - choice.learnt)

@@ -8,9 +8,11 @@ from bsm.commands.flags import add_encode_flags, add_inputs, add_reader_flag, as
 from bsm.console import Console
 from bsm.files.mesh import MESH_FORMATS
 from bsm.files.motion.folder import common_name, look_like_frames
+from bsm.files.output import refuse_collisions
 from bsm.files.sequence import SEQUENCES_READ
 from bsm.jobs.encode import EncodeJob, encode_one
-from bsm.jobs.run import Run, plan, plan_trees, refuse_collisions, run_jobs
+from bsm.jobs.plan import plan, plan_trees
+from bsm.jobs.run import Run, run_jobs
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -54,7 +56,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.permutation:
         if len(jobs) > 1:
             raise OptionError("--permutation is for one input")
-        refuse_collisions(args.inputs, [jobs[0].output, args.permutation])
+        refuse_collisions(args.inputs, [jobs[0].output, args.permutation, args.report or ""])
     refuse_two_on_one_pipe(args, jobs[0].output)
     many, options = asked(Run, args), options_of(args)
     threads = options.pop("threads", 1 if many.side_by_side and len(jobs) > 1 else None)

@@ -68,7 +68,13 @@ ENCODE_FLAGS = (
     Setting("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
     Setting("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
     Setting("grid_origin", point, "X,Y,Z", "a place of that grid (default 0,0,0)"),
-    Setting("quick", bool, "", "only what is quick: grids, by a small model, no blocks; frames without a search"),
+    Setting(
+        "effort",
+        str,
+        "quick|normal|best",
+        "quick: grids without blocks, frames unsearched; best: try more (default normal)",
+    ),
+    Setting("quick", bool, "", "another name of --effort quick"),
     Setting("keep_order", bool, "", "store the order of vertices and faces; of a PC2 or MDD, by default, of vertices"),
     Setting("threads", int, "N", "threads to use (default: one per core)"),
 )
@@ -82,7 +88,7 @@ SETTINGS = (
     Setting("block_size", int, "N", "vertices of a block before overlap, about (default 550)"),
     Setting("partition", str, "derived|metis", "who cuts the mesh into blocks (default derived: both sides)"),
     Setting("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with bits svd)"),
-    Setting("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 32)"),
+    Setting("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 8)"),
     Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
     Setting("doi", thresholds, "EPS_L,EPS_H", "coefficients of a block until its residual is between two thresholds"),
@@ -93,8 +99,9 @@ SETTINGS = (
 PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none")
 PROMISES = (
     "how far from the original a mesh may look (see --look), and a vertex be off, of the diagonal of its part: small 3 "
-    "(a preview) and 2 %%; balanced, the default, 1 (looks the same) and 1 %%; fine 0.5 and 0.5 %%; near-lossless "
-    "0.25 and 0.05 %%; grid14: exactly as on a grid of 14 bits; lossless: single precision, to the bit; none: nothing "
+    "(a preview) and 2 %%; balanced, the default, 1 (the same at a glance) and 1 %%; fine 0.5 and 0.5 %%; "
+    "near-lossless 0.25 and 0.05 %% (of the whole diagonal); grid14: exactly as on a grid of 14 bits; lossless: single "
+    "precision, to the bit; none: nothing "
     "but what is asked for beside it"
 )
 """Of the presets; written out, since importing what they are takes time."""
@@ -115,7 +122,7 @@ def named_quality(text: str) -> tuple[str, str]:
 
 
 BOUNDS = (
-    Setting("look", number_or_length, "D", "at most D from the original in pictures: 1 looks the same, 3 is a preview"),
+    Setting("look", number_or_length, "D", "at most D from the original in pictures: 1 is the default, 3 a preview"),
     Setting("max_error", number_or_length, "REL", "no vertex farther off than REL diagonals, or a length (0.05mm)"),
 )
 TARGETS = (

@@ -59,5 +59,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         f"{args.input} -> {args.output}: {found.coded} of {found.coded + sum(found.left.values())} primitives coded, "
         f"{document.received} -> {len(found.data)} bytes"
     )
+    images = sum(len(document.image(number)[1]) for number in range(len(document.items("images"))))
+    if not rule and 2 * images > len(found.data):
+        console.note(f"{args.input}: {images} bytes are images, as they were; --images webp:85 makes them smaller")
     for reason, count in found.left.items():
         console.note(f"{args.input}: {count} stayed as {'it was' if count == 1 else 'they were'}: {reason}")

@@ -10,7 +10,9 @@ from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import MOST_SAID, Loops, SequenceStream, StreamInfo, inspect_stream, said_of_runs
-from bsm.jobs.run import Facts, Job, Run, Task, input_names, run_jobs
+from bsm.jobs.plan import input_names
+from bsm.jobs.run import Run, run_jobs
+from bsm.jobs.task import Facts, Job, Task
 from bsm.tiles.shards import is_tiles, open_tiles
 
 
@@ -131,7 +133,8 @@ def _tile_lines(summary: Facts) -> Iterator[str]:
     )
     for level in summary["levels"]:
         counts = f"{level['tiles']:>6} tiles {level['faces']:>12} faces {level['bytes']:>12} bytes"
-        yield f"  level {level['level']}: {counts}, off by up to {level['error']:.3g}"
+        off = level["error"] + 0.5 * 3.0**0.5 * summary["cell"]  # and by rounding to the grid
+        yield f"  level {level['level']}: {counts}, off by up to {off:.3g}"
     yield f"{len(summary['shards'])} shards, {sum(shard['size'] for shard in summary['shards'])} bytes"
 
 

@@ -1,10 +1,11 @@
 """bsm tile: a mesh larger than memory to a folder of tiles, coarse to fine."""
 
 import argparse
+import errno
 import os
-import shutil
 import sys
 import time
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +16,15 @@ from bsm.console import Console, print_json
 from bsm.exits import tell
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
-from bsm.jobs.run import Job, Outcome, Run, came_to, run_many
+from bsm.jobs.run import Run, run_many
+from bsm.jobs.task import Job, Outcome, came_to
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
 from bsm.tiles.joining import CONTENT_HELP, CONTENTS, packer, write_tileset
 from bsm.tiles.making import TileJob, tile_one
+from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.reading import read_big
-from bsm.tiles.shards import MANIFEST, Unfinished, is_unfinished, open_tiles, write_shards
+from bsm.tiles.shards import Unfinished, is_unfinished, open_tiles, write_shards
+from bsm.tiles.work import NOTE, held, refuse_others, remove_made
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,14 +51,30 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.content != CONTENTS[0] and not args.tileset:
         raise OptionError("--content says how the tiles of --tileset are coded: ask for that, too")
     packer(args.content, 1.0)
-    unfinished = is_unfinished(args.output)
-    over = args.force or args.resume or bool(unfinished)
-    refuse_to_overwrite(inside(args.output, MANIFEST), args.force or bool(unfinished))
-    if not is_url(args.output):
-        os.makedirs(args.output, exist_ok=True)
+    if not is_url(args.input) and args.input != "-":
+        os.stat(args.input)
     beside = f"{name_in(args.output) or 'tiles'}.work" if is_url(args.output) else os.path.join(args.output, ".work")
     work = Path(os.path.abspath(args.work or beside))
+    with ExitStack() as folders:
+        for folder in [] if is_url(args.output) else [Path(args.output)]:
+            folder.mkdir(parents=True, exist_ok=True)
+            folders.enter_context(held(folder, args.force or args.resume))
+        if args.work or is_url(args.output):
+            work.mkdir(parents=True, exist_ok=True)
+            folders.enter_context(held(work, args.force or args.resume))
+        return _run(args, console, work)
+
+
+def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
+    """Do the work in folders that this process holds."""
+    unfinished = is_unfinished(args.output)
+    if unfinished and (work / "plan.json").is_file() and not (args.force or args.resume):
+        said = "these tiles are unfinished: --resume goes on with them, -f begins anew"
+        raise FileExistsError(errno.EEXIST, said, args.output)
+    refuse_to_overwrite(inside(args.output, MANIFEST), args.force or bool(unfinished))
+    over = args.force or args.resume
     state = Unfinished(args.output, args.input)
+    refuse_others(work)
     if unfinished is not False:
         state.write()
     with about(args.input), by_its_own_name(work):
@@ -69,7 +89,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
     def ended(job: Job, outcome: Outcome) -> None:
         if outcome.error is not None:
-            tell(outcome.error)
+            tell(outcome.error, as_json=args.json)
         else:
             state.whole[len(Path(job.output).stem) - 1] += 1
             state.update(time.perf_counter())
@@ -91,7 +111,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         f"{args.input} -> {args.output}: {counted(vertices=plan.vertices, faces=plan.faces, tiles=len(done))} in "
         f"{counted(levels=len(manifest['levels']))}, on a grid of {plan.lattice.cell:g}, {came_to(taken, given)}"
     )
-    shutil.rmtree(work)
+    remove_made(work)
     if args.tileset:
         write_tileset(open_tiles(args.output), args.output, console, content=args.content, overwrite=over)
     if args.json:
@@ -103,15 +123,13 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     """The plan of a run that is gone on with, or that of a new one."""
     options: dict[str, Any] = {name: getattr(args, name) for name in ("triangles", "grid_cell", "grid_origin")}
     asked_for = repr((options, state_of(args.input)))
-    note = work / "asked"
+    note = work / NOTE
     if args.resume and (work / "plan.json").is_file():
         if note.read_text() != asked_for:
             raise FormatError(f"{work} is of another mesh or other options: no --resume, or name another --work")
         return load_plan(work / "plan.json")
-    if work.is_dir() and any(work.iterdir()) and not note.is_file():
-        raise OptionError(f"{work} holds other files; name an empty folder, or a new one, with --work")
-    shutil.rmtree(work, ignore_errors=True)
-    work.mkdir(parents=True)
+    remove_made(work)
+    work.mkdir(parents=True, exist_ok=True)
     note.write_text(asked_for)
     raw = read_big(args.input, args.format, work, console)
     if raw.left_out:

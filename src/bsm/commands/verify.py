@@ -9,7 +9,9 @@ from bsm.console import Console
 from bsm.exits import worded
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import decode_through, decode_whole, inspect_stream
-from bsm.jobs.run import Facts, Job, Run, Task, input_names, run_jobs
+from bsm.jobs.plan import input_names
+from bsm.jobs.run import Run, run_jobs
+from bsm.jobs.task import Facts, Job, Task
 from bsm.tiles.shards import is_tiles, open_tiles
 
 

@@ -7,16 +7,17 @@ import webbrowser
 from pathlib import Path
 from threading import Thread
 
-from bsm.api import encode
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
-from bsm.console import Console
+from bsm.console import Console, Progress
 from bsm.files.mesh import read_mesh
 from bsm.files.output import write_output
-from bsm.files.pipes import about, inside, read_chunks
-from bsm.tiles.shards import MANIFEST, is_tiles, open_tiles
-from bsm.viewer.page import Content, Growing, PageServer, Ranged, Tiled, compared, page_with, written_to
+from bsm.files.pipes import about, read_chunks, size_of
+from bsm.tiles.manifest import MANIFEST
+from bsm.tiles.shards import is_tiles, open_tiles
+from bsm.viewer.contents import PRESETS, Content, alone, compared, made
+from bsm.viewer.page import Growing, PageServer, Ranged, Tiled, page_with, written_to
 
 _NO_STREAM = "what came through the pipe is no BSM stream; encode it on the way: bsm encode - -o - | ..."
 
@@ -26,9 +27,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "inputs",
         metavar="IN",
-        nargs="+",
-        help="stream, of a mesh or a sequence, or - for a pipe; mesh file, encoded on the way; folder of tiles",
+        nargs="*",
+        help="stream, of a mesh or a sequence, or - for a pipe; mesh file, encoded and shown beside its stream; folder "
+        "of tiles; nothing: a page to drop a mesh on",
     )
+    add("--preset", choices=PRESETS, default="balanced", help="for mesh files (default: balanced)")
     add("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
     add("--follow", action="store_true", help="the files are still being written: go on as they grow, as with a pipe")
     add_reader_flag(parser)
@@ -43,24 +46,15 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise OptionError(f"{'--save' if args.save else '--original'} needs streams that are written: no --follow")
     if (args.save or args.original or args.follow) and any(map(is_tiles, args.inputs)):
         raise OptionError("tiles come by ranges, as they are looked at: no --save, --original or --follow")
-    reading = console.progress("reading and comparing" if args.original else "reading")
+    if args.original and len(args.inputs) != 1:
+        raise OptionError("--original is for one input")
+    with console.progress("reading and comparing") as progress:
+        served = [_opened(name, path, args, console, progress) for name, path in _named(args.inputs).items()]
     if args.save:
-        with reading:
-            contents = _contents(args, console)
+        contents = [one for one in served if isinstance(one, Content)]
         write_output(args.save, page_with(contents).encode(), overwrite=args.force)
         console.note(f"{args.save}: open it in a browser")
         return 0
-    with reading:
-        served: list[Content | Growing | Tiled] = []
-        for name, path in {} if args.original else _named(args.inputs).items():
-            if is_tiles(path):
-                manifest = open_tiles(path, limits_of(args.limits)).manifest
-                shards = {one["file"]: Ranged(inside(path, one["file"]), one["size"]) for one in manifest["shards"]}
-                served.append(Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards}))
-                continue
-            growing = args.follow or path == "-"
-            served.append(_growing(name, path) if growing else Content(name, _stream(path, args.reader, console)))
-        served += _contents(args, console) if args.original else []
     with PageServer(served, args.port) as server:
         address = f"http://{server.host}/"
         print(address, flush=True)
@@ -74,30 +68,31 @@ def run(args: argparse.Namespace, console: Console) -> int:
     return 0
 
 
-def _contents(args: argparse.Namespace, console: Console) -> list[Content]:
-    """All inputs, as wholes; a damaged stream is for the page to tell, unless it is to be compared."""
-    streams = {name: _stream(path, args.reader, console) for name, path in _named(args.inputs).items()}
-    if args.original is None:
-        return [Content(name, data) for name, data in streams.items()]
-    if len(streams) > 1:
-        raise OptionError("--original is for one input")
-    with about(args.original):
-        mesh = read_mesh(args.original, reader=args.reader).mesh
-    with about(args.inputs[0]):
-        return [compared(name, data, mesh, limits_of(args.limits)) for name, data in streams.items()]
-
-
-def _stream(path: str, reader: str | None, console: Console) -> bytes:
-    """A stream as it is, a mesh file encoded as `bsm encode` does."""
+def _opened(
+    name: str, path: str, args: argparse.Namespace, console: Console, progress: Progress
+) -> Content | Growing | Tiled:
+    """An input; a damaged stream is for the page to tell, unless it is to be compared."""
+    if is_tiles(path):
+        manifest = open_tiles(path, limits_of(args.limits)).manifest
+        shards = {one["file"]: Ranged(path, one["file"], one["size"]) for one in manifest["shards"]}
+        return Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards})
+    if args.follow or (path == "-" and not args.save and not args.original):
+        return _growing(name, path)
     data = b"".join(read_chunks(path))
-    if data.startswith(MAGIC[: len(data)]):
-        return data
-    if path == "-":
-        raise FormatError(_NO_STREAM)
     with about(path):
-        stream = encode(read_mesh(path, reader=reader).mesh)
-    console.note(f"{path}: {len(stream)} bytes as a stream of the default preset")
-    return stream
+        if data.startswith(MAGIC[: len(data)]):
+            if args.original is None:
+                return alone(name, data)
+            with about(args.original):
+                mesh = read_mesh(args.original, reader=args.reader).mesh
+            return compared(name, data, mesh, size=size_of(args.original), limits=limits_of(args.limits))
+        if path == "-":
+            raise FormatError(_NO_STREAM)
+        mesh = read_mesh(path, reader=args.reader).mesh
+        content = made(name, data, mesh, args.preset, progress.stage)
+    size = content.layers[content.main].size
+    console.note(f"{path}: {size} bytes as a stream of the preset {args.preset}")
+    return content
 
 
 def _growing(name: str, path: str) -> Growing:

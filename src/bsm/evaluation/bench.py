@@ -24,9 +24,9 @@ from bsm.codec.blocks.overlap import Blend, Block, block_size, degree_weights, d
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
+from bsm.decoding import decode
 from bsm.evaluation.curve import decode_draco, encode_draco, number, table
 from bsm.files.mesh import read_mesh
 

@@ -22,11 +22,11 @@ from bsm.codec.geometry.metrics import Reference
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.targets import compare_sequences
-from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.targets import Target
 from bsm.console import finite
+from bsm.decoding import decode
 from bsm.evaluation.sample import knot
 from bsm.files.output import write_output
 from bsm.files.stream import inspect_stream

@@ -112,14 +112,14 @@ def read_mesh(
         if kind in ("glb", "gltf"):
             import_trimesh(f".{kind} files are read")
             by_name("bsm.gltf.document", "require_room_for_meshes")(data, limits, Path(path).parent if path else None)
-        return read_with_trimesh(data, path, kind, limits).checked(limits)
+        return read_with_trimesh(data, path, kind, limits).checked(limits, len(data))
     if kind in _PLAIN:
         require_room(kind, data, limits)
     polygons: Polygons = by_name(_ROOMS[kind], f"read_{kind}")(data, limits)
     if kind in _PLAIN:
         metadata, notes = fetched(polygons.metadata, Path(path).parent if path else None, limits.metadata_bytes)
         polygons = replace(polygons, metadata=metadata, notes=(*polygons.notes, *notes))
-    ours = polygons.checked(limits)
+    ours = polygons.checked(limits, len(data))
     if reader == "openmesh":
         return read_with_openmesh(data, kind, ours.mesh, limits)
     return ours

@@ -5,16 +5,28 @@ import glob
 import os
 import re
 import signal
+import stat
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from types import FrameType
 from typing import BinaryIO
 
 from bsm.bitstream.errors import OptionError
-from bsm.files.pipes import beside, inside, is_url, name_in, open_remote_output, refuse_to_replace, standard_output
+from bsm.files.pipes import (
+    beside,
+    files_behind,
+    inside,
+    is_url,
+    name_in,
+    open_remote_output,
+    refuse_to_replace,
+    standard_output,
+    without_scheme_of_files,
+)
 
 try:
     import fcntl
@@ -26,6 +38,7 @@ _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 # What the shell has opened: `>(...)`, or `> file`.
 _DESCRIPTOR = re.compile(r"/dev/fd/(\d+)|/proc/(?:self|thread-self)/fd/(\d+)")
 _STANDARD = {"/dev/stdout": "/dev/fd/1", "/dev/stderr": "/dev/fd/2"}
+_PIPES = {"/dev/stdin": "-", "/dev/fd/0": "-", "/dev/stdout": "-", "/dev/fd/1": "-"}
 
 
 class Terminated(SystemExit):
@@ -106,6 +119,54 @@ def refuse_to_overwrite(path: str | os.PathLike[str], overwrite: bool) -> None:
         refuse_to_replace(path, overwrite)
     elif not overwrite and os.fspath(path) != "-" and os.path.isfile(path) and can_be_replaced(path):
         raise FileExistsError(errno.EEXIST, "the output exists already; -f overwrites it", os.fspath(path))
+
+
+def own_name(path: str) -> str:
+    """Return the name that we use: - for standard input and output, and the path behind a `file://` URL."""
+    return without_scheme_of_files(_PIPES.get(path, path))
+
+
+def refuse_collisions(inputs: Iterable[str], outputs: Iterable[str]) -> None:
+    """Raise `OptionError` if an output would replace an input or another output, under whatever name or link."""
+    names = [own_name(output) for output in outputs if output]
+    taken = {_identity(file) for name in map(own_name, inputs) for file in files_behind(name)} - {None}
+    found: set[object] = set()
+    for output in names:
+        identity = _identity(output)
+        if identity in taken:
+            raise OptionError(f"the output would replace the input {output}; name another with -o")
+        for key in {identity, _place(output)} - {None}:
+            if key in found:
+                raise OptionError(f"two outputs would have the name {output}; give each a name of its own")
+            found.add(key)
+
+
+def _identity(path: str) -> tuple[int, int] | str | None:
+    """What is equal for one file under all its names; None: there is no such file, or it is a device."""
+    if is_url(path):
+        return path
+    with suppress(OSError):
+        found = os.stat(path)
+        return (found.st_dev, found.st_ino) if stat.S_ISREG(found.st_mode) else None
+    return None
+
+
+def _place(path: str) -> str | None:
+    """The place of an output that may not be there yet; None: a device, which may be written to twice."""
+    if path == "-" or is_url(path):
+        return path
+    if os.path.exists(path) and not os.path.isfile(path):
+        return None
+    place = os.path.realpath(path)
+    return place.lower() if _ignores_case(os.path.dirname(place)) else place
+
+
+@cache
+def _ignores_case(folder: str) -> bool:
+    """Whether names in a folder differ by more than their case."""
+    with suppress(OSError):
+        return folder != folder.swapcase() and os.path.samefile(folder, folder.swapcase())
+    return False
 
 
 def _temporary(target: Path) -> tuple[int, str, int | None]:

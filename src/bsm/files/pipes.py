@@ -74,6 +74,16 @@ def inside(folder: str, name: str) -> str:
     return f"{folder.rstrip('/')}/{name}"
 
 
+def place_of(folder: str, name: str) -> str:
+    """Return where a file of a folder or URL is; `FormatError` for a link out of the folder and for what is no file."""
+    path = inside(folder, name)
+    if is_url(folder):
+        return path
+    os.lstat(path)
+    with about(path):
+        return str(file_beside(Path(folder), name))
+
+
 def expanded(url: str) -> list[str]:
     """What a URL with ``*`` in it names, sorted; any other as it is."""
     if "*" not in url:
@@ -92,6 +102,10 @@ def _errors_of(url: str) -> Iterator[None]:
     try:
         yield
     except FileNotFoundError as error:
+        behind = error.__cause__
+        if isinstance(behind, OSError) and behind.errno not in (None, errno.ENOENT):  # no server, as aiohttp has it
+            said = f"the server does not answer: {os.strerror(behind.errno or errno.EIO)}"
+            raise OSError(behind.errno, said, url) from error
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), url) from error
     except (errors.BsmError, MemoryError):
         raise
@@ -347,7 +361,7 @@ def read_range(name: str, first: int, size: int) -> bytes:
     else:
         with open(name, "rb") as file:
             file.seek(first)
-            data = file.read(size)
+            data = file.read(max(0, min(size, os.fstat(file.fileno()).st_size - first)))
     if len(data) != size:
         raise errors.TruncatedError(f"{name}: there are {len(data)} bytes of {size} from byte {first} on")
     return data

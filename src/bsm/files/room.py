@@ -180,12 +180,14 @@ def gunzipped(data: bytes, limits: Limits) -> bytes:
     pieces, size, begin = [], 0, 0
     try:
         while begin < len(data):
-            member, at = zlib.decompressobj(wbits=31), begin
+            # What is given beyond the end of a member is copied: begin with little, since members may be short.
+            member, at, most = zlib.decompressobj(wbits=31), begin, 64
             while not member.eof:
-                given = member.unconsumed_tail or data[at : at + _PIECE]
+                given = member.unconsumed_tail or data[at : at + most]
                 if not given:
                     raise TruncatedError("the file is cut short: what gzip has compressed does not end")
-                at += 0 if member.unconsumed_tail else len(given)
+                if not member.unconsumed_tail:
+                    at, most = at + len(given), min(2 * most, _PIECE)
                 pieces.append(member.decompress(given, _PIECE))
                 size += len(pieces[-1])
                 require_inflated(2 * size, len(data), limits)  # pieces, and all of it

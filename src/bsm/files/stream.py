@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm._engine import Decoder as Engine
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.gop import frames_of_gop
 from bsm.bitstream.container.packets import Header, write_attribute, write_metadata
-from bsm.bitstream.container.reader import NEED_DATA, Reader, read_packets
+from bsm.bitstream.container.scanner import FrameSpan, Scanner
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import BsmError, MeshError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
@@ -24,8 +25,8 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.pipes import Source, as_input, is_pipe
 
 if TYPE_CHECKING:
-    from bsm.codec.static.decoder import Decoder
-    from bsm.codec.static.events import AttributeEvent
+    from bsm.decoding import Decoder
+    from bsm.events import AttributeEvent
 
 Progress = Callable[[int, int], None]
 
@@ -125,9 +126,10 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
     declared: list[packets.Attribute] = []
     lengths: Counter[int] = Counter()
     checksum: int | None = None
-    reader = Reader(limits)
-    for packet in read_packets(chunks, reader):
-        frame = reader.last_frame
+    scanner = Scanner(limits)
+    total = 0
+    for packet, frame in _checked(chunks, limits, scanner):
+        total = frame.offset + frame.length
         match packet:
             case packets.Header():
                 headers.append(packet)
@@ -143,23 +145,31 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
                 lengths[packet.attribute] += len(packet.data)
             case packets.End():
                 checksum = packet.positions
-            case packets.Damaged():
-                pass
             case _:
                 sizes[_CARRIED[type(packet)]] += len(packet.data)
         if isinstance(packet, packets.Block):
             coefficients.append(packet.coefficients)
-        if isinstance(packet, packets.Gop) and frame is not None:
+        if isinstance(packet, packets.Gop):
             frames = frames_of_gop(packet.data, headers[-1].gop_frames, headers[-1].run_number)
             runs[-1] = replace(runs[-1], frames=runs[-1].frames + frames)
             gops.append(GopInfo(packet.index, frames, frame.offset, frame.length))
-    assert reader.last_frame is not None
-    total = reader.last_frame.offset + reader.last_frame.length
     attributes = tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared)
     sizes["attributes"] = sum(one.bytes for one in attributes)
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
     numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
-    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, reader.version)
+    return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, scanner.version)
+
+
+def _checked(chunks: Iterable[bytes], limits: Limits, scanner: Scanner) -> Iterator[tuple[packets.Packet, FrameSpan]]:
+    """The packets of a stream that the decoder would accept, as far as that is known without decoding it."""
+    checks = Engine(limits)
+    for chunk in chunks:
+        if len(chunk):
+            checks.push(np.frombuffer(chunk, np.uint8))
+            checks.skim()
+            yield from scanner.receive(chunk)
+    checks.finish()
+    checks.skim()
 
 
 def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:
@@ -180,7 +190,7 @@ def _attribute_info(packet: packets.Attribute, size: int) -> AttributeInfo:
 def decode_whole(
     chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, layers: int | None = None
 ) -> TriangleMesh:
-    from bsm.codec.static.decoder import Decoder
+    from bsm.decoding import Decoder
 
     with Decoder(limits, threads, layers=layers) as decoder:
         for chunk in chunks:
@@ -192,8 +202,8 @@ def decode_blocks(
     chunks: Iterator[bytes], count: int, progress: Progress, limits: Limits = DEFAULT_LIMITS
 ) -> TriangleMesh:
     """Decode the first `count` blocks, read no further, and return the faces whose vertices have all arrived."""
-    from bsm.codec.static.decoder import Decoder
-    from bsm.codec.static.events import BlockEvent, EndEvent, HeaderEvent
+    from bsm.decoding import Decoder
+    from bsm.events import BlockEvent, EndEvent, HeaderEvent
 
     if count < 1:
         raise OptionError("at least one block must be decoded")
@@ -215,8 +225,8 @@ def decode_what_is_left(
     chunks: Iterator[bytes], report: Callable[[str], None], limits: Limits = DEFAULT_LIMITS
 ) -> TriangleMesh:
     """Decode every block of a damaged stream that does not depend on what is lost; `report` is told what is."""
-    from bsm.codec.static.decoder import Decoder
-    from bsm.codec.static.events import EndEvent, LossEvent
+    from bsm.decoding import Decoder
+    from bsm.events import EndEvent, LossEvent
 
     def reported(event: Any) -> bool:
         match event:
@@ -249,7 +259,7 @@ class _Part:
         self._values: dict[str, list[AttributeEvent]] = {}
 
     def take(self, event: Any) -> None:
-        from bsm.codec.static.events import AttributeEvent, BlockEvent, ConnectivityEvent, RefinementEvent
+        from bsm.events import AttributeEvent, BlockEvent, ConnectivityEvent, RefinementEvent
 
         match event:
             case ConnectivityEvent(faces, vertices):
@@ -342,17 +352,15 @@ MOST_SAID = 12
 def peek_header(chunks: Iterator[bytes]) -> tuple[Header | None, Iterator[bytes]]:
     """The header of a stream, and all of its bytes again; None where the stream is too short or no stream at all."""
     taken: list[bytes] = []
-    reader = Reader()
+    scanner = Scanner()
     for chunk in chunks:
         taken.append(chunk)
-        reader.receive_data(chunk)
         try:
-            packet = reader.next_packet()
+            packet, _ = next(scanner.receive(chunk), (None, None))
         except BsmError:  # whoever decodes it will say so
             break
-        if packet is not NEED_DATA:
-            assert isinstance(packet, Header)
-            return packet, chain(taken, chunks)
+        if packet is not None:
+            return packet if isinstance(packet, Header) else None, chain(taken, chunks)
     return None, chain(taken, chunks)
 
 
@@ -362,8 +370,8 @@ class SequenceStream:
     def __init__(
         self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0, limits: Limits = DEFAULT_LIMITS
     ) -> None:
-        from bsm.codec.sequence.decoder import SequenceDecoder
-        from bsm.codec.static.events import ConnectivityEvent, HeaderEvent
+        from bsm.decoding import SequenceDecoder
+        from bsm.events import ConnectivityEvent, HeaderEvent
 
         self.header: Header
         self.faces: Faces
@@ -399,8 +407,7 @@ class SequenceStream:
 
     def changing_frames(self) -> Iterator[tuple[int, Positions]]:
         """Frames and their indices, where `faces` may change from frame to frame."""
-        from bsm.codec.sequence.events import FrameEvent
-        from bsm.codec.static.events import LossEvent
+        from bsm.events import FrameEvent, LossEvent
 
         given = False
         for event in self._events:

@@ -26,6 +26,7 @@ _WIDTHS = {**VECTORS, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 EXTENSION, WEBP = "EXT_bsm_compression", "EXT_texture_webp"
 PER_NUMBER = 48  # bytes that a number of an accessor takes while it is made into what a mesh has
+PER_BLANK = 4  # bytes of a number of an accessor without a buffer, whatever uses it
 MOST_NESTED = 1000
 PER_PAIR = 20.0  # nanoseconds of trimesh, which looks through all nodes so far at each that it climbs
 _COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
@@ -265,13 +266,19 @@ def require_room_for_meshes(data: bytes, limits: Limits, folder: Path | None = N
             where = primitive["attributes"].get("POSITION")
             if where is not None and ("bufferView" in document.item("accessors", where) or primitive.get("extensions")):
                 named.add(where)
+        # trimesh makes all accessors, used or not: those without a buffer are zeros.
+        blank = sum(
+            document.claimed(index)
+            for index, accessor in enumerate(document.items("accessors"))
+            if "bufferView" not in accessor
+        )
         vertices = sum(document.count(index) for index in named)
         depths = _depths(document.items("nodes"))
         climbed = sum(depths[number] ** 2 for number, node in enumerate(document.items("nodes")) if "mesh" in node)
     if (deepest := max(depths.values(), default=0)) > MOST_NESTED:
         raise LimitError(f"the nodes of this glTF are nested {deepest} deep; the limit is {MOST_NESTED}")
     require_count("vertices", vertices, limits)
-    limits.check_memory(PER_NUMBER * numbers, vertices, len(data) + beside)
+    limits.check_memory(PER_NUMBER * numbers + PER_BLANK * blank, vertices, len(data) + beside)
     limits.check_work(PER_PAIR * climbed, vertices, len(data) + beside)
 
 

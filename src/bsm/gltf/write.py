@@ -18,7 +18,7 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.formats import metadata as formats
-from bsm.files.motion.frames import FrameWriter, Shared
+from bsm.files.motion.frames import USUAL_RATE, FrameWriter, Shared
 from bsm.files.room import Doubles, Ints, single_suffices
 from bsm.files.stream import SequenceStream, numbered, numbers_of
 from bsm.gltf.compress import drawn
@@ -26,7 +26,6 @@ from bsm.gltf.document import COMPONENTS, EXTENSION, VECTORS, WEBP, Array, Tree,
 
 MOST_FRAMES = 2048
 """Viewers keep targets as the layers of one texture, of which graphics cards have 2,048, and some old ones 256."""
-USUAL_RATE = 24.0
 _MOST_BYTES = (1 << 32) - 1
 _FLOAT, _UINT = COMPONENTS["float32"], COMPONENTS["uint32"]
 _TYPES = {width: name for name, width in VECTORS.items()}

@@ -6,31 +6,33 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.container.reader import Signal
-from bsm.bitstream.errors import OptionError, counted
+from bsm.bitstream.errors import MeshError, OptionError, counted
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
+from bsm.events import Signal
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames, Wanted
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
 from bsm.files.stream import Loops, said_of_runs
-from bsm.jobs.run import Facts, Task, came_to
-from bsm.lengths import LENGTHS, refuse_other_units
+from bsm.jobs.task import Facts, Task, came_to
+from bsm.lengths import in_own_unit
 from bsm.libraries import with_metadata
 from bsm.options import encode_options, sequence_options
 
 if TYPE_CHECKING:
     from bsm.codec.sequence.options import SequenceOptions
+    from bsm.events import FrameEvent
 
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
 """Options that only a sequence has: a GLB is then one."""
@@ -75,7 +77,8 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     with console.progress("reading"):
         source = read_mesh(job.input, job.format, reader=job.reader)
     mesh = with_metadata(source.mesh, chosen, job.metadata)
-    refuse_other_units({name: job.options.get(name) for name in LENGTHS}, mesh.metadata)
+    if lengths := in_own_unit(job.options, mesh.metadata):
+        chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)
     begin = time.perf_counter()
     encoder = Encoder(mesh, chosen)
     overwrite = job.may_replace(job.output)
@@ -94,15 +97,15 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         *([f"no look is promised: {encoder.seen(result)}"] if chosen.looks_as_it_comes else []),
     ]
     vertices, faces, size, error = result.header.vertices, len(encoder.mesh.faces), result.size, result.comparison
-    taken, bpv = size_of(job.input), 8 * size / vertices
+    taken, bpv = size_of(job.input), 8 * (size - images) / vertices
     _finish(
         job,
         console,
         notes,
         encoder.vertex_order,
         f"{counted(vertices=vertices, faces=faces)}, {came_to(taken, size)}, "
-        f"{bpv:.2f} bits per vertex; farthest vertex {100 * error.max_error_relative:.3g} % of the "
-        f"diagonal, normals {error.angle_deg:.2f} degrees, "
+        f"{bpv:.2f} bits per vertex{' without images' if images else ''}; farthest vertex "
+        f"{100 * error.max_error_relative:.3g} % of the diagonal, normals {error.angle_deg:.2f} degrees, "
         f"{error.nmsve_db:.2f} dB; {seconds:.2f} s",
     )
     counts = {"vertices": vertices, "faces": faces}
@@ -124,7 +127,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
     metadata = {**source.metadata, **rate, **job.metadata}
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
-    echo = Echo()
+    echo = Echo(looks=chosen.promise is None or chosen.promise.look == math.inf)
     size = 0
     overwrite = job.may_replace(job.output)
     with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
@@ -138,6 +141,9 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
     notes = [*source.notes, *encoder.notes, *([said_of_runs(runs)] if runs else echo.loops.said())]
+    look = echo.worst_look
+    if look is not None:
+        notes.append(f"no look is promised: the worst frame has a look of {look:.2g}, where the default has at most 1")
     vertices, faces, bpvf = len(encoder.vertex_order), len(encoder.face_order), 8 * size / encoder.samples
     taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
     _finish(
@@ -189,12 +195,14 @@ class Echo:
 
     frames: int = 0
     loops: Loops = field(default_factory=Loops)
+    looks: bool = False  # find the frame whose normals are farthest off
+    _worst: tuple[float, TriangleMesh, Positions] | None = None
     _waiting: deque[Callable[[np.ndarray], Positions]] = field(default_factory=deque)
     _squares: float = 0.0
     _extent: float = 0.0
 
     def __post_init__(self) -> None:
-        from bsm.codec.sequence.decoder import SequenceDecoder
+        from bsm.decoding import SequenceDecoder
 
         self._decoder = SequenceDecoder()
 
@@ -212,7 +220,7 @@ class Echo:
 
     def compare(self, chunk: bytes, order: np.ndarray) -> None:
         """Decode a piece of the stream and add up the error of its frames; vertex j of a decoded one is `order[j]`."""
-        from bsm.codec.sequence.events import FrameEvent
+        from bsm.events import FrameEvent
 
         self._decoder.receive_data(chunk)
         while not isinstance(event := self._decoder.next_event(), Signal):
@@ -220,6 +228,26 @@ class Echo:
                 frame = self._waiting.popleft()(order)
                 self._squares += float(np.square(event.positions - frame).sum())
                 self._extent += float(np.square(frame - frame.mean(axis=0)).sum())
+                if self.looks:
+                    self._take_worst(frame, event)
+
+    def _take_worst(self, frame: Positions, event: FrameEvent) -> None:
+        """Keep a frame if its normals are farther off than those of all before."""
+        from bsm.codec.sequence.step_search import Shading
+
+        shading = Shading(len(frame), event.faces)
+        error = shading.error(shading.normals(frame), event.positions)
+        if self._worst is None or error > self._worst[0]:
+            self._worst = error, TriangleMesh(frame, event.faces), event.positions
+
+    @property
+    def worst_look(self) -> float | None:
+        """How the frame looks whose normals are farthest off, see `codec.look.measure.Look.moving`; None: unknown."""
+        from bsm.codec.look.measure import LookMetric
+
+        with suppress(MeshError):  # nothing of it can be seen
+            return LookMetric(self._worst[1]).look(self._worst[2]).moving if self._worst else None
+        return None
 
     @property
     def kg(self) -> float:

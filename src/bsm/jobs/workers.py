@@ -18,7 +18,7 @@ from typing import Any
 from bsm.bitstream.errors import DependencyError, imported
 from bsm.exits import exit_of
 from bsm.files.output import Terminated, termination_as_exception
-from bsm.jobs.run import Numbered, Outcome, Outcomes, Task, Tasks, Work, far_outcome
+from bsm.jobs.task import Numbered, Outcome, Outcomes, Task, Tasks, Work, far_outcome
 
 AHEAD = 2  # jobs handed out for each process, and for each thread of a cluster
 GRACE = 3.0  # seconds that a process has to clear away, once its parent is gone, and once it was told to end

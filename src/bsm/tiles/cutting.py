@@ -48,9 +48,15 @@ class Lattice:
     origin: tuple[float, ...] = (0.0, 0.0, 0.0)
 
     def places(self, positions: npt.NDArray[Any]) -> Places:
-        """As the encoder rounds them."""
-        found = np.floor((positions.astype(np.float64) - np.array(self.origin)) / self.cell + 0.5)
-        return np.asarray(found, np.int32)
+        """Return the cells of positions, as the encoder rounds them."""
+        return np.asarray(self.cells(positions), np.int32)
+
+    def cells(self, positions: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+        """Return the cells of positions as floats, which hold any number."""
+        with np.errstate(over="ignore"):
+            return np.asarray(
+                np.floor((positions.astype(np.float64) - np.array(self.origin)) / self.cell + 0.5), np.float64
+            )
 
     def positions(self, places: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
         return np.asarray(places * self.cell + np.array(self.origin))

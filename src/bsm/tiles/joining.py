@@ -25,11 +25,12 @@ from bsm.files.pipes import inside, is_url
 from bsm.gltf.compress import compress
 from bsm.gltf.document import Document
 from bsm.gltf.write import write_glb
-from bsm.jobs.run import Facts
+from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Ints
 from bsm.tiles.making import keys_of
+from bsm.tiles.manifest import KINDS, Tile
 from bsm.tiles.reading import CARRIED
-from bsm.tiles.shards import KINDS, Tile, Tiles
+from bsm.tiles.shards import Tiles
 
 _COPIED = 1 << 24
 TILESET, _CONTENT = "tileset.json", "glb"
@@ -42,6 +43,8 @@ def write_joined(
 ) -> dict[str, int]:
     """Write a binary PLY of tiles; vertices that they share are one."""
     chosen = list(chosen)
+    if not chosen:
+        raise OptionError("no tile is so near to the mesh: ask for a larger --error, or for a level")
     with by_its_own_name(tempfile.gettempdir()), ExitStack() as opened:
         tables, faces, points, corners = (opened.enter_context(tempfile.TemporaryFile()) for _ in range(4))
         counts: list[tuple[int, int]] = []

@@ -20,7 +20,7 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.console import Console
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output, write_output
-from bsm.jobs.run import Facts, Task
+from bsm.jobs.task import Facts, Task
 from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, along_curve, load_plan
 from bsm.tiles.reading import mapped
 

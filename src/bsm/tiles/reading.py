@@ -154,6 +154,8 @@ def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
     _refuse_textures(images | {one[0] for one in _TEXTURES if names.issuperset(one)})
     left_out |= dict.fromkeys(f"lines of {keyword}" for keyword, _ in header.comments)
     for element in header.elements:
+        if not element.properties and element.name not in ("vertex", "face"):
+            continue
         kind = _row_of(element, header.order)
         names = set(kind.names or ())
         carried = {

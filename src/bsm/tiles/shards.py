@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
-import shlex
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,48 +16,25 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.container.wire import MAJOR, require_major
-from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError, TruncatedError, public
+from bsm.bitstream.container.wire import MAJOR
+from bsm.bitstream.errors import ArgumentError, BsmError, CorruptError, FormatError, OptionError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.console import printable
 from bsm.files.output import open_output, write_output
-from bsm.files.pipes import about, inside, is_url, read_bytes, read_range
+from bsm.files.pipes import about, inside, is_url, place_of, read_range
 from bsm.files.stream import decode_whole
-from bsm.jobs.run import Facts
+from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Lattice, Plan, Root
 from bsm.tiles.making import Faces
-from bsm.tiles.reading import CARRIED, Kinds
+from bsm.tiles.manifest import FOOT, MANIFEST, NO_JSON, Tile, json_of, parse_index, read_manifest
+from bsm.tiles.reading import Kinds
 
 Table: TypeAlias = npt.NDArray[np.int32]
-KINDS = {"|u1": "uchar", "<u2": "ushort", "<f4": "float"}  # of numbers that vertices have, and their names in PLY
-MANIFEST = "manifest.json"
-SHARD = 64_000_000  # bytes from which on a shard takes no more tiles
+SHARD, MOST_TILES = 64_000_000, 1 << 14  # bytes, and tiles, from which on a shard takes no more
 _END = b"BSMTILES"  # behind the length of the index, the last bytes of a shard
-_FOOT = 16
-_MOST = 1 << 31  # bytes of a tile, or of an index
 _EVERY, _SHARE = 1.0, 0.02  # seconds between two manifests of a run, at least, and of all time that they take, at most
-
-
-@dataclass(frozen=True)
-class Tile:
-    """What an index says of a tile: its node, where its bytes are, and what they hold."""
-
-    name: str
-    offset: int
-    size: int
-    sha256: str
-    vertices: int
-    faces: int
-    error: float
-    low: tuple[int, ...]
-    high: tuple[int, ...]
-
-    @property
-    def level(self) -> int:
-        return len(self.name) - 1
 
 
 @dataclass
@@ -87,20 +62,17 @@ class Unfinished:
 
 
 def is_unfinished(folder: str) -> bool | None:
-    """Whether a folder holds the manifest of a run that was not at its end; None: it holds none."""
+    """Whether a folder holds the manifest of a run that has not ended; None: none. One that is not ours stays."""
+    name = inside(folder, MANIFEST)
     try:
-        return json.loads(read_bytes(inside(folder, MANIFEST))).get("complete") is False
+        given = json_of(name, DEFAULT_LIMITS)
+        if given["format"] != "bsm tiles":
+            raise KeyError(given["format"])
+        return given.get("complete") is False
     except FileNotFoundError:
         return None
-    except (OSError, *_NO_JSON):
-        return False
-
-
-def _said_of_unfinished(path: str, given: Mapping[str, Any]) -> str:
-    counts = [[int(_number(level[key])) for key in ("whole", "tiles", "level")] for level in given["levels"]]
-    whole = ", ".join("{} of {} tiles of level {}".format(*count) for count in counts) or "nothing"
-    again = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
-    return printable(f"these tiles are unfinished; whole so far: {whole}; with its other options, {again} goes on")
+    except NO_JSON as error:
+        raise FormatError(f"{name} is no manifest of tiles, and stays: name another folder, or remove it") from error
 
 
 def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> Facts:
@@ -112,7 +84,7 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
         tiles: list[Tile] = []
         with open_output(inside(folder, name), overwrite=overwrite) as file:
             offset = 0
-            while waiting and offset < SHARD:
+            while waiting and offset < SHARD and len(tiles) < MOST_TILES:
                 facts = waiting.pop()
                 data, node = Path(facts["output"]).read_bytes(), Path(facts["output"]).stem
                 sums_of = facts["vertices"], facts["faces"], facts["apart"]
@@ -121,7 +93,7 @@ def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *,
                 offset += file.write(data)
             index = json.dumps([asdict(tile) for tile in tiles], separators=(",", ":")).encode()
             file.write(index + len(index).to_bytes(8, "little") + _END)
-        shards.append({"file": name, "size": offset + len(index) + _FOOT, "index": len(index), "tiles": len(tiles)})
+        shards.append({"file": name, "size": offset + len(index) + FOOT, "index": len(index), "tiles": len(tiles)})
         shards[-1] |= {"sha256": sha256(index).hexdigest(), **_bounds(tiles)}
     sums: dict[int, dict[str, Any]] = {}
     for facts in done:
@@ -184,49 +156,8 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
     >>> import bsm
     >>> part = bsm.open_tiles("scan").region((0, 0, 0), (1, 1, 1), error=0.01)
     """
-    name = inside(path, MANIFEST)
-    try:
-        given = json.loads(read_bytes(name))
-        if given["format"] != "bsm tiles":
-            raise KeyError("format")
-        if given["version"] != 1:
-            raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
-        require_major(f"{name}: these tiles are", given.get("stream", 0))  # version 0 said nothing
-        if given.get("complete") is False:
-            raise TruncatedError(f"{name}: {_said_of_unfinished(path, given)}")
-        lattice = Lattice(_number(given["cell"]), tuple(map(_number, given["origin"])))
-        root = Root(tuple(int(_number(one)) for one in given["root"]["low"]), int(_number(given["root"]["bits"])))
-        for shard in given["shards"]:
-            if not re.fullmatch(r"\d{5,9}\.tiles", shard["file"]) or not 0 < shard["index"] < min(_MOST, shard["size"]):
-                raise ValueError(shard["file"])
-            _ends(shard)
-        kinds = {what: (str(kind), int(_number(size))) for what, (kind, size) in given.get("attributes", {}).items()}
-        if any(what not in CARRIED or kind not in KINDS or not 3 <= size <= 4 for what, (kind, size) in kinds.items()):
-            raise ValueError("attributes")
-        for level in given["levels"]:
-            [_number(level[key]) for key in ("level", "tiles", "faces", "bytes", "error")]
-        _number(given["faces"])
-        if lattice.cell <= 0 or len(lattice.origin) != 3 or len(root.low) != 3 or not 0 < root.bits < 60:
-            raise ValueError("cell, origin or root")
-    except _NO_JSON as error:
-        raise FormatError(f"{name}: this is no manifest of tiles: {error!r}") from error
-    return Tiles(path, given, lattice, root, limits, kinds)
-
-
-_NO_JSON = (ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError)
-
-
-def _number(value: Any) -> float:
-    if type(value) not in (int, float) or not abs(value) < 1e300:
-        raise ValueError(f"{value!r} is no number")
-    return float(value)
-
-
-def _ends(given: Mapping[str, Any]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    low, high = (tuple(int(_number(one)) for one in given[key]) for key in ("low", "high"))
-    if len(low) != 3 or len(high) != 3:
-        raise ValueError("bounds")
-    return low, high
+    found = read_manifest(path, limits)
+    return Tiles(path, found.given, found.lattice, found.root, limits, found.kinds)
 
 
 @public
@@ -336,25 +267,20 @@ class Tiles:
         return self._held[shard["file"]]
 
     def _read_index(self, shard: Facts) -> list[Tile]:
-        name, size = inside(self.path, shard["file"]), shard["index"] + _FOOT
+        name, size = place_of(self.path, shard["file"]), shard["index"] + FOOT
+        self.limits.check("metadata_bytes", size)
         data = read_range(name, shard["size"] - size, size)
         index = data[: shard["index"]]
-        if data[-_FOOT:] != len(index).to_bytes(8, "little") + _END or sha256(index).hexdigest() != shard["sha256"]:
+        if data[-FOOT:] != len(index).to_bytes(8, "little") + _END or sha256(index).hexdigest() != shard["sha256"]:
             raise CorruptError(f"{name}: the index at the end of this shard is not what the manifest says was written")
-        try:
-            tiles = [Tile(**{**one, **dict(zip(("low", "high"), _ends(one)))}) for one in json.loads(index)]
-            for tile in tiles:
-                held = 0 <= tile.offset <= tile.offset + tile.size <= shard["size"]
-                if not re.fullmatch("r[0-7]{0,60}", tile.name) or not held:
-                    raise ValueError(tile.name)
-                [_number(one) for one in (tile.error, tile.vertices, tile.faces)]
-        except _NO_JSON as error:
-            raise CorruptError(f"{name}: the index at the end of this shard makes no sense: {error!r}") from error
+        tiles = parse_index(name, index, shard, self.root)
+        if twice := {tile.name for tile in tiles} & {tile.name for held in self._held.values() for tile in held}:
+            raise CorruptError(f"{name}: tile {min(twice)} is in another shard, too")
         return tiles
 
     def data(self, shard: Facts, tile: Tile) -> bytes:
         """The stream of a tile."""
-        name = inside(self.path, shard["file"])
+        name = place_of(self.path, shard["file"])
         data = read_range(name, tile.offset, tile.size)
         if sha256(data).hexdigest() != tile.sha256:
             raise CorruptError(f"{name}: tile {tile.name} is not what was written", offset=tile.offset)
@@ -366,7 +292,10 @@ class Tiles:
         name = f"{inside(self.path, shard['file'])}, tile {tile.name}"
         with about(name):
             mesh = split_by_attributes(decode_whole(iter([self.data(shard, tile)]), self.limits))
-        columns = [self.lattice.places(mesh.positions)]
+        cells = self.lattice.cells(mesh.positions)
+        if not ((cells >= tile.low) & (cells <= tile.high)).all():
+            raise CorruptError(f"{name} is not where the index says that it is")
+        columns = [cells.astype(np.int32)]
         carried = {one.name: one.values for one in mesh.attributes}
         for what, (kind, size) in self.kinds.items():
             values = carried.get(what)

@@ -13,7 +13,8 @@ from bsm.bitstream.errors import OptionError, imported
 from bsm.files.pipes import Input
 from bsm.files.stream import is_stream
 from bsm.libraries import as_mesh
-from bsm.viewer.page import Content, compared, embedded, script
+from bsm.viewer.contents import Content, alone, compared
+from bsm.viewer.page import embedded, listed, script
 
 
 def show(source: Any, *, original: Any = None, height: int = 480, **keywords: Any) -> Any:
@@ -54,19 +55,17 @@ def show(source: Any, *, original: Any = None, height: int = 480, **keywords: An
 
     class StreamWidget(anywidget.AnyWidget):
         _esm = script(embedded)
-        name = traitlets.Unicode().tag(sync=True)
-        stream = traitlets.Bytes().tag(sync=True)
-        original = traitlets.Bytes().tag(sync=True)
+        content = traitlets.Dict().tag(sync=True)
         height = traitlets.Int().tag(sync=True)
 
-    content = _content(source, original, keywords)
-    beside = b"" if content.original is None else content.original.astype("<f4").tobytes()
-    return StreamWidget(name=content.name, stream=content.stream, original=beside, height=height)
+    return StreamWidget(content=listed(_content(source, original, keywords), "", embedded), height=height)
 
 
 def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
     name = Path(source).name if isinstance(source, (str, os.PathLike)) else "mesh"
     given = _as_input(source)
+    mesh = None if original is None else as_mesh(_as_input(original))
+    preset = None
     if isinstance(given, Input) and is_stream(given):
         if keywords:
             raise OptionError(f"this is encoded already: {', '.join(keywords)} cannot be chosen any more")
@@ -74,10 +73,10 @@ def _content(source: Any, original: Any, keywords: dict[str, Any]) -> Content:
     elif isinstance(source, tuple) and len(source) == 2 and np.ndim(source[0]) == 3:
         data = encode_sequence(*source, **keywords)
     else:
-        mesh = as_mesh(given)
-        data = encode(mesh, **keywords)
-        original = mesh if original is None else original
-    return Content(name, data) if original is None else compared(name, data, as_mesh(_as_input(original)))
+        data = encode(encoded := as_mesh(given), **keywords)
+        preset = None if set(keywords) - {"preset"} or mesh else keywords.get("preset", "balanced")
+        mesh = mesh or encoded
+    return alone(name, data) if mesh is None else compared(name, data, mesh, preset=preset)
 
 
 def _as_input(source: Any) -> Any:

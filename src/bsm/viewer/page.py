@@ -4,36 +4,29 @@ import base64
 import gzip
 import hashlib
 import json
-import math
 import os
 import re
 import select
 import socket
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
-from dataclasses import asdict, dataclass
+from contextlib import closing, suppress
+from dataclasses import dataclass
 from functools import lru_cache
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
-from threading import Condition
+from threading import Condition, Lock
 from typing import Any, BinaryIO
-
-import numpy as np
-import numpy.typing as npt
+from urllib.parse import parse_qs, urlsplit
 
 from bsm.bitstream.container.gop import method_of
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import MAGIC, FrameType, Tag, parse_map, parse_tag, parse_varint, write_preamble
-from bsm.bitstream.errors import BsmError, CorruptError, DependencyError, MeshError, UnsupportedError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Reference
-from bsm.comparison import in_order_of
+from bsm.bitstream.errors import BsmError, CorruptError, DependencyError
 from bsm.exits import worded
-from bsm.files.pipes import Input, read_range
-from bsm.files.stream import decode_whole, peek_header
+from bsm.files.pipes import place_of, read_range
+from bsm.viewer.contents import PRESETS, Content, uploaded
 
 _CHUNK = 1 << 18
 _PAUSE = 0.05  # seconds between looks at a file that has not grown
@@ -141,25 +134,17 @@ def written_to(file: BinaryIO) -> Iterator[bytes]:
                 time.sleep(_PAUSE)
 
 
-DRACO_LEVEL = 10
-DRACO_BITS = range(6, 25)
+_MOST_RANGE = 1 << 26  # bytes of a range that is sent
 _RANGE = re.compile(r"bytes=(\d{1,18})-(\d{1,18})")
-
-
-@dataclass(frozen=True)
-class Rival:
-    """Draco's smallest file whose normals are as good as the stream's: bytes, bits per coordinate, degrees."""
-
-    bytes: int
-    bits: int
-    theta: float
+_LENGTH = re.compile(r"\d{1,15}")
 
 
 @dataclass(frozen=True)
 class Ranged:
-    """A file, here or behind a URL, that is sent by ranges."""
+    """A file of a folder, here or behind a URL, that is sent by ranges."""
 
-    path: str
+    folder: str
+    name: str
     size: int
 
 
@@ -171,54 +156,9 @@ class Tiled:
     files: Mapping[str, bytes | Ranged]
 
 
-@dataclass(frozen=True, eq=False)
-class Content:
-    name: str
-    stream: bytes
-    original: npt.NDArray[np.float32] | None = None
-    draco: Rival | None = None
-
-
-def compared(name: str, stream: bytes, original: TriangleMesh, limits: Limits = DEFAULT_LIMITS) -> Content:
-    """A stream of a mesh beside its original, and beside Draco's file of that if DracoPy is installed."""
-    header, _ = peek_header(Input(stream).chunks())
-    if header is not None and header.gop_frames:
-        raise UnsupportedError(f"{name} is a sequence; only single meshes are compared with an original")
-    decoded = decode_whole(Input(stream).chunks(), limits)
-    used, kept = decoded.without_isolated_vertices()
-    source = original.without_isolated_vertices()[0]
-    if len(source.positions) != len(used.positions):
-        from bsm.codec.static.preamble_encoding import join
-
-        source = join(source, keep=False).mesh
-    positions = decoded.positions.copy()
-    positions[kept] = in_order_of(used, source)
-    draco = _rival(TriangleMesh(positions[kept], used.faces), used)
-    return Content(name, stream, positions.astype(np.float32), draco)
-
-
-def _rival(original: TriangleMesh, decoded: TriangleMesh) -> Rival | None:
-    """Draco's file of `original` with normals as good as those of `decoded`."""
-    try:
-        from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order
-    except DependencyError:
-        return None
-
-    reference = Reference(original.positions, original.faces)
-    theta = reference.theta(decoded.positions)
-    for bits in DRACO_BITS:
-        try:
-            data = encode_draco(original, bits, DRACO_LEVEL)
-            positions = positions_in_order(original, decode_draco(data), bits)
-        except (DependencyError, MeshError):
-            return None
-        kept = reference.theta(positions)
-        if kept <= theta or math.isclose(kept, theta):
-            return Rival(len(data), bits, kept)
-    return None
-
-
 LOOPBACK = "127.0.0.1"
+UPLOAD = "/upload"
+MOST_BYTES = 64 << 20
 
 _SLOT = '<script type="application/json" id="bsm-streams">'
 _SCRIPT = "<!-- script -->"
@@ -254,51 +194,61 @@ def script(place: Place, *more: str) -> str:
 
 def page_with(contents: Sequence[Content]) -> str:
     """One page that needs nothing beside it: all streams are inside."""
-    return _page([_listed(content, "", embedded) for content in contents], script(embedded))
+    return _page([listed(content, "", embedded) for content in contents], script(embedded))
 
 
-def _listed(content: Content, path: str, place: Place) -> dict[str, Any]:
-    """What the page knows of a stream, with what `place` says of where the bytes are that have a path."""
-    entry: dict[str, Any] = {"name": content.name} | place(path, content.stream)
-    if content.original is not None:
-        entry["original"] = place(f"{path}/original", content.original.astype("<f4").tobytes())
-    if content.draco is not None:
-        entry["draco"] = asdict(content.draco)
-    return entry
+def listed(content: Content, path: str, place: Place) -> dict[str, Any]:
+    """What the page knows of a mesh, with what `place` says of where the bytes are that have a path."""
+    layers = []
+    for number, layer in enumerate(content.layers):
+        entry: dict[str, Any] = {"title": layer.title, "detail": layer.detail, "size": layer.size}
+        entry |= place(f"{path}/{number}", layer.stream)
+        if layer.off is not None:
+            entry["off"] = place(f"{path}/{number}/off", layer.off.astype("<f4").tobytes())
+        layers.append(entry)
+    return {"name": content.name, "main": content.main, "facts": dict(content.facts), "layers": layers}
 
 
 def _page(entries: list[dict[str, Any]], script: str) -> str:
     # Inside a script nothing may look like the end of it.
-    listed = json.dumps(entries).replace("<", "\\u003c")
-    return _built("page.html").decode().replace(f"{_SLOT}[]", _SLOT + listed, 1).replace(_SCRIPT, script, 1)
+    inside = json.dumps(entries).replace("<", "\\u003c")
+    return _built("page.html").decode().replace(f"{_SLOT}[]", _SLOT + inside, 1).replace(_SCRIPT, script, 1)
 
 
 class PageServer(ThreadingHTTPServer):
-    """Serves the page and its streams to this machine alone."""
+    """Serves the page and its streams to this machine alone, and encodes meshes that are dropped on it."""
 
     daemon_threads = True
 
     def __init__(self, contents: Sequence[Content | Growing | Tiled], port: int = 0) -> None:
         super().__init__((LOOPBACK, port), _Handler)
         self.content: dict[str, tuple[str, bytes | Growing | Ranged]] = {}
-
-        def place(path: str, data: bytes | Growing) -> dict[str, str]:
-            self.content[path] = ("application/wasm" if path.endswith(".wasm") else _BYTES, data)
-            return {"url": path}
-
+        self.encoding = Lock()
         entries = []
         for number, content in enumerate(contents):
             path = f"/{number}"
             if isinstance(content, Growing):
-                entries.append({"name": content.name, "live": True} | place(path, content))
+                layer = {"title": "BSM", "detail": "", "size": 0} | self.place(path, content)
+                entries.append({"name": content.name, "main": 0, "facts": {}, "live": True, "layers": [layer]})
             elif isinstance(content, Tiled):
                 self.content |= {f"{path}/{name}": (_BYTES, data) for name, data in content.files.items()}
-                entries.append({"name": content.name, "tiles": path})
+                entries.append({"name": content.name, "main": 0, "facts": {}, "tiles": path, "layers": []})
             else:
-                entries.append(_listed(content, path, place))
-        module = script(place, "small")
+                entries.append(listed(content, path, self.place))
+        module = script(self.place, "small")
         self.content["/"] = ("text/html; charset=utf-8", _page(entries, module).encode())
         self.policy = _POLICY.format(base64.b64encode(hashlib.sha256(module.encode()).digest()).decode())
+
+    def place(self, path: str, data: bytes | Growing) -> dict[str, str]:
+        """Have the page fetch these bytes."""
+        self.content[path] = ("application/wasm" if path.endswith(".wasm") else _BYTES, data)
+        return {"url": path}
+
+    def dropped(self, content: Content) -> dict[str, Any]:
+        """Have the page fetch what was made of an upload, in place of that before."""
+        for path in [path for path in self.content if path.startswith(UPLOAD)]:
+            del self.content[path]
+        return listed(content, f"{UPLOAD}/{time.monotonic_ns()}", self.place)
 
     @property
     def host(self) -> str:
@@ -307,6 +257,7 @@ class PageServer(ThreadingHTTPServer):
 
 class _Handler(BaseHTTPRequestHandler):
     server: PageServer
+    timeout = 60.0  # seconds that a page may take to send or receive anything
 
     def do_GET(self) -> None:
         """Answer with what is at a path."""
@@ -321,32 +272,74 @@ class _Handler(BaseHTTPRequestHandler):
             if isinstance(data, Ranged):
                 asked = _RANGE.fullmatch(self.headers.get("Range", ""))
                 begin, end = map(int, asked.groups()) if asked else (1, 0)
-                if not begin <= end < data.size:
+                if not begin <= end < min(data.size, begin + _MOST_RANGE):
                     self.send_error(HTTPStatus.REQUESTED_RANGE_NOT_SATISFIABLE)
                     return
                 try:
-                    data, status = read_range(data.path, begin, end + 1 - begin), HTTPStatus.PARTIAL_CONTENT
+                    place = place_of(data.folder, data.name)
+                    data, status = read_range(place, begin, end + 1 - begin), HTTPStatus.PARTIAL_CONTENT
                 except (BsmError, OSError) as error:
                     self.send_error(HTTPStatus.INTERNAL_SERVER_ERROR, worded(error))
                     return
-            self.send_response(status)
-            if isinstance(data, bytes) and kind != _BYTES and _GZIP.search(self.headers.get("Accept-Encoding", "")):
-                data = _gzipped(data)
-                self.send_header("Content-Encoding", "gzip")
-            self.send_header("Content-Type", kind)
-            self.send_header("X-Content-Type-Options", "nosniff")
-            self.send_header("X-Frame-Options", "DENY")
-            self.send_header("Content-Security-Policy", self.server.policy)
-            if isinstance(data, bytes):
-                self.send_header("Content-Length", str(len(data)))
-            self.end_headers()
-            with suppress(ConnectionError):  # the page is closed
-                for piece in [data] if isinstance(data, bytes) else data.chunks():
-                    # The page has gone; it says nothing more while it is there.
-                    gone = not piece and select.select([self.connection], [], [], 0)[0]
-                    if gone and not self.connection.recv(1, socket.MSG_PEEK):
-                        return
-                    self.wfile.write(piece)
+            self._answer(data, kind, status)
+
+    def do_POST(self) -> None:
+        """Encode the mesh of an upload, and say line by line in JSON how far that is."""
+        url = urlsplit(self.path)
+        asked = parse_qs(url.query)
+        length = self.headers.get("Content-Length", "")
+        # Pages of others may send here, too, but not in our name.
+        if self.headers.get("Host") != self.server.host or self.headers.get("Origin") != f"http://{self.server.host}":
+            self.send_error(HTTPStatus.FORBIDDEN)
+        elif url.path != UPLOAD or asked.get("preset", [""])[0] not in PRESETS:
+            self.send_error(HTTPStatus.NOT_FOUND)
+        elif not _LENGTH.fullmatch(length):
+            self.send_error(HTTPStatus.LENGTH_REQUIRED)
+        elif int(length) > MOST_BYTES:
+            self.send_error(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"At most {MOST_BYTES >> 20} MiB")
+        elif not self.server.encoding.acquire(blocking=False):
+            self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
+        else:
+            try:
+                data = self.rfile.read(int(length))
+                if len(data) == int(length):
+                    self._answer(self._said(asked.get("name", ["mesh"])[0], data, asked["preset"][0]), "text/plain")
+            except OSError:
+                pass  # the page is gone
+            finally:
+                self.server.encoding.release()
+
+    def _said(self, name: str, data: bytes, preset: str) -> Iterator[bytes]:
+        """Lines of JSON: stage and share, at last an entry or an error."""
+        with closing(uploaded(name, data, preset)) as reports:
+            for said in reports:
+                if isinstance(said, tuple):
+                    line: dict[str, Any] = {"stage": said[0], "share": said[1]}
+                else:
+                    line = {"error": said} if isinstance(said, str) else {"entry": self.server.dropped(said)}
+                yield json.dumps(line).encode() + b"\n"
+
+    def _answer(self, data: bytes | Growing | Iterator[bytes], kind: str, status: HTTPStatus = HTTPStatus.OK) -> None:
+        """Send bytes, or what comes of them until the page is gone."""
+        self.send_response(status)
+        if isinstance(data, bytes) and kind != _BYTES and _GZIP.search(self.headers.get("Accept-Encoding", "")):
+            data = _gzipped(data)
+            self.send_header("Content-Encoding", "gzip")
+        self.send_header("Content-Type", kind)
+        self.send_header("X-Content-Type-Options", "nosniff")
+        self.send_header("X-Frame-Options", "DENY")
+        self.send_header("Content-Security-Policy", self.server.policy)
+        if isinstance(data, bytes):
+            self.send_header("Content-Length", str(len(data)))
+            data = iter([data])
+        self.end_headers()
+        with suppress(OSError):  # the page is closed
+            for piece in data.chunks() if isinstance(data, Growing) else data:
+                # The page has gone; it says nothing more while it is there.
+                quiet = (kind != _BYTES or not piece) and select.select([self.connection], [], [], 0)[0]
+                if quiet and not self.connection.recv(1, socket.MSG_PEEK):
+                    return
+                self.wfile.write(piece)
 
     def log_message(self, format: str, *args: object) -> None:
         """Say nothing of requests."""

@@ -363,6 +363,20 @@ def test_texture_coordinates_of_an_obj_are_written_once():
     assert lines[-2:] == ["f 1/1 2/2 3/1", "f 2/3 4/2 3/1"]
 
 
+def test_texture_coordinates_without_seams_have_the_numbers_of_vertices(tmp_path):
+    values = np.array([[1, 1], [0, 0.5], [1, 1], [0, 0.5], [0.5, 0], [1, 1]], np.float32)
+    mesh = TriangleMesh(np.eye(4, 3), [[0, 1, 2], [1, 3, 2]], [Attribute("uv", values, "corner", "texcoord")])
+    lines = format_mesh(mesh, "obj").decode().splitlines()
+    assert [line for line in lines if line.startswith("vt")] == ["vt 1 1", "vt 0 0.5", "vt 1 1", "vt 0.5 0"]
+    assert lines[-2:] == ["f 1/1 2/2 3/3", "f 2/2 4/4 3/3"]
+    vtk = pytest.importorskip("vtkmodules.vtkIOGeometry")
+    (tmp_path / "a.obj").write_text("\n".join(lines))
+    reader = vtk.vtkOBJReader()
+    reader.SetFileName(str(tmp_path / "a.obj"))
+    reader.Update()
+    assert reader.GetOutput().GetNumberOfPoints() == 4, "VTK cuts every corner of other files"
+
+
 def test_faces_of_an_obj_are_grouped_unless_they_are():
     mesh = torus(40, 24)
     for numbers, changes in ((np.arange(len(mesh.faces)) % 3, 3), (np.arange(len(mesh.faces)) // 100 % 3, 20)):

@@ -9,17 +9,7 @@ from bsm.bitstream.errors import MeshError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric, judged, look
-from bsm.codec.look.pictures import (
-    CREASE,
-    LEAST_PIXELS,
-    MOST_PIXELS,
-    Canvas,
-    Shape,
-    axes,
-    cameras,
-    difference,
-    pixels_for,
-)
+from bsm.codec.look.pictures import CREASE, LEAST_PIXELS, MOST_PIXELS, Canvas, Shape, Size, axes, cameras, difference
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, tetrahedron, together, torus
 
@@ -251,9 +241,31 @@ def test_dissimilarity_is_that_of_the_definition():
 
 
 def test_pictures_of_dense_meshes_have_more_pixels():
-    assert pixels_for(MESH.positions, MESH.faces) == LEAST_PIXELS
+    assert Size.of(MESH.positions, MESH.faces).pixels == LEAST_PIXELS
     dense = torus(700, 500)
-    assert LEAST_PIXELS < pixels_for(dense.positions, dense.faces) < MOST_PIXELS
+    assert LEAST_PIXELS < Size.of(dense.positions, dense.faces).pixels < MOST_PIXELS
+
+
+def planes(count):
+    """Large triangles above each other."""
+    corners = np.tile([[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]], (count, 1))
+    return np.column_stack([corners, np.repeat(np.arange(count) / count, 3)]), np.arange(3 * count).reshape(-1, 3)
+
+
+def test_pictures_of_few_faces_are_small_however_short_edges_are():
+    positions, faces = planes(1)
+    tiny = np.concatenate([faces, np.repeat([[0, 3, 3]], 100, axis=0), np.repeat([[3, 3, 3]], 1000, axis=0)])
+    size = Size.of(np.vstack([positions, positions[0] + 1e-6]), tiny)
+    assert size.pixels**2 <= LEAST_PIXELS**2 + 8 * len(tiny)
+
+
+def test_the_work_of_a_picture_is_bounded_however_often_its_pixels_are_covered():
+    one, many = (Size.of(*planes(count)) for count in (1, 3000))
+    assert one.pixels == LEAST_PIXELS
+    assert many.pixels < LEAST_PIXELS / 4
+    assert many.work < 10 * LEAST_PIXELS**2 + 16 * 3000
+    copies = Size.of(planes(1)[0], np.tile([[0, 1, 2]], (3000, 1)))
+    assert copies.work < 10 * LEAST_PIXELS**2 + 16 * 3000
 
 
 def test_threads_change_nothing():
@@ -369,3 +381,11 @@ def test_normals_are_sums_of_what_is_around_and_not_behind_a_crease():
             around = (mesh.faces == mesh.faces[face, corner]).any(axis=1) & (unit @ unit[face] > CREASE)
             total = crosses[around].sum(axis=0)
             assert found[face, corner] == pytest.approx(total / np.linalg.norm(total), abs=1e-6)
+
+
+def test_a_mesh_on_a_line_cannot_be_looked_at_however_its_coordinates_are_rounded():
+    at = np.linspace(0.0, 1.0, 40)
+    faces = np.arange(38, dtype=np.int32)[:, None] + np.arange(3, dtype=np.int32)
+    for direction in ((1.0, 2.0, 3.0), (0.3, 0.7, 1.1)):
+        with pytest.raises(MeshError, match="no area"):
+            LookMetric(TriangleMesh(np.outer(at, direction), faces))

@@ -13,8 +13,8 @@ from bsm.bitstream.errors import CorruptError, MeshError, OptionError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.options import SequenceOptions
+from bsm.events import FrameEvent
 from tests.shapes import torus
 from tests.streams import frames_in, moving_events_of, packets_of, without
 

@@ -8,14 +8,14 @@ import pytest
 import bsm
 from bsm.bitstream.container.gop import parse_gop_body
 from bsm.bitstream.container.packets import Gop
-from bsm.bitstream.container.reader import Reader, read_packets
+from bsm.bitstream.container.scanner import scan
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.decoder import decode_sequence
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.frames import SAME, distinct_frames, same_frames
 from bsm.codec.sequence.options import Promise, SequenceOptions
+from bsm.decoding import decode_sequence
 from tests.motion import bending
 
 STEP = 0.002
@@ -41,7 +41,7 @@ def coded(positions: Positions, faces: Faces, **changes: object) -> tuple[bytes,
 
 def places(data: bytes, *widths: int) -> list[list[int]]:
     """Of every GOP, which frame each one is of those that are told of; `widths` are of attributes that move."""
-    gops = (packet for packet in read_packets([data], Reader()) if isinstance(packet, Gop))
+    gops = (packet for packet, _ in scan([data]) if isinstance(packet, Gop))
     return [parse_gop_body(gop.data, 1024, widths=dict(enumerate(widths))).places.tolist() for gop in gops]
 
 

@@ -7,18 +7,17 @@ import pytest
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Gop
-from bsm.bitstream.container.reader import Reader, Signal
+from bsm.bitstream.container.scanner import scan
 from bsm.bitstream.container.wire import FrameType, write_preamble
 from bsm.bitstream.errors import CorruptError, MeshError, OptionError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.decoder import SequenceDecoder
 from bsm.codec.sequence.encoder import SequenceEncoder
-from bsm.codec.sequence.events import FrameEvent
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.runs import KEPT_MESHES
 from bsm.codec.sequence.targets import SequenceTarget
-from bsm.codec.static.events import ConnectivityEvent, HeaderEvent, LossEvent
+from bsm.decoding import SequenceDecoder
+from bsm.events import ConnectivityEvent, FrameEvent, HeaderEvent, LossEvent, Signal
 from tests.streams import frames_in, moving_events_of, packets_of
 from tools.surgery import frames_of
 from tools.vectors.meshes import torus
@@ -150,11 +149,8 @@ def test_every_run_has_its_attributes():
 
 def damaged(data, number):
     """The stream with a byte of a frame changed, and not of how long it is, which may lead to the end of any other."""
-    reader = Reader()
-    reader.receive_data(data)
-    while reader.last_frame is None or reader.last_frame.number < number:
-        reader.next_packet()
-    last = reader.last_frame.offset + reader.last_frame.length - 1
+    span = next(span for _, span in scan([data]) if span.number >= number)
+    last = span.offset + span.length - 1
     return data[:last] + bytes([data[last] ^ 0x55]) + data[last + 1 :]
 
 
@@ -229,7 +225,8 @@ def test_what_meshes_take_does_not_grow_with_their_number():
         decoder.receive_data(b"".join(encoder.chunks(frames)))
         while not isinstance(decoder.next_event(), Signal):
             pass
-        return decoder._allowance.kept, decoder._allowance._present
+        *_, present, _, memory = decoder._open.state()
+        return memory, present
 
     (few, those), (many, these) = kept(40), kept(70)
     assert many < 1.5 * few and these < 1.5 * those
@@ -251,8 +248,8 @@ def test_the_encoder_counts_what_decoders_keep(way, monkeypatch):
         decoder.receive_data(data)
         while not isinstance(event := decoder.next_event(), Signal):
             if isinstance(event, HeaderEvent):
-                allowance = decoder._allowance
-                seen.append((allowance.kept, allowance.vertices, allowance._shown))
+                _, _, vertices, counted_for_work, _, _, memory = decoder._open.state()
+                seen.append((memory, vertices, counted_for_work - vertices))
     for (own_memory, *own_rest), (memory, *rest) in zip(counted[:-1], seen[1:], strict=True):
         assert own_rest == rest
         assert memory - 8 * rest[0] <= own_memory <= memory

@@ -4,14 +4,12 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.container import packets
-from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.bitstream.errors import BsmError, OptionError
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.decoder import SequenceDecoder, decode_sequence
-from bsm.codec.sequence.encoder import encode_sequence
-from bsm.codec.sequence.events import FrameEvent
+from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.static.events import AttributeEvent, LossEvent
+from bsm.decoding import SequenceDecoder, decode_sequence
+from bsm.events import END_OF_STREAM, AttributeEvent, FrameEvent, LossEvent
 from tests.shapes import torus
 from tests.streams import packets_of, without
 
@@ -74,5 +72,11 @@ def test_what_is_lost_of_one_spoils_none_before_it():
 
 def test_normals_cannot_be_recomputed():
     normals = Attribute("normal", np.ones((len(MESH.positions), 3)), "vertex", "normal")
-    with pytest.raises(OptionError):
+    with pytest.raises(OptionError, match="recomputed"):
         encode_sequence(FRAMES, MESH.faces, SequenceOptions(attributes={"normal": "recompute"}), attributes=(normals,))
+
+
+def test_as_many_frames_come_as_were_announced():
+    for count in (len(FRAMES) - 1, len(FRAMES) + 1):
+        with pytest.raises(OptionError, match="announced"):
+            b"".join(SequenceEncoder(MESH.faces, SequenceOptions(), count).chunks(FRAMES))

@@ -2,12 +2,9 @@
 
 import pytest
 
-from bsm.bitstream.container.reader import END_OF_STREAM
 from bsm.bitstream.errors import CorruptError
-from bsm.codec.sequence.decoder import SequenceDecoder
-from bsm.codec.sequence.events import FrameEvent
-from bsm.codec.static.decoder import Decoder, decode
-from bsm.codec.static.events import EndEvent, LossEvent
+from bsm.decoding import Decoder, SequenceDecoder, decode
+from bsm.events import END_OF_STREAM, EndEvent, FrameEvent, LossEvent
 from tools.surgery import frames_of, stream_of
 from tools.vectors.bad import unlike
 from tools.vectors.store import FOLDER

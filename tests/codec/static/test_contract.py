@@ -14,14 +14,15 @@ from hypothesis import strategies as st
 from bsm.bitstream.errors import MeshError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Original
+from bsm.codec.geometry.metrics import Original, Reference
 from bsm.codec.look.measure import LookMetric, look
 from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.search import Search
-from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import Contract, Target
+from bsm.decoding import decode
+from bsm.evaluation.sample import knot
 from tests.shapes import patch, tetrahedron, together, torus
 
 
@@ -143,11 +144,13 @@ def test_a_bound_in_the_unit_of_the_mesh() -> None:
 
 def test_a_bound_wider_than_a_tenth_of_the_mesh_is_refused() -> None:
     """Somebody took one unit for another."""
-    with pytest.raises(OptionError, match=r"a bound of 0.05 may be at most 10% of .* not 0\.\d+ times it"):
-        Encoder(
-            TriangleMesh(torus(40, 24).positions * 0.1, torus(40, 24).faces),
-            EncodeOptions(contract=Contract(0.05, absolute=True)),
-        ).encode()
+    mesh = TriangleMesh(torus(40, 24).positions * 0.1, torus(40, 24).faces, metadata={"unit": "mm"})
+    with pytest.raises(OptionError, match=r"0\.05 mm is \d+% of this mesh's size \(0\.\d+ mm\): is its unit mm\?"):
+        Encoder(mesh, EncodeOptions(contract=Contract(0.05, absolute=True))).encode()
+    promise = PRESETS["balanced"].contract
+    assert promise is not None
+    encoder = Encoder(mesh, EncodeOptions(contract=replace(promise, farthest=0.05, absolute=True)))
+    assert encoder.encode() == Encoder(mesh).encode() and "is its unit mm?" in encoder.notes[-1]
 
 
 def test_what_cannot_be_kept_is_refused_and_says_what_can_be_had() -> None:
@@ -268,3 +271,14 @@ def test_a_promise_holds_beside_a_target() -> None:
         Encoder(mesh, EncodeOptions(contract=promise, target=Target("size", 1000.0))).encode()
     both = Encoder(mesh, EncodeOptions(contract=promise, target=Target("size", 6000.0)))
     assert len(both.encode()) <= 6000 and kept(both, both.encode())[0] <= 0.0005 * (1 + 1e-9)
+
+
+def test_a_target_beside_the_look_takes_little_more_than_either() -> None:
+    mesh, promise = knot(1500), PRESETS["balanced"].contract
+    assert promise is not None
+    contracts = promise, Contract(0.1, visual=1e-5), replace(promise, visual=1e-5)
+    look, alone, both = (Encoder(mesh, EncodeOptions(contract=contract)) for contract in contracts)
+    sizes = [len(encoder.encode()) for encoder in (look, alone, both)]
+    assert sizes[2] <= 1.15 * max(sizes[:2])
+    decoded = decode(both.encode()).positions
+    assert Reference(both.mesh.positions, both.mesh.faces).nmsve(decoded) <= 1e-5

@@ -10,10 +10,10 @@ from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.splits import Splits, decode_order, encode_order
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import join
+from bsm.decoding import decode
 from tests.shapes import patch, torus
 
 

@@ -5,10 +5,10 @@ from bsm.bitstream.errors import CorruptError, LimitError, OptionError, Truncate
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import compare
-from bsm.codec.static.decoder import decode
 from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.events import BlockEvent
 from bsm.codec.static.options import EncodeOptions, changed
+from bsm.decoding import decode
+from bsm.events import BlockEvent
 from tests.shapes import patch, tetrahedron, together, torus
 from tests.streams import events_of
 

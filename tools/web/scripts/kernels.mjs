@@ -18,13 +18,13 @@ function sourcesIn(folder) {
 const isTable = (path) => readFileSync(join(ROOT, path), "utf8").startsWith("/* Written by");
 
 /** All that a decoder is made of; the linker takes what those functions that are asked for need. */
-const FOUND = ["bitstream", "codec", "engine"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/[^g])|^engine\/examples|rate_distortion/.test(path));
+const FOUND = ["bitstream", "codec", "engine"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/[^g])|^engine\/(examples|python|ahead)|rate_distortion/.test(path));
 const SOURCES = [...FOUND.filter((path) => !isTable(path)), ...sourcesIn("tools/web/src")];
 const TABLES = FOUND.filter(isTable);
 
 /** Functions for the page (engine/wasm/page.c). */
 const PAGE = [
-    "take", "give", "open", "close", "share", "push", "finish", "next", "error", "state", "header", "numbering", "faces", "positions", "metadata", "attribute",
+    "take", "give", "open", "close", "share", "push", "finish", "next", "error", "state", "header", "loose", "faces", "positions", "metadata", "attribute",
     "values", "indices", "handed", "room", "add", "lose", "changes", "losses",
 ].map((name) => `page_${name}`);
 /** Kernels of light grids, which TypeScript calls. */
@@ -139,8 +139,8 @@ const HOT = /fields\/(value|grid|corners)/;
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": { vectors: true, fast: HOT },
     "built/kernels-scalar.wasm": { vectors: false, fast: HOT },
-    "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attributes|values|declaration|zstd)\.c/ },
-    "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attributes|values|declaration|zstd)\.c/ },
+    "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attributes|values|declaration|zstd|split|whole)\.c/ },
+    "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attributes|values|declaration|zstd|split|whole)\.c/ },
     "built/quick.wasm": { vectors: true, exported: ["__heap_base", ...LIGHT], fast: /fields|conquest/ },
 };
 

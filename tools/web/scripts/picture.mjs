@@ -10,8 +10,6 @@ import { WEB } from "./kernels.mjs";
 const FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const SHARES = [0.55, 0.65, 0.76, 0.88, 1];
 const SIDE = 220;
-const CONTROLS = 320;
-const ZOOM_STEPS = 1;
 
 const [stream, target] = process.argv.slice(2).map((path) => resolve(process.env.INIT_CWD ?? ".", path));
 const folder = mkdtempSync(join(tmpdir(), "bsm-picture-"));
@@ -19,13 +17,12 @@ const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? 
 try {
     const saved = join(folder, "page.html");
     execFileSync(process.env.PYTHON ?? "python3", ["-m", "bsm", "view", stream, "-q", "--save", saved], { cwd: join(WEB, "../..") });
-    const page = await browser.newPage({ viewport: { width: 3 * SIDE + CONTROLS, height: 3 * SIDE } });
+    const page = await browser.newPage({ viewport: { width: 3 * SIDE, height: 3 * SIDE } });
     await page.goto(pathToFileURL(saved).href);
     await page.waitForSelector("body[data-state=complete]");
-    await page.locator("details.bsm-panel").evaluate((panel) => (panel.open = true));
-    await page.getByRole("combobox", { name: "Colour" }).selectOption("blocks");
-    await page.locator("canvas").focus();
-    for (let k = 0; k < ZOOM_STEPS; k++) await page.keyboard.press("+");
+    await page.addStyleTag({ content: ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: white !important }" });
+    await page.getByRole("combobox", { name: "Color" }).selectOption("blocks");
+    await page.getByRole("button", { name: "Settings" }).click();
     const size = statSync(stream).size;
     const pictures = [];
     for (const share of SHARES.toReversed()) {

@@ -7,7 +7,6 @@ import type { Header } from "./header";
 import type { SharedBlock } from "./helper";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
-import type { Numbering } from "./numbering";
 import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";
 
 export type * from "./events";
@@ -24,7 +23,6 @@ export class Decoder {
     private readonly queue: Event[] = [];
     private error?: BsmError;
     private header?: Header;
-    private numbering?: Numbering;
     private metadata = 0;
     /** Frames of a run that has the mesh of another come behind attributes that were told of that one. */
     private again = false;
@@ -133,9 +131,9 @@ export class Decoder {
             return { type: "metadata", entries };
         }
         if (type === CONNECTIVITY) {
-            const { faces, size, loose } = (this.numbering = engine.numbering(told));
+            const [faces, loose] = [engine.faces(told), engine.loose()];
             if (this.again) this.queue.push(...engine.attributes().map((one): Event => ({ type: "attribute", ...one })));
-            return { type: "connectivity", faces, vertices: size, loose };
+            return { type: "connectivity", faces, vertices, loose };
         }
         if (growing && (type === BLOCK || type === REFINEMENT)) return this.changed(type === BLOCK ? index : undefined);
         if (type === ATTRIBUTE) return { type: "attribute", ...engine.attribute(index)! };
@@ -147,8 +145,7 @@ export class Decoder {
         if (type !== END) return undefined;
         const isMesh = this.header!.gopFrames === 0;
         const losses = wishes.tolerant && isMesh ? engine.losses() : { missing: new Int32Array(0), degraded: new Int32Array(0) };
-        const numbered = (coded: Int32Array): Int32Array => this.numbering!.copiesOf(coded);
-        const end = { type: "end" as const, missing: numbered(losses.missing), degraded: numbered(losses.degraded) };
+        const end = { type: "end" as const, ...losses };
         return !growing && isMesh ? { ...end, positions: engine.positions(vertices) } : end;
     }
 
@@ -162,7 +159,7 @@ export class Decoder {
     }
 
     private changed(block?: number): Event {
-        const changes = this.numbering!.spread(this.engine.changes());
+        const changes = this.engine.changes();
         return block === undefined ? { type: "refinement", ...changes } : { type: "block", index: block, ...changes };
     }
 

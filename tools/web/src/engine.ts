@@ -6,10 +6,10 @@ import type { Header } from "./header";
 import type { Share, SharedBlock } from "./helper";
 import type { Exports, Kernels } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
-import { Numbering } from "./numbering";
+import type { Loose } from "./numbering";
 
 /** Events in the order of bsmdec.h, and one of decoders with helpers. */
-export const [NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, FAILED, AWAITED] = Array.from({ length: 13 }, (_, i) => i);
+export const [NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, FAILED, , AWAITED] = Array.from({ length: 14 }, (_, i) => i);
 
 const NAMES: Record<number, string> = { 3: "Format", 4: "Corrupt", 5: "Unsupported", 6: "Limit", 7: "Numeric", 8: "Limit", 12: "Truncated" };
 const VIEWS: Kind<ArrayLike<number> & { slice(): ArrayLike<number> }>[] = [Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array, Float64Array];
@@ -127,34 +127,38 @@ export class Engine {
         return entries;
     }
 
-    /** The user's faces, and how he numbers vertices. */
-    numbering(told: Told): Numbering {
-        const faces = this.filled(Int32Array, 3 * told.faces, (at, count) => this.call("page_faces", at, count));
-        const [size, vertices, positions, coded] = this.rows("page_numbering");
-        const source = size > 0 ? new Int32Array(this.buffer, vertices, size).slice() : undefined;
-        const loose = Int32Array.from([...(source ?? [])].flatMap((from, v) => (from < 0 ? [v] : [])));
-        return new Numbering(faces, this.doubles(coded, 1)[0], source, { vertices: loose, positions: this.doubles(positions, 3 * loose.length) });
+    faces(told: Told): Int32Array {
+        return this.filled(Int32Array, 3 * told.faces, (at, count) => this.call("page_faces", at, count));
+    }
+
+    /** Vertices that no face uses. */
+    loose(): Loose {
+        const { vertices, positions } = this.changesBy("page_loose");
+        return { vertices, positions };
     }
 
     positions(vertices: number): Float64Array {
         return this.filled(Float64Array, 3 * vertices, (at, count) => this.call("page_positions", at, count));
     }
 
-    /** What the event told last has changed, as vertices were coded. */
+    /** What has changed since the last call. */
     changes(): Changes {
-        const [count, vertices, positions, final] = this.rows("page_changes");
+        return this.changesBy("page_changes");
+    }
+
+    private changesBy(name: string): Changes {
+        const [count, vertices, positions, final] = this.rows(name);
         return {
-            vertices: new Int32Array(this.buffer, vertices, count).slice(),
+            vertices: this.ints(vertices, count),
             positions: this.doubles(positions, 3 * count),
             final: this.copied(final, count),
         };
     }
 
-    /** Coded vertices without a position, and those that are less good than they were encoded. */
+    /** Vertices without a position, and those that are less exact than they were encoded. */
     losses(): { missing: Int32Array; degraded: Int32Array } {
-        const [count, missing, degraded] = this.rows("page_losses");
-        const ints = (at: number, length: number): Int32Array => new Int32Array(this.buffer, at, length).slice();
-        return { missing: ints(missing, count), degraded: degraded > 0 ? ints(degraded + 4, ints(degraded, 1)[0]) : new Int32Array(0) };
+        const [count, missing, degraded, others] = this.rows("page_losses");
+        return { missing: this.ints(missing, count), degraded: this.ints(degraded, this.doubles(others, 1)[0]) };
     }
 
     /** An attribute, if it is whole, and moves where that is asked for. */
@@ -212,6 +216,10 @@ export class Engine {
         const at = this.call(name, ...args);
         if (at === 0) throw this.error();
         return new Uint32Array(this.buffer, at, 4).slice();
+    }
+
+    private ints(at: number, count: number): Int32Array {
+        return new Int32Array(this.buffer, count > 0 ? at : 0, count).slice();
     }
 
     private doubles(at: number, count: number): Float64Array {

@@ -13,6 +13,8 @@ export interface Progress {
     onFrame?: (index: number, geometry: BSMGeometry) => void;
     /** What the author says of the mesh is there; it may come in several maps. */
     onMetadata?: (metadata: Metadata, geometry: BSMGeometry) => void;
+    /** Stops this load alone. */
+    signal?: AbortSignal;
 }
 
 /** A frame of a sequence, for the drawn vertices. */

@@ -40,12 +40,6 @@ export class Numbering {
         return { vertices: Int32Array.from(vertices), positions, final: Uint8Array.from(rows, (row) => changes.final[row]) };
     }
 
-    /** The user's vertices that coded ones are. */
-    copiesOf(coded: Int32Array): Int32Array {
-        const { copies } = this;
-        return copies ? Int32Array.from([...coded].flatMap((vertex) => [...copies.members.subarray(copies.starts[vertex], copies.starts[vertex + 1])])) : coded;
-    }
-
     /** Positions of all coded vertices, as the user numbers them. */
     arranged(positions: Float64Array): Float64Array {
         const { source } = this;

@@ -1,6 +1,6 @@
 /** When which frame of a sequence is shown. */
 
-const UNKNOWN_RATE = 30;
+const UNKNOWN_RATE = 24; // as where `bsm` writes glTF and USD
 /** Seconds of frames that must be there before playing goes on behind a wait. */
 const RESERVE = 0.5;
 /** By how much of its time each frame is shown early: where a screen's pictures come as frames do, or several to each, clocks that tremble skip none. */

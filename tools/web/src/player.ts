@@ -5,6 +5,11 @@ import type { BSMGeometry } from "./geometry";
 import { BSMLoader, BSMSequence, sceneOf } from "./three";
 
 const SECOND = 1000;
+/** Pages may style the element as they like; the text lies in front of the picture. */
+const STYLE = `
+:host { display: block; position: relative; background: radial-gradient(circle at 50% 40%, #eef0f3, #aeb6c2); }
+canvas { display: block; width: 100%; height: 100%; }
+p { position: absolute; inset: auto 0 45% 0; margin: 0; padding: 0 1em; text-align: center; font: 14px system-ui, sans-serif; color: #222; }`;
 /** What a sequence says, and the element says again. */
 const PASSED = ["play", "pause", "frame", "loop", "ended", "waiting"] as const;
 /** Where there are no pages the class can be named, too. */
@@ -25,6 +30,8 @@ export class BSMPlayer extends Base {
     private renderer?: WebGLRenderer;
     private controls?: OrbitControls;
     private watch?: ResizeObserver;
+    /** What is loading, or wrong. */
+    private readonly note = globalThis.document?.createElement("p");
     /** Counts what was asked for: what comes late of another stream is not shown. */
     private asked = 0;
 
@@ -80,9 +87,8 @@ export class BSMPlayer extends Base {
     connectedCallback(): void {
         const renderer = (this.renderer = new WebGLRenderer({ antialias: true, alpha: true }));
         const canvas = renderer.domElement;
-        Object.assign(canvas.style, { display: "block", width: "100%", height: "100%" });
-        if (!this.style.display) this.style.display = "block";
-        (this.shadowRoot ?? this.attachShadow({ mode: "open" })).replaceChildren(canvas);
+        const style = Object.assign(document.createElement("style"), { textContent: STYLE });
+        (this.shadowRoot ?? this.attachShadow({ mode: "open" })).replaceChildren(style, canvas, this.note);
         this.controls = new OrbitControls(this.camera, canvas);
         const sun = new DirectionalLight(0xffffff, 2);
         sun.position.set(1, 1, 1);
@@ -122,7 +128,14 @@ export class BSMPlayer extends Base {
         this.empty();
         const mine = (): boolean => number === this.asked;
         const failed = (error: unknown): void => {
-            if (mine()) this.dispatchEvent(new ErrorEvent("error", { error, message: `${error}` }));
+            if (!mine()) return;
+            this.note.textContent = error instanceof Error ? error.message : `${error}`;
+            this.dispatchEvent(new ErrorEvent("error", { error, message: `${error}` }));
+        };
+        this.note.setAttribute("role", "status");
+        this.note.textContent = "Loading";
+        const onProgress = ({ lengthComputable, loaded, total }: ProgressEvent): void => {
+            if (mine() && !this.content && lengthComputable) this.note.textContent = `Loading, ${Math.floor((100 * loaded) / total)} %`;
         };
         let first: Promise<void> | undefined;
         let moving: BSMSequence | undefined;
@@ -138,7 +151,7 @@ export class BSMPlayer extends Base {
             if (moving) moving.complete = true;
             failed(error);
         };
-        this.loader.load(this.src, onLoad, undefined, onError, { onFrame });
+        this.loader.load(this.src, onLoad, onProgress, onError, { onFrame });
     }
 
     private async show(geometry: BSMGeometry, mine: () => boolean, sequence?: BSMSequence): Promise<void> {
@@ -147,6 +160,7 @@ export class BSMPlayer extends Base {
         content.traverse((mesh) => (mesh.frustumCulled = !sequence)); // bounds are those of the first frame
         this.scene.add((this.content = content));
         this.look(content);
+        this.note.textContent = "";
         this.say("loadeddata");
         if (!sequence) return;
         this.sequence = sequence;

@@ -57,7 +57,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
 
     /** Stop the loads that have begun: they fail. */
     override abort(): this {
-        this.aborting.abort();
+        this.aborting.abort(new DOMException("the load was stopped", "AbortError"));
         this.aborting = new AbortController();
         return this;
     }
@@ -81,6 +81,10 @@ export class BSMLoader extends Loader<BSMGeometry> {
             .finally(() => manager.itemEnd(url));
     }
 
+    override loadAsync(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
+        return new Promise((keep, fail) => this.load(url, keep, onProgress, fail, progress));
+    }
+
     /** The geometry of a stream that is there. */
     parse(data: ArrayBuffer | Uint8Array, onLoad: (geometry: BSMGeometry) => void, onError: (error: unknown) => void = console.error): void {
         this.parseAsync(data).then(onLoad).catch(onError);
@@ -95,13 +99,13 @@ export class BSMLoader extends Loader<BSMGeometry> {
     }
 
     /** A group of meshes, one for each part and material, with their textures; y is up. */
-    async loadScene(url: string, onProgress?: (event: ProgressEvent) => void): Promise<Group> {
-        const geometry = await this.loadAsync(url, onProgress);
+    async loadScene(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<Group> {
+        const geometry = await this.loadAsync(url, onProgress, progress);
         return sceneOf(geometry);
     }
 
     /** A sequence that can be played as soon as its first frame is there. */
-    loadSequence(url: string, onProgress?: (event: ProgressEvent) => void): Promise<BSMSequence> {
+    loadSequence(url: string, onProgress?: (event: ProgressEvent) => void, signal?: AbortSignal): Promise<BSMSequence> {
         let sequence: BSMSequence | undefined;
         return new Promise((keep, fail) => {
             const onFrame = (index: number, geometry: BSMGeometry): void => {
@@ -115,7 +119,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
                 if (sequence) sequence.fail(error);
                 else fail(error);
             };
-            this.load(url, onLoad, onProgress, onError, { onFrame });
+            this.load(url, onLoad, onProgress, onError, { onFrame, signal });
         });
     }
 
@@ -152,7 +156,8 @@ export class BSMLoader extends Loader<BSMGeometry> {
                 stream.close();
                 failed(error);
             };
-            const signals = [this.aborting, this.manager.abortController as AbortController | undefined].flatMap((one) => one?.signal ?? []);
+            const stoppers = [this.aborting, this.manager.abortController as AbortController | undefined, progress];
+            const signals = stoppers.flatMap((one) => one?.signal ?? []);
             for (const signal of signals) signal.addEventListener("abort", () => stop(signal.reason), { signal: over.signal });
             this.pass(url, stream, onProgress, AbortSignal.any?.(signals)).catch(stop);
         });

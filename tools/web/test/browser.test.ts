@@ -6,11 +6,14 @@ import { basename, join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { readNpz } from "./npz";
-import { base64, CHROMIUM, FLAGS, rowsOf, savedPage, silhouette, VECTORS, viewerScript } from "./shared";
+import { base64, CHROMIUM, contentOf, FLAGS, rowsOf, savedPage, silhouette, VECTORS, viewerScript } from "./shared";
 
 const STREAM = "good-labels";
 /** One of the specification, and a real one if it is named. */
 const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), join(VECTORS, "good-sequence-runs.bsm"), ...(process.env.BSM_SEQUENCE ? [process.env.BSM_SEQUENCE] : [])];
+
+/** What stands over the mesh is no part of it, nor is what changes behind it. */
+const BARE = ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #e9ecf0 !important }";
 
 /** Shares of the pixels that are red and green, and how high these are on the mean, from the top. */
 function coloursIn(png: Buffer): { red: number; green: number; redHeight: number; greenHeight: number } {
@@ -37,8 +40,10 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         const options = { executablePath: CHROMIUM, headless: true, args: FLAGS, viewport: { width: 800, height: 500 } };
         context = await chromium.launchPersistentContext(join(folder, "profile"), options);
         page = await context.newPage();
-        // The panel is folded at first.
-        await page.addInitScript(() => document.addEventListener("DOMContentLoaded", () => document.querySelector("details.bsm-panel")?.setAttribute("open", "")));
+        await context.addInitScript((bare) => document.addEventListener("DOMContentLoaded", () => {
+            document.head.append(Object.assign(document.createElement("style"), { textContent: bare }));
+            document.querySelector<HTMLElement>("[name=panel]")?.click();
+        }), BARE);
         page.on("pageerror", (error) => complaints.push(error.message));
         page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(request.url()));
     });
@@ -99,10 +104,10 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         const name = (): Promise<string> =>
             page.evaluate(() => {
                 const active = document.activeElement as HTMLElement;
-                const label = (active as HTMLInputElement).labels?.[0]?.textContent ?? active.getAttribute("aria-label");
+                const label = active.getAttribute("aria-label") ?? (active as HTMLInputElement).labels?.[0]?.textContent;
                 return (label ?? active.textContent ?? "").trim().split(/[\n,.(:]/)[0].trim();
             });
-        const expected = ["The mesh", "Controls", "Stream whole", "Cut the stream behind byte", "Link", "Stream again", "Colour", "Wireframe", "Flat", "Licences"];
+        const expected = ["The mesh", "Measured", "Open a mesh or stream", "Save a picture", "Save a turntable", "Dark or light", "Settings", "Light from", "Background", "Turn by itself", "Cut the stream", "Link", "Stream again", "Licences", "Smooth", "Color"];
         await page.locator("canvas").focus();
         const met = [await name()];
         for (let k = 0; k < expected.length - 1; k++) {
@@ -110,10 +115,9 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             met.push(await name());
         }
         assert.deepEqual(met.map((found, i) => found.startsWith(expected[i])), expected.map(() => true), met.join(" | "));
-        await page.getByRole("group", { name: "Link" }).getByRole("slider", { name: "Cut the stream" }).focus();
-        await page.getByRole("combobox", { name: "Colour" }).selectOption("blocks");
-        await page.waitForFunction(() => document.body.textContent!.includes("the first block of the chain"));
-        await page.getByRole("combobox", { name: "Colour" }).selectOption("plain");
+        await page.getByRole("combobox", { name: "Color" }).selectOption("blocks");
+        await page.waitForFunction(() => document.body.textContent!.includes("Order in which blocks arrive"));
+        await page.getByRole("combobox", { name: "Color" }).selectOption("plain");
     });
 
     const frameOf = (): Promise<number> => page.evaluate(() => Number(document.body.dataset.frame ?? -1));
@@ -139,7 +143,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             const { share } = silhouette(await page.locator("canvas").screenshot());
             assert.ok(share > 0.01 && share < 0.6, `share ${share}`);
             assert.notDeepEqual(await page.locator("canvas").screenshot(), first);
-            await page.getByLabel("Begin again at the end").uncheck();
+            await page.getByLabel("Loop").uncheck();
             await page.getByRole("button", { name: "Play" }).click();
             await page.waitForFunction(() => document.querySelector("[name=play]")!.textContent === "Play");
             assert.equal(await frameOf(), Number(last));
@@ -147,13 +151,12 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         });
     }
 
-    test("wears the textures of a stream, has its axis up, and its panel folded", async () => {
+    test("wears the textures of a stream, and has its axis up", async () => {
         const fresh = await context.newPage();
         // Half of the image is red, half is green: a page without the texture has neither.
         await fresh.goto(savedPage(folder, { worn: readFileSync(join(VECTORS, "good-attribute-textured.bsm")) }));
         await fresh.waitForSelector("body[data-state=complete]", { timeout: 20_000 });
-        await fresh.waitForFunction(() => document.querySelector<HTMLSelectElement>("[name=colour]")!.value === "own");
-        assert.equal(await fresh.locator("details.bsm-panel").getAttribute("open"), null);
+        await fresh.waitForFunction(() => document.querySelector<HTMLSelectElement>("[name=color]")!.value === "own");
         await fresh.waitForTimeout(300);
         const counts = coloursIn(await fresh.locator("canvas").screenshot());
         assert.ok(counts.red > 0.02 && counts.green > 0.02, JSON.stringify(counts));
@@ -162,42 +165,90 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await fresh.close();
     });
 
-    test("says how far a mesh is from its original, and how long Draco's file takes", async () => {
+    test("shows three meshes behind one camera, and how far each is off", async () => {
         const { positions } = readNpz(readFileSync(join(VECTORS, `${STREAM}.npz`)));
-        const moved = Float32Array.from(positions.values);
-        for (let i = 0; i < moved.length; i += 3) moved[i] += 0.01;
-        const more = { original: { data: base64(new Uint8Array(moved.buffer)) }, draco: { bytes: 2500, bits: 9, theta: 1.5 } };
-        await page.goto(savedPage(folder, { compared: whole }, more));
+        const [vertices, diagonal] = [positions.values.length / 3, 2];
+        const layer = (title: string, size: number, share?: number): object => ({
+            title, detail: "", size, data: base64(whole),
+            ...(share === undefined ? {} : { off: { data: base64(new Uint8Array(new Float32Array(vertices).fill(share * diagonal).buffer)) } }),
+        });
+        const facts = { look: 0.9, farthest: 0.01, promised: { look: 1, farthest: 0.02 }, diagonal, draco: { bytes: 4000, bits: 11 } };
+        await page.goto(savedPage(folder, { three: whole }, { main: 1, facts, layers: [layer("Original", 64 * whole.length), layer("BSM", whole.length, 0.0075), layer("Draco", 2000, 0)] }));
+        await page.waitForSelector("body[data-layers='3']");
+        await page.waitForFunction(() => document.body.innerText.includes("64 times smaller"));
+        assert.match(await page.locator("[data-part=facts]").innerText(), /Draco at this look[^]*4 kB 11 bits[^]*0.90[^]*promised[^]*1\u00a0%[^]*promised 2\u00a0%/);
+        const redOf = async (): Promise<number> => {
+            await page.waitForTimeout(300);
+            const { red } = coloursIn(await page.locator("canvas").screenshot());
+            return red;
+        };
+        assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());
+        await page.keyboard.press("e");
+        await page.waitForFunction(() => document.body.innerText.includes("Distance from the original"));
+        assert.match(await page.locator("[data-part=scale]").innerText(), /0\u00a0%[^]*0.5\u00a0%[^]*1\u00a0%\n0.02/);
+        const half = await redOf();
+        await page.getByRole("slider", { name: "Wipe" }).fill("0");
+        const most = await redOf();
+        assert.ok(half > 0.02 && most > 1.5 * half, `${half} ${most}`);
+        await page.keyboard.press("w");
+        assert.ok((await redOf()) > 1.5 * half, "alone");
+        await page.keyboard.press("3");
+        assert.ok((await redOf()) < 0.002, "a mesh without errors is not red");
+        await page.keyboard.press("1");
+        assert.ok((await redOf()) < 0.002, "nor is the original");
+        await page.keyboard.press("2");
+        await page.keyboard.press("s");
+        const sides = await redOf();
+        assert.ok(sides > 0.01 && sides < most, `one of two is red: ${sides}`);
+        assert.deepEqual(complaints, []);
+    });
+
+    test("saves a picture and a turntable, and is dark or light", async () => {
+        const saved = page.waitForEvent("download");
+        await page.getByRole("button", { name: "Save a picture" }).click();
+        const picture = await saved;
+        assert.equal(picture.suggestedFilename(), "three.png");
+        const { share } = silhouette(readFileSync(await picture.path()));
+        assert.ok(share > 0.05, `share ${share}`);
+        const film = page.waitForEvent("download");
+        await page.getByRole("button", { name: "Save a turntable" }).click();
+        assert.match((await film).suggestedFilename(), /^three\.(webm|mp4)$/);
+        assert.ok(readFileSync(await (await film).path()).length > 1000);
+        const ink = (): Promise<string> => page.evaluate(() => getComputedStyle(document.body).color);
+        const before = await ink();
+        await page.getByRole("button", { name: "Dark or light" }).click();
+        assert.notEqual(await ink(), before);
+    });
+
+    test("opens a stream that is dropped on it, and says that a saved page does not encode", async () => {
+        const drop = (name: string, bytes: Uint8Array): Promise<void> => page.evaluate(([name, data]) => {
+            const transfer = new DataTransfer();
+            transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name));
+            document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+        }, [name, base64(bytes)] as const);
+        await drop("other.bsm", readFileSync(join(VECTORS, "good-grid.bsm")));
+        await page.waitForFunction(() => document.querySelector("h1")!.textContent === "other.bsm");
         await state("complete");
-        await page.getByLabel("Link, Mbit/s").fill("0.01");
-        await page.waitForFunction(() => /2,500 bytes: there after 2.00 s/.test(document.body.textContent!));
-        await page.getByLabel("Link, Mbit/s").fill("0");
-        await page.getByRole("combobox", { name: "Colour" }).selectOption("error");
-        const text = await (await page.waitForFunction(() => /Off the original: ([\d.]+) % .* at most ([\d.]+) %; normals ([\d.]+)/.exec(document.body.textContent!)?.slice(1))).jsonValue();
-        const [rms, most, angle] = text!.map(Number);
-        const spans = [0, 1, 2].map((d) => Math.max(...moved.filter((_, i) => i % 3 === d)) - Math.min(...moved.filter((_, i) => i % 3 === d)));
-        const expected = 1 / Math.hypot(...spans);
-        assert.ok(Math.abs(rms / expected - 1) < 0.01 && Math.abs(most / expected - 1) < 0.01, `${rms}, ${most}, not ${expected}`);
-        assert.ok(angle < 0.1);
+        await drop("ball.ply", new Uint8Array(10));
+        await page.waitForFunction(() => document.querySelector("[role=alert]")!.textContent!.includes("bsm view ball.ply"));
+        assert.deepEqual(complaints, []);
     });
 
     test("is a widget of notebooks", async () => {
         const script = `
             import widget from "data:text/javascript;base64,${base64(Buffer.from(viewerScript()))}";
-            const bytes = Uint8Array.from(atob("${base64(whole)}"), (c) => c.charCodeAt(0));
-            const traits = { name: "a stream", stream: new DataView(bytes.buffer), original: new DataView(new ArrayBuffer(0)), height: 400 };
+            const traits = { content: ${JSON.stringify(contentOf("a stream", whole))}, height: 400 };
             const listeners = {};
             const model = { get: (name) => traits[name], on: (name, f) => (listeners[name] = f), off: (name) => delete listeners[name] };
             const el = document.querySelector("main");
             window.close = await widget.render({ model, el });
-            window.change = () => listeners["change:stream"]();`;
-        await page.setContent(`<main></main><script type="module">${script}</script>`);
+            window.change = () => listeners["change:content"]();`;
+        await page.setContent(`<style>${BARE}</style><main></main><script type="module">${script}</script>`);
         const shown = page.locator("main > [data-state=complete]");
         await shown.waitFor({ timeout: 20_000 });
         const { share } = silhouette(await page.locator("canvas").screenshot());
         assert.ok(share > 0.02 && share < 0.6, `share ${share}`);
-        await page.evaluate(() => document.querySelector("details.bsm-panel")!.setAttribute("open", ""));
-        assert.equal(await page.getByRole("combobox", { name: "Stream" }).locator("option").textContent(), "a stream");
+        assert.equal(await page.locator("h1").textContent(), "a stream");
         assert.ok(Math.abs((await page.locator("main > div").boundingBox())!.height - 400) < 2);
         await page.evaluate(() => (window as unknown as { change: () => void }).change());
         await shown.waitFor();

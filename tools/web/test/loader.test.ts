@@ -307,17 +307,30 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             const wrong = told("error");
             player.src = "/stream/no-such-file.bsm";
             const { error } = await wrong;
+            const note = player.shadowRoot.querySelector("p").textContent;
             const still = told("load");
             player.src = "/stream/${STREAM}.bsm";
             await still;
             const [duration, meshes] = [player.duration, player.scene.children.length];
             player.remove();
-            return { heard: [...new Set(heard)].sort(), middle, error: error.message, duration, meshes };`, {});
+            return { heard: [...new Set(heard)].sort(), middle, error: error.message, note, cleared: player.shadowRoot.querySelector("p").textContent, duration, meshes };`, {});
         assert.deepEqual(seen.heard, ["ended", "error", "frame", "load", "loadeddata", "loop", "pause", "play"]);
         const [paused, frame, length] = seen.middle as [boolean, number, number];
         assert.deepEqual([paused, frame], [true, Math.floor(0.5 * length)]);
         assert.match(String(seen.error), /no-such-file.bsm: 404/);
+        assert.deepEqual([seen.note, seen.cleared], [seen.error, ""]);
         assert.deepEqual([seen.duration, seen.meshes], [0, 3]);
+    });
+
+    test("stops one load, and no other, at a signal of its own", async () => {
+        const seen = await found(`
+            const loader = new BSMLoader();
+            const stop = new AbortController();
+            const stopped = loader.loadAsync("/stream/${STREAM}.bsm", undefined, { signal: stop.signal }).then(() => "loaded", (error) => error.name);
+            const other = loader.loadAsync("/stream/${STREAM}.bsm").then(() => "loaded", (error) => error.name);
+            stop.abort();
+            return { stopped: await stopped, other: await other };`);
+        assert.deepEqual([seen.stopped, seen.other], ["AbortError", "loaded"]);
     });
 
     test("is a plug-in of GLTFLoader", async () => {

@@ -1,6 +1,6 @@
 /** What `npm pack` makes: it has types, runs in Node, and is of the version that the Python package has. */
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -78,6 +78,16 @@ describe("the package", () => {
             run(process.execPath, join(WEB, "node_modules/typescript/bin/tsc"), ...options, "consumer.ts");
         });
     }
+
+    test("is a command that ends with one sentence, and quietly where nobody reads on", () => {
+        const command = join(folder, "node_modules", own.name, "obj.js");
+        writeFileSync(join(folder, "cut.bsm"), readFileSync(join(VECTORS, "good-labels.bsm")).subarray(0, 150));
+        const cut = spawnSync(process.execPath, [command, "cut.bsm"], { cwd: folder, encoding: "utf8" });
+        assert.equal(cut.status, 1);
+        assert.match(cut.stderr, /^bsm-decoder: cut\.bsm: [^\n]+\n$/);
+        const piped = spawnSync("bash", ["-c", `set -o pipefail; "${process.execPath}" "${command}" "${join(VECTORS, "good-labels.bsm")}" | true`], { cwd: folder, encoding: "utf8" });
+        assert.deepEqual([piped.status, piped.stderr], [0, ""]);
+    });
 
     test("decodes in Node", () => {
         writeFileSync(join(folder, "program.js"), PROGRAM);

@@ -77,12 +77,17 @@ export function meshOfEvents(events: Iterable<Event>): Mesh {
 
 /** The page with streams in it, as `bsm view --save` writes it. */
 export function savedPage(folder: string, streams: Record<string, Uint8Array>, more: object = {}): string {
-    const list = Object.entries(streams).map(([name, bytes]) => ({ name, data: base64(bytes), ...more }));
+    const list = Object.entries(streams).map(([name, bytes]) => ({ ...contentOf(name, bytes), ...more }));
     const slot = '<script type="application/json" id="bsm-streams">';
     const path = join(folder, "page.html");
     const page = readFileSync(join(VIEWER, "page.html"), "utf8");
     writeFileSync(path, page.replace(`${slot}[]`, () => slot + JSON.stringify(list)).replace("<!-- script -->", viewerScript));
     return pathToFileURL(path).href;
+}
+
+/** What the page knows of a stream that stands alone. */
+export function contentOf(name: string, bytes: Uint8Array): { name: string; main: number; facts: object; layers: object[] } {
+    return { name, main: 0, facts: {}, layers: [{ title: "BSM", detail: "", size: bytes.length, data: base64(bytes) }] };
 }
 
 /** The page's module with kernels in it. */

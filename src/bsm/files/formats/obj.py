@@ -209,7 +209,12 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
             rows, corners = attribute.values, mesh.faces
             if attribute.indices is not None:  # seams part rows that are the same
                 same = group_rows(rows.astype(np.float64).view(np.int64))
-                rows, corners = rows[first_of(same)], same[attribute.indices]
+                first, corners = first_of(same), same[attribute.indices]
+                by_vertex = np.zeros(len(mesh.positions), np.int64)
+                by_vertex[mesh.faces] = corners
+                if np.array_equal(by_vertex[mesh.faces], corners):  # without seams: VTK shades only these smoothly
+                    first, corners = first[by_vertex], mesh.faces
+                rows = rows[first]
             parts.append(text_table(f"{keyword}{number * attribute.components}\n", rows).decode())
             indices.append(corners)
     corner = "{}/{}/{}" if texcoord and normal else "{}//{}" if normal else "{}/{}" if texcoord else "{}"

@@ -141,6 +141,7 @@ def meaning_of(name: str) -> Semantic:
 
 
 _MOST_TURNS = 64
+PER_TRIANGLE, PER_CUT, PER_CORNER = 80, 300, 24  # bytes of a triangle, of one that a polygon is cut into, of a corner
 
 
 @public
@@ -180,10 +181,13 @@ class Polygons:
     columns: tuple[Column, ...] = ()
     metadata: Metadata = field(default_factory=dict)
 
-    def checked(self, limits: Limits) -> MeshFile:
+    def checked(self, limits: Limits, received: int = 1 << 62) -> MeshFile:
         positions, sizes, corners = self.positions, self.sizes, self.corners
         require_count("vertices", len(positions), limits)
-        require_count("faces", int(np.maximum(sizes - 2, 0).sum()), limits)
+        triangles = int(np.maximum(sizes - 2, 0).sum())
+        require_count("faces", triangles, limits)
+        memory = PER_TRIANGLE if (sizes == 3).all() else PER_CUT
+        limits.check_memory(memory * triangles + PER_CORNER * len(corners), len(positions), received)
         if not (sizes > 0).any():
             raise MeshError("the file has no faces; point clouds are not supported")
         outside = (corners < 0) | (corners >= len(positions))
@@ -207,8 +211,8 @@ class Polygons:
         if self.dropped:
             notes.append(f"left out: {', '.join(self.dropped)}")
         notes += [f"left out: {name}, because {why}" for name, why in (refused | too_large).items()]
-        triangles = corners[places].astype(np.int32)
-        return MeshFile(TriangleMesh(positions, triangles, attributes, metadata), tuple(notes), dropped)
+        faces = corners[places].astype(np.int32)
+        return MeshFile(TriangleMesh(positions, faces, attributes, metadata), tuple(notes), dropped)
 
 
 def triangulate(positions: Doubles, sizes: Ints, corners: Ints) -> tuple[Ints, Ints, int]:

@@ -31,6 +31,7 @@ _UNDERSCORE = re.compile(rb"\s*_")
 _TAGS = ("VTKFile", "Piece", "PointData", "CellData")  # elements whose attributes are of use
 _HEADS = {"UInt32": "u4", "UInt64": "u8"}
 _MOST_DEEP, _MOST_ARRAYS, _MOST_TAGS = 16, 1024, 8192
+_COPIES = 3  # of the bytes of an array that are there at a time while numbers are made of it
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
 _OTHERS = {"NumberOfVerts": "points", "NumberOfLines": "lines"}
 
@@ -187,7 +188,7 @@ class _Numbers:
         return data
 
     def _require(self, size: int) -> None:
-        self._made += size
+        self._made += _COPIES * size
         require_inflated(self._made, self._size, self._limits)
 
 

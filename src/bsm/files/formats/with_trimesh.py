@@ -10,7 +10,7 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from bsm.bitstream.errors import BsmError, FormatError, how_to_install, imported
+from bsm.bitstream.errors import BsmError, FormatError, MeshError, how_to_install, imported
 from bsm.bitstream.limits import Limits
 from bsm.codec.geometry.attributes import Domain
 from bsm.files.formats.metadata import Material, Value, described, kind_of_image
@@ -24,6 +24,7 @@ from bsm.files.formats.polygons import (
     meaning_of,
     sorted_into_parts,
 )
+from bsm.files.formats.threemf import placed_triangles
 from bsm.files.pipes import file_beside
 from bsm.files.room import Doubles, require_count
 
@@ -57,8 +58,11 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
             tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")] if kind == "glb" else data)
         absent, unread = _absent_images(tree, path), _unread(tree)
         with np.errstate(all="ignore"):  # what is not finite is refused later
+            expected = placed_triangles(data, limits) if kind == "3mf" else None
             scene = trimesh.load_scene(path or io.BytesIO(data), file_type=kind, process=False)
             found = joined(scene, limits, len(data))
+        if expected not in (None, len(found.sizes)):
+            raise MeshError(f"trimesh gives {len(found.sizes)} of the {expected} triangles that this 3MF file places")
     except (BsmError, MemoryError):
         raise
     except Exception as error:  # it promises nothing about what damaged files raise

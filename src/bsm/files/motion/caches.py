@@ -19,7 +19,7 @@ from bsm.bitstream.errors import CorruptError, FormatError, MeshError, Truncated
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Positions
 from bsm.files.mesh import read_mesh
-from bsm.files.motion.frames import Frames, Wanted, checked_frames, rate_of_times
+from bsm.files.motion.frames import USUAL_RATE, Frames, Wanted, checked_frames, rate_of_times
 from bsm.files.pipes import about
 from bsm.files.room import Doubles, require_count
 
@@ -136,7 +136,7 @@ def write_cache(
             file.write(_PC2.pack(_SIGNATURE, 1, len(frame), float(begun), 1.0, count))
         elif taken == 0:
             file.write(_MDD.pack(count, len(frame)))
-            file.write((np.arange(begun, begun + count) / (rate or 24.0)).astype(">f4").tobytes())
+            file.write((np.arange(begun, begun + count) / (rate or USUAL_RATE)).astype(">f4").tobytes())
         if np.abs(frame).max() > np.finfo(np.float32).max:
             raise MeshError(f"a coordinate of frame {taken} is beyond single precision, which {kind.upper()} has")
         file.write(np.ascontiguousarray(frame, single).tobytes())

@@ -14,6 +14,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 
+USUAL_RATE = 24.0  # frames per second of a sequence that does not say; pages play it as fast
 LIKELY_RATES = (12, 15, 24, 25, 30, 48, 50, 60, 72, 90, 100, 120)
 
 

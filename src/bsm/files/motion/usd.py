@@ -22,7 +22,7 @@ from bsm.codec.geometry.attributes import MOST_COMPONENTS, Attribute, Domain, Se
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.formats import metadata as formats
 from bsm.files.formats import polygons as shapes
-from bsm.files.motion.frames import Frames, Shared, Wanted, checked_frames, painted_like
+from bsm.files.motion.frames import USUAL_RATE, Frames, Shared, Wanted, checked_frames, painted_like
 from bsm.files.room import Doubles, Ints, require_count, single_suffices
 from bsm.lengths import metres
 
@@ -238,7 +238,6 @@ class _Surface:
         return shader
 
 
-USUAL_RATE = 24.0
 PER_COMMA = 350.0  # bytes that a number of a text takes in usd-core while it is read
 MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
 _OPENING, _CLOSING = ([ord(one) for one in ones] for ones in ("([{", ")]}"))

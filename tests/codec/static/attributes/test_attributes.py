@@ -15,11 +15,11 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.look.measure import Worn, look, worn
-from bsm.codec.static.decoder import Decoder, decode
 from bsm.codec.static.encoder import Encoder, encode
-from bsm.codec.static.events import AttributeEvent, EndEvent, LossEvent
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
+from bsm.decoding import Decoder, decode
+from bsm.events import AttributeEvent, EndEvent, LossEvent
 from tests.shapes import curved, patch, tetrahedron, torus
 from tests.streams import packets_of, without
 from tools.surgery import frames_of, stream_of

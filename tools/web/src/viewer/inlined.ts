@@ -1,6 +1,6 @@
 /** Threads as parts of the script, and kernels where the page says: beside it, for who asks, or in it. */
 import { bsm, openDesk } from "../index";
-import { compiled, once, type Source } from "../source";
+import { once, type Source } from "../source";
 import { hasVectors } from "../threads";
 
 /** Bytes at an address, or in base64. */
@@ -12,10 +12,21 @@ export interface Place {
 /** What `bsm.viewer.page` says before the script. */
 declare const KERNELS: { kernels: Place; "kernels-scalar": Place; small?: Place };
 
-const load = once((build) => {
-    const { url, data } = (build === "small" && KERNELS.small) || KERNELS[hasVectors() ? "kernels" : "kernels-scalar"];
-    return data === undefined ? compiled(new URL(url!, location.href)) : WebAssembly.compile(Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0)));
-});
+/** Whether `bsm view` serves the page, and can encode. */
+export const served = KERNELS.kernels.url !== undefined;
+
+export async function fetched(url: string, start?: RequestInit): Promise<Response> {
+    const response = await fetch(url, start);
+    if (!response.ok) throw new Error(`${response.status} ${response.statusText}`);
+    return response;
+}
+
+export async function bytesOf({ url, data }: Place): Promise<Uint8Array<ArrayBuffer>> {
+    if (data !== undefined) return Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
+    return new Uint8Array(await (await fetched(url!)).arrayBuffer());
+}
+
+const load = once(async (build) => WebAssembly.compile(await bytesOf((build === "small" && KERNELS.small) || KERNELS[hasVectors() ? "kernels" : "kernels-scalar"])));
 
 export const inlined: Source = {
     worker() {

@@ -14,6 +14,7 @@ interface Manifest {
     cell: number;
     origin: Triple;
     attributes?: object;
+    levels: object[];
     shards: { file: string; size: number; index: number; sha256: string }[];
 }
 
@@ -63,16 +64,30 @@ async function ranged(url: string, offset: number, size: number, sum: string): P
     return bytes;
 }
 
+/** A stream decoded to its end. */
+export function wholeOf(pool: Pool, bytes: Uint8Array): Promise<BSMGeometry> {
+    return new Promise((keep, fail) => {
+        const geometry = new BSMGeometry();
+        const stream = pool.open({ onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail }, { drawing: "whole" });
+        stream.receiveData(bytes);
+        stream.receiveEof();
+    });
+}
+
 /** Opened by its manifest and the indices of its shards. */
 export class TileSet {
     /** What is wrong with tiles that could not be shown; coarser ones stand in their place. */
     problem = "";
+    /** Bytes and tiles that have come. */
+    got = 0;
+    there = 0;
     private cut = new Set<Tile>();
     private wanted: Tile[] = [];
     private loading = 0;
     private closed = false;
 
     private constructor(
+        readonly manifest: Manifest,
         private readonly tops: Tile[],
         private readonly pool: Pool,
         private readonly changed: () => void,
@@ -90,7 +105,7 @@ export class TileSet {
             for (const told of JSON.parse(text) as Told[]) nodes.set(told.name, new Tile(told, at, manifest));
         }
         for (const [name, tile] of nodes) nodes.get(name.slice(0, -1))?.below.push(tile);
-        return new TileSet([...nodes].flatMap(([name, tile]) => (nodes.has(name.slice(0, -1)) ? [] : [tile])), pool, changed);
+        return new TileSet(manifest, [...nodes].flatMap(([name, tile]) => (nodes.has(name.slice(0, -1)) ? [] : [tile])), pool, changed);
     }
 
     /** The middle of all, and how long its diagonal is. */
@@ -169,7 +184,9 @@ export class TileSet {
         const { offset, size, sha256, name } = tile.told;
         try {
             const bytes = await ranged(tile.url, offset, size, sha256);
-            const geometry = await this.decoded(bytes);
+            const geometry = await wholeOf(this.pool, bytes);
+            this.got += bytes.length;
+            this.there++;
             if (this.closed || !this.wanted.includes(tile)) {
                 geometry.dispose();
                 tile.asked = false;
@@ -180,14 +197,5 @@ export class TileSet {
         } catch (error) {
             this.problem = `Tile ${name} cannot be shown, a coarser one stands in its place: ${error instanceof Error ? error.message : error}`;
         }
-    }
-
-    private decoded(bytes: Uint8Array): Promise<BSMGeometry> {
-        return new Promise((keep, fail) => {
-            const geometry = new BSMGeometry();
-            const stream = this.pool.open({ onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail }, { drawing: "whole" });
-            stream.receiveData(bytes);
-            stream.receiveEof();
-        });
     }
 }

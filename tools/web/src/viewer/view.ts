@@ -1,34 +1,50 @@
-/** A stream as it arrives, cut at any byte, over a link of any speed; sequences play. */
+/** A stream as it arrives, beside its original and Draco; sequences play, tiles come as they are looked at. */
 import { BufferAttribute } from "three";
 import { BSMGeometry } from "../geometry";
 import { imagesOf, materialsOf, turnOf } from "../materials";
 import { errorLike, type Header, type LossEvent } from "../index";
 import type { Pool, StreamDecoding } from "../pool";
-import { coloursOf, errorsOf, LEGENDS, type Errors, type Scheme } from "./colours";
+import { colorsOf, LEGENDS, RAMP, topOf, type Scheme } from "./colors";
+import { bytesOf, type Place } from "./inlined";
 import { Playback } from "../playback";
-import { Stage } from "./stage";
-import { TileSet } from "./tiles";
+import { Stage, type Mode, type Shading } from "./stage";
+import { TileSet, wholeOf } from "./tiles";
 import template from "./view.html";
 
-/** Draco's file of a mesh that keeps the normals as well as the stream. */
-export interface Rival {
-    bytes: number;
-    bits: number;
-    theta: number;
+/** A mesh: its stream, the size of the file that it stands for, and how far each vertex is off, if that is known. */
+export interface Layer extends Place {
+    title: string;
+    detail: string;
+    size: number;
+    off?: Place;
 }
 
-/** A stream, and what it is compared with: the original's positions as the stream numbers them. */
+/** What is shown, as `bsm.viewer.page` lists it; `main` is the stream that arrives, the others are there at once. */
 export interface Content {
     name: string;
+    main: number;
+    layers: Layer[];
+    facts: {
+        preset?: string | null;
+        promised?: { look?: number; farthest?: number };
+        look?: number;
+        farthest?: number;
+        theta?: number;
+        diagonal?: number;
+        draco?: { bytes: number; bits: number } | null;
+    };
     /** Whether it is still being written, so that what was before one came is not missed. */
     live?: boolean;
-    original?: Float32Array;
-    draco?: Rival;
+    /** The folder of a mesh in tiles. */
+    tiles?: string;
 }
 
+/** Encodes a file: lines of what is done, and the share of it; then what there is to be shown. */
+export type Encode = (file: File, preset: string, tell: (stage: string, share: number) => void, signal: AbortSignal) => Promise<Content>;
+
 const SECOND = 1000;
-/** Of materials, the most that mirrors. */
-const PALE = 0.3;
+const SAMPLED = 12; // frames that the camera makes room for
+const DIGITS = ["1", "2", "3"];
 
 /** Middle and diagonal of the box that a mesh fills, about, in its own unit. */
 function extentOf({ center, scale, grid, lattice }: Header): { center: number[]; diagonal: number } {
@@ -42,19 +58,31 @@ function counted(count: number): string {
 }
 
 function spent(milliseconds: number): string {
-    return `${(milliseconds / SECOND).toFixed(2)} s`;
+    return milliseconds < SECOND ? `${Math.ceil(milliseconds)} ms` : `${(milliseconds / SECOND).toFixed(2)} s`;
+}
+
+function sized(bytes: number): string {
+    const [number, unit] = bytes < 1e3 ? [bytes, "bytes"] : bytes < 1e7 ? [bytes / 1e3, "kB"] : [bytes / 1e6, "MB"];
+    return `${number.toLocaleString("en", { maximumFractionDigits: number < 100 && unit !== "bytes" ? 1 : 0 })} ${unit}`;
+}
+
+function percent(share: number): string {
+    return `${Number((100 * share).toPrecision(2))}\u00a0%`;
+}
+
+function times(ratio: number): string {
+    return ratio.toLocaleString("en", { maximumFractionDigits: ratio < 10 ? 1 : 0 });
 }
 
 /** The controls and the canvas, in any element of a page; it says how far it is in `data-state`. */
 export class View {
-    private readonly streams: HTMLSelectElement;
     private readonly stage: Stage;
     private readonly cut: HTMLInputElement;
     private readonly rate: HTMLInputElement;
     private readonly frame: HTMLInputElement;
-    private readonly colour: HTMLSelectElement;
+    private readonly scheme: HTMLSelectElement;
     private readonly play: HTMLButtonElement;
-    private content: Content = { name: "" };
+    private content: Content = { name: "", main: 0, layers: [], facts: {} };
     /** What has come of the stream, with room for more; how many bytes that is, and whether it is all. */
     private stream = new Uint8Array(0);
     private length = 0;
@@ -62,14 +90,20 @@ export class View {
     /** Frames that had gone by when a live stream was entered. */
     private missed = 0;
     private geometry = new BSMGeometry();
+    /** All layers that are there, and how far their vertices are off. */
+    private geometries: (BSMGeometry | undefined)[] = [];
+    private offs: (Float32Array | undefined)[] = [];
+    private readonly dressed = new Set<number>();
     private decoding?: StreamDecoding;
     private playback?: Playback;
-    private errors?: Errors;
-    private dressed = false;
     private fed = 0;
     private started = 0;
     private firstDrawn?: number;
     private completed?: number;
+    /** Milliseconds of decoding alone. */
+    private alone?: number;
+    /** Whether the layers beside the stream are there, or on their way. */
+    private accompanied = false;
     private losses: LossEvent[] = [];
     private over = true;
     /** Whether the decoder knows that no more bytes come. */
@@ -81,33 +115,28 @@ export class View {
     private tiles?: TileSet;
     /** From where tiles were chosen; undefined before the first time. */
     private looked?: string;
+    private choose: (index: number) => void = () => this.restart();
+    private working?: AbortController;
 
     constructor(
         private readonly root: HTMLElement,
         private readonly pool: Pool,
         licences: string,
+        private readonly encode?: Encode,
     ) {
         root.classList.add("bsm");
         root.innerHTML = template;
-        this.streams = this.control("stream");
         [this.cut, this.rate, this.frame] = [this.control("cut"), this.control("rate"), this.control("frame")];
-        [this.colour, this.play] = [this.control("colour"), this.control("play")];
-        const [wireframe, flat, loop] = ["wireframe", "flat", "loop"].map((name) => this.control<HTMLInputElement>(name));
+        [this.scheme, this.play] = [this.control("color"), this.control("play")];
         this.part("licences").textContent = licences;
+        this.part("scale").querySelector("div")!.style.background = RAMP;
         try {
             this.stage = new Stage(root.querySelector("canvas")!);
         } catch (error) {
             this.fail(`This browser does not draw in three dimensions. ${error instanceof Error ? error.message : error}`);
             throw error;
         }
-        wireframe.addEventListener("change", () => (this.stage.wireframe = wireframe.checked));
-        flat.addEventListener("change", () => (this.stage.flat = flat.checked));
-        this.colour.addEventListener("change", () => (this.stale = true));
-        this.control("again").addEventListener("click", () => this.restart());
-        this.play.addEventListener("click", () => this.toggle());
-        this.frame.addEventListener("input", () => this.seek(Number(this.frame.value)));
-        loop.addEventListener("change", () => this.playback && (this.playback.loop = loop.checked));
-        root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
+        this.listen();
         const go = (now: number): void => {
             if (this.closed) return;
             this.step(now);
@@ -116,50 +145,41 @@ export class View {
         requestAnimationFrame(go);
     }
 
-    /** Let the reader choose among streams of these names. */
+    /** Let the reader choose among streams of these names; ask for a file where there are none. */
     offer(names: string[], choose: (index: number) => void): void {
-        names.forEach((name, i) => this.streams.add(new Option(name, String(i))));
-        this.streams.addEventListener("change", () => choose(Number(this.streams.value)));
+        const streams = this.control<HTMLSelectElement>("stream");
+        this.choose = choose;
+        names.forEach((name, i) => streams.add(new Option(name, String(i))));
+        this.part("name").hidden = names.length > 1;
+        streams.hidden = names.length < 2;
+        this.part("invite").hidden = names.length > 0;
+        if (names.length === 0) this.root.dataset.state = "empty";
     }
 
     /** Show another stream, whose bytes will come. */
     open(content: Content): void {
-        if (this.streams.length === 0) this.offer([content.name], () => this.restart());
         this.content = content;
         [this.stream, this.length, this.whole] = [new Uint8Array(0), 0, false];
         this.cut.max = this.cut.value = "0";
-        this.allow("error", content.original !== undefined);
+        [this.geometries, this.offs] = [[], []];
+        [this.alone, this.accompanied] = [undefined, false];
+        this.dressed.clear();
+        this.stage.clear();
+        this.part("name").textContent = content.name;
+        this.part("invite").hidden = true;
+        this.part("arrival").hidden = content.tiles !== undefined;
+        this.list();
+        this.headline();
         this.restart();
     }
 
     /** Show tiles of a folder, as far as they are worth it. */
-    async openTiles(name: string, url: string): Promise<void> {
-        this.open({ name });
+    async openTiles(content: Content): Promise<void> {
+        this.open(content);
         this.over = true;
-        const tiles = await TileSet.open(url, this.pool, () => (this.looked = ""));
-        if (this.closed || this.content.name !== name || this.tiles) return tiles.close();
+        const tiles = await TileSet.open(content.tiles!, this.pool, () => (this.looked = ""));
+        if (this.closed || this.content !== content || this.tiles) return tiles.close();
         this.tiles = tiles;
-    }
-
-    /** Look for the tiles that are to be seen, when the camera has moved or some have come. */
-    private walk(tiles: TileSet): void {
-        const { center, diagonal } = tiles.extent;
-        const { place, pixels } = this.stage.eye;
-        const looked = [...place, pixels].join();
-        if (looked === this.looked) return;
-        const first = this.looked === undefined;
-        this.looked = looked;
-        if (first) this.stage.together([], center, diagonal);
-        else tiles.look(place, pixels);
-        const shown = tiles.shown;
-        this.stage.together(shown, center, diagonal);
-        const faces = shown.reduce((sum, geometry) => sum + geometry.getIndex()!.count / 3, 0);
-        this.say("status", `${shown.length} tiles, ${counted(faces)} faces`);
-        this.part("problem").textContent = tiles.problem;
-        this.root.dataset.tiles = String(shown.length);
-        this.root.dataset.faces = String(faces);
-        this.root.dataset.state = !tiles.complete ? "loading" : tiles.problem ? "damaged" : "complete";
-        if (first) this.looked = "";
     }
 
     /** Take bytes of the stream. */
@@ -182,23 +202,17 @@ export class View {
         this.whole = true;
     }
 
-    /** Offer a way to colour, or not. */
-    private allow(scheme: Scheme, allowed: boolean): void {
-        const option = this.colour.querySelector<HTMLOptionElement>(`[value=${scheme}]`)!;
-        option.hidden = option.disabled = !allowed;
-        if (option.selected && !allowed) this.colour.value = "plain";
-    }
-
     /** Say that there is nothing to show. */
     fail(problem: string): void {
         this.over = true;
-        this.part("problem").textContent = problem;
+        this.complain(problem);
         this.root.dataset.state = "failed";
     }
 
     /** Stop, and give back what it holds. */
     close(): void {
         this.closed = true;
+        this.working?.abort();
         this.decoding?.close();
         this.tiles?.close();
         this.stage.dispose();
@@ -212,25 +226,275 @@ export class View {
         return this.root.querySelector<HTMLElement>(`[data-part=${name}]`)!;
     }
 
+    private complain(problem: string): void {
+        this.part("problem").textContent = problem;
+    }
+
+    private listen(): void {
+        const { root, stage } = this;
+        const on = (name: string, type: string, act: (control: HTMLInputElement) => void): void => {
+            for (const control of root.querySelectorAll<HTMLInputElement>(`[name=${name}]`)) control.addEventListener(type, () => act(control));
+        };
+        on("stream", "change", ({ value }) => this.choose(Number(value)));
+        on("mode", "change", () => this.compare());
+        on("shading", "change", ({ value }) => stage.shade(value as Shading));
+        on("color", "change", () => (this.stale = true));
+        on("wipe", "input", () => this.compare());
+        on("light", "input", ({ value }) => (stage.light = Number(value)));
+        on("spin", "change", ({ checked }) => (stage.spin = checked));
+        on("back", "change", ({ value }) => (root.dataset.back = value));
+        on("again", "click", () => this.restart());
+        on("play", "click", () => this.toggle());
+        on("frame", "input", ({ value }) => this.playback?.seek(Math.min(Number(value), this.geometry.frames.length - 1)));
+        on("loop", "change", ({ checked }) => this.playback && (this.playback.loop = checked));
+        on("theme", "click", () => (root.dataset.theme = this.isDark ? "light" : "dark"));
+        on("panel", "click", (button) => button.setAttribute("aria-expanded", String((this.part("panel").hidden = !this.part("panel").hidden) === false)));
+        on("picture", "click", () => this.stage.picture(...this.captions).toBlob((blob) => blob && this.save(blob, "png")));
+        on("film", "click", (button) => void this.film(button));
+        on("cancel", "click", () => this.working?.abort());
+        on("file", "change", (input) => input.files?.[0] && void this.take(input.files[0]));
+        root.querySelector("form")!.addEventListener("submit", (event) => event.preventDefault());
+        root.addEventListener("keydown", (event) => this.key(event));
+        const drop = this.part("drop");
+        root.addEventListener("dragover", (event) => {
+            event.preventDefault();
+            drop.hidden = false;
+        });
+        root.addEventListener("dragleave", (event) => (drop.hidden = !event.relatedTarget || !root.contains(event.relatedTarget as Node)));
+        root.addEventListener("drop", (event) => {
+            event.preventDefault();
+            drop.hidden = true;
+            const file = event.dataTransfer?.files[0];
+            if (file) void this.take(file);
+        });
+        if (matchMedia("(min-width: 45rem)").matches) this.part("more").setAttribute("open", "");
+    }
+
+    private key({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
+        if (ctrlKey || metaKey || altKey || (target as HTMLElement).matches("select, [type=number]")) return;
+        const pick = (name: string, value: string): void => this.root.querySelector<HTMLInputElement>(`[name=${name}][value="${value}"]:not(:disabled)`)?.click();
+        const next = <Value>(values: Value[], now: Value): Value => values[(values.indexOf(now) + 1) % values.length];
+        if (DIGITS.includes(key)) pick("layer", String(DIGITS.indexOf(key)));
+        else if (key === "w" || key === "s") pick("mode", this.stage.mode === (key === "w" ? "wipe" : "split") ? "one" : key === "w" ? "wipe" : "split");
+        else if (key === "f") pick("shading", next(["smooth", "flat", "wire"], this.picked("shading")));
+        else if (key === "e") this.paint(this.scheme.value !== "error" ? "error" : this.dressed.size > 0 || this.geometry.colour ? "own" : "plain");
+        else if (key === "t") this.control<HTMLInputElement>("spin").click();
+        else if (key === "l") {
+            const light = this.control<HTMLInputElement>("light");
+            light.value = String(((Number(light.value) + 210) % 360) - 180);
+            this.stage.light = Number(light.value);
+        } else if (key === "h") this.root.toggleAttribute("data-bare");
+    }
+
+    private paint(scheme: Scheme): void {
+        const option = this.scheme.querySelector<HTMLOptionElement>(`[value=${scheme}]`)!;
+        if (!option.disabled) this.scheme.value = scheme;
+        this.stale = true;
+    }
+
+    private picked(name: string): string {
+        return this.root.querySelector<HTMLInputElement>(`[name=${name}]:checked`)?.value ?? "";
+    }
+
+    private get isDark(): boolean {
+        return this.root.dataset.theme ? this.root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+    }
+
+    /** Offer a way to color, or not. */
+    private allow(scheme: Scheme, allowed: boolean): void {
+        const option = this.scheme.querySelector<HTMLOptionElement>(`[value=${scheme}]`)!;
+        option.hidden = option.disabled = !allowed;
+        if (option.selected && !allowed) this.scheme.value = "plain";
+    }
+
+    /** List the meshes that can be chosen; those that are not there yet cannot. */
+    private list(): void {
+        const { layers, main } = this.content;
+        const part = this.part("layers");
+        part.hidden = layers.length < 2;
+        this.part("modes").hidden = layers.length < 2;
+        part.replaceChildren(part.querySelector("legend")!);
+        layers.forEach(({ title, detail, size }, i) => {
+            const [label, input, small] = [document.createElement("label"), document.createElement("input"), document.createElement("small")];
+            Object.assign(input, { type: "radio", name: "layer", value: String(i), disabled: i !== main, checked: i === main });
+            small.textContent = `${sized(size)}${detail ? `, ${detail}` : ""}`;
+            label.append(input, title, small);
+            input.addEventListener("change", () => this.compare());
+            part.append(label);
+        });
+        this.root.querySelector<HTMLInputElement>("[name=mode][value=one]")!.checked = true;
+        this.allow("error", false);
+        this.compare();
+    }
+
+    /** Fetch and decode the layers beside the stream, then wipe between the first and it. */
+    private async beside(content: Content): Promise<void> {
+        const { layers, main } = content;
+        this.accompanied = true;
+        if (layers.length > 1 && this.whole) {
+            // Once more without drawing, to say how long decoding alone takes.
+            const begin = performance.now();
+            const geometry = await wholeOf(this.pool, this.stream.slice(0, this.length));
+            this.alone = performance.now() - begin;
+            geometry.dispose();
+            if (this.content === content) this.headline();
+        }
+        await this.dress(this.geometry, main);
+        for (const [i, layer] of layers.entries()) {
+            const off = layer.off && new Float32Array((await bytesOf(layer.off)).buffer);
+            const geometry = i === main ? undefined : await wholeOf(this.pool, await bytesOf(layer));
+            if (this.content !== content || this.closed) return;
+            this.offs[i] = off;
+            if (off) this.allow("error", true);
+            this.stale = true;
+            if (!geometry) continue;
+            this.geometries[i] = geometry;
+            this.stage.show(i, geometry);
+            await this.dress(geometry, i);
+            this.root.querySelector<HTMLInputElement>(`[name=layer][value="${i}"]`)!.disabled = false;
+            if (i === 0) this.root.querySelector<HTMLInputElement>("[name=mode][value=wipe]")!.click();
+        }
+        this.root.dataset.layers = String(layers.length);
+    }
+
+    /** Show what is chosen: one mesh, or the original on the left and another one on the right. */
+    private compare(): void {
+        const { stage, content } = this;
+        const wipe = this.control<HTMLInputElement>("wipe");
+        const chosen = Number(this.picked("layer") || content.main);
+        const mode = (this.picked("mode") || "one") as Mode;
+        // The original beside itself says nothing.
+        stage.mode = chosen === 0 ? "one" : mode;
+        stage.sides = [0, chosen];
+        stage.wipe = Number(wipe.value) / Number(wipe.max);
+        stage.fit();
+        wipe.hidden = stage.mode !== "wipe";
+        if (stage.mode === "split") this.part("more").removeAttribute("open");
+        const [left, right] = this.captions[0];
+        const [width, seam, split] = [this.root.clientWidth, stage.seam, stage.mode === "split"];
+        for (const [part, text, at, shift] of [["left", left, split ? seam / 2 : seam - 14, "-100%"], ["right", right, split ? (seam + width) / 2 : seam + 14, "0%"]] as const) {
+            this.say(part, stage.mode === "one" ? "" : text);
+            this.part(part).style.left = `${at}px`;
+            this.part(part).style.setProperty("--shift", split ? "-50%" : shift);
+        }
+        this.stale = true;
+    }
+
+    /** What stands below each side of a saved picture, and its colors. */
+    private get captions(): [string[], string[]] {
+        const { layers } = this.content;
+        const style = getComputedStyle(this.root);
+        const probe = document.createElement("i");
+        const colors = ["--ink", "--near", "--far"].map((name) => {
+            probe.style.color = `var(${name})`;
+            this.root.append(probe);
+            const { color } = getComputedStyle(probe);
+            probe.remove();
+            return color || style.color;
+        });
+        return [this.stage.sides.map((i) => (layers[i] ? `${layers[i].title}, ${sized(layers[i].size || this.length)}` : "")), colors];
+    }
+
+    private save(blob: Blob, suffix: string): void {
+        const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${this.content.name.replace(/\.\w+$/, "") || "mesh"}.${suffix}` });
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 60 * SECOND);
+    }
+
+    private async film(button: HTMLButtonElement | HTMLInputElement): Promise<void> {
+        button.disabled = true;
+        try {
+            const blob = await this.stage.film(...this.captions, (share) => button.setAttribute("aria-label", `Save a turntable, ${percent(share)}`));
+            this.save(blob, blob.type.includes("mp4") ? "mp4" : "webm");
+        } catch (error) {
+            this.complain(`This browser saves no films. ${error instanceof Error ? error.message : error}`);
+        }
+        button.setAttribute("aria-label", "Save a turntable");
+        button.disabled = false;
+    }
+
+    /** Show a file: a stream as it is, a mesh once it is encoded. */
+    private async take(file: File): Promise<void> {
+        this.working?.abort();
+        const working = (this.working = new AbortController());
+        this.complain("");
+        try {
+            if (/\.bsm$/i.test(file.name)) {
+                const bytes = new Uint8Array(await file.arrayBuffer());
+                this.open({ name: file.name, main: 0, facts: {}, layers: [{ title: "BSM", detail: "", size: file.size }] });
+                this.receive(bytes);
+                return this.finish();
+            }
+            if (!this.encode) throw new Error(`This page has no encoder beside it, and shows .bsm alone. To see a mesh: bsm view ${file.name}`);
+            this.part("work").hidden = false;
+            const bar = this.root.querySelector("progress")!;
+            const preset = this.control<HTMLSelectElement>("preset").value;
+            const tell = (stage: string, share: number): void => {
+                this.say("stage", `${file.name}: ${stage}`);
+                if (share > 0) bar.value = share;
+                else bar.removeAttribute("value");
+            };
+            tell("sending", 0);
+            const content = await this.encode(file, preset, tell, working.signal);
+            const bytes = await bytesOf(content.layers[content.main]);
+            if (this.working !== working || this.closed) return;
+            this.open(content);
+            this.receive(bytes);
+            this.finish();
+        } catch (error) {
+            if (!working.signal.aborted) this.complain(`${file.name} cannot be shown. ${error instanceof Error ? error.message : error}`);
+        } finally {
+            if (this.working === working) this.part("work").hidden = true;
+        }
+    }
+
+    /** Look for the tiles that are to be seen, when the camera has moved or some have come. */
+    private walk(tiles: TileSet): void {
+        const { center, diagonal } = tiles.extent;
+        const { place, pixels } = this.stage.eye;
+        const looked = [...place, pixels].join();
+        if (looked === this.looked) return;
+        const first = this.looked === undefined;
+        this.looked = looked;
+        if (first) this.stage.place(center, diagonal);
+        else tiles.look(place, pixels);
+        const shown = tiles.shown;
+        this.stage.together(shown);
+        const faces = shown.reduce((sum, geometry) => sum + geometry.getIndex()!.count / 3, 0);
+        const { shards, levels } = tiles.manifest;
+        this.say("figures", `${sized(shards.reduce((sum, { size }) => sum + size, 0))} in ${levels.length} levels`);
+        this.say("claim", `${sized(tiles.got)} fetched for this view`);
+        this.tell([["Shown", `${counted(faces)} triangles in ${shown.length} tiles`], ["Fetched", `${counted(tiles.there)} tiles`]]);
+        this.complain(tiles.problem);
+        this.root.dataset.tiles = String(shown.length);
+        this.root.dataset.faces = String(faces);
+        this.root.dataset.state = !tiles.complete ? "loading" : tiles.problem ? "damaged" : "complete";
+        if (first) this.looked = "";
+        else if (!this.shown && shown.length > 0) {
+            this.shown = true;
+            this.stage.fill(shown.map((geometry) => geometry.getAttribute("position").array));
+        }
+    }
+
     /** Decode from the first byte on; what is shown stays until there is something else. */
     private restart(): void {
+        const { main } = this.content;
         this.decoding?.close();
         this.tiles?.close();
         this.tiles = this.looked = undefined;
         const geometry = new BSMGeometry({ onConnectivity: () => (this.stale = true), onBlock: () => this.drawn(), onFrame: () => this.begin(geometry) });
-        this.geometry = geometry;
+        this.geometry = this.geometries[main] = geometry;
         this.playback = undefined;
         this.fed = 0;
         this.frameShown = -1;
         this.firstDrawn = this.completed = undefined;
-        this.errors = undefined;
-        this.dressed = false;
-        this.allow("own", false);
+        this.dressed.delete(main);
+        if (this.dressed.size === 0) this.allow("own", false);
         this.losses = [];
         this.missed = 0;
         this.shown = this.over = this.ended = false;
         this.started = performance.now();
-        this.part("problem").textContent = "";
+        this.complain("");
         this.root.dataset.state = "loading";
         this.decoding = this.pool.open(
             {
@@ -251,6 +515,7 @@ export class View {
 
     /** Go on for one picture. */
     private step(now: number): void {
+        this.stage.step();
         if (this.tiles) return this.walk(this.tiles);
         if (Number(this.cut.value) < this.fed) this.restart();
         const allowed = this.allowed();
@@ -263,7 +528,7 @@ export class View {
             this.decoding?.receiveEof();
         }
         this.playOn(now);
-        if (this.stale && this.shown) this.paint();
+        if (this.stale) this.recolor();
         this.report();
     }
 
@@ -275,11 +540,12 @@ export class View {
 
     /** Put the geometry on the stage, if it is not there. */
     private show(): void {
-        const { header } = this.geometry;
+        const { header, metadata } = this.geometry;
         if (this.shown || this.closed) return;
         this.shown = this.stale = true;
         const { center, diagonal } = header ? extentOf(header) : { center: [0, 0, 0], diagonal: 1 };
-        this.stage.show(this.geometry, center, diagonal, turnOf(this.geometry.metadata));
+        this.stage.show(this.content.main, this.geometry);
+        this.stage.place(center, diagonal, turnOf(metadata));
     }
 
     /** Say what is lost; what could be decoded stays to be seen. */
@@ -294,7 +560,7 @@ export class View {
         const lost = [blocks.length > 0 ? `block${blocks.length > 1 ? "s" : ""} ${blocks.join(", ")}` : "", frames > 0 ? `${frames} frames` : ""];
         const { name, message } = errorLike(this.losses[0].error);
         const what = lost.filter(Boolean).join(" and ") || "some bytes";
-        this.part("problem").textContent = `This stream is damaged: ${what} cannot be decoded, the rest is shown. First, ${name}: ${message}`;
+        this.complain(`This stream is damaged: ${what} cannot be decoded, the rest is shown. First, ${name}: ${message}`);
     }
 
     private drawn(): void {
@@ -304,35 +570,35 @@ export class View {
     }
 
     private end(): void {
+        const { geometry, content } = this;
         this.over = true;
         this.stale = true;
-        if (this.geometry.colour) this.wear();
-        void this.dress(this.geometry);
         this.completed = performance.now() - this.started;
+        const { frames } = geometry;
+        const every = Math.ceil(frames.length / SAMPLED);
+        const samples = frames.length > 0 ? frames.filter((_, i) => i % every === 0).map(({ positions }) => positions) : [geometry.getAttribute("position")?.array ?? []];
+        this.stage.fill(samples, turnOf(geometry.metadata));
+        this.headline();
+        if (this.accompanied) void this.dress(geometry, content.main);
+        else void this.beside(content).catch((error: unknown) => this.complain(`Only the stream is shown. ${error instanceof Error ? error.message : error}`));
         this.root.dataset.state = this.losses.length > 0 ? "damaged" : "complete";
     }
 
-    /** Offer what the stream has of colours and materials, and show it. */
-    private wear(): void {
-        this.allow("own", true);
-        if (this.colour.value === "plain") this.colour.value = "own";
-        this.stale = true;
-    }
-
-    /** Make materials of what the metadata say, once images are there. */
-    private async dress(geometry: BSMGeometry): Promise<void> {
+    /** Make materials of what the metadata say, once images are there; offer them and colors. */
+    private async dress(geometry: BSMGeometry, index: number): Promise<void> {
         const named = [...geometry.metadata.keys()].some((key) => key.startsWith("material."));
-        if (!named) return;
-        const images = await imagesOf(geometry.metadata);
-        if (geometry !== this.geometry || this.closed) return;
-        const materials = materialsOf(geometry.metadata, images, 1 + Math.max(0, ...geometry.pieces.map(({ material }) => material)));
-        for (const material of materials) {
-            material.vertexColors = this.geometry.colour !== undefined;
-            material.metalness = Math.min(material.metalness, PALE); // there is nothing here that metal could mirror
+        if (named) {
+            const images = await imagesOf(geometry.metadata);
+            if (geometry !== this.geometries[index] || this.closed) return;
+            const materials = materialsOf(geometry.metadata, images, 1 + Math.max(0, ...geometry.pieces.map(({ material }) => material)));
+            for (const material of materials) material.vertexColors = geometry.colour !== undefined;
+            this.stage.dress(index, materials);
+            this.dressed.add(index);
         }
-        this.stage.dress(materials);
-        this.dressed = true;
-        this.wear();
+        if (!named && !geometry.colour) return;
+        this.allow("own", true);
+        if (this.scheme.value === "plain") this.scheme.value = "own";
+        this.stale = true;
     }
 
     /** Frames are there: begin to play them, unless the page's reader wants less motion. */
@@ -353,14 +619,9 @@ export class View {
         this.play.textContent = playing ? "Pause" : "Play";
     }
 
-    private seek(frame: number): void {
-        this.playback?.seek(Math.min(frame, this.geometry.frames.length - 1));
-    }
-
     private playOn(now: number): void {
         const { playback, geometry, missed } = this;
-        const part = this.part("sequence");
-        part.hidden = !playback;
+        this.part("sequence").hidden = !playback;
         if (!playback) return;
         const there = geometry.frames.length;
         playback.step(now, there, this.over);
@@ -377,31 +638,86 @@ export class View {
         this.label(playback);
         const ahead = there < total ? `, ${there} are there` : "";
         const place = `${missed + this.frameShown + 1} of ${missed + total}`;
-        this.say("time", `${place}${ahead}; ${spent(((missed + this.frameShown) / playback.rate) * SECOND)}`);
+        const each = this.over && total > 0 ? `; ${sized(Math.round(this.length / total))} a frame` : "";
+        this.say("time", `${place}${ahead}; ${(((missed + this.frameShown) / playback.rate)).toFixed(2)} s${each}`);
         this.frame.setAttribute("aria-valuetext", `frame ${place}`);
     }
 
-    /** Colours and errors of what is there. */
-    private paint(): void {
-        const { original } = this.content;
-        const scheme = this.colour.value as Scheme;
+    /** Color what is there. */
+    private recolor(): void {
+        const { content, geometries, offs, stage } = this;
+        const scheme = this.scheme.value as Scheme;
         this.stale = false;
-        this.errors = original && this.geometry.origin.length > 0 ? errorsOf(this.geometry, original) : undefined;
-        this.part("legend").textContent = LEGENDS[scheme];
-        const colours = coloursOf(this.geometry, scheme, this.errors?.distances);
-        this.stage.colour(scheme === "own" ? this.geometry.colour : colours && new BufferAttribute(colours, 3), scheme === "own" && this.dressed);
+        const { diagonal = 1 } = content.facts;
+        const top = diagonal * topOf(offs[content.main] ?? [0], diagonal);
+        geometries.forEach((geometry, i) => {
+            if (!geometry || (i === content.main && !this.shown)) return;
+            const own = scheme === "own";
+            const colors = colorsOf(geometry, scheme, offs[i], top);
+            stage.color(i, own ? geometry.colour : colors && new BufferAttribute(colors, 3), own && this.dressed.has(i));
+        });
+        this.part("scale").hidden = LEGENDS[scheme] === "";
+        this.say("legend", LEGENDS[scheme]);
+        const unit = this.geometry.metadata.get("unit");
+        const ticks = scheme === "error" ? [0, 0.5, 1].map((share) => [`${percent((share * top) / diagonal)}`, `${Number((share * top).toPrecision(2))} ${typeof unit === "string" ? unit : ""}`]) : scheme === "blocks" ? [["first"], ["last"]] : [["not"], ["refined"]];
+        const list = this.part("scale").querySelector("ol")!;
+        list.replaceChildren(
+            ...ticks.map(([text, small]) => {
+                const item = document.createElement("li");
+                item.textContent = text;
+                if (small) item.append(Object.assign(document.createElement("small"), { textContent: small }));
+                return item;
+            }),
+        );
+    }
+
+    /** What there is to be proud of. */
+    private headline(): void {
+        const { layers, main, facts, tiles } = this.content;
+        if (tiles) return;
+        const { header, frames } = this.geometry;
+        const size = layers[main].size || this.length;
+        const [vertices, faces] = [header?.vertices ?? 0, header?.faces ?? 0];
+        const plain = main > 0 ? layers[0].size : 12 * (vertices * Math.max(frames.length, 1) + faces);
+        const old = document.createElement("s");
+        old.textContent = `${sized(plain)} → `;
+        this.part("figures").replaceChildren(...(header || main > 0 ? [old] : []), size > 0 ? sized(size) : "");
+        const ratio = plain / Math.max(size, 1);
+        this.say("claim", size > 0 && ratio > 1 ? `${times(ratio)} times smaller${main > 0 ? "" : frames.length > 1 ? " than its frames as float32" : " than plain arrays"}` : "");
+        const { look, farthest, theta, promised = {}, draco } = facts;
+        const rows: [string, string, string?][] = [];
+        if (draco) rows.push(["Draco at this look", sized(draco.bytes), `${draco.bits} bits, ${times(draco.bytes / size)} times as much`]);
+        if (look !== undefined) rows.push([look <= 1 ? "Looks the same" : "Look, 1 is the same", look.toFixed(2), promised.look ? `of at most ${promised.look} that was promised` : ""]);
+        if (farthest !== undefined) rows.push(["Farthest vertex", percent(farthest), `of the diagonal${promised.farthest ? `; promised ${percent(promised.farthest)}` : ""}`]);
+        if (theta !== undefined) rows.push(["Normals", `${theta.toFixed(1)}°`, "off on average"]);
+        const took = this.alone ?? this.completed;
+        if (took !== undefined) rows.push(["Decoded here in", spent(took)]);
+        if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
+        if (frames.length > 1) rows.push(["Sequence", `${counted(frames.length)} frames`, `${sized(Math.round(size / frames.length))} a frame`]);
+        this.tell(rows);
+    }
+
+    /** Write the table of what was measured. */
+    private tell(rows: [string, string, string?][]): void {
+        this.part("more").hidden = rows.length === 0;
+        this.part("facts").replaceChildren(
+            ...rows.flatMap(([name, value, more]) => {
+                const [term, text] = [document.createElement("dt"), document.createElement("dd")];
+                term.textContent = name;
+                text.textContent = value;
+                if (more) text.append(Object.assign(document.createElement("small"), { textContent: ` ${more}` }));
+                return [term, text];
+            }),
+        );
     }
 
     private report(): void {
-        const { fed, geometry, length, errors, root } = this;
+        const { fed, geometry, length, root } = this;
         const share = length ? Math.round((100 * fed) / length) : 0;
         this.say("bytes", `${counted(fed)} of ${counted(length)} bytes (${share} %)${this.whole ? "" : ", more are to come"}`);
         this.say("status", this.statusText());
-        const times = [["first faces", this.firstDrawn], ["complete", this.completed]] as const;
-        this.say("times", times.flatMap(([name, time]) => (time === undefined ? [] : [`${name} after ${spent(time)}`])).join("; "));
-        this.say("draco", this.rivalText());
-        const percent = (value: number): string => `${(100 * value).toPrecision(3)} %`;
-        this.say("error", errors ? `Off the original: ${percent(errors.rms)} of the diagonal (rms), at most ${percent(errors.farthest)}; normals ${errors.angle.toFixed(2)} degrees` : "");
+        const moments = [["first faces", this.firstDrawn], ["complete", this.completed]] as const;
+        this.say("times", moments.flatMap(([name, time]) => (time === undefined ? [] : [`${name} after ${spent(time)}`])).join("; "));
         root.dataset.blocks = String(geometry.blocks);
     }
 
@@ -414,14 +730,6 @@ export class View {
         const frames = header.gopFrames > 0 ? `, ${header.frames || "any number of"} frames${entered}` : "";
         const attributes = header.attributes > 0 ? `, ${this.geometry.carried.length} of ${header.attributes} attributes` : "";
         return `${parts}${quality}, ${counted(header.vertices)} vertices${frames}${attributes}`;
-    }
-
-    private rivalText(): string {
-        const { draco } = this.content;
-        if (!draco) return "";
-        const rate = Number(this.rate.value);
-        const time = rate > 0 ? `: there after ${spent((8 * draco.bytes) / rate / 1e3)}` : "";
-        return `Draco's file, ${draco.bits} bits, ${draco.theta.toFixed(2)} degrees, has ${counted(draco.bytes)} bytes${time}`;
     }
 
     private say(part: string, text: string): void {

@@ -1,19 +1,11 @@
 /** The page of `bsm view`, and the widget of notebooks: one module that is either, by where it finds itself. */
 import { Pool } from "../pool";
-import { inlined, type Place } from "./inlined";
-import { View, type Content, type Rival } from "./view";
+import { bytesOf, fetched, inlined, served } from "./inlined";
+import { View, type Content, type Encode } from "./view";
 
 declare const LICENCES: string;
 
-/** A stream of the page; the original in single precision, least byte first. */
-interface Source extends Place {
-    name: string;
-    live?: boolean;
-    /** The folder of a mesh in tiles. */
-    tiles?: string;
-    original?: Place;
-    draco?: Rival;
-}
+const MOST_BYTES = 2 ** 26;
 
 /** What a widget knows of its other half in Python (https://anywidget.dev/en/afm). */
 interface Model {
@@ -22,46 +14,60 @@ interface Model {
     off(event: string, listener: () => void): void;
 }
 
-async function responseOf(name: string, { url, data }: Place): Promise<Response> {
-    const response = await fetch(url ?? `data:application/octet-stream;base64,${data}`);
-    if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
-    return response;
+/** Pieces of a response, as they come. */
+async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
+    const reader = body!.getReader();
+    try {
+        for (let piece; !(piece = await reader.read()).done; ) yield piece.value;
+    } finally {
+        void reader.cancel();
+    }
 }
 
-async function contentOf({ name, live, original, draco }: Source): Promise<Content> {
-    const bytes = original && new Uint8Array(await (await responseOf(name, original)).arrayBuffer());
-    return { name, live, original: bytes && floats(bytes), draco };
-}
-
-function floats(bytes: Uint8Array): Float32Array {
-    return new Float32Array(bytes.slice().buffer);
-}
+/** Have the server encode a file; it stops when nobody listens. */
+const encode: Encode = async (file, preset, tell, signal) => {
+    if (file.size > MOST_BYTES) throw new Error(`It has more than ${MOST_BYTES >> 20} MiB; use bsm encode, or bsm tile.`);
+    const query = new URLSearchParams({ name: file.name, preset });
+    const decoder = new TextDecoder();
+    let text = "";
+    for await (const piece of piecesOf(await fetched(`/upload?${query}`, { method: "POST", body: file, signal }))) {
+        text += decoder.decode(piece, { stream: true });
+        for (let end; (end = text.indexOf("\n")) >= 0; text = text.slice(end + 1)) {
+            const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as { stage: string; share: number; error?: string; entry?: Content };
+            if (error) throw new Error(error);
+            if (entry) return entry;
+            tell(stage, share);
+        }
+    }
+    throw new Error("The server has stopped.");
+};
 
 /** Fill the page with the streams that are listed in it. */
 async function fillPage(list: HTMLElement): Promise<void> {
-    const sources = JSON.parse(list.textContent!) as Source[];
-    const view = new View(document.body, new Pool(inlined), LICENCES);
+    const contents = JSON.parse(list.textContent!) as Content[];
+    const pool = new Pool(inlined);
+    const view = new View(document.body, pool, LICENCES, served ? encode : undefined);
     let turns = 0;
     const open = async (index: number): Promise<void> => {
         const turn = ++turns;
+        const content = contents[index];
         try {
-            const { name, tiles } = sources[index];
-            if (tiles !== undefined) return await view.openTiles(name, tiles);
-            const content = await contentOf(sources[index]);
-            const reader = (await responseOf(content.name, sources[index])).body!.getReader();
+            await pool.preload().catch(() => {}); // so that decoding alone is timed; who decodes says what is wrong
+            if (content.tiles !== undefined) return await view.openTiles(content);
+            const { url } = content.layers[content.main];
+            const pieces = url === undefined ? [await bytesOf(content.layers[content.main])] : piecesOf(await fetched(url));
             if (turn === turns) view.open(content);
-            for (;;) {
-                const { done, value } = await reader.read();
-                if (turn !== turns) return void reader.cancel();
-                if (done) return view.finish();
-                view.receive(value);
+            for await (const piece of pieces) {
+                if (turn !== turns) return;
+                view.receive(piece);
             }
+            if (turn === turns) view.finish();
         } catch (error) {
-            if (turn === turns) view.fail(`The stream could not be fetched. ${error instanceof Error ? error.message : error}`);
+            if (turn === turns) view.fail(`${content.name} could not be fetched. ${error instanceof Error ? error.message : error}`);
         }
     };
-    view.offer(sources.map(({ name }) => name), open);
-    await open(0);
+    view.offer(contents.map(({ name }) => name), open);
+    if (contents.length > 0) await open(0);
 }
 
 /** Draw a widget into an element; returns what takes it away. */
@@ -69,20 +75,16 @@ async function render({ model, el }: { model: Model; el: HTMLElement }): Promise
     const root = el.appendChild(document.createElement("div"));
     root.style.height = `${model.get("height")}px`;
     const view = new View(root, new Pool(inlined), LICENCES);
-    const bytes = (name: string): Uint8Array => {
-        const { buffer, byteOffset, byteLength } = model.get(name) as DataView<ArrayBuffer>;
-        return new Uint8Array(buffer, byteOffset, byteLength);
-    };
-    const open = (): void => {
-        const original = bytes("original");
-        view.open({ name: String(model.get("name")), original: original.length > 0 ? floats(original) : undefined });
-        view.receive(bytes("stream"));
+    const open = async (): Promise<void> => {
+        const content = model.get("content") as Content;
+        view.open(content);
+        view.receive(await bytesOf(content.layers[content.main]));
         view.finish();
     };
-    model.on("change:stream", open);
-    open();
+    model.on("change:content", open);
+    await open();
     return () => {
-        model.off("change:stream", open);
+        model.off("change:content", open);
         view.close();
     };
 }

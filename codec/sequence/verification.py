@@ -1,0 +1,93 @@
+"""Checks that a sequence decodes to what its encoder expects, by the decoder in C, while it is written."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.errors import BsmError, LimitError, VerificationError
+from bsm.bitstream.limits import Limits
+from bsm.codec.arrays import Faces, Order, Positions
+from bsm.codec.decoded import CONNECTIVITY, END, FRAME, FrameDecoder
+from bsm.codec.geometry.mesh import Metadata
+from bsm.codec.sequence.attributes import Expected
+from bsm.codec.static.attributes.encoding import PreparedAttribute
+from bsm.codec.static.verification import Original, require, require_attributes, require_positions
+
+
+@dataclass(frozen=True, eq=False)
+class ExpectedFrame:
+    """Positions of the closed loop, in the order of coding and the unit of the mesh, and what moves with them."""
+
+    positions: Positions
+    moving: tuple[Expected, ...] = ()
+
+
+class SequenceVerifier:
+    """Decodes a sequence chunk by chunk and compares each frame; `shown` collects the decoded positions."""
+
+    def __init__(
+        self, limits: Limits, metadata: Metadata, threads: int | None, shown: list[Positions] | None = None
+    ) -> None:
+        self._decoder = FrameDecoder(limits, threads)
+        self._metadata, self._shown = metadata, shown
+        self._meshes: deque[tuple[Original, tuple[PreparedAttribute, ...]]] = deque()
+        self._frames: deque[ExpectedFrame] = deque()
+        self._ended = False
+        self.faces: Faces = np.zeros((0, 3), np.int32)
+
+    def expect_mesh(self, original: Original, carried: Sequence[PreparedAttribute]) -> None:
+        """Announce a run, with the attributes that do not move."""
+        self._meshes.append((original, tuple(carried)))
+
+    def expect_frame(self, frame: ExpectedFrame) -> None:
+        self._frames.append(frame)
+
+    def take(self, chunk: bytes, *, last: bool = False) -> bytes:
+        """Decode a chunk of the stream and return it; `VerificationError` if a decoder makes something else of it."""
+        try:
+            for kind, vertices, faces in self._decoder.take(chunk, last=last):
+                if kind == CONNECTIVITY:
+                    self._begin(self._decoder.faces(faces), vertices)
+                elif kind == FRAME:
+                    self._compare(self._decoder.positions(vertices))
+                elif kind == END:
+                    self._ended = True
+        except (LimitError, VerificationError):
+            raise
+        except BsmError as error:
+            raise VerificationError(f"the encoder wrote a stream that is refused: {error}") from error
+        if last:
+            require(self._ended and not self._frames and not self._meshes, "not all frames came back")
+            require(self._decoder.metadata == dict(self._metadata), "the metadata that came back are others")
+        return chunk
+
+    def _begin(self, faces: Faces, vertices: int) -> None:
+        require(bool(self._meshes), "a mesh came back that was not sent")
+        self._original, self._carried = self._meshes.popleft()
+        self._matched = self._original.matched(faces, vertices)
+        self._checked, self.faces = False, faces
+
+    def _compare(self, positions: Positions) -> None:
+        require(bool(self._frames), "a frame came back that was not sent")
+        expected = self._frames.popleft()
+        require_positions(positions, expected.positions, self._matched, self._original.given.positions)
+        attributes = self._decoder.attributes()
+        if not self._checked:
+            still = [attribute for attribute in attributes if not attribute.moves]
+            require_attributes(still, self._carried, self.faces, self._original)
+            self._checked = True
+        for moving in expected.moving:
+            _require_near(attributes[moving.number].values, moving, self._matched)
+        if self._shown is not None:
+            self._shown.append(positions)
+
+
+def _require_near(decoded: npt.NDArray[np.generic], moving: Expected, matched: Order) -> None:
+    """Require that values in a frame, shape (k, c), are as near as was asked."""
+    off = moving.bound.between(np.asarray(decoded, np.float64), moving.values[matched].astype(np.float64))
+    require(off <= 1.0, f"an attribute that moves came back {off:.3g} times as far off as it may be")

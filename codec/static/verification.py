@@ -1,0 +1,143 @@
+"""Checks that a stream decodes to what its encoder expects, by the decoder in C, before the stream is handed out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.container.header import FACE, RECOMPUTED
+from bsm.bitstream.errors import BsmError, LimitError, VerificationError
+from bsm.bitstream.limits import Limits
+from bsm.codec.arrays import Faces, Order, Positions
+from bsm.codec.decoded import DecodedAttribute, decoded_mesh
+from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.static.attributes.encoding import SEMANTICS, PreparedAttribute
+from bsm.codec.static.attributes.levels import restored
+from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
+
+ROUNDING = 1e-6
+"""How far a float of an attribute may be from the encoder's, relatively above 1: it may be rounded differently."""
+
+
+@dataclass(frozen=True, eq=False)
+class Original:
+    """What a stream has to give back: a mesh as it was given, joined and in the order of coding."""
+
+    given: TriangleMesh
+    joined: JoinedMesh
+    prepared: Prepared
+
+    @property
+    def vertex_order(self) -> Order:
+        """The given vertex that each of the decoder's is, or that lies at its place."""
+        splits = self.joined.splits
+        if splits is not None:  # of a sequence loose vertices are left out
+            whole = len(splits.source) == len(self.given.positions)
+            return np.arange(len(self.given.positions)) if whole else np.flatnonzero(self.joined.index >= 0)
+        return self.joined.first[self.prepared.vertex_order]
+
+    def matched(self, faces: Faces, vertices: int) -> Order:
+        """Return the coded vertex of each of the decoder's, -1 for loose ones, whose faces are `faces`."""
+        coded = self.prepared.mesh.faces
+        require(faces.shape == coded.shape, f"{len(faces)} faces came back of {len(coded)}")
+        require(vertices == len(self.vertex_order), f"{vertices} vertices came back of {len(self.vertex_order)}")
+        if self.prepared.order:
+            ordered = faces[self.prepared.coding_faces]
+            ordered = np.take_along_axis(ordered, (self.prepared.turns[:, None] + np.arange(3)) % 3, axis=1)
+        else:
+            ordered = faces
+        found = np.full(vertices, -1, np.int64)
+        found[ordered] = coded
+        require(bool((found[ordered] == coded).all()), "the faces that came back are others")
+        self._require_order(faces)
+        return found
+
+    def _require_order(self, faces: Faces) -> None:
+        """Require that each face lies where the given one lies; turned, unless the order is kept."""
+        places = self.joined.mesh.positions if self.joined.splits is None else self.given.positions
+        numbers = self.prepared.vertex_order if self.joined.splits is None else self.vertex_order
+        given = self.joined.mesh.faces if self.joined.splits is None else self.given.faces[self.joined.kept]
+        wanted, found = places[given[self.prepared.face_order]], places[numbers[faces]]
+        turns = 1 if self.prepared.order else 3
+        equal = np.zeros(len(faces), np.bool_)
+        for turn in range(turns):
+            equal |= (np.roll(found, turn, axis=1) == wanted).all(axis=(1, 2))
+        require(bool(equal.all()), "the order of vertices or faces that came back is another")
+
+
+def verify(
+    draft: Draft,
+    original: Original,
+    carried: Sequence[PreparedAttribute],
+    metadata: Metadata,
+    limits: Limits,
+    threads: int | None,
+) -> None:
+    """Decode a draft and compare everything; `VerificationError` if anything differs from what the encoder expects.
+
+    Positions must be equal bit for bit, faces, metadata and orders as promised, attributes equal but for rounding.
+    """
+    try:
+        decoded = decoded_mesh(b"".join(draft.frames), limits, threads)
+    except LimitError:
+        raise
+    except BsmError as error:
+        raise VerificationError(f"the encoder wrote a stream that is refused: {error}") from error
+    matched = original.matched(decoded.faces, len(decoded.positions))
+    require_positions(decoded.positions, draft.decoded, matched, original.given.positions)
+    require(decoded.metadata == dict(metadata), "the metadata that came back are others")
+    require_attributes(decoded.attributes, carried, decoded.faces, original)
+
+
+def require_positions(decoded: Positions, expected: Positions, matched: Order, given: Positions) -> None:
+    """Require positions of the closed loop, shape (n, 3), bit for bit; loose vertices are as they were given."""
+    loose = matched < 0
+    wanted = expected[matched]
+    if loose.any():
+        wanted[loose] = given[loose]
+    require(bool((decoded == wanted).all()), "the positions that came back are others")
+
+
+def require_attributes(
+    decoded: Sequence[DecodedAttribute], carried: Sequence[PreparedAttribute], faces: Faces, original: Original
+) -> None:
+    """Require what the closed loop has for attributes at corners and faces, but for rounding."""
+    require(len(decoded) == len(carried), f"{len(decoded)} attributes came back of {len(carried)}")
+    prepared = original.prepared
+    for found, wanted in zip(decoded, carried, strict=True):
+        declared = wanted.declaration
+        name = f"attribute {declared.name!r}"
+        same = found.name == declared.name and found.semantic == SEMANTICS[declared.semantic]
+        require(same and found.values.shape[1:] == (declared.components,), f"{name} came back as another")
+        if declared.coding == RECOMPUTED:
+            require(bool(np.isfinite(found.values).all()), f"{name} came back without being finite")
+            continue
+        values = restored(declared, wanted.levels)
+        if declared.domain == FACE:
+            at = found.values[prepared.coding_faces] if prepared.order else found.values
+            require(_alike(at, values), f"{name} came back with other values")
+            continue
+        rows = found.indices if found.indices is not None else faces
+        if prepared.order:
+            rows = np.take_along_axis(rows[prepared.coding_faces], (prepared.turns[:, None] + np.arange(3)) % 3, axis=1)
+        require(_alike(found.values[rows], values[wanted.surface.faces]), f"{name} came back with other values")
+
+
+def _alike(found: npt.NDArray[Any], wanted: npt.NDArray[Any]) -> bool:
+    if found.shape != wanted.shape or found.dtype != wanted.dtype:
+        return False
+    if found.dtype.kind != "f":
+        return bool((found == wanted).all())
+    return bool(np.allclose(found, wanted, rtol=ROUNDING, atol=ROUNDING * float(np.abs(wanted).max(initial=0.0))))
+
+
+def require(holds: bool, problem: str) -> None:
+    """Raise a `VerificationError` that says what to do, unless `holds`."""
+    if not holds:
+        raise VerificationError(
+            f"internal error: {problem}; nothing was written. Please report it, with the mesh and the options"
+        )

@@ -1,0 +1,434 @@
+"""Streams to meshes and frames: the decoders of `import bsm`, over the decoder in C (`engine/`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from numbers import Integral
+from types import TracebackType
+from typing import Any, ClassVar, TypeAlias, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm._engine import Decoder as Engine
+from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, Paper
+from bsm.bitstream.container.packets import MetadataValue
+from bsm.bitstream.container.wire import PREAMBLE_BYTES
+from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, MeshError, OptionError, UnsupportedError, public
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
+from bsm.codec.arrays import Faces, Positions
+from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.threads import threads_of
+from bsm.events import (
+    END_OF_STREAM,
+    NEED_DATA,
+    AttributeEvent,
+    BlockEvent,
+    Changes,
+    ConnectivityEvent,
+    EndEvent,
+    FrameEvent,
+    HeaderEvent,
+    Losses,
+    LossEvent,
+    RefinementEvent,
+    Signal,
+)
+
+Buffer: TypeAlias = bytes | bytearray | memoryview | npt.NDArray[Any]
+Event: TypeAlias = (
+    HeaderEvent
+    | ConnectivityEvent
+    | BlockEvent
+    | RefinementEvent
+    | AttributeEvent
+    | FrameEvent
+    | LossEvent
+    | EndEvent
+    | Signal
+)
+Self = TypeVar("Self", bound="StreamDecoder")
+
+# Types of events, in the order of bsmdec.h.
+NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, _ERROR, VALUES = range(13)
+DOMAINS: tuple[Domain, ...] = ("vertex", "corner", "face")
+SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
+
+
+def mask_of(*types: int) -> int:
+    return sum(1 << kind for kind in types)
+
+
+class StreamDecoder:
+    """What the decoders of meshes and of sequences share."""
+
+    _wanted: ClassVar[int]
+
+    def __init__(
+        self, limits: Limits, threads: int | None, *, tolerant: bool = False, start: int = 0, layers: int = 0
+    ) -> None:
+        self._engine: Engine | None = Engine(as_limits(limits), threads_of(threads), bool(tolerant), start, layers)
+        self._tolerant = tolerant
+        self._finished = False
+        self._error: BsmError | None = None
+        self._entries = 0
+        self._state = [0.0] * 7
+        self.metadata: Mapping[str, MetadataValue] = {}
+        """What the author has said of the mesh, as far as it has come."""
+
+    def __enter__(self: Self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Release the decoder's memory; no more events can be asked for."""
+        if self._engine is not None:
+            self._state, self._engine = self._engine.state(), None
+
+    @property
+    def work(self) -> float:
+        """Nanoseconds of a processor core that the stream has cost so far, by the estimates that limits bound."""
+        return float((self._state if self._engine is None else self._engine.state())[1])
+
+    @property
+    def vertices(self) -> int:
+        """How many have come with faces; by them memory and work are bounded."""
+        return int((self._state if self._engine is None else self._engine.state())[2])
+
+    def receive_data(self, data: Buffer) -> None:
+        """Take more bytes of the stream, in any buffer and of any number."""
+        given: Any = data
+        try:
+            view = memoryview(given)
+        except (TypeError, ValueError):
+            raise ArgumentError(f"bytes of a stream are expected, not {type(data).__name__}") from None
+        if self._finished:
+            raise OptionError("bytes were given to a decoder after receive_eof")
+        with view:
+            if view.nbytes:
+                plain = view if view.c_contiguous and view.nbytes == len(view) else view.tobytes()
+                self._open.push(np.frombuffer(plain, np.uint8))
+
+    def receive_eof(self) -> None:
+        """Take note that no more bytes will come."""
+        self._finished = True
+        self._open.finish()
+
+    def events(self, chunks: Iterable[Buffer]) -> Iterator[Any]:
+        """What comes of a stream that comes in chunks: each event as soon as its bytes are there, to the end."""
+        given = iter(chunks)
+        while (event := self.next_event()) is not END_OF_STREAM:
+            if event is not NEED_DATA:
+                yield event
+            elif (chunk := next(given, None)) is not None:
+                self.receive_data(chunk)
+            else:
+                self.receive_eof()
+
+    def next_event(self) -> Event:
+        """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`; raises a `BsmError`."""
+        try:
+            while (event := self._event(*self._next(self._wanted))) is None:
+                pass
+        except BsmError as error:
+            self._error = error
+            raise
+        return event
+
+    def _event(self, kind: int, index: int, count: int, vertices: int, faces: int) -> Event | None:
+        engine = self._open
+        match kind:
+            case 0:
+                return NEED_DATA
+            case 1:
+                return HeaderEvent(self._header)
+            case 3:
+                loose = Changes(*engine.loose())
+                return ConnectivityEvent(engine.faces(faces), vertices, loose)
+            case 4:
+                return BlockEvent(index, Changes(*engine.changes()))
+            case 5:
+                moved, positions, _ = engine.changes()
+                return RefinementEvent(moved, positions)
+            case 6 | 12:
+                name, domain, semantic, indices, rows, values = engine.values(index)
+                if not len(rows):  # computed from positions
+                    return None
+                return AttributeEvent(name, DOMAINS[domain], SEMANTICS[semantic], indices, rows, values)
+            case 9:
+                return EndEvent()
+            case 10:
+                return END_OF_STREAM
+        raise AssertionError(f"event {kind} was not asked for")
+
+    @property
+    def _open(self) -> Engine:
+        if self._engine is None:
+            raise OptionError("this decoder was closed")
+        return self._engine
+
+    def _next(self, wanted: int) -> tuple[int, int, int, int, int]:
+        """The next event of some types; metadata that come before it are taken in."""
+        if self._error is not None:
+            raise self._error
+        while True:
+            event = self._open.next(wanted | mask_of(NEED, HEADER, METADATA, OVER))
+            if event[0] == METADATA:
+                entries = [self._open.metadata(index) for index in range(self._entries, event[1])]
+                self.metadata, self._entries = {**self.metadata, **dict(entries)}, event[1]
+                continue
+            if event[0] == HEADER:
+                self._header = header_of(self._open.header())
+                self._error = self._misfit(self._header)
+                if self._error is not None:
+                    raise self._error
+            return event
+
+    def _misfit(self, header: Header) -> BsmError | None:
+        """What is wrong with a header that only another decoder takes."""
+        raise NotImplementedError
+
+    def _attribute(self, index: int) -> tuple[Attribute, bool] | None:
+        """An attribute and whether it moves; None where it is not whole."""
+        found = self._open.attribute(index)
+        if found is None:
+            return None
+        name, domain, semantic, values, indices, moves = found
+        return Attribute(name, values, DOMAINS[domain], SEMANTICS[semantic], indices), moves
+
+    def _loss(self) -> BsmError:
+        error: BsmError = self._open.loss()
+        return error
+
+
+@public
+class Decoder(StreamDecoder):
+    """Takes the bytes of a stream as they come, and gives events as soon as they can be known.
+
+    The events do not depend on how the bytes are cut up. An error is raised by `next_event` after the events before
+    it, and by every later call.
+
+    Parameters
+    ----------
+    limits : Limits
+        What the stream may ask for.
+    threads : int, optional
+        For decoding chains whose bytes are there at the same time; None: one per core.
+    tolerant : bool
+        Report damage to blocks as `LossEvent` and go on with every block that does not depend on what is lost.
+        Damage before the first block is raised all the same.
+    layers : int, optional
+        How many to decode: 1 is the base alone, 2 or None the layer of refinement, too. What comes behind them is not
+        waited for.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder, open("bunny.bsm", "rb") as file:
+    ...     for event in decoder.events(iter(lambda: file.read(1000), b"")):
+    ...         if isinstance(event, bsm.BlockEvent):
+    ...             moved = event.vertices, event.positions
+    """
+
+    _wanted = mask_of(CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, VALUES, LOSS, END)
+
+    def __init__(
+        self,
+        limits: Limits = DEFAULT_LIMITS,
+        threads: int | None = None,
+        *,
+        tolerant: bool = False,
+        layers: int | None = None,
+    ) -> None:
+        if layers is not None and (isinstance(layers, bool) or not isinstance(layers, Integral)):
+            raise ArgumentError(f"layers must be a whole number or None, not {layers!r}")
+        if layers is not None and layers < 1:
+            raise OptionError("at least one layer must be decoded")
+        super().__init__(limits, threads, tolerant=tolerant, layers=0 if layers is None else min(int(layers), 2))
+        self._sizes: tuple[int, int] | None = None
+
+    def finish(self) -> TriangleMesh:
+        """Decode the rest of a complete stream and return the mesh; faster than asking for events.
+
+        Raises
+        ------
+        BsmError
+            Also `TruncatedError`, if bytes are missing.
+        """
+        self.receive_eof()
+        while (event := self._next(mask_of(END)))[0] != OVER:
+            if event[0] == END:
+                self._sizes = event[3:]
+        assert self._sizes is not None
+        vertices, faces = self._sizes
+        engine = self._open
+        found = (self._attribute(index) for index in range(engine.attribute_count()))
+        attributes = tuple(attribute for attribute, _ in filter(None, found))
+        return TriangleMesh(engine.positions(vertices), engine.faces(faces), attributes, self.metadata)
+
+    def _event(self, kind: int, index: int, count: int, vertices: int, faces: int) -> Event | None:
+        if kind == LOSS:
+            return LossEvent(None if index < 0 else index, self._loss())
+        if kind == END:
+            self._sizes = vertices, faces
+            return EndEvent(Losses(*self._open.losses())) if self._tolerant else EndEvent()
+        return super()._event(kind, index, count, vertices, faces)
+
+    def _misfit(self, header: Header) -> BsmError | None:
+        if not header.gop_frames:
+            return None
+        return UnsupportedError(
+            "this is a sequence; decode it with bsm.decode_sequence or bsm.SequenceDecoder",
+            offset=PREAMBLE_BYTES,
+            frame=0,
+        )
+
+
+@public
+class SequenceDecoder(StreamDecoder):
+    """Takes the bytes of a sequence's stream as they come, and gives events as soon as they can be known.
+
+    Memory is bounded by one GOP. An error is raised by `next_event` after the events before it, and by every later
+    call.
+
+    Parameters
+    ----------
+    limits : Limits
+        What the stream may ask for.
+    threads : int, optional
+        None: one per core.
+    tolerant : bool
+        Report a GOP that is lost or broken as `LossEvent`, and go on behind it, or behind a run where what comes before
+        its GOPs is not whole; the stream may begin with any run.
+    start : int
+        Give no frame before this one; GOPs that it does not need are not decoded.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.SequenceDecoder() as decoder, open("dance.bsm", "rb") as file:
+    ...     sum(isinstance(event, bsm.FrameEvent) for event in decoder.events(file))
+    6
+    """
+
+    _wanted = mask_of(CONNECTIVITY, ATTRIBUTE, VALUES, FRAME, LOSS, END)
+
+    def __init__(
+        self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, tolerant: bool = False, start: int = 0
+    ) -> None:
+        super().__init__(limits, threads, tolerant=tolerant, start=start)
+        self._faces: Faces = np.zeros((0, 3), np.int32)
+        self._known: dict[int, tuple[Attribute, bool]] = {}
+
+    @property
+    def attributes(self) -> tuple[Attribute, ...]:
+        """Attributes of all frames of the present run, that are whole; all of them when its first frame is."""
+        return tuple(attribute for attribute, _ in self._known.values())
+
+    def _event(self, kind: int, index: int, count: int, vertices: int, faces: int) -> Event | None:
+        if kind == LOSS:
+            return LossEvent(None, self._loss(), range(index, index + count) if index >= 0 else range(0))
+        if kind == FRAME:
+            return FrameEvent(index, self._open.positions(vertices), self._faces, tuple(self._in_frame()))
+        if kind == HEADER:
+            self._known.clear()
+        if kind == ATTRIBUTE:
+            self._know(index)
+        event = super()._event(kind, index, count, vertices, faces)
+        if isinstance(event, ConnectivityEvent):
+            self._faces = event.faces
+            for number in range(self._open.attribute_count()):  # those of an earlier run of this mesh
+                self._know(number)
+        return event
+
+    def _know(self, index: int) -> None:
+        found = self._attribute(index)
+        if found is not None:
+            self._known[index] = found
+
+    def _in_frame(self) -> Iterator[Attribute]:
+        """The attributes of the present frame."""
+        for index, (attribute, moves) in self._known.items():
+            found = self._attribute(index) if moves else None
+            yield attribute if found is None else found[0]
+
+    def _misfit(self, header: Header) -> BsmError | None:
+        if header.gop_frames:
+            return None
+        return FormatError(
+            "this is a static mesh and no sequence; decode it with bsm.decode or bsm.Decoder",
+            offset=PREAMBLE_BYTES,
+            frame=0,
+        )
+
+
+def header_of(numbers: list[float]) -> Header:
+    """A header of the numbers that `list_header` in engine/header.c gives."""
+    n, whole = numbers, [int(number) for number in numbers]
+    bits, coarser, exact, power, iterations, key_iterations, _, springs = whole[31:39]
+    paper = Paper(
+        bits=bits,
+        coarser=coarser,
+        exact=exact,
+        power=power,
+        iterations=iterations,
+        key_iterations=key_iterations,
+        shift=n[37],
+        springs=springs,
+    )
+    run, again = whole[13:15]
+    return Header(
+        vertices=whole[0],
+        faces=whole[1],
+        blocks=whole[2],
+        block_size=whole[3],
+        coefficients=whole[4],
+        key_interval=whole[5],
+        step=n[6],
+        scale=n[7],
+        smoothing=n[8],
+        attributes=whole[9],
+        light=whole[10],
+        center=tuple(n[15:18]),
+        refinement=tuple(n[19:21]) if n[18] else (),
+        grid=tuple(whole[22:25]) if n[21] else (),
+        lattice=tuple(whole[25:27]) if n[26] else (),
+        corner=tuple(whole[28:31]) if n[27] else (),
+        sequence=tuple(whole[11:13]) if n[39] else (),
+        run=(run, again) if again >= 0 else (run,) if run else (),
+        paper=() if n[21] or again >= 0 else paper.entry(LAW_OF_SEQUENCES if n[39] else LAW),
+    )
+
+
+def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
+    """Decode a complete stream."""
+    with Decoder(limits, threads) as decoder:
+        decoder.receive_data(data)
+        return decoder.finish()
+
+
+def decode_sequence(
+    data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
+) -> tuple[Positions, Faces]:
+    """Decode a complete sequence."""
+    frames: list[Positions] = []
+    faces = np.zeros((0, 3), np.int32)
+    vertices = 0
+    with SequenceDecoder(limits, threads) as decoder:
+        for event in decoder.events([data]):
+            match event:
+                case ConnectivityEvent(received, vertices=count):
+                    if frames and not np.array_equal(faces, received):
+                        raise MeshError(
+                            f"the faces change at frame {len(frames)}: this is no array of frames; "
+                            "bsm.decode_frames gives them one by one"
+                        )
+                    faces, vertices = received, count
+                case FrameEvent(_, positions):
+                    frames.append(positions)
+    return np.array(frames).reshape(-1, vertices, 3), faces

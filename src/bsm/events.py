@@ -1,0 +1,306 @@
+"""What the decoders of meshes and of sequences report."""
+
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any, ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.bitstream.container.header import Header
+from bsm.bitstream.errors import BsmError, public
+from bsm.codec.arrays import Faces, Indices, Mask, Positions
+from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
+
+
+@public
+class Signal(Enum):
+    """What `next_event` returns where there is no event.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.Decoder() as decoder:
+    ...     decoder.next_event() is bsm.NEED_DATA
+    True
+    """
+
+    NEED_DATA = "give more bytes to receive_data, or call receive_eof"
+    END_OF_STREAM = "END was read and nothing follows"
+
+
+NEED_DATA = Signal.NEED_DATA
+END_OF_STREAM = Signal.END_OF_STREAM
+
+
+@public
+@dataclass(frozen=True)
+class HeaderEvent:
+    """The header has arrived.
+
+    Parameters
+    ----------
+    header : Header
+        `vertices`, `scale`, and all that the specification says of headers, by the names it has there.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> event = next(bsm.Decoder().events([bsm.encode("bunny.ply")]))
+    >>> isinstance(event, bsm.HeaderEvent), event.header.vertices > 0
+    (True, True)
+    """
+
+    header: Header
+
+
+@dataclass(frozen=True, eq=False)
+class Changes:
+    """What has changed: vertices, their positions in the mesh's unit, and which of them are final."""
+
+    vertices: Indices
+    positions: Positions
+    final: Mask
+
+    def __repr__(self) -> str:
+        return f"Changes({len(self.vertices)} vertices, {int(self.final.sum())} final)"
+
+
+@public
+@dataclass(frozen=True, eq=False)
+class ConnectivityEvent:
+    """The faces have arrived, with all that is needed to decode positions.
+
+    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
+
+    Parameters
+    ----------
+    faces : int32 array, shape (m, 3)
+    vertices : int
+        How many there are: where the stream stores the vertices as they were given, more than were coded.
+    loose : Changes
+        Those that no face uses, which are final.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> data = bsm.encode("bunny.ply", step=0.002)
+    >>> with bsm.Decoder() as decoder:
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.ConnectivityEvent)]
+    >>> found[0]
+    ConnectivityEvent(... faces, ... vertices)
+    """
+
+    faces: Faces
+    vertices: int
+    loose: Changes
+
+    def __repr__(self) -> str:
+        return f"ConnectivityEvent({len(self.faces)} faces, {self.vertices} vertices)"
+
+
+@public
+@dataclass(frozen=True, eq=False)
+class BlockEvent:
+    """A block, or of a mesh on a grid a chunk, has been decoded: layer 0.
+
+    Parameters
+    ----------
+    index : int
+        Of the block or chunk.
+    changes : Changes
+        Vertices that this block moved or finished, their positions in the mesh's unit, and which of them no later
+        block will move (the layer of refinement may).
+
+    Examples
+    --------
+    >>> import bsm
+    >>> data = bsm.encode("bunny.ply", step=0.002)
+    >>> with bsm.Decoder() as decoder:
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.BlockEvent)]
+    """
+
+    layer: ClassVar[int] = 0
+
+    index: int
+    changes: Changes
+
+    @property
+    def vertices(self) -> Indices:
+        """Vertices that this block moved or finished, shape (v,)."""
+        return self.changes.vertices
+
+    @property
+    def positions(self) -> Positions:
+        """Where they are now, in the mesh's unit, shape (v, 3)."""
+        return self.changes.positions
+
+    @property
+    def final(self) -> Mask:
+        """Which of them no later block will move, shape (v,)."""
+        return self.changes.final
+
+
+@public
+@dataclass(frozen=True, eq=False)
+class RefinementEvent:
+    """Levels of the layer of refinement have been decoded; they come when all blocks have.
+
+    Parameters
+    ----------
+    vertices : int32 array, shape (v,)
+        What was moved.
+    positions : float64 array, shape (v, 3)
+        Where that is now, in the mesh's unit.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> data = bsm.encode("bunny.ply", step=0.002)
+    >>> with bsm.Decoder() as decoder:
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.RefinementEvent)]
+    """
+
+    layer: ClassVar[int] = 1
+
+    vertices: Indices
+    positions: Positions
+
+    def __repr__(self) -> str:
+        return f"RefinementEvent({len(self.vertices)} vertices)"
+
+
+@public
+@dataclass(frozen=True, eq=False)
+class AttributeEvent:
+    """Values of an attribute have been decoded.
+
+    Parameters
+    ----------
+    name : str
+    domain : {"vertex", "corner", "face"}
+    semantic : {"generic", "color", "normal", "texcoord"}
+    indices : int32 array, shape (m, 3), optional
+        For corners: which of all values of the attribute each corner has.
+    rows : int32 array, shape (r,)
+        Numbers of values that are known from now on: of vertices or faces, or what `indices` refer to.
+    values : array, shape (r, c)
+
+    Examples
+    --------
+    >>> import bsm
+    >>> data = bsm.encode("spot.obj", step=0.002)
+    >>> with bsm.Decoder() as decoder:
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.AttributeEvent)]
+    >>> found[0].name, found[0].domain
+    ('texcoord', 'corner')
+    """
+
+    name: str
+    domain: Domain
+    semantic: Semantic
+    indices: Indices | None
+    rows: Indices
+    values: npt.NDArray[Any]
+
+
+@public
+@dataclass(frozen=True, eq=False)
+class FrameEvent:
+    """A frame has been decoded.
+
+    Parameters
+    ----------
+    index : int
+        Its number, from 0.
+    positions : float64 array, shape (n, 3)
+        In the mesh's unit.
+    faces : int32 array, shape (m, 3)
+        Its faces; another array only where they may have changed.
+    attributes : tuple of Attribute
+        Its attributes, as far as they have come: those that move with the values of this frame.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> with bsm.SequenceDecoder(start=2) as decoder, open("dance.bsm", "rb") as file:
+    ...     [event.index for event in decoder.events(file) if isinstance(event, bsm.FrameEvent)]
+    [2, 3, 4, 5]
+    """
+
+    index: int
+    positions: Positions
+    faces: Faces
+    attributes: tuple[Attribute, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"FrameEvent(frame {self.index}, {len(self.positions)} vertices)"
+
+
+@public
+@dataclass(frozen=True)
+class LossEvent:
+    """A tolerant decoder could not decode something, and goes on.
+
+    Parameters
+    ----------
+    block : int, optional
+        The block of a static mesh that is lost; None for bytes that belong to no block that is known.
+    error : BsmError
+        Why, and where in the stream.
+    frames : range
+        The frames of a sequence that are lost; empty, but with a start, where their number is not known.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> damaged = bytearray(bsm.encode("bunny.ply", step=0.002))
+    >>> damaged[-60] ^= 1
+    >>> with bsm.Decoder(tolerant=True) as decoder:
+    ...     found = [it for it in decoder.events([damaged]) if isinstance(it, bsm.LossEvent)]
+    >>> isinstance(found[0].error, bsm.CorruptError)
+    True
+    """
+
+    block: int | None
+    error: BsmError
+    frames: range = range(0)
+
+    def __post_init__(self) -> None:
+        # Who keeps losses shall not keep what there was where they came to light.
+        self.error.__traceback__ = self.error.__context__ = self.error.__cause__ = None
+
+
+@dataclass(frozen=True, eq=False)
+class Losses:
+    """Vertices without any copy, and vertices that lack a copy or lie in the filter's reach of one that is missing."""
+
+    missing: Indices = field(default_factory=lambda: np.empty(0, np.int32))
+    degraded: Indices = field(default_factory=lambda: np.empty(0, np.int32))
+
+    def __repr__(self) -> str:
+        return f"Losses({len(self.missing)} vertices missing, {len(self.degraded)} degraded)"
+
+
+@public
+@dataclass(frozen=True, eq=False)
+class EndEvent:
+    """The stream has come to its end.
+
+    Parameters
+    ----------
+    losses : Losses
+        Vertices that are missing or less good; none, and the checksum of the stream right, unless the decoder is
+        tolerant.
+
+    Examples
+    --------
+    >>> import bsm
+    >>> data = bsm.encode("bunny.ply", step=0.002)
+    >>> with bsm.Decoder() as decoder:
+    ...     found = [it for it in decoder.events([data]) if isinstance(it, bsm.EndEvent)]
+    >>> found[0].losses
+    Losses(0 vertices missing, 0 degraded)
+    """
+
+    losses: Losses = field(default_factory=Losses)

@@ -1,0 +1,98 @@
+"""3MF: how much its objects become where they are placed, counted before trimesh places them."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections import Counter, defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from graphlib import CycleError, TopologicalSorter
+from typing import IO
+from xml.parsers import expat
+
+from bsm.bitstream.errors import FormatError, LimitError, MeshError
+from bsm.bitstream.limits import Limits
+from bsm.files.room import require_count
+
+FREE_PARTS, BYTES_OF_PART = 4096, 8  # placed parts that any file may have, and bytes for each further one
+_MOST = 1 << 62
+_PIECE = 1 << 16
+
+
+@dataclass
+class _Model:
+    """One XML file of an archive: what its meshes hold, and which object uses which how often."""
+
+    size: Counter[str] = field(default_factory=Counter)
+    objects: defaultdict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
+    uses: defaultdict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
+    files: list[tuple[str, str]] = field(default_factory=list)
+    _object: str = ""
+
+    def read(self, file: IO[bytes]) -> _Model:
+        parser = expat.ParserCreate(namespace_separator=" ")
+        parser.StartElementHandler = self._begin
+        parser.StartDoctypeDeclHandler = self._refuse
+        try:
+            while piece := file.read(_PIECE):
+                parser.Parse(piece)
+            parser.Parse(b"", True)
+        except (expat.ExpatError, LookupError, ValueError) as error:
+            raise FormatError(f"this is no 3MF file: its XML is broken: {error}") from error
+        return self
+
+    def _refuse(self, *_: object) -> None:
+        raise FormatError("a 3MF file has no DOCTYPE")
+
+    def _begin(self, name: str, says: Mapping[str, str]) -> None:
+        match name.rpartition(" ")[2]:
+            case "object":
+                self._object = says.get("id", "")
+            case "vertex" | "triangle" as what:
+                self.size[what] += 1
+                self.objects[self._object][what] += 1
+            case "component":
+                used = says.get("objectid", "")
+                self.uses[self._object][used] += 1
+                paths = (path.strip("/") for key, path in says.items() if key.endswith("path"))
+                self.files += ((used, path) for path in paths)
+            case "item":
+                self.uses[""][says.get("objectid", "")] += 1
+
+
+def placed_triangles(data: bytes, limits: Limits) -> int:
+    """Return how many triangles a 3MF file becomes; raise `LimitError` if it becomes too much."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        names = {name.strip("/"): name for name in archive.namelist()}
+        main = next((name for name in names.values() if "3d/3dmodel.model" in name.lower()), None)
+        if main is None:
+            raise FormatError("this 3MF file has no model (3D/3dmodel.model)")
+        with archive.open(main) as file:
+            model = _Model().read(file)
+        read: dict[str, _Model] = {}
+        for user, path in model.files:  # trimesh reads all meshes of such a file for each use
+            if path in names:
+                if path not in read:
+                    with archive.open(names[path]) as file:
+                        read[path] = _Model().read(file)
+                model.objects[user] += read[path].size
+                model.size += read[path].size
+                for what in ("vertex", "triangle"):
+                    require_count("vertices" if what == "vertex" else "faces", model.size[what], limits)
+    sizes: dict[str, tuple[int, int, int]] = {}
+    try:
+        for name in TopologicalSorter(model.uses).static_order():
+            own = model.objects.get(name, Counter())
+            used = [(times, sizes[other]) for other, times in model.uses.get(name, Counter()).items()]
+            totals = (sum(times * size[place] for times, size in used) for place in range(3))
+            mine = (own["vertex"], own["triangle"], 1)
+            sizes[name] = tuple(min(_MOST, one + more) for one, more in zip(mine, totals))  # type: ignore[assignment]
+    except CycleError:
+        raise MeshError("an object of this 3MF file is a component of itself") from None
+    vertices, triangles, parts = sizes.get("", (0, 0, 0))
+    require_count("vertices", vertices, limits)
+    require_count("faces", triangles, limits)
+    if parts > (most := FREE_PARTS + len(data) // BYTES_OF_PART):
+        raise LimitError(f"this 3MF file places {parts:,} parts, over the limit of {most:,} for its bytes")
+    return triangles

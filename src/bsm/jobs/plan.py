@@ -1,0 +1,88 @@
+"""Which output each input has."""
+
+import errno
+import glob
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path, PurePath
+
+from bsm.bitstream.errors import OptionError
+from bsm.files import pipes
+from bsm.files.output import default_output, output_inside, own_name, refuse_collisions
+from bsm.jobs.task import Job
+
+MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".npz", ".glb", ".gltf", ".3mf", ".dae")
+"""Of files that are taken for meshes where a folder is searched."""
+
+
+def plan(
+    inputs: Sequence[str], output: str | None, suffix: Callable[[str], str], *, sole_folder: bool = False
+) -> list[Job]:
+    """What is written where."""
+    names = input_names(inputs)
+    output = own_name(output) if output else None
+    folder = output is not None and (output.endswith("/") or (not pipes.is_url(output) and Path(output).is_dir()))
+    if len(names) > 1:
+        if "-" in names or output == "-":
+            raise OptionError("a pipe holds one mesh: name files, or one input alone")
+        if output and not folder:
+            raise OptionError(f"{len(names)} inputs are written to a folder: -o {output}/")
+    if output is None:
+        jobs = [Job(name, default_output(name, suffix(name))) for name in names]
+    elif folder and not (sole_folder and len(names) == 1):
+        jobs = [Job(name, output_inside(output, name, suffix(name))) for name in names]
+    else:
+        jobs = [Job(name, output) for name in names]
+    jobs = apart(jobs, suffix)
+    refuse_collisions(names, [job.output for job in jobs])
+    if output and folder and not pipes.is_url(output):
+        Path(output).mkdir(parents=True, exist_ok=True)
+    return jobs
+
+
+def plan_trees(folders: Sequence[str], output: str | None, suffix: str) -> list[Job]:
+    """What is written where, for all mesh files in folders and below: the same folders again in `output`."""
+    jobs = []
+    for folder in folders:
+        if pipes.is_url(folder) or not Path(folder).is_dir():
+            raise OptionError(f"{folder} is no folder, and --recursive takes folders of this machine")
+        for path in sorted(Path(folder).rglob("*")):
+            if path.suffix.lower() in MESH_SUFFIXES and path.is_file():
+                place = path if output is None else Path(output, path.relative_to(folder))
+                jobs.append(Job(str(path), str(place.with_suffix(suffix))))
+    jobs = apart(jobs, lambda _: suffix)
+    if not jobs:
+        raise OptionError(f"there are no mesh files in {' or '.join(folders)}, or below ({', '.join(MESH_SUFFIXES)})")
+    refuse_collisions([job.input for job in jobs], [job.output for job in jobs])
+    for parent in {Path(job.output).parent for job in jobs}:
+        parent.mkdir(parents=True, exist_ok=True)
+    return jobs
+
+
+def apart(jobs: Sequence[Job], suffix: Callable[[str], str]) -> list[Job]:
+    """Keep the suffixes of inputs that differ in them alone: part.obj.bsm beside part.stl.bsm."""
+    often = Counter(job.output for job in jobs)
+
+    def output(job: Job) -> str:
+        added = suffix(job.input)
+        kept = PurePath(pipes.name_in(job.input) if pipes.is_url(job.input) else job.input).suffix
+        return job.output if often[job.output] < 2 else f"{job.output.removesuffix(added)}{kept}{added}"
+
+    return [replace(job, output=output(job)) for job in jobs]
+
+
+def input_names(inputs: Sequence[str]) -> list[str]:
+    """Inputs under the names that we use; URLs with ``*`` name as many as there are."""
+    return [name for given in inputs for name in _behind(given, own_name(given))]
+
+
+def _behind(given: str, name: str) -> list[str]:
+    if pipes.is_url(name):
+        return pipes.expanded(name)
+    if name == given or not glob.has_magic(name):
+        return [name]
+    found = sorted(glob.glob(name))  # of a file:// URL, which no shell expands
+    if not found:
+        raise FileNotFoundError(errno.ENOENT, "nothing has such a name", given)
+    return found

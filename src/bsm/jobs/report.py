@@ -1,0 +1,180 @@
+"""The record of a run, and how a run goes on from it."""
+
+import errno
+import json
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from bsm import __version__
+from bsm.bitstream.errors import FormatError
+from bsm.console import Console
+from bsm.files import pipes
+from bsm.files.output import write_output
+from bsm.jobs.task import Facts, Job, Task, Work
+
+_OF_ONE_RUN = {"quiet", "force", "threads", "input", "output", "replaceable", "doubtful", "fresh", "before"}
+
+
+_EVERY = 1.0  # seconds between two versions of a report, at least
+
+
+_SHARE = 0.02  # of all time that goes into writing them, at most
+
+
+def options_of(task: Task) -> Facts:
+    """What outputs depend on beside their inputs."""
+    given = {name: value for name, value in asdict(task).items() if name not in _OF_ONE_RUN}
+    options: Facts = json.loads(json.dumps({"version": __version__, **given}, default=str, sort_keys=True))
+    return options
+
+
+class Report:
+    """The record of a run, rewritten as a whole while it goes on."""
+
+    def __init__(
+        self, path: str, command: str, options: Facts, jobs: Sequence[Job], earlier: Mapping[str, Facts]
+    ) -> None:
+        self._path = path
+        self._head = {"command": command, "options": options}
+        self._files = [earlier.get(job.output) or {"input": job.input, "output": job.output} for job in jobs]
+        self._open = set(range(len(jobs)))
+        self._begin = time.perf_counter()
+        self._next = 0.0
+        self.write()
+
+    def take(self, number: int, facts: Facts) -> None:
+        self._files[number] = facts
+        self._open.discard(number)
+        if time.perf_counter() >= self._next:
+            self.write()
+
+    def write(self) -> None:
+        begin = time.perf_counter()
+        state = {"complete": not self._open, "seconds": begin - self._begin, "totals": totals(self._files)}
+        text = json.dumps({**self._head, **state, "files": self._files}, indent=1, allow_nan=False)
+        write_output(self._path, text.encode() + b"\n", overwrite=True)
+        end = time.perf_counter()
+        self._next = end + max(_EVERY, (end - begin) / _SHARE)
+
+
+@dataclass(frozen=True)
+class Earlier:
+    outputs: Mapping[str, str | None]
+    files: Mapping[str, Facts]
+
+
+NOTHING = Earlier({}, {})
+
+
+def read_report(path: str, command: str, options: Facts) -> Earlier:
+    """Read a report to go on from; nothing is known where there is none."""
+    try:
+        report = json.loads(pipes.read_bytes(path))
+        files = {entry["output"]: entry for entry in map(_entry, report["files"])}
+        same = (report["command"], report["options"]) == (command, options)
+        json.dumps({**report, "totals": totals(list(files.values()))}, allow_nan=False)
+    except FileNotFoundError:
+        return NOTHING
+    except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
+        raise FormatError(f"{path}: this is no report of ours to go on from; name another with --report") from error
+    return Earlier({name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {})
+
+
+_MOST_BYTES = 1 << 63
+
+
+_FIELDS: Mapping[str, Callable[[Any], bool]] = {
+    **dict.fromkeys(("input_bytes", "output_bytes"), lambda value: type(value) is int and 0 <= value < _MOST_BYTES),
+    **dict.fromkeys(("seconds", "max_error_relative", "kg"), lambda value: type(value) in (int, float)),
+    **dict.fromkeys(("input", "output", "output_sha256"), lambda value: isinstance(value, str)),
+    "error": lambda value: isinstance(value, str) and bool(value.strip()),
+    "exit": lambda value: type(value) is int and 0 < value < 256,
+}
+
+
+def _entry(given: Any) -> Facts:
+    """What a report says of a file; raises as `read_report` catches."""
+    entry = dict(given)
+    needed = ("input", "output", *(("error", "exit") if "error" in entry else ()))
+    for name, fits in _FIELDS.items():
+        if (name in needed or entry.get(name) is not None) and not fits(entry[name]):
+            raise ValueError(f"{name} is {entry[name]!r}")
+    _cells(entry)
+    return entry
+
+
+def recorded(work: Work, task: Task, console: Console) -> Facts:
+    """Work that says what it read and wrote; it is not done again where both are still as `task.before` says."""
+    state, before = pipes.state_of(task.input), task.before
+    as_before = before is not None and state is not None and before.get("input_state") == state
+    if before and as_before and before.get("output_sha256") == digest_of(before["output"]):
+        return {**before, "resumed": True}
+    facts = _compared(work, task, console) if task.output in task.doubtful else work(task, console)
+    return {**facts, "input_state": state, "output_sha256": digest_of(facts["output"])}
+
+
+def _compared(work: Work, task: Task, console: Console) -> Facts:
+    """Work whose output is there already: it may be what a run wrote that was killed before it said so."""
+    path = Path(task.output)
+    refuse = FileExistsError(
+        errno.EEXIST, "the output is not what the report says was written; -f overwrites it", task.output
+    )
+    if not path.is_file() or path.is_symlink():
+        raise refuse
+    with tempfile.TemporaryDirectory() as folder:
+        again = str(Path(folder, path.name))
+        facts = work(replace(task, output=again), console)
+        if digest_of(again) != digest_of(task.output):
+            raise refuse
+    return {**facts, "output": task.output}
+
+
+def digest_of(path: str) -> str | None:
+    from hashlib import sha256
+
+    found = sha256()
+    try:
+        for file in pipes.files_behind(path):
+            for chunk in pipes.read_chunks(file):
+                found.update(chunk)
+    except OSError:
+        return None
+    return found.hexdigest()
+
+
+def totals(files: Sequence[Facts]) -> Facts:
+    done = [facts for facts in files if "output_sha256" in facts]
+    taken, given = (sum(facts.get(key) or 0 for facts in done) for key in ("input_bytes", "output_bytes"))
+    return {
+        "files": len(files),
+        "done": len(done),
+        "resumed": sum("resumed" in facts for facts in done),
+        "failed": sum("error" in facts for facts in files),
+        "input_bytes": taken,
+        "output_bytes": given,
+        "ratio": taken / given if given else None,
+    }
+
+
+def table(files: Sequence[Facts]) -> Iterator[str]:
+    """Bytes, ratio, error and time of each file, failures first; lines of text."""
+    rows = sorted(files, key=lambda facts: "error" not in facts)
+    width = max([len(facts["input"]) for facts in rows] + [5])
+    yield f"{'input':{width}} {'bytes':>12} {'to':>12} {'ratio':>7} {'error':>10} {'seconds':>8}"
+    for facts in rows:
+        yield f"{facts['input']:{width}} {_cells(facts)}"
+
+
+def _cells(facts: Facts) -> str:
+    if "error" in facts:
+        return f"failed: {facts['error'].splitlines()[-1].removeprefix(facts['input'] + ': ')}"
+    taken, given, farthest, kg = map(facts.get, ("input_bytes", "output_bytes", "max_error_relative", "kg"))
+    sizes = " ".join(f"{'' if size is None else size:>12}" for size in (taken, given))
+    ratio = f"{taken / given:.2f}" if taken and given else ""
+    error = f"{100 * farthest:.3g} %" if farthest is not None else f"KG {kg:.3g} %" if kg is not None else ""
+    seconds = "as it was" if "resumed" in facts else f"{facts.get('seconds') or 0.0:.2f}"
+    return f"{sizes} {ratio:>7} {error:>10} {seconds:>8}"

@@ -1,0 +1,99 @@
+"""What a job is asked for, what becomes of it, and how one is done."""
+
+import os
+import traceback
+from collections.abc import Callable, Generator, Iterator
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias, TypeVar
+
+from bsm.console import Console
+from bsm.exits import behind, is_expected
+from bsm.files import pipes
+
+_Same = TypeVar("_Same", bound="Task")
+
+
+Facts = dict[str, Any]  # what came of an input, ready for JSON; `input_bytes`, `output_bytes` are summed up
+
+
+@dataclass(frozen=True)
+class Job:
+    input: str
+    output: str = ""
+    after: tuple[int, ...] = ()  # numbers of the jobs before it whose outputs it needs
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """What is asked for an input; each command adds fields of its own."""
+
+    input: str = ""
+    output: str = ""
+    force: bool = False
+    quiet: bool = False
+    before: Facts | None = None  # what an earlier report says of it
+    replaceable: frozenset[str] = frozenset()  # files that are as that report says
+    doubtful: frozenset[str] = frozenset()  # files that it names and that are not
+    fresh: frozenset[str] = frozenset()  # files that were not there when the run began
+
+    def repeated(self: _Same) -> _Same:
+        return replace(self, replaceable=self.replaceable | self.fresh)
+
+    def may_replace(self, path: str) -> bool:
+        return self.force or path in self.replaceable
+
+
+Work: TypeAlias = Callable[[Any, Console], Facts]
+"""What a command does with a `Task` of its own; a function of a module, so that processes find it."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    facts: Facts
+    error: Exception | None = None
+    notes: tuple[str, ...] = ()
+
+
+class UnexpectedError(Exception):
+    """A fault of the program, with its traceback."""
+
+
+Numbered: TypeAlias = tuple[int, Task]
+
+
+Tasks: TypeAlias = Iterator[Numbered | None]  # made as they are needed; None: none is ready before others end
+
+
+Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]  # numbers of jobs and what came of them, as they end
+
+
+def outcome_of(work: Work, task: Task, console: Console) -> Outcome:
+    """Do one job; whatever fails is an outcome too, but for signals and for pipes that nobody reads."""
+    try:
+        with pipes.about(task.input):
+            return Outcome(work(task, console), notes=tuple(console.kept or ()))
+    except Exception as error:
+        if behind(error) is not error or isinstance(error, BrokenPipeError):
+            raise
+        failure = error
+        if not is_expected(error):
+            text = "".join(traceback.format_exception(error)).rstrip()
+            failure = UnexpectedError(f"{task.input}: unexpected error, please report it: {text}")
+        return Outcome({}, failure, tuple(console.kept or ()))
+
+
+def far_outcome(work: Work, task: Task) -> Outcome:
+    return outcome_of(work, task, Console(task.quiet, kept=[]))
+
+
+def anywhere(name: str) -> str:
+    """A name that means the same in every folder of a machine, and on every machine that has the same folders."""
+    return name if not name or pipes.is_url(name) else os.path.abspath(name)
+
+
+def came_to(taken: int | None, given: int) -> str:
+    """The bytes of an output, beside those of the input where they are known."""
+    if not taken or not given:
+        return f"{given} bytes"
+    ratio = f"{taken / given:.1f} : 1" if taken >= given else f"1 : {given / taken:.1f}"
+    return f"{taken} -> {given} bytes ({ratio})"

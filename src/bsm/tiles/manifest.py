@@ -1,0 +1,180 @@
+"""A manifest of tiles, and the index at the end of each shard: every number is checked where it is read."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+from bsm.bitstream.container.wire import require_major
+from bsm.bitstream.errors import BsmError, CorruptError, FormatError, TruncatedError
+from bsm.bitstream.limits import Limits
+from bsm.console import printable
+from bsm.files.pipes import Input, inside, place_of
+from bsm.jobs.task import Facts
+from bsm.tiles.cutting import Lattice, Root
+from bsm.tiles.reading import CARRIED, Kinds
+
+KINDS = {"|u1": "uchar", "<u2": "ushort", "<f4": "float"}  # of numbers that vertices have, and their names in PLY
+MANIFEST = "manifest.json"
+FOOT = 16  # bytes behind the index of a shard
+NO_JSON = (ValueError, KeyError, TypeError, AttributeError, RecursionError)
+_MOST, _FARTHEST_PLACE, _LARGEST = 1 << 60, 1 << 31, 1e290
+_SUM = re.compile(r"[0-9a-f]{64}")
+
+
+@dataclass(frozen=True)
+class Tile:
+    """What an index says of a tile: its node, where its bytes are, and what they hold."""
+
+    name: str
+    offset: int
+    size: int
+    sha256: str
+    vertices: int
+    faces: int
+    error: float
+    low: tuple[int, ...]
+    high: tuple[int, ...]
+
+    @property
+    def level(self) -> int:
+        return len(self.name) - 1
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """A manifest as it was read, and the parts of it that are computed with."""
+
+    given: Facts
+    lattice: Lattice
+    root: Root
+    kinds: Kinds
+
+
+def json_of(name: str, limits: Limits) -> Any:
+    """Return what a JSON file holds, of at most `limits.metadata_bytes`."""
+    source = Input(name)
+    data = source.peek(int(min(limits.metadata_bytes, _MOST)) + 1)
+    source.close()
+    limits.check("metadata_bytes", len(data))
+    return parsed(data)
+
+
+def parsed(data: bytes) -> Any:
+    """Return what JSON text means; numbers that JSON does not have are a `ValueError`."""
+    return json.loads(data, parse_constant=_refuse)
+
+
+def _refuse(word: str) -> NoReturn:
+    raise ValueError(f"{word} is no number")
+
+
+def read_manifest(path: str, limits: Limits) -> Manifest:
+    """Read the manifest of a folder or URL."""
+    name = inside(path, MANIFEST)
+    try:
+        given = json_of(place_of(path, MANIFEST), limits)
+        if given["format"] != "bsm tiles":
+            raise KeyError("format")
+        if given["version"] != 1:
+            raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
+        require_major(f"{name}: these tiles are", given.get("stream", 0))  # version 0 said nothing
+        if given.get("complete") is False:
+            levels = [tuple(whole(one[key]) for key in ("whole", "tiles", "level")) for one in given["levels"]]
+            counts = ", ".join("{} of {} tiles of level {}".format(*level) for level in levels) or "nothing"
+            again = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
+            said = f"these tiles are unfinished; whole so far: {counts}; with its other options, {again} goes on"
+            raise TruncatedError(f"{name}: {printable(said)}")
+        return _checked(given)
+    except BsmError:
+        raise
+    except NO_JSON as error:
+        raise FormatError(f"{name}: this is no manifest of tiles: {error!r:.300}") from error
+
+
+def _checked(given: Facts) -> Manifest:
+    cell, origin = real(given["cell"]), tuple(map(real, _three(given["origin"])))
+    root = Root(places(given["root"]["low"]), whole(given["root"]["bits"], 1, 59))
+    if not cell >= 1.0 / _LARGEST:
+        raise ValueError(f"the cell is {cell}")
+    kinds = {what: (str(kind), whole(size, 3, 4)) for what, (kind, size) in given.get("attributes", {}).items()}
+    if any(what not in CARRIED or kind not in KINDS for what, (kind, _) in kinds.items()):
+        raise ValueError("attributes")
+    if not isinstance(given["source"], str):
+        raise ValueError("source")
+    for key in ("vertices", "faces"):
+        whole(given[key], 1)
+    for number, level in enumerate(_filled(given["levels"])):
+        [whole(level[key], 1) for key in ("tiles", "faces", "bytes")]
+        if whole(level["level"]) > 60 or (number and level["level"] <= given["levels"][number - 1]["level"]):
+            raise ValueError("the order of levels")
+        real(level["error"], 0.0)
+    for shard in _filled(given["shards"]):
+        if not re.fullmatch(r"\d{5,9}\.tiles", shard["file"]) or not _SUM.fullmatch(shard["sha256"]):
+            raise ValueError(shard["file"])
+        whole(shard["index"], 2, whole(shard["size"]) - FOOT)
+        whole(shard["tiles"], 1)
+        ends(shard)
+    if len({shard["file"] for shard in given["shards"]}) < len(given["shards"]):
+        raise ValueError("a shard is named twice")
+    return Manifest(given, Lattice(cell, origin), root, kinds)
+
+
+def parse_index(name: str, data: bytes, shard: Mapping[str, Any], root: Root) -> list[Tile]:
+    """Return the tiles that an index, of a shard as the manifest describes it, names."""
+    try:
+        tiles = [Tile(**{**one, **dict(zip(("low", "high"), ends(one)))}) for one in parsed(data)]
+        if len(tiles) != shard["tiles"] or len({tile.name for tile in tiles}) < len(tiles):
+            raise ValueError(f"{len(tiles)} tiles")
+        for tile in tiles:
+            if not re.fullmatch("r[0-7]{0,59}", tile.name) or tile.level > root.bits or not _SUM.fullmatch(tile.sha256):
+                raise ValueError(tile.name)
+            whole(tile.offset, 0, shard["size"] - shard["index"] - FOOT - whole(tile.size, 1))
+            [whole(count, 1) for count in (tile.vertices, tile.faces)]
+            real(tile.error, 0.0)
+    except NO_JSON as error:
+        raise CorruptError(f"{name}: the index at the end of this shard makes no sense: {error!r:.300}") from error
+    return tiles
+
+
+def whole(value: Any, least: int = 0, most: int = _MOST) -> int:
+    """Return a whole number within bounds."""
+    if type(value) is not int or not least <= value <= most:
+        raise ValueError(f"{value!s:.40} is no whole number from {least} to {most}")
+    return value
+
+
+def real(value: Any, least: float = -_LARGEST) -> float:
+    """Return a finite number."""
+    if type(value) not in (int, float) or not least <= value <= _LARGEST:
+        raise ValueError(f"{value!s:.40} is no number from {least} on")
+    return float(value)
+
+
+def places(given: Any) -> tuple[int, ...]:
+    """Return a place on the lattice."""
+    return tuple(whole(one, -_FARTHEST_PLACE, _FARTHEST_PLACE) for one in _three(given))
+
+
+def ends(given: Mapping[str, Any]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Return the lowest and the highest place of a tile or a shard."""
+    low, high = places(given["low"]), places(given["high"])
+    if any(a > b for a, b in zip(low, high)):
+        raise ValueError("bounds")
+    return low, high
+
+
+def _three(given: Any) -> Sequence[Any]:
+    if not isinstance(given, list) or len(given) != 3:
+        raise ValueError("three numbers are expected")
+    return given
+
+
+def _filled(given: Any) -> Sequence[Any]:
+    if not isinstance(given, list) or not given:
+        raise ValueError("a list with something in it is expected")
+    return given

@@ -1,0 +1,84 @@
+"""The folders of a run of `bsm tile`: which process holds them, and which files of them the run has made."""
+
+from __future__ import annotations
+
+import errno
+import os
+import re
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from bsm.bitstream.errors import OptionError
+
+try:
+    import fcntl
+except ImportError:  # not a POSIX system
+    fcntl = None  # type: ignore[assignment]
+LOCK, NOTE = ".tile.lock", "asked"
+_BEGIN = "({'triangles'"  # of the note of a run
+_MADE = re.compile(
+    rf"({LOCK}|{NOTE}|plan\.json|tiles\.json|positions|faces|color|normal|places|cut|codes|outside|r[0-7]*\.(mesh|bsm))"
+    r"|\.(plan|tiles|r[0-7]*)\.(json|mesh|bsm)\.\w{8}\.part"
+)
+
+
+@contextmanager
+def held(folder: Path, take_over: bool) -> Iterator[None]:
+    """Hold a folder; `OSError` with the process and host of whoever holds it, or left it unless `take_over`."""
+    path = folder / LOCK
+    while True:
+        file = path.open("a+")
+        try:
+            if fcntl is not None:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if path.exists() and os.path.samestat(os.fstat(file.fileno()), path.stat()):
+                break
+            file.close()  # its owner has just removed it
+        except OSError as error:
+            with file:
+                raise _held_by(path, "works in this folder; wait until it has ended, or name another one") from error
+    with file:
+        if file.seek(0, os.SEEK_END) and not take_over:
+            raise _held_by(path, "left this folder unfinished; --resume goes on, -f begins anew")
+        file.truncate(0)
+        file.write(f"{os.getpid()} {socket.gethostname()}\n")
+        file.flush()
+        try:
+            yield
+        finally:
+            with suppress(OSError):
+                path.unlink()
+
+
+def _held_by(path: Path, said: str) -> OSError:
+    with suppress(OSError):
+        words = path.read_text(errors="replace").split()[:2]
+        if len(words) == 2 and words[0].isdigit():
+            return OSError(errno.EBUSY, f"process {words[0]} on {words[1]!r:.80} {said}", str(path.parent))
+    return OSError(errno.EBUSY, f"another process {said}", str(path.parent))
+
+
+def is_own(work: Path) -> bool:
+    """Whether a run has left its note in a folder."""
+    with suppress(OSError):
+        return (work / NOTE).read_text(errors="replace").startswith(_BEGIN)
+    return False
+
+
+def refuse_others(work: Path) -> None:
+    """Raise `OptionError` for a folder with files, but without the note of a run."""
+    if work.is_dir() and {*os.listdir(work)} - {LOCK} and not is_own(work):
+        raise OptionError(f"{work} holds other files; name an empty folder, or a new one, with --work")
+
+
+def remove_made(work: Path) -> None:
+    """Remove what a run has made in a folder, and the folder if nothing else is in it."""
+    for name in os.listdir(work) if work.is_dir() else ():
+        if name != LOCK and _MADE.fullmatch(name):
+            (work / name).unlink(missing_ok=True)
+    if work.is_dir() and not {*os.listdir(work)} - {LOCK}:
+        with suppress(OSError):
+            (work / LOCK).unlink(missing_ok=True)
+            work.rmdir()

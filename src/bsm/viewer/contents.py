@@ -1,0 +1,177 @@
+"""What the page shows: a stream, and beside it the original and Draco's file; made here, or in a process of its own."""
+
+from __future__ import annotations
+
+import math
+import multiprocessing
+import signal
+from bisect import bisect_left
+from collections.abc import Callable, Generator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import cache
+from multiprocessing.connection import Connection
+from pathlib import PurePath
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm.api import encode
+from bsm.bitstream.errors import BsmError, DependencyError, MeshError, UnsupportedError
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.geometry.mesh import TriangleMesh, extent_of
+from bsm.codec.geometry.metrics import Reference
+from bsm.comparison import in_order_of
+from bsm.exits import worded
+from bsm.files.mesh import read_mesh
+from bsm.files.pipes import Input
+from bsm.files.stream import decode_whole, peek_header
+
+DRACO_LEVEL = 10
+DRACO_BITS = range(4, 25)
+PRESETS = ("small", "balanced", "fine", "near-lossless")
+_EVERY = 0.1  # seconds between two reports of a process
+_ENCODING = 0.7  # of the time that a mesh takes
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """A mesh that the page shows: its stream, the size of the file it stands for, and how far each vertex is off."""
+
+    title: str
+    detail: str
+    size: int
+    stream: bytes
+    off: npt.NDArray[np.float32] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Content:
+    """Layers, of which `main` is the stream that is looked at, and what was promised and measured of it."""
+
+    name: str
+    layers: tuple[Layer, ...]
+    main: int = 0
+    facts: Mapping[str, Any] = field(default_factory=dict)
+
+
+def alone(name: str, stream: bytes) -> Content:
+    return Content(name, (Layer("BSM", "", len(stream), stream),))
+
+
+def compared(
+    name: str,
+    stream: bytes,
+    original: TriangleMesh,
+    *,
+    size: int | None = None,
+    preset: str | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Content:
+    """A stream of a mesh beside its original, a file of `size` bytes, and beside Draco if DracoPy is installed."""
+    header, _ = peek_header(Input(stream).chunks())
+    if header is not None and header.gop_frames:
+        raise UnsupportedError(f"{name} is a sequence; only single meshes are compared with an original")
+    from bsm.codec.look.measure import look
+    from bsm.codec.static.options import PRESETS as ALL
+
+    decoded = decode_whole(Input(stream).chunks(), limits)
+    used = decoded.without_isolated_vertices()[0]
+    source = original.without_isolated_vertices()[0]
+    if len(source.positions) != len(used.positions):
+        from bsm.codec.static.preamble_encoding import join
+
+        source = join(source, keep=False).mesh
+    plain = 12 * (len(original.positions) + len(original.faces))
+    first = Layer("Original", "" if size else "as plain arrays", size or plain, encode(original, preset="lossless"))
+    off = _off(decoded, source)
+    diagonal = float(np.linalg.norm(extent_of(source.positions))) or 1.0
+    theta = Reference(source.positions, source.faces).theta(in_order_of(source, used))
+    facts: dict[str, Any] = {"preset": preset, "diagonal": diagonal, "theta": theta}
+    facts["farthest"] = float(np.nanmax(off, initial=0.0)) / diagonal
+    rival: tuple[Layer, ...] = ()
+    with suppress(DependencyError, MeshError):  # nothing is seen of faces without area, and Draco takes not all
+        facts["look"] = look(source, used).distance
+        if not original.attributes:
+            rival, facts["draco"] = _rival(source, len(stream), facts["look"])
+    contract = ALL[preset].contract if preset else None
+    if contract is not None:
+        bounds = {"look": contract.look, "farthest": min(contract.farthest, contract.by_part)}
+        facts["promised"] = {bound: value for bound, value in bounds.items() if math.isfinite(value)}
+    return Content(name, (first, Layer("BSM", preset or "", len(stream), stream, off), *rival), 1, facts)
+
+
+def _off(decoded: TriangleMesh, source: TriangleMesh) -> npt.NDArray[np.float32]:
+    """The distance of each vertex of a decoded mesh from its place; not a number where no face uses it."""
+    used, kept = decoded.without_isolated_vertices()
+    off = np.full(len(decoded.positions), np.nan, np.float32)
+    off[kept] = np.linalg.norm(in_order_of(used, source) - used.positions, axis=1)
+    return off
+
+
+def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Layer], dict[str, int] | None]:
+    """Draco's finest file of at most `size` bytes, and the size of its smallest that looks as good."""
+    from bsm.codec.look.measure import look
+    from bsm.codec.static.encoder import Encoder
+    from bsm.codec.static.options import PRESETS as ALL
+    from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order
+
+    @cache
+    def file(bits: int) -> bytes:
+        return encode_draco(source, bits, DRACO_LEVEL)
+
+    @cache
+    def mesh(bits: int) -> TriangleMesh:
+        return TriangleMesh(positions_in_order(source, decode_draco(file(bits)), bits), source.faces)
+
+    small = DRACO_BITS[max(bisect_left(DRACO_BITS, True, key=lambda bits: len(file(bits)) > size) - 1, 0)]
+    good = bisect_left(DRACO_BITS, True, key=lambda bits: look(source, mesh(bits)).distance <= distance)
+    carrier = Encoder(mesh(small), ALL["lossless"])  # which joins vertices that Draco put at one place
+    stream = b"".join(carrier.chunks())
+    off = np.linalg.norm(mesh(small).positions - source.positions, axis=1)[carrier.vertex_order]
+    layer = Layer("Draco", f"{small} bits", len(file(small)), stream, off.astype(np.float32))
+    if good == len(DRACO_BITS):
+        return (layer,), None
+    return (layer,), {"bytes": len(file(DRACO_BITS[good])), "bits": DRACO_BITS[good]}
+
+
+def made(name: str, data: bytes, mesh: TriangleMesh, preset: str, tell: Callable[[str, float], None]) -> Content:
+    """A mesh file encoded, and beside its original; `tell` hears what begins, and what share is done."""
+    tell("encoding", 0.0)
+    stream = encode(mesh, preset=preset)
+    tell("comparing", _ENCODING)
+    return compared(name, stream, mesh, size=len(data), preset=preset)
+
+
+def _work(pipe: Connection, name: str, data: bytes, preset: str) -> None:
+    """What the process of an upload does: it sends pairs of a stage and a share, then its result or a sentence."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        pipe.send(("reading", 0.0))
+        mesh = read_mesh(data, limits=Limits.service()).mesh
+        pipe.send(made(name, data, mesh, preset, lambda stage, share: pipe.send((stage, share))))
+    except (BsmError, MemoryError) as error:
+        pipe.send(worded(error))
+
+
+def uploaded(name: str, data: bytes, preset: str) -> Generator[tuple[str, float] | Content | str]:
+    """Encode what was dropped on the page, in a process that ends when nobody listens: what it says, as it comes."""
+    here, there = multiprocessing.get_context("spawn").Pipe()
+    process = multiprocessing.get_context("spawn").Process(
+        target=_work, args=(there, PurePath(name).name, data, preset), daemon=True
+    )
+    process.start()
+    there.close()
+    try:
+        said: Any = ("starting", 0.0)
+        while isinstance(said, tuple):
+            if here.poll(_EVERY):
+                said = here.recv()
+            yield said
+    except (EOFError, OSError):
+        yield "the process that encoded it has died"
+    finally:
+        process.kill()
+        process.join()
+        here.close()

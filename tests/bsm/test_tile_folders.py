@@ -1,0 +1,136 @@
+"""Folders of `bsm tile`: one run at a time, nothing of others is removed, nothing is begun anew without being asked."""
+
+import json
+import socket
+import subprocess
+import sys
+import time
+
+import pytest
+
+from bsm.files.mesh import write_mesh
+from bsm.tiles.work import LOCK
+from tests.bsm.program import bsm, process
+from tests.shapes import curved, torus
+
+CELL = 2.0**-14
+
+
+@pytest.fixture
+def source(tmp_path):
+    write_mesh(tmp_path / "mesh.ply", curved(torus(40, 30)))
+    return tmp_path / "mesh.ply"
+
+
+def tile(source, output, *more, run=bsm):
+    return run("tile", source, "-o", output, "--grid-cell", CELL, "--triangles", 300, *more, text=True)
+
+
+def holding(folder):
+    """A process that holds a folder until its standard input is closed."""
+    code = (
+        "import sys; from pathlib import Path; from bsm.tiles.work import held\n"
+        f"with held(Path({str(folder)!r}), False): print('held', flush=True); sys.stdin.read()"
+    )
+    other = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    assert other.stdout.readline() == b"held\n"
+    return other
+
+
+@pytest.mark.parametrize("option", [(), ("-f",), ("--resume",)])
+def test_a_second_run_says_who_holds_the_folder_and_changes_nothing(source, tmp_path, option):
+    (tmp_path / "out").mkdir()
+    with holding(tmp_path / "out") as other:
+        second = tile(source, tmp_path / "out", *option)
+        assert second.returncode == 9
+        assert f"process {other.pid} on '{socket.gethostname()}' works in this folder" in second.stderr
+        assert [path.name for path in (tmp_path / "out").iterdir()] == [LOCK]
+        third = tile(source, tmp_path / "else", "--work", tmp_path / "out")
+        assert third.returncode == 9 and str(other.pid) in third.stderr
+        other.communicate()
+    assert tile(source, tmp_path / "out").returncode == 0
+    assert not (tmp_path / "out" / LOCK).exists()
+
+
+@pytest.mark.slow
+def test_of_two_runs_at_a_time_the_first_is_whole(source, tmp_path):
+    for trial in range(20):
+        output = tmp_path / f"out{trial}"
+        words = [
+            sys.executable,
+            "-m",
+            "bsm",
+            "tile",
+            source,
+            "-o",
+            output,
+            "--triangles",
+            "100",
+            "--grid-cell",
+            str(CELL),
+        ]
+        first = subprocess.Popen(words, stderr=subprocess.PIPE)
+        while not (output / LOCK).exists() and first.poll() is None:
+            time.sleep(0.01)
+        second = process("tile", source, "-o", output, *(["-f"] if trial % 2 else []))
+        alive = first.poll() is None
+        first.communicate()
+        assert first.returncode == 0
+        if alive:
+            assert second.returncode == 9 and f"process {first.pid} on".encode() in second.stderr
+        assert bsm("verify", output).returncode == 0
+
+
+def test_a_run_that_died_is_taken_over_when_asked(source, tmp_path):
+    (tmp_path / "out").mkdir()
+    with holding(tmp_path / "out") as other:
+        other.kill()
+        other.communicate()
+    refused = tile(source, tmp_path / "out")
+    assert refused.returncode == 9 and "left this folder unfinished; --resume goes on, -f begins anew" in refused.stderr
+    assert tile(source, tmp_path / "out", "--resume").returncode == 0
+
+
+def test_unfinished_tiles_are_not_begun_anew_without_being_asked(source, tmp_path):
+    assert tile(source, tmp_path / "out").returncode == 0
+    path = tmp_path / "out" / "manifest.json"
+    unfinished = json.dumps(
+        {"format": "bsm tiles", "version": 1, "stream": 1, "source": "a", "complete": False, "levels": []}
+    )
+    path.write_text(unfinished)
+    (tmp_path / "out" / ".work").mkdir()
+    (tmp_path / "out" / ".work" / "asked").write_text("({'triangles': 300}, None)")
+    (tmp_path / "out" / ".work" / "plan.json").write_text("{}")
+    refused = tile(source, tmp_path / "out")
+    assert refused.returncode == 9 and "--resume goes on with them, -f begins anew" in refused.stderr
+    assert path.read_text() == unfinished
+    assert tile(source, tmp_path / "out", "-f").returncode == 0
+
+
+def test_what_others_have_in_the_work_folder_stays(source, tmp_path):
+    work = tmp_path / "work"
+    work.mkdir()
+    (work / "asked").write_text("\n")
+    (work / "thesis.txt").write_text("years of work")
+    refused = tile(source, tmp_path / "out", "--work", work)
+    assert refused.returncode == 2 and "holds other files" in refused.stderr
+    (work / "asked").write_text("({'triangles': 1}, None)")
+    (work / "r0").mkdir()
+    assert tile(source, tmp_path / "out", "--work", work).returncode == 0
+    assert sorted(path.name for path in work.iterdir()) == ["r0", "thesis.txt"]
+    assert tile(source, tmp_path / "again", "--work", tmp_path / "new").returncode == 0
+    assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize("option", [(), ("-f",), ("--resume",)])
+def test_a_manifest_stays_until_the_input_was_read(source, tmp_path, option):
+    output = tmp_path / "own"
+    output.mkdir()
+    for text in ('{"complete": false}', '{"name": "my extension"}', "[]", "no JSON"):
+        (output / "manifest.json").write_text(text)
+        refused = tile(source, output, *option)
+        assert refused.returncode == 3 and "is no manifest of tiles, and stays" in refused.stderr
+        assert tile(tmp_path / "nothere.ply", output, *option).returncode == 9
+        assert (output / "manifest.json").read_text() == text
+    assert tile(source, tmp_path / "new", "--work", output).returncode == 2
+    assert not (tmp_path / "new" / "manifest.json").exists()

@@ -1,0 +1,64 @@
+"""Threads of the host change nothing but time."""
+
+import ctypes
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.engine.decoding import Decoded, Parallel, decode
+from tools.amalgamate import ROOT, amalgamated, interface
+
+VECTORS = ROOT / "spec/vectors"
+NAMES = ("good-refined-steep", "good-keys", "good-layer-chunks", "good-independent-predicted", "bad-refinement-short")
+
+
+def same(one: Decoded, other: Decoded) -> bool:
+    """Whether two decoders said the same."""
+    assert one.arrays.keys() == other.arrays.keys()
+    assert all(np.array_equal(one.arrays[key], other.arrays[key], equal_nan=True) for key in one.arrays)
+    return (one.status, one.message, one.losses) == (other.status, other.message, other.losses)
+
+
+def damaged(stream: bytes, step: int) -> Iterator[bytes]:
+    """Streams in which one bit is wrong, or some bytes are missing."""
+    for place in range(8, len(stream), step):
+        yield stream[:place] + bytes([stream[place] ^ 1 << place % 8]) + stream[place + 1 :]
+        yield stream[:place] + stream[place + 3 :]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_threads_give_the_same(library: ctypes.CDLL, name: str) -> None:
+    stream = (VECTORS / "1.0" / f"{name}.bsm").read_bytes()
+    parallel = Parallel(3)
+    assert same(decode(library, stream), decode(library, stream, parallel=parallel))
+    assert parallel.tasks > 1
+
+
+@pytest.mark.parametrize("name", NAMES[:4])
+def test_damage_is_the_same_in_threads(library: ctypes.CDLL, name: str) -> None:
+    stream = (VECTORS / "1.0" / f"{name}.bsm").read_bytes()
+    for mutant in damaged(stream, max(len(stream) // 24, 1)):
+        ours = decode(library, mutant, tolerant=True)
+        assert same(ours, decode(library, mutant, tolerant=True, parallel=Parallel(3)))
+
+
+@pytest.mark.slow
+def test_threads_touch_nothing_together(tmp_path: Path) -> None:
+    """The example with POSIX threads under the thread sanitizer."""
+    (tmp_path / "bsmdec.c").write_text(amalgamated())
+    (tmp_path / "bsmdec.h").write_text(interface())
+    program, example = tmp_path / "threads", ROOT / "engine/examples/threads.c"
+    flags = ["-fsanitize=thread", "-O1", "-g", "-DKERNEL_ONE_TARGET", "-ffp-contract=off", "-w", "-I."]
+    command = ["cc", *flags, str(example), "bsmdec.c", "-lm", "-pthread", "-o", str(program)]
+    subprocess.run(command, check=True, cwd=tmp_path)
+    for name in NAMES[:4]:
+        said = []
+        for threads in ("1", "3"):
+            path = VECTORS / "1.0" / f"{name}.bsm"
+            run = subprocess.run([program, path, threads], capture_output=True, text=True, check=True)
+            assert "WARNING" not in run.stderr
+            said.append(run.stdout)
+        assert said[0] == said[1]

@@ -1,0 +1,50 @@
+"""Small files that take long to encode: their pictures are bounded, and the search for worse ones is sound."""
+
+from random import Random
+
+import pytest
+
+import bsm
+from bsm.codec.look.measure import MOST_WORK, LookMetric
+from tools.attack.costly import Recipe, changed, drawn, encoded, search
+
+FEWER = 3.0  # a search for a stream may draw so many times what it may before it tries nothing more that is optional
+
+
+@pytest.fixture
+def metrics(monkeypatch):
+    """Every `LookMetric` that is made."""
+    made, begin = [], LookMetric.__init__
+    monkeypatch.setattr(
+        LookMetric, "__init__", lambda self, *args, **named: made.append(self) or begin(self, *args, **named)
+    )
+    return made
+
+
+@pytest.mark.parametrize(
+    ("shape", "vertices", "faces"),
+    [("copies", 3, 1000), ("planes", 300, 100), ("slivers", 60, 300), ("random", 10, 800)],
+)
+def test_what_is_drawn_for_small_files_is_bounded_whatever_covers_what(metrics, shape, vertices, faces):
+    taken = encoded(Recipe(shape, vertices, faces, 0.0, "none", "balanced", 1).ply, "balanced")
+    assert taken.outcome.endswith(" bytes")
+    assert metrics
+    assert sum(metric._drawn_pictures * metric._size.work for metric in metrics) < FEWER * MOST_WORK
+
+
+def test_recipes_are_files_that_are_read_and_mutants_are_others():
+    random = Random("recipes")
+    recipe = drawn(random)
+    for _ in range(20):
+        recipe = changed(recipe, random)
+        small = Recipe(**{**vars(recipe), "vertices": min(recipe.vertices, 300), "faces": min(recipe.faces, 300)})
+        try:
+            assert len(bsm.load(small.ply, limits=bsm.Limits.service()).faces)
+        except bsm.MeshError as error:
+            assert str(error)
+
+
+@pytest.mark.slow
+def test_a_short_search_finds_no_file_over_the_bound():
+    worst = search(30.0, "test")
+    assert worst[0][0] <= 2.0, worst[0]  # CPU seconds of a machine that does other things, too

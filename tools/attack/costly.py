@@ -1,0 +1,164 @@
+"""`python -m tools.attack costly`: search for small files of meshes that take long to encode, by mutating the worst.
+
+Each file is a binary PLY file with few bytes for its mesh. It is read under the limits of a service and encoded on one
+thread. The CPU time of both is compared with the bound of src/bsm/SERVICE.md: `SECONDS` and `SECONDS_PER_BYTE`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import numpy as np
+
+import bsm
+from bsm.bitstream.errors import BsmError
+from tools.attack.taken import Taken, taken_by_each, warm_up
+
+SECONDS, SECONDS_PER_BYTE = 2.0, 2e-5
+FAN = 255  # corners of the longest polygon whose number of corners takes a byte
+SHAPES = ("random", "planes", "fan", "slivers", "shells", "grid", "copies", "tiny")
+ATTRIBUTES = ("none", "none", "none", "color", "normal", "texcoord")
+PRESETS = ("balanced", "balanced", "fine", "small", "near-lossless")
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """What a file is made of: a shape of `vertices` and `faces`, where `small` of the faces are tiny."""
+
+    shape: str
+    vertices: int
+    faces: int
+    small: float
+    attribute: str
+    preset: str
+    seed: int
+
+    @property
+    def ply(self) -> bytes:
+        """The file."""
+        random = np.random.default_rng(self.seed)
+        positions, polygons = _polygons(self, random)
+        tiny = int(self.small * len(positions))
+        positions[:tiny] = positions[0] + 1e-3 * random.normal(size=(tiny, 3))
+        many, wide = len(positions), len(positions) > 256
+        values, lines = _attribute(self.attribute, random, many)
+        columns = np.column_stack([positions, values]).astype("<f4") if values.shape[1] else positions.astype("<f4")
+        head = ["ply", "format binary_little_endian 1.0", f"element vertex {many}"]
+        head += [f"property float {name}" for name in ("x", "y", "z", *lines)]
+        head += [f"element face {len(polygons)}"]
+        head += [f"property list uchar {'ushort' if wide else 'uchar'} vertex_indices", "end_header", ""]
+        corners = (bytes([len(polygon)]) + polygon.astype("<u2" if wide else "u1").tobytes() for polygon in polygons)
+        return "\n".join(head).encode() + columns.tobytes() + b"".join(corners)
+
+
+def _polygons(recipe: Recipe, random: np.random.Generator) -> tuple[np.ndarray, list[np.ndarray]]:
+    many, count = max(recipe.vertices, 3), max(recipe.faces, 1)
+    turns = 2 * np.pi * np.arange(many) / many
+    at = random.normal(size=(many, 3))
+    match recipe.shape:
+        case "planes" | "copies" | "grid":  # large, above each other
+            rows = -(-many // 3)
+            corners = np.array([[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]])
+            step = 0.0 if recipe.shape == "copies" else 1.0 / rows
+            at = np.column_stack([np.tile(corners, (rows, 1)), np.repeat(step * np.arange(rows), 3)])
+            faces = np.arange(3 * rows).reshape(-1, 3)
+            if recipe.shape == "grid":
+                side = max(2, int(many**0.5))
+                at = np.stack(np.meshgrid(*(np.arange(side, dtype=float),) * 2, [0.0]), -1).reshape(-1, 3)
+                at[:, 2] = random.normal(size=len(at))
+                first = np.arange(side * side).reshape(side, side)[:-1, :-1].ravel()
+                faces = np.concatenate([first[:, None] + [0, 1, side], first[:, None] + [1, side + 1, side]])
+            return at, list(np.resize(faces, (count, 3)))
+        case "fan":  # planes through one line
+            at = np.column_stack([np.cos(turns), np.sin(turns), np.resize([-1.0, 1.0], many)])
+        case "slivers":
+            at = np.column_stack([np.cos(turns), 1e-3 * np.sin(turns), np.resize([-1.0, 1.0], many)])
+        case "shells":
+            at = at / np.linalg.norm(at, axis=1, keepdims=True) * np.linspace(1.0, 2.0, many)[:, None]
+        case "tiny":
+            at[1:-2] = at[0] + 1e-4 * at[1:-2]
+    long = [FAN] * (count // (FAN - 2)) + [count % (FAN - 2) + 2]
+    return at, [random.integers(0, many, size) for size in long]
+
+
+def _attribute(kind: str, random: np.random.Generator, many: int) -> tuple[np.ndarray, tuple[str, ...]]:
+    names = {"none": "", "color": "red green blue", "normal": "nx ny nz", "texcoord": "s t"}[kind].split()
+    values = random.uniform(0.0, 1.0, (many, len(names)))
+    return values, tuple(names)
+
+
+def drawn(random: Random) -> Recipe:
+    """Any recipe."""
+    vertices, faces = (int(10 ** random.uniform(low, 3.7)) for low in (0.5, 0.0))
+    small = random.choice((0.0, 0.0, 0.0, random.random()))
+    kinds = (random.choice(names) for names in (SHAPES, ATTRIBUTES, PRESETS))
+    shape, attribute, preset = kinds
+    return Recipe(shape, vertices, faces, small, attribute, preset, random.randrange(1 << 30))
+
+
+def changed(recipe: Recipe, random: Random) -> Recipe:
+    """The recipe with one thing as another has it, or with more or less of it."""
+    name, changes = random.choice(list(vars(recipe))), dict[str, Any]()
+    if name in ("vertices", "faces"):
+        changes[name] = max(1, int(getattr(recipe, name) * 2 ** random.uniform(-2, 2)))
+    else:
+        changes[name] = getattr(drawn(random), name)
+    return replace(recipe, **changes)
+
+
+def encoded(data: bytes, preset: str) -> Taken:
+    """Read a file as a service does, and encode it."""
+    try:
+        mesh = bsm.load(data, limits=bsm.Limits.service())
+        return Taken(f"{len(bsm.encode(mesh, preset=preset, threads=1))} bytes", len(data), len(mesh.faces))
+    except BsmError as error:
+        return Taken(f"{type(error).__name__}: {error}", len(data))
+
+
+def share(taken: Taken) -> float:
+    """What it took over what it may take; something else than a stream or an error of ours is the worst."""
+    return float("inf") if taken.escaped else taken.seconds / (SECONDS + SECONDS_PER_BYTE * taken.size)
+
+
+def search(seconds: float, seed: str, kept: int = 12) -> list[tuple[float, Recipe, Taken]]:
+    """The worst of what was tried in so many seconds, the worst first."""
+    random, worst, end = Random(seed), list[tuple[float, Recipe, Taken]](), time.monotonic() + seconds
+    while time.monotonic() < end:
+        new = not worst or random.random() < 0.3
+        recipes = [drawn(random) if new else changed(random.choice(worst)[1], random) for _ in range(4)]
+        works = [partial(_prepared, recipe) for recipe in recipes]
+        found = zip(recipes, taken_by_each(works, seconds=120), strict=True)
+        worst = sorted([*worst, *((share(taken), recipe, taken) for recipe, taken in found)], key=lambda row: -row[0])
+        worst = worst[:kept]
+    return worst
+
+
+def _prepared(recipe: Recipe) -> partial[Taken]:
+    return partial(encoded, recipe.ply, recipe.preset)
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seconds", type=float, default=600, help="how long to search (default: %(default)s)")
+    parser.add_argument("--seed", default="0")
+    parser.add_argument("--save", type=Path, metavar="FILE", help="write the worst file here")
+    args = parser.parse_args()
+    warm_up()
+    worst = search(args.seconds, args.seed)
+    for part, recipe, taken in worst:
+        print(f"{part:.2f} of the bound: {taken.seconds:.2f} s, {taken.size} bytes, {taken.outcome[:60]}; {recipe}")
+    if args.save:
+        args.save.write_bytes(worst[0][1].ply)
+    return 1 if worst[0][0] > 1.0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,43 @@
+/** What colors say of a mesh: how far each vertex is off, its block, or whether it is refined. */
+import { Color } from "three";
+import type { BSMGeometry } from "../geometry";
+
+export type Scheme = "plain" | "own" | "blocks" | "refined" | "error";
+
+export const LEGENDS: Record<Scheme, string> = {
+    plain: "",
+    own: "",
+    blocks: "Order in which blocks arrive",
+    refined: "Vertices that refinement has moved",
+    error: "Distance from the original",
+};
+
+const STOPS = ["#e9eef2", "#ffe08a", "#fd9a3c", "#e0312d", "#7a0f6b"];
+export const RAMP = `linear-gradient(90deg, ${STOPS.join(", ")})`;
+const STEPS = Array.from({ length: 256 }, (_, i) => {
+    const place = (i / 255) * (STOPS.length - 1);
+    const at = Math.min(Math.floor(place), STOPS.length - 2);
+    return new Color(STOPS[at]).lerp(new Color(STOPS[at + 1]), place - at).toArray();
+});
+
+/** Of distances over a diagonal, a round number (1, 2 or 5 times a power of ten) that few exceed. */
+export function topOf(off: ArrayLike<number>, diagonal: number): number {
+    const known = Float64Array.from(off).filter((far) => far >= 0).sort();
+    const far = known[Math.floor(0.995 * (known.length - 1))] / diagonal || 1e-9;
+    const power = 10 ** Math.floor(Math.log10(far));
+    return power * [1, 2, 5, 10].find((step) => step * power >= far)!;
+}
+
+/** Colors of all drawn vertices, shape (n, 3); undefined where a mesh has nothing of the kind. */
+export function colorsOf(geometry: BSMGeometry, scheme: Scheme, off?: Float32Array, top = 1): Float32Array | undefined {
+    const { header, origin, refined, parted } = geometry;
+    if (scheme === "plain" || scheme === "own" || !header) return undefined;
+    const last = Math.max((header.blocks || geometry.blocks) - 1, 1);
+    const shares = { blocks: (vertex: number) => origin[vertex] / last, refined: (vertex: number) => refined[vertex], error: (vertex: number) => off![vertex] / top };
+    const drawn = geometry.getAttribute("position").count;
+    const count = scheme === "error" ? (off?.length ?? 0) : origin.length;
+    if (count === 0 || (parted ?? { length: count }).length !== drawn) return undefined; // of a later run
+    const colors = new Float32Array(3 * drawn);
+    for (let i = 0; i < drawn; i++) colors.set(STEPS[Math.round(255 * Math.min(Math.max(shares[scheme](parted ? parted[i] : i) || 0, 0), 1))], 3 * i);
+    return colors;
+}

@@ -1,0 +1,43 @@
+/** A mesh that is dropped on the page of `bsm view` is encoded by its server, and shown beside its stream. */
+import assert from "node:assert/strict";
+import { existsSync, readFileSync } from "node:fs";
+import { describe, test } from "node:test";
+import { chromium } from "playwright-core";
+import { base64, CHROMIUM, FLAGS } from "./shared";
+
+const given = process.env.BSM_DROP;
+
+describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`) }, () => {
+    const { address, mesh } = JSON.parse(given ?? "{}") as { address: string; mesh: string };
+
+    test("is encoded with a bar, and both are shown; another one can be stopped", async () => {
+        const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
+        try {
+            const page = await browser.newPage();
+            const complaints: string[] = [];
+            page.on("pageerror", (error) => complaints.push(error.message));
+            page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+            await page.goto(address);
+            await page.getByText("nothing leaves it").waitFor();
+            const drop = (): Promise<void> =>
+                page.evaluate((data) => {
+                    const transfer = new DataTransfer();
+                    transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], "ball.ply"));
+                    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+                }, base64(readFileSync(mesh)));
+            await drop();
+            await page.getByRole("progressbar").waitFor();
+            await page.waitForFunction(() => Number(document.body.dataset.layers) >= 2, undefined, { timeout: 60_000 });
+            assert.equal(await page.locator("h1").textContent(), "ball.ply");
+            assert.match(await page.locator("[data-part=claim]").innerText(), /^\d[\d.]* times smaller$/);
+            assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());
+            await drop();
+            await page.getByRole("button", { name: "Cancel" }).click();
+            await page.getByRole("progressbar").waitFor({ state: "hidden" });
+            assert.equal(await page.locator("[role=alert]").textContent(), "");
+            assert.deepEqual(complaints, []);
+        } finally {
+            await browser.close();
+        }
+    });
+});
