@@ -38,7 +38,7 @@ PROGRAMS = r"(?:bsm|python3?|pytest|mkdocs|ruff|\.ci/run|\.venv|eval|cat)"
 BY_CI = r"\.ci/|^mkdocs|\.venv/bin/|^pytest|^ruff|^bsm --help$|tools\.attack|tools\.measure house"
 """What .ci/run itself does, or is."""
 NEEDS_FOLDER = r"MESHES|SEQUENCES|FOLDER|MESH\.\.\.|bunny_34834|bsm bench"
-HELP_ONLY = r"tools\.release|s3://|bsm view|tools\.blender|tools\.charges|tools\.vectors"
+HELP_ONLY = r"tools\.(?:release|blender|charges|vectors|processors)|s3://|bsm view"
 """What would change the repository, and does so in tests of its own, needs machines of others, or takes time."""
 PLACES = {
     "COMMAND": "encode",
@@ -47,6 +47,7 @@ PLACES = {
     "IN.bsm": "bunny.bsm",
     "OUT.npz": "reference.npz",
     " N": " 1",
+    'CMD {in} {out}"': 'bsm decode -q {in} -o {out}" --only good-one',
 }
 
 

@@ -180,7 +180,7 @@ def released() -> ctypes.CDLL:
         texts = [tar.extractfile(name) for name in ("bsmdec.c", "bsmdec.h")]
         source, header = (text.read().decode() for text in texts if text is not None)
     library = build("-O1", "-DKERNEL_ONE_TARGET", files=(source, header))
-    library.is_released = True
+    setattr(library, "is_released", True)  # noqa: B010
     return library
 
 
@@ -195,9 +195,9 @@ def decode(
 ) -> Decoded:
     """Decode a stream, given at once or so many bytes at a time."""
     threads = ctypes.addressof(parallel) if parallel else None
-    options = Options(None, None, tolerant, start, threads)
-    if getattr(library, "is_released", False):
-        options = ReleasedOptions(None, None, tolerant, start)
+    released = getattr(library, "is_released", False)
+    common = (None, None, tolerant, start)
+    options = ReleasedOptions(*common) if released else Options(*common, threads)
     decoder = library.bsmdec_open(byref(options))
     try:
         found, event = Decoded(), Event()
