@@ -1,5 +1,6 @@
 """Evaluation: rates against hand-computed cases, Draco's order of vertices, results as JSON, pictures from JSON."""
 
+import importlib.util
 import json
 import math
 
@@ -12,11 +13,14 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.evaluation.curve import (
+    STYLES,
     Curve,
     Draco,
     Spectral,
     bd_rate,
     compare_curves,
+    draw_all,
+    latex,
     measure,
     our_curve,
     paper_options,
@@ -161,30 +165,50 @@ class TestResults:
 
 
 class TestPictures:
-    def test_drawn_from_json_alone(self, tmp_path):
-        pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
-        from bsm.evaluation.curve import draw_all
+    @pytest.fixture
+    def results(self):
+        """Two lines on each of two meshes."""
 
         def point(bpv, db, theta, settings):
             numbers = {"bpv_total": bpv, "bpv_paper": bpv, "nmsve_db": db, "theta_deg": theta, "decode_seconds": bpv}
             return {"settings": settings, **numbers}
 
-        mesh = {"name": "m", "vertices": 3, "faces": 1}
-        curves = [
-            {"codec": "svd", "label": "SVD", "mesh": mesh, "points": [point(4, -50, 9, {"bits": 12})]},
-            {
-                "codec": "draco",
-                "label": "Draco",
-                "mesh": mesh,
-                "points": [point(5, -50, 9, {}), point(8, None, 0.1, {})],
-            },
+        asked = [{"target": {"kind": "theta_deg", "value": value}} for value in (9, 1)]
+        lines = {
+            "draco": [point(5, -50, 9, {}), point(8, None, 0.1, {})],
+            "ours": [point(2, -50, 8.5, asked[0]), point(3, -60, 0.9, asked[1])],
+            "svd": [point(4, -50, 9, {"bits": 12})],
+        }
+        return [
+            {"codec": name, "label": name, "mesh": {"name": mesh, "vertices": 3, "faces": 1}, "points": points}
+            for mesh in "mn"
+            for name, points in lines.items()
         ]
-        written = draw_all(curves, tmp_path)
-        names = {f"{stem}.{suffix}" for stem in ("m.paper", "m.nmsve", "m.theta") for suffix in ("png", "svg")}
-        assert {path.name for path in written} == names
-        for path in written:
-            start = path.read_bytes()[:200]
-            assert start.startswith(b"\x89PNG") if path.suffix == ".png" else b"<?xml" in start
+
+    def test_drawn_from_json_alone_in_each_format(self, results, tmp_path):
+        pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
+        for picture in draw_all(results[:3]):
+            for path in picture.save(tmp_path, ("png", "svg", "pdf")):
+                start = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}[path.suffix]
+                assert path.read_bytes().startswith(start)
+        names = {f"{stem}.{suffix}" for stem in ("m.paper", "m.nmsve", "m.theta") for suffix in ("png", "svg", "pdf")}
+        assert {path.name for path in tmp_path.iterdir()} == names
+
+    def test_several_meshes_share_a_figure_a_legend_and_colors(self, results):
+        figure = pytest.importorskip("matplotlib.figure", reason="needs matplotlib (extra eval)")
+        seen = {}
+        for picture in draw_all(results):
+            picture.draw(drawn := figure.Figure())
+            seen[picture.name] = [{line.get_color() for line in axes.lines} for axes in drawn.axes]
+            for legend in drawn.legends:
+                labels = [text.get_text() for text in legend.get_texts()]
+                asked = ["ours, asked for 9 to 1°"] if "theta" in picture.name else []
+                assert labels == [*asked, "draco", "svd"]
+        assert set(seen) == {"m.paper", "n.paper", "meshes.nmsve", "meshes.theta"}
+        color = {name: STYLES[name][0] for name in ("ours", "draco", "svd")}
+        assert seen["m.paper"] == seen["n.paper"] == [{color["svd"]}]
+        assert seen["meshes.theta"] == [set(color.values())] * 2
+        assert seen["meshes.nmsve"] == [{color["draco"], color["svd"]}] * 2, "ours was asked for the other measure"
 
 
 class TestCommands:
@@ -201,23 +225,28 @@ class TestCommands:
         assert [points_of(points, kind) for kind in kinds] == [[point] for point in points]
 
     def test_curve(self, tmp_path, capsys):
+        for name in ("matplotlib", "pymetis", "zstandard"):
+            pytest.importorskip(name, reason=f"needs {name} (extra eval)")
         write_mesh(tmp_path / "torus.npz", torus(20, 20))
         folder = tmp_path / "out"
-        words = [
-            "curve",
-            str(tmp_path / "torus.npz"),
-            "-o",
-            str(folder),
-            "--codecs",
-            "oi-r2,svd",
-            "--blocks",
-            "3",
-            "-q",
-        ]
-        assert main(words) == 0
-        assert {path.name for path in folder.glob("*.json")} == {"torus.oi-r2.json", "torus.svd.json"}
-        printed = capsys.readouterr().out.splitlines()
-        assert len(printed) == 2 + sum(len(result["points"]) for result in read_results(folder))
+        words = ["curve", str(tmp_path / "torus.npz"), "-o", str(folder), "--codecs", "oi-r2,svd", "--blocks", "3"]
+        assert main([*words, "-q", "--csv", "--latex", "--pdf"]) == 0
+        made = {f"torus.{end}" for end in ("oi-r2.json", "svd.json", "paper.png", "paper.svg", "paper.pdf")}
+        assert {path.name for path in folder.iterdir()} == made | {"points.csv", "points.tex"}
+        points = sum(len(result["points"]) for result in read_results(folder))
+        assert len(capsys.readouterr().out.splitlines()) == 2 + points
+        assert len((folder / "points.csv").read_text().splitlines()) == 1 + points
+
+    def test_everything_that_is_missing_is_named_before_anything_is_measured(self, tmp_path, capsys, monkeypatch):
+        write_mesh(tmp_path / "torus.npz", torus(20, 20))
+        find = importlib.util.find_spec
+        gone = ("pymetis", "zstandard", "DracoPy")
+        monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in gone else find(name))
+        words = ["curve", str(tmp_path / "torus.npz"), "-o", str(tmp_path / "out")]
+        assert main(words) != 0
+        said = capsys.readouterr().err
+        assert all(name in said for name in gone) and "eval" in said
+        assert not (tmp_path / "out").exists()
 
     def test_curve_knows_its_codecs(self, tmp_path, capsys):
         write_mesh(tmp_path / "torus.npz", torus(20, 20))
@@ -227,6 +256,12 @@ class TestCommands:
 
 def test_table():
     assert table(("a", "b"), [("x", "3"), ("yyy", "2")]) == "| a   |  b |\n| --- | -: |\n| x   |  3 |\n| yyy |  2 |"
+
+
+def test_latex_escapes_what_it_must():
+    lines = latex(("a_b", "θ"), [("50 %", "3°")]).splitlines()
+    assert lines[2] == r"a\_b & $\theta$ \\"
+    assert lines[4] == r"50 \% & 3$^\circ$ \\"
 
 
 def shuffled(mesh: TriangleMesh) -> TriangleMesh:

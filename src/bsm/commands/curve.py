@@ -3,22 +3,31 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable, Sequence
+import csv
+import importlib.util
+import io
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bsm.bitstream.errors import DependencyError, OptionError
+from bsm.bitstream.errors import DependencyError, OptionError, how_to_install
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.console import Console, print_json
 from bsm.files.mesh import read_mesh
+from bsm.files.output import write_output
 from bsm.files.sequence import open_sequence
 
 if TYPE_CHECKING:
-    from bsm.evaluation.curve import Curve
+    from bsm.evaluation.curve import Curve, Picture
 
 GROUPS = ("ours", "paper", "draco")
+_NEEDS = {"ours": (), "draco": ("DracoPy",)}
+_PAPER_NEEDS = ("pymetis", "zstandard")
+_UNITS = {"theta_deg": "°", "nmsve_db": " dB"}
+Table = tuple[Sequence[str], Sequence[Sequence[str]]]
+"""Columns, and rows of cells."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,6 +39,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--codecs", metavar="LIST", default=",".join(GROUPS), help=which)
     add("--blocks", type=int, metavar="K", help="blocks of the paper's lines (default: 500 vertices each)")
     add("--repeat", type=int, default=1, metavar="N", help="runs per point, the fastest counts")
+    add("--csv", action="store_true", help="write the tables as FOLDER/*.csv, too")
+    add("--latex", action="store_true", help="write the tables as FOLDER/*.tex, too (booktabs)")
+    add("--pdf", action="store_true", help="write the pictures as PDF, too")
     add("--json", action="store_true", help="print the comparison with Draco as JSON")
 
 
@@ -39,11 +51,12 @@ def run(args: argparse.Namespace, console: Console) -> None:
     folder = Path(args.output)
     if folder.suffix.lower() in (".png", ".svg", ".json", ".pdf"):
         raise OptionError(f"{folder}: -o names a folder, where pictures and results go by the names of meshes")
-    meshes = [path for path in args.meshes if not _run_sequence(path, folder, console)]
+    _refuse_missing(args.codecs if args.meshes else "ours")
+    meshes = [path for path in args.meshes if not _run_sequence(path, folder, args, console)]
     if args.meshes and not meshes:
         return
-    for path in meshes:
-        mesh = read_mesh(path).mesh.bare  # rates are those of the shape
+    chosen = [(path, read_mesh(path).mesh.bare) for path in meshes]  # rates are those of the shape
+    for path, mesh in chosen:
         for curve in _chosen(args.codecs, len(mesh.positions), args.blocks):
             with console.progress(f"{Path(path).stem}, {curve.label}") as progress:
                 result = run_curve(curve, mesh, Path(path).stem, args.repeat, progress)
@@ -54,27 +67,55 @@ def run(args: argparse.Namespace, console: Console) -> None:
     draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
     tested = [one for one in results if one["codec"] != "draco" and one["mesh"]["name"] in draco]
     comparisons = [compare_curves(draco[one["mesh"]["name"]], one) for one in tested]
+    tables = {"points": _measured(results)} | ({"draco": _compared(comparisons)} if comparisons else {})
     if args.json:
         print_json({"comparisons": comparisons})
     else:
-        print(_tables(results, comparisons))
-    _tell_pictures(lambda: draw_all(results, folder), console)
+        print(_words(tables))
+    _save(tables, draw_all(results), folder, args, console)
 
 
-def _run_sequence(path: str, folder: Path, console: Console) -> bool:
+def _refuse_missing(codecs: str) -> None:
+    """Refuse before anything is measured, with everything that is missing."""
+    wanted = ["scipy", "matplotlib", *(name for word in codecs.split(",") for name in _NEEDS.get(word, _PAPER_NEEDS))]
+    missing = sorted(name for name in set(wanted) if importlib.util.find_spec(name) is None)
+    if missing:
+        raise DependencyError(f"this needs {', '.join(missing)}; run: {how_to_install('eval')}")
+
+
+def _save(
+    tables: dict[str, Table], pictures: Iterable[Picture], folder: Path, args: argparse.Namespace, console: Console
+) -> None:
+    from bsm.evaluation.curve import FORMATS, latex
+
+    for name, (columns, rows) in tables.items():
+        file = io.StringIO()
+        csv.writer(file, lineterminator="\n").writerows([columns, *rows])
+        texts = {"csv": file.getvalue()} if args.csv else {}
+        texts |= {"tex": latex(columns, rows) + "\n"} if args.latex else {}
+        for suffix, text in texts.items():
+            write_output(folder / f"{name}.{suffix}", text.encode(), overwrite=True)
+            console.note(str(folder / f"{name}.{suffix}"))
+    for picture in pictures:
+        for path in picture.save(folder, (*FORMATS, *(("pdf",) if args.pdf else ()))):
+            console.note(str(path))
+
+
+def _run_sequence(path: str, folder: Path, args: argparse.Namespace, console: Console) -> bool:
     """Measure and draw a sequence; False if `path` is a mesh."""
     source = open_sequence(path)
     if source is None:
         return False
-    from bsm.evaluation.curve import draw_lines, measure_lines, table_of, write_result
+    _refuse_missing("draco")
+    from bsm.evaluation.curve import draw_lines, measure_lines, table, table_of, write_result
 
     frames = np.array(list(source.frames))
     mesh, kept = TriangleMesh(frames[0], source.faces).without_isolated_vertices()
     with console.progress(Path(path).stem) as progress:
         result = measure_lines(frames[:, kept], mesh.faces, Path(path).stem, progress)
     console.note(f"{write_result(result, folder)}")
-    print(table_of(result))
-    _tell_pictures(lambda: draw_lines(result, folder), console)
+    print(table(*table_of(result)))
+    _save({f"{Path(path).stem}-sequence": table_of(result)}, draw_lines(result), folder, args, console)
     return True
 
 
@@ -90,41 +131,45 @@ def _chosen(names: str, vertices: int, blocks: int | None) -> list[Curve]:
     return [curve for name in names.split(",") for curve in groups[name]]
 
 
-def _tables(results: Sequence[dict[str, Any]], comparisons: Sequence[dict[str, Any]]) -> str:
-    from bsm.evaluation.curve import number, table
+def _measured(results: Sequence[dict[str, Any]]) -> Table:
+    from bsm.evaluation.curve import number
 
     digits = {"bpv_total": 3, "bpv_paper": 2, "nmsve_db": 2, "theta_deg": 2, "encode_seconds": 3, "decode_seconds": 3}
-    measured = table(
-        ("mesh", "codec", "bpv, file", "bpv, paper", "NMSVE, dB", "theta", "encode, s", "decode, s"),
-        [
-            (result["mesh"]["name"], result["codec"], *(number(point[name], n) for name, n in digits.items()))
-            for result in results
-            for point in result["points"]
-        ],
-    )
-    if not comparisons:
+    rows = [
+        (result["mesh"]["name"], _setting(result, point), *(number(point[name], n) for name, n in digits.items()))
+        for result in results
+        for point in result["points"]
+    ]
+    return ("mesh", "codec", "bpv, file", "bpv, paper", "NMSVE, dB", "theta", "encode, s", "decode, s"), rows
+
+
+def _setting(result: dict[str, Any], point: dict[str, Any]) -> str:
+    """A codec, and what it was asked for."""
+    target = point["settings"].get("target")
+    return f"{result['codec']}, {target['value']:g}{_UNITS[target['kind']]}" if target else str(result["codec"])
+
+
+def _compared(comparisons: Sequence[dict[str, Any]]) -> Table:
+    from bsm.evaluation.curve import number
+
+    rows = [
+        (
+            *(row["mesh"], row["codec"], *(number(row["bytes_at_theta"][angle], 3) for angle in ("7", "10"))),
+            *("-" if (rate := row["bd_rate_percent"][name]) is None else f"{rate:+.1f} %" for name in _UNITS),
+        )
+        for row in comparisons
+    ]
+    return ("mesh", "codec", "bytes at 7°", "bytes at 10°", "BD-rate, theta", "BD-rate, NMSVE"), rows
+
+
+def _words(tables: dict[str, Table]) -> str:
+    from bsm.evaluation.curve import table
+
+    measured = table(*tables["points"])
+    if "draco" not in tables:
         return measured
-    bytes_, rates = ("7", "10"), ("theta_deg", "nmsve_db")
-    compared = table(
-        ("mesh", "codec", "bytes at 7°", "bytes at 10°", "BD-rate, theta", "BD-rate, NMSVE"),
-        [
-            (
-                *(row["mesh"], row["codec"], *(number(row["bytes_at_theta"][angle], 3) for angle in bytes_)),
-                *("-" if (rate := row["bd_rate_percent"][name]) is None else f"{rate:+.1f} %" for name in rates),
-            )
-            for row in comparisons
-        ],
-    )
     read = "Bytes as a share of Draco's at the same mean angle; BD-rate: the mean difference of bytes at equal error."
     read += (
         "\nIn pictures left is smaller, lower nearer; behind its knee a line takes 3 bits a vertex to halve the error."
     )
-    return f"{measured}\n\nAgainst Draco, whole files (smaller is better):\n\n{compared}\n\n{read}"
-
-
-def _tell_pictures(draw: Callable[[], Iterable[Path]], console: Console) -> None:
-    try:
-        for path in draw():
-            console.note(str(path))
-    except DependencyError as missing:
-        console.note(f"no pictures: {missing}")
+    return f"{measured}\n\nAgainst Draco, whole files (smaller is better):\n\n{table(*tables['draco'])}\n\n{read}"

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import partial
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -133,7 +133,8 @@ class Spectral:
 
     def parts(self, data: bytes) -> dict[str, Any]:
         info = inspect_stream(iter([data]))
-        return {**{part: info.sizes[part] for part in PARTS}, "bpv_paper": info.bpv_paper}
+        paper = info.bpv_paper if self.options.paper.bits else None
+        return {**{part: info.sizes[part] for part in PARTS}, "bpv_paper": paper}
 
 
 @dataclass(frozen=True)
@@ -383,6 +384,18 @@ def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join([line(columns), line(rule), *map(line, rows)])
 
 
+def latex(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table for LaTeX with booktabs."""
+    plain = {"%": r"\%", "_": r"\_", "°": r"$^\circ$", "²": "$^2$", "θ": r"$\theta$"}
+
+    def line(cells: Sequence[str]) -> str:
+        return " & ".join("".join(plain.get(letter, letter) for letter in cell) for cell in cells) + r" \\"
+
+    start = rf"\begin{{tabular}}{{l{'r' * (len(columns) - 1)}}}"
+    body = [r"\toprule", line(columns), r"\midrule", *map(line, rows), r"\bottomrule"]
+    return "\n".join([start, *body, r"\end{tabular}"])
+
+
 def number(value: float | None, digits: int) -> str:
     return "-" if value is None else f"{value:.{digits}f}"
 
@@ -433,74 +446,139 @@ def point_of(name: str, size: int, original: Positions, decoded: Positions, face
     return {"codec": name, "bytes": size, "bpvf": 8 * size / original[..., 0].size, **asdict(comparison)}
 
 
-def draw_lines(result: dict[str, Any], folder: Path) -> list[Path]:
+def draw_lines(result: dict[str, Any]) -> Iterator["Picture"]:
+    """The pictures of a sequence."""
     facts = result["sequence"]
-    title = f"{facts['name']}: {facts['frames']} frames of {facts['vertices']} vertices"
-    written: list[Path] = []
+    title = f"{facts['name']}: {facts['frames']:,} frames of {facts['vertices']:,} vertices"
     for measure, label in SEQUENCE_MEASURES.items():
-        lines = {LINES[line]: [(p["bpvf"], p[measure]) for p in points] for line, points in result["lines"].items()}
-        stem = folder / f"{facts['name']}-{measure.split('_')[0]}"
-        written += draw_rates(lines, "bits per vertex and frame, whole file", label, title, stem)
-    return written
+        lines = {
+            line: Line(LINES[line], [(p["bpvf"], p[measure]) for p in points if p[measure] is not None])
+            for line, points in result["lines"].items()
+        }
+        name = f"{facts['name']}-{measure.split('_')[0]}"
+        yield draw_rates({title: lines}, "bits per vertex and frame, whole file", label, name)
 
 
-def table_of(result: dict[str, Any]) -> str:
+def table_of(result: dict[str, Any]) -> tuple[Sequence[str], Sequence[Sequence[str]]]:
     digits = {"bpvf": 4, "kg": 4, "theta_deg": 2, "rms_relative": 6}
     rows = [
         (result["sequence"]["name"], point["codec"], *(number(point[name], places) for name, places in digits.items()))
         for points in result["lines"].values()
         for point in points
     ]
-    return table(("sequence", "codec", "bits per vertex and frame, file", "KG, %", "theta", "rms"), rows)
+    return ("sequence", "codec", "bits per vertex and frame, file", "KG, %", "theta", "rms"), rows
 
 
 FORMATS = ("png", "svg")
 MEASURES = {"nmsve_db": "NMSVE, dB", "theta_deg": "θ, degrees"}
 TICKS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
-STYLES = ("o-", "s-", "^-", "v-", "D-", "P-", "X-", "<-", ">-", "*-", "h-", "p-")
+STYLES = {
+    "ours": ("#d62728", "o"),
+    "draco": ("#1f4e9c", "s"),
+    "svd": ("#222222", "D"),
+    "oi-r1": ("#2a9d55", "^"),
+    "oi-r1-t2": ("#67b84b", "v"),
+    "oi-r1-t3": ("#9fce63", "<"),
+    "oi-r2": ("#e08a1e", "P"),
+    "oi-r3": ("#b8860b", "X"),
+    "oi-r4": ("#8c6d31", ">"),
+    "oi-r1-cold": ("#7b5ea7", "h"),
+    "oi-r2-cold": ("#b79bd6", "p"),
+    "doi-r1": ("#17a2b8", "*"),
+    "ours-low-delay": ("#f4a3a3", "o"),
+}
+"""The color and the marker of each line, in every picture."""
+_LOOK: dict[Any, Any] = {
+    **{"font.family": "serif", "mathtext.fontset": "dejavuserif", "font.size": 8, "axes.titlesize": 8},
+    **{"legend.fontsize": 7, "legend.frameon": False, "axes.spines.top": False, "axes.spines.right": False},
+    **{"axes.linewidth": 0.6, "xtick.major.width": 0.6, "ytick.major.width": 0.6, "grid.linewidth": 0.4},
+    **{"lines.linewidth": 1.1, "lines.markersize": 3.2, "pdf.fonttype": 42},
+}
 
 
-def draw_paper_figure(results: Sequence[Result], stem: Path) -> list[Path]:
+class Line(NamedTuple):
+    """A line of a picture: what the legend says, and its points, of rate and error."""
+
+    label: str
+    points: Sequence[tuple[float, float]]
+
+
+class Picture(NamedTuple):
+    """A picture by its name: what draws it on a figure, and its size in inches."""
+
+    name: str
+    draw: Callable[[Any], None]
+    width: float
+    height: float
+
+    def save(self, folder: Path, formats: Sequence[str] = FORMATS) -> list[Path]:
+        from matplotlib import rc_context
+
+        folder.mkdir(parents=True, exist_ok=True)
+        paths = [folder / f"{self.name}.{suffix}" for suffix in formats]
+        with rc_context(_LOOK):
+            figure = new_figure(self.width, self.height)
+            self.draw(figure)
+            for path in paths:
+                figure.savefig(path, dpi=300)
+        return paths
+
+
+def draw_paper_figure(results: Sequence[Result], name: str) -> Picture:
     """Bits per vertex of the coefficients against NMSVE, time beside every line: the paper's figure for one mesh."""
 
-    def draw(axes: Any) -> None:
+    def draw(figure: Any) -> None:
+        axes = figure.subplots()
         ends = []
-        for style, result in zip(STYLES, results):
+        for result in results:
             points = sorted(result["points"], key=lambda point: point["bpv_paper"])
             x, y = [p["bpv_paper"] for p in points], [p["nmsve_db"] for p in points]
-            line = axes.plot(x, y, style, markersize=4, label=f"{result['label']}  ({time_range(result)})")[0]
-            ends.append((x[-1], y[-1], f"{points[-1]['decode_seconds']:.2g} s", line.get_color()))
+            color, marker = STYLES[result["codec"]]
+            axes.plot(x, y, marker=marker, color=color, label=result["label"])
+            ends.append((x[-1], y[-1], f"{points[-1]['decode_seconds']:.2g} s", color))
         # Times stand in a column beside the lines, pushed apart where lines run together.
-        gap, lowest = 0.028 * abs(np.diff(axes.get_ylim())[0]), -np.inf
+        gap, lowest = 0.04 * abs(np.diff(axes.get_ylim())[0]), -np.inf
         right = 1.015 * max(end[0] for end in ends)
         for _, y_end, text, color in sorted(ends, key=lambda end: end[1]):
             lowest = max(y_end, lowest + gap)
-            axes.text(right, lowest, text, fontsize=7, color=color, va="center")
+            axes.text(right, lowest, text, fontsize=6, color=color, va="center")
         axes.margins(x=0.08)
-        axes.set(xlabel="bits per vertex, 3 q c k / n", ylabel=MEASURES["nmsve_db"], title=title_of(results[0]))
-        axes.legend(fontsize=7, title="decoding time", title_fontsize=7)
+        axes.grid(alpha=0.3)
+        axes.set(xlabel="bits per vertex, 3 q c k / n", ylabel=MEASURES["nmsve_db"])
+        axes.set_title(f"{title_of(results[0])}; seconds to decode")
+        axes.legend(ncols=2)
 
-    return draw_axes(draw, stem)
+    return Picture(name, draw, 4.6, 3.6)
 
 
-def draw_rates(
-    lines: Mapping[str, Sequence[tuple[float, float]]], rate: str, measure: str, title: str, stem: Path
-) -> list[Path]:
-    """Points of a rate and an error, a line for each label; `rate` and `measure` say what they are."""
+def draw_rates(panels: Mapping[str, Mapping[str, Line]], rate: str, measure: str, name: str) -> Picture:
+    """A panel for each title, with lines by their codecs; `rate` and `measure` say what the axes are."""
+    across = min(len(panels), 3)
+    down = -(-len(panels) // across)
 
-    def draw(axes: Any) -> None:
-        for style, (label, points) in zip(STYLES, lines.items()):
-            axes.plot(*zip(*sorted(points)), style, markersize=4, label=label)
-        rates = [x for points in lines.values() for x, _ in points]
-        axes.set(xscale="log", xlabel=rate, ylabel=measure, title=title)
-        axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
-        axes.minorticks_off()
-        if "dB" not in measure:
-            axes.set_yscale("log")
-        axes.set_xlim(min(rates) * 0.9, max(rates) * 1.1)
-        axes.legend(fontsize=7)
+    def draw(figure: Any) -> None:
+        shown: dict[str, Any] = {}
+        grid = figure.subplots(down, across, squeeze=False)
+        for axes in grid.flat[len(panels) :]:
+            axes.remove()
+        for axes, (title, lines) in zip(grid.flat, panels.items()):
+            for codec, (label, points) in lines.items():
+                color, marker = STYLES[codec]
+                shown[label] = axes.plot(*zip(*sorted(points)), marker=marker, color=color)[0]
+            rates = [x for _, points in lines.values() for x, _ in points]
+            axes.set(xscale="log", xlabel=rate, title=title)
+            axes.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
+            axes.minorticks_off()
+            if "dB" not in measure:
+                axes.set_yscale("log")
+                axes.yaxis.set_major_formatter("{x:g}")
+            axes.set_xlim(min(rates) * 0.9, max(rates) * 1.1)
+            axes.grid(alpha=0.3)
+        for row in grid:
+            row[0].set_ylabel(measure)
+        figure.legend(shown.values(), shown, loc="outside lower center", ncols=min(len(shown), across + 1))
 
-    return draw_axes(draw, stem)
+    return Picture(name, draw, 3.2 * across if across > 1 else 4.2, 2.7 * down + 0.4)
 
 
 def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
@@ -517,26 +595,38 @@ def frame_errors(frames: Sequence[Mapping[str, float]], title: str) -> bytes:
     return file.getvalue()
 
 
-def draw_all(results: Iterable[Result], folder: Path) -> list[Path]:
-    """Every picture that the results of a folder allow, mesh by mesh."""
+def draw_all(results: Iterable[Result]) -> Iterator[Picture]:
+    """Every picture that the results of a folder allow: the paper's mesh by mesh, of whole files all meshes in one."""
     by_mesh: dict[str, list[Result]] = {}
     for result in results:
         by_mesh.setdefault(result["mesh"]["name"], []).append(result)
-    written: list[Path] = []
+    shown: dict[str, list[Result]] = {}
     for mesh, group in by_mesh.items():
         paper = [r for r in group if r["points"] and "bits" in r["points"][0]["settings"]]
         rest = [r for r in group if r not in paper]
         if paper:
             slowest_first = sorted(paper, key=lambda r: -max(float(p["decode_seconds"]) for p in r["points"]))
-            written += draw_paper_figure(slowest_first, folder / f"{mesh}.paper")
-        # SVD in the paper's mode stands for the paper among whole files.
-        shown = [*rest, *(r for r in paper if r["codec"] in ("svd", "oi-r2"))] if rest else []
-        for measure, label in MEASURES.items() if shown else ():
-            labels = [f"{r['label']}  (decoded in {time_range(r)})" for r in shown]
-            points = [[(p["bpv_total"], p[measure]) for p in points_of(r["points"], measure)] for r in shown]
-            lines, stem = dict(zip(labels, points)), folder / f"{mesh}.{measure.split('_')[0]}"
-            written += draw_rates(lines, "bits per vertex, whole file", label, title_of(shown[0]), stem)
-    return written
+            yield draw_paper_figure(slowest_first, f"{mesh}.paper")
+        if rest:  # SVD in the paper's mode stands for the paper among whole files.
+            shown[mesh] = [*rest, *(r for r in paper if r["codec"] in ("svd", "oi-r2"))]
+    stem = next(iter(shown)) if len(shown) == 1 else "meshes"
+    for measure, label in MEASURES.items() if shown else ():
+        panels = {title_of(group[0]): lines_of(group, measure) for group in shown.values()}
+        yield draw_rates(panels, "bits per vertex, whole file", label, f"{stem}.{measure.split('_')[0]}")
+
+
+def lines_of(results: Sequence[Result], measure: str) -> dict[str, Line]:
+    """The lines of one mesh for one of `MEASURES`, by codec; labels tell the range of targets, where there are any."""
+    lines = {}
+    for result in sorted(results, key=lambda one: list(STYLES).index(one["codec"])):
+        points = points_of(result["points"], measure)
+        targets = [p["settings"]["target"]["value"] for p in points if "target" in p["settings"]]
+        unit = {"theta_deg": "°", "nmsve_db": " dB"}[measure]
+        asked = f", asked for {targets[0]:g} to {targets[-1]:g}{unit}" if targets else ""
+        if points:
+            pairs = [(point["bpv_total"], point[measure]) for point in points]
+            lines[result["codec"]] = Line(result["label"] + asked, pairs)
+    return lines
 
 
 def points_of(points: Sequence[Result], measure: str) -> list[Result]:
@@ -545,39 +635,12 @@ def points_of(points: Sequence[Result], measure: str) -> list[Result]:
     return [p for p, kind in zip(points, kinds, strict=True) if kind == measure and p[measure] is not None]
 
 
-def time_range(result: Result) -> str:
-    seconds = [point["decode_seconds"] for point in result["points"]]
-    low, high = min(seconds), max(seconds)
-    return f"{low:.2g} s" if high < 1.1 * low else f"{low:.2g} to {high:.2g} s"
-
-
 def title_of(result: Result) -> str:
-    return "{name}: {vertices} vertices, {faces} faces".format_map(result["mesh"])
-
-
-def import_matplotlib() -> None:
-    imported("matplotlib", "pictures need matplotlib", "eval")
+    return "{name}, {vertices:,} vertices".format_map(result["mesh"])
 
 
 def new_figure(width: float = 7.0, height: float = 5.0) -> Any:
-    import_matplotlib()
+    imported("matplotlib", "pictures need matplotlib", "eval")
     from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height), layout="constrained")
-
-
-def draw_axes(draw: Callable[[Any], None], stem: Path) -> list[Path]:
-    """What a function draws on one pair of axes, as PNG and SVG; `stem` is a path without suffix."""
-    figure = new_figure()
-    axes = figure.subplots()
-    axes.grid(alpha=0.3)
-    draw(axes)
-    return save_figure(figure, stem)
-
-
-def save_figure(figure: Any, stem: Path) -> list[Path]:
-    stem.parent.mkdir(parents=True, exist_ok=True)
-    paths = [stem.parent / f"{stem.name}.{suffix}" for suffix in FORMATS]
-    for path in paths:
-        figure.savefig(path, dpi=150)
-    return paths
