@@ -305,9 +305,9 @@ BSMDEC_API bsmdec_status bsmdec_metadata_find(bsmdec *decoder, const char *name,
 
 /* ---- Vertices for graphics ----
  *
- * Graphics APIs want one index for a whole vertex. bsmdec_split makes vertices like that: one for each vertex of the
- * mesh, in their order, and behind them a copy for each further combination of corner values. Then write what you need
- * into buffers of your own, such as mapped graphics memory; write values again for each FRAME, or for each BLOCK.
+ * Graphics APIs use one index for a whole vertex. bsmdec_split makes such vertices: first the vertices of the mesh, in
+ * their order, then a copy for each further combination of corner values. Write them into buffers of your own, such as
+ * mapped graphics memory. Write the values again for each FRAME, or for each BLOCK.
  *
  *     int64_t vertices;
  *     bsmdec_split(decoder, NULL, BSMDEC_ALL, &vertices);

@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+import textwrap
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -298,22 +299,28 @@ def denoising_tables(figures: dict[str, Any]) -> str:
     lines = ["| | " + " | ".join(cases) + " |", "|---|" + "---:|" * len(cases)]
     lines += [f"| {name} | " + " | ".join(f"{values[at]:.2f}" for values in cases.values()) + " |" for name, at in rows]
     clean, kinds, gaussian = figures["clean"], figures["kinds"], figures["gaussian"]
-    ratios = [f"{kind} {value:.2f}" for kind, value in kinds.items() if kind not in ("worse", "of")]
+    ratios = {kind: f"{value:.2f}" for kind, value in kinds.items() if kind not in ("worse", "of")}
     sequences = [f"{measure} {value:.2f}" for measure, value in figures["flicker"].items()]
     hard = [f"{case} edges {value:.2f}" for case, value in figures["hard"].items()]
     lines += [
         "",
-        f"- Clean meshes: {clean['untouched']} of {clean['of']} come back bit for bit; the normals of the others are "
-        f"turned by {clean['largest']:.2f} degrees at most.",
-        f"- {kinds['worse']} of {kinds['of']} noisy ones (eleven kinds of noise, two levels) are worse than their "
-        f"input. Mean ratio to the best of the fixed recipes: {', '.join(ratios)}.",
-        "- White noise, against guided filtering, bilateral normal filtering and the paper's scheme, each stopped by "
-        f"an oracle: {gaussian['mean']:.2f} of the best of the three, {gaussian['worst']:.2f} at worst.",
+        "Mean ratio of the automatic error to that of the best fixed scheme, for each kind of noise:",
+        "",
+        f"| {' | '.join(ratios)} |",
+        "|" + "---:|" * len(ratios),
+        f"| {' | '.join(ratios.values())} |",
+        "",
+        f"- Clean meshes: {clean['untouched']} of {clean['of']} come back bit for bit. The normals of the others "
+        f"turn by at most {clean['largest']:.2f} degrees.",
+        f"- {kinds['worse']} of {kinds['of']} noisy meshes (eleven kinds of noise, two levels) are worse than their "
+        "input.",
+        f"- White noise: {gaussian['mean']:.2f} of the best, {gaussian['worst']:.2f} at worst, of guided filtering, "
+        "bilateral normal filtering and the paper's scheme. An oracle stops each of the three.",
         f"- Sequences against their frames one by one: {', '.join(sequences)}.",
         *(f"- {kind} of depth cameras over the same: {scans(figures[key])}." for key, kind in SCANS.items()),
         f"- {'; '.join(hard)} (degrees).",
     ]
-    return "\n".join(lines)
+    return "\n".join(textwrap.fill(line, 120, subsequent_indent="  ") if line[:1] == "-" else line for line in lines)
 
 
 def put_in(text: str, tables: str) -> str:
