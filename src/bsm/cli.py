@@ -1,4 +1,4 @@
-"""The command line `bsm`: its commands, and what is said of wrong usage: a line on that, and one on how it is right."""
+"""The command line `bsm`: its commands and its errors of usage."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from bsm.files.output import Terminated, refuse_collisions
 COMMANDS = {
     "encode": "compress meshes",
     "decode": "restore meshes",
-    "info": "show what streams hold",
+    "info": "show what streams contain",
     "compare": "measure the error of a mesh",
     "verify": "check streams",
-    "view": "show streams in a browser as they arrive",
+    "view": "show meshes and streams in a browser",
     "tile": "cut meshes larger than memory into tiles, coarse to fine",
-    "untile": "make one mesh of tiles",
-    "glb": "compress the geometry of glTF scenes that stay scenes",
+    "untile": "join tiles into one mesh",
+    "glb": "compress the geometry of glTF scenes",
     "denoise": "remove noise from meshes and sequences",
-    "demo": "compress a sample and show what became of it",
+    "demo": "compress a sample and compare it with the original",
     "curve": "measure rate against error and draw it",
     "bench": "measure speed against exact solvers and Draco",
-    "completion": "print what makes a shell complete commands and options",
+    "completion": "print a script for shell completion",
 }
 FILES = (
     *("IN", "MESH", "SCENE", "A", "B", "FOLDER", "OUT", "OUT.glb"),
@@ -38,11 +38,11 @@ FILES = (
 """What files and folders are called in the help."""
 _WRITTEN = {"output", "report", "save", "picture", "map", "work"}
 _WITHOUT_FILES = ("info", "compare", "verify", "bench", "completion", "curve")
-"""Commands that replace no file; they take -f as all do, so that scripts may always give it."""
+"""Commands that write no file. They accept -f nevertheless, so that scripts can always pass it."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; the return value is the exit code of the table of `bsm.exits`."""
+    """Run a command and return an exit code of `bsm.exits`."""
     words, as_json = list(sys.argv[1:] if arguments is None else arguments), False
     try:
         if not words or words[0] not in COMMANDS:
@@ -64,7 +64,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def named_files(command: str, parser: Parser, args: argparse.Namespace) -> tuple[list[str], list[str]]:
-    """The files that a command line names to be read, and to be written."""
+    """Return the files that a command line reads, and those that it writes."""
     named: tuple[list[str], list[str]] = [], []
     written = _WRITTEN | ({"permutation"} if command == "encode" else set())
     for action in parser.file_arguments():
@@ -81,8 +81,8 @@ def program_parser(*, complete: bool = False) -> Parser:
     """The parser of the program, which knows its commands; with `complete`, also what each takes."""
     parser = Parser(
         prog="bsm",
-        description="Compress triangle meshes to a stream that is decoded block by block.",
-        epilog=f"exit codes (of many inputs, that of the first failure):\n{exit_table()}",
+        description="Compress, decode and compare triangle meshes and moving meshes.",
+        epilog=f"exit codes (for several inputs, that of the first failure):\n{exit_table()}",
     )
     parser.add_argument("--version", action="store_true", help="show the version and exit")
     commands = parser.add_subparsers(metavar="COMMAND")
@@ -94,7 +94,7 @@ def program_parser(*, complete: bool = False) -> Parser:
 
 
 def _no_command(words: list[str]) -> int:
-    """What is said without a command: help, the version, or what may have been meant."""
+    """Print help, the version, or an error that suggests a command."""
     parser = program_parser()
     if words and not words[0].startswith("-"):
         parser.error(f"there is no command {words[0]}{suggestion(words[0], COMMANDS)}")
@@ -107,10 +107,10 @@ def _no_command(words: list[str]) -> int:
 
 def _common(name: str) -> Parser:
     common = Parser(add_help=False)
-    harm = "; write results that do harm" if name == "denoise" else ""
+    harm = "; write results that remove more than noise" if name == "denoise" else ""
     does = argparse.SUPPRESS if name in _WITHOUT_FILES else f"overwrite files{harm}"
     common.add_argument("-f", "--force", action="store_true", help=does)
-    common.add_argument("-q", "--quiet", action="store_true", help="say nothing but results and errors")
+    common.add_argument("-q", "--quiet", action="store_true", help="print only results and errors")
     return common
 
 
@@ -127,7 +127,7 @@ def _complete(parser: Parser, name: str) -> Parser:
 
 
 def suggestion(word: str, known: Iterable[str]) -> str:
-    """A question whether something similar was meant; "" if there is nothing."""
+    """Return a question that suggests a similar name, or ""."""
     names = list(known)
     begun = [name for name in names if name.startswith(word)]
     found = begun if len(begun) == 1 else difflib.get_close_matches(word, names, n=1, cutoff=0.6)
@@ -147,7 +147,7 @@ class Formatter(argparse.RawDescriptionHelpFormatter):
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser that is short about errors and takes options anywhere between inputs."""
+    """An argument parser with short errors that accepts options between inputs."""
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__(**{"formatter_class": Formatter, **keywords})
@@ -177,8 +177,8 @@ class Parser(argparse.ArgumentParser):
         return args
 
     def error(self, message: str) -> NoReturn:
-        """Say what is wrong, and one line of usage; exit with code 2."""
-        self.exit(2, f"{self.prog}: {message}\nusage: {self.prog}{self._inputs()}; {self.prog} --help tells more\n")
+        """Print the error and one line of usage; exit with code 2."""
+        self.exit(2, f"{self.prog}: {message}\nusage: {self.prog}{self._inputs()}; see {self.prog} --help\n")
 
     def file_arguments(self) -> Iterator[argparse.Action]:
         for action in self._actions:

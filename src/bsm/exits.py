@@ -1,4 +1,4 @@
-"""The exit codes of the command line, one table, which the program obeys and its help prints; how errors are told."""
+"""The exit codes of the command line, and how errors are printed."""
 
 import os
 import sys
@@ -26,22 +26,24 @@ EXITS = (
     UNEXPECTED,
     USAGE,
     Exit(
-        3, "the input is not the kind of file expected, or no triangle mesh", (failures.FormatError, failures.MeshError)
+        3,
+        "the input is not a file of the expected kind, or not a triangle mesh",
+        (failures.FormatError, failures.MeshError),
     ),
     Exit(4, "the input is damaged", (failures.CorruptError,)),
-    Exit(5, "the input is of a version or method that this program does not know", (failures.UnsupportedError,)),
+    Exit(5, "the input uses a version or method that this program does not know", (failures.UnsupportedError,)),
     Exit(6, "the input asks for more memory or work than allowed", (failures.LimitError, MemoryError)),
-    Exit(7, "the mathematics broke down", (failures.NumericError,)),
+    Exit(7, "a computation failed numerically", (failures.NumericError,)),
     Exit(8, "an optional package is missing", (failures.DependencyError,)),
     Exit(
         10,
-        "the quality or size asked for cannot be reached, or the result does not decode to it",
+        "the requested quality or size cannot be reached, or the decoded result does not meet it",
         (failures.TargetError, failures.VerificationError),
     ),
-    Exit(11, "the result would be worse than the input; --force writes it nevertheless", (failures.HarmError,)),
+    Exit(11, "the result would be worse than the input; --force writes it anyway", (failures.HarmError,)),
     Exit(12, "the input ends too early", (failures.TruncatedError,)),
     Exit(130, "interrupted", (KeyboardInterrupt,)),
-    Exit(141, "the reader of a pipe went away", (BrokenPipeError,)),
+    Exit(141, "the reader of a pipe stopped", (BrokenPipeError,)),
     Exit(9, "a file cannot be read or written, or exists already", (OSError,)),
     Exit(143, "terminated", (Terminated,)),
 )
@@ -54,7 +56,7 @@ def exit_of(error: BaseException) -> Exit:
 
 
 def is_expected(error: BaseException) -> bool:
-    """Whether an error is the user's business and not a fault of the program."""
+    """Return whether an error is caused by the user or the input, not by a fault of the program."""
     return isinstance(error, failures.BsmError) or exit_of(error) is not UNEXPECTED
 
 
@@ -73,7 +75,7 @@ def behind(error: BaseException) -> BaseException:
 
 
 def tell(error: BaseException, *, as_json: bool = False) -> None:
-    """Write what went wrong to standard error, as a line of JSON where all of its lines are."""
+    """Write an error to standard error; as a line of JSON if all lines are JSON."""
     if isinstance(error, BrokenPipeError):
         # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

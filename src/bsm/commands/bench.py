@@ -8,10 +8,10 @@ from bsm.console import Console, print_json
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("meshes", metavar="MESH", nargs="+", help="mesh files")
-    add("--sample", type=int, default=16, metavar="N", help="blocks that exact solvers solve (default: %(default)s)")
-    add("--repeat", type=int, default=3, metavar="N", help="runs of everything, the fastest counts (default: 3)")
-    add("--no-solvers", action="store_true", help="leave out exact eigensolvers, which take minutes")
-    add("--json", action="store_true", help="print it as JSON")
+    add("--sample", type=int, default=16, metavar="N", help="number of blocks for exact solvers (default: %(default)s)")
+    add("--repeat", type=int, default=3, metavar="N", help="repeat every measurement; the fastest counts (default: 3)")
+    add("--no-solvers", action="store_true", help="leave out exact solvers, which take minutes")
+    add("--json", action="store_true", help="print the result as JSON")
 
 
 def run(args: argparse.Namespace, console: Console) -> None:

@@ -42,28 +42,28 @@ SHOWN = 99.0  # percentile of the distances that has the last colour: single ver
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("original", metavar="A", help="original: mesh file or stream, or a sequence of meshes")
-    add("decoded", metavar="B", help="what became of it, in any of these forms")
-    add("--permutation", metavar="FILE.npy", help="what encode wrote: vertex p[j] of A is j of B")
-    surface = "of meshes also the mean normal difference, the rms error over the mean edge, and the Hausdorff distance"
+    add("original", metavar="A", help="original: mesh file, stream or sequence")
+    add("decoded", metavar="B", help="the mesh to compare: mesh file, stream or sequence")
+    add("--permutation", metavar="FILE.npy", help="the file that encode wrote: vertex p[j] of A is vertex j of B")
+    surface = "for meshes, also print the mean normal difference, the rms error in mean edges, the Hausdorff distance"
     add("--surface", action="store_true", help=surface)
-    alike = "also how much alike they look in pictures: the same up to a distance of 1; faces of "
-    add("--look", action="store_true", help=f"{alike}meshes may differ; of a sequence every frame")
+    alike = "also compare pictures: up to a distance of 1, both look the same. The faces may differ. "
+    add("--look", action="store_true", help=f"{alike}A sequence is compared frame by frame")
     add(
         "--picture",
         metavar="FILE.png",
-        help="write a picture of both and of their difference, from the side where that is largest (implies --look); "
-        "of sequences, the errors of each frame as a curve",
+        help="draw both and their difference, from the side where it is largest (implies --look); for sequences, a "
+        "curve of the error of each frame",
     )
     add(
         "--map",
         metavar="FILE",
-        help="write where A's vertices are how far off in colours, blue to red: a picture (.png), or A as a mesh with "
-        "colours (.ply, .obj, .glb)",
+        help="draw the error of each vertex of A in colors, from blue to red: a picture (.png), or A as a mesh with "
+        "colors (.ply, .obj, .glb)",
     )
     add_reader_flag(parser)
     add_limits_flag(parser)
-    add("--json", action="store_true", help="print it as JSON")
+    add("--json", action="store_true", help="print the result as JSON")
 
 
 def run(args: argparse.Namespace, console: Console) -> None:

@@ -32,16 +32,21 @@ Table = tuple[Sequence[str], Sequence[Sequence[str]]]
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("meshes", metavar="MESH", nargs="*", help="mesh files or sequences; none: only draw what there is")
-    add("-o", "--output", metavar="FOLDER", required=True, help="where JSON and pictures go")
-    which = "which, with commas: ours, paper (SVD and orthogonal iterations of several kinds, 12 bits), draco, or "
+    add("meshes", metavar="MESH", nargs="*", help="mesh files or sequences. Without any, only draw earlier results")
+    add("-o", "--output", metavar="FOLDER", required=True, help="folder for JSON and pictures")
+    which = "comma-separated codecs: ours, paper (SVD and orthogonal iterations, 12 bits), draco, or "
     which += "single lines such as svd,oi-r2 (default: all)"
     add("--codecs", metavar="LIST", default=",".join(GROUPS), help=which)
-    add("--blocks", type=int, metavar="K", help="blocks of the paper's lines (default: 500 vertices each)")
-    add("--repeat", type=int, default=1, metavar="N", help="runs per point, the fastest counts")
-    add("--csv", action="store_true", help="write the tables as FOLDER/*.csv, too")
-    add("--latex", action="store_true", help="write the tables as FOLDER/*.tex, too (booktabs)")
-    add("--pdf", action="store_true", help="write the pictures as PDF, too")
+    add(
+        "--blocks",
+        type=int,
+        metavar="K",
+        help="number of blocks for the codecs of the paper (default: blocks of 500 vertices)",
+    )
+    add("--repeat", type=int, default=1, metavar="N", help="repeat each measurement; the fastest counts (default 1)")
+    add("--csv", action="store_true", help="also write the tables as FOLDER/*.csv")
+    add("--latex", action="store_true", help="also write the tables as FOLDER/*.tex (booktabs)")
+    add("--pdf", action="store_true", help="also write the pictures as PDF")
     add("--json", action="store_true", help="print the comparison with Draco as JSON")
 
 

@@ -44,17 +44,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(
         parser,
         "stream, or - for standard input",
-        "mesh file, or folder for any number of inputs (default: IN with .ply; - for a pipe); for a sequence npz "
-        "(default), PC2, MDD, GLB, USD, a folder for its frames, or their names: walk/%%04d.obj",
+        "mesh file, - for a pipe, or folder for several inputs (default: IN with .ply). For a sequence: npz "
+        "(default), PC2, MDD, GLB, USD, a folder for its frames, or a pattern such as walk/%%04d.obj",
     )
-    add("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name; ply)")
-    add("--blocks", type=int, metavar="N", help="stop after N blocks, and write the part that is there")
-    add("--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement one more")
-    add("--permutation", metavar="FILE.npy", help="what encode wrote with the same option: restore the input's order")
-    add("--tolerant", action="store_true", help="go on behind damage; what is lost is named and left out")
+    add("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name, else ply)")
+    add("--blocks", type=int, metavar="N", help="stop after N blocks, and write that part")
+    add("--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement adds one")
+    add(
+        "--permutation",
+        metavar="FILE.npy",
+        help="restore the order of the input; the file that encode wrote with the same option",
+    )
+    add("--tolerant", action="store_true", help="continue after damage; list the lost parts and leave them out")
     add_limits_flag(parser)
     group = parser.add_argument_group("sequences")
-    group.add_argument("--frames", metavar="A:B", help="frames A to B - 1 only; what they do not need is not decoded")
+    group.add_argument("--frames", metavar="A:B", help="decode frames A to B - 1 only")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

@@ -17,8 +17,8 @@ from bsm.pictures import bounds_of, colors_of, png, render, with_titles
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("-o", "--output", metavar="FOLDER", default=".", help="where to write (default: here)")
-    add("--vertices", type=int, default=20_000, metavar="N", help="size of the sample (default 20000)")
+    add("-o", "--output", metavar="FOLDER", default=".", help="folder for the results (default: the current one)")
+    add("--vertices", type=int, default=20_000, metavar="N", help="number of vertices of the sample (default 20000)")
     add("--json", action="store_true", help="print the result as JSON")
     add_preset_flags(parser)
 

@@ -56,30 +56,39 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(
         parser,
         "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: npz, folder, or quoted pattern",
-        "file, in the format of its name, or folder for any number of inputs (default: IN with .denoised before its "
-        "suffix); a stream (.bsm) is near-lossless",
+        "output file, or folder for several inputs (default: IN with .denoised before its suffix). A stream (.bsm) is "
+        "encoded near-lossless",
     )
-    add("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input, and of a piped output")
+    add("--format", choices=(*MESH_FORMATS, "npy"), help="format of the input and of a piped output")
     add_reader_flag(parser)
-    goal = "what the automatic mode strives for: normals near the clean ones (shading), or vertices (shape)"
+    goal = "aim of the automatic mode: normals close to the true ones (shading), or vertices (shape)"
     add("--for", dest="goal", choices=GOALS, default=GOALS[0], help=goal)
-    add("--strength", type=float, default=1.0, metavar="S", help="how much of every movement is made, 0 to 1 (1)")
-    add("--look", action="store_true", help="say how far the result is from the input in pictures, see bsm compare")
+    add("--strength", type=float, default=1.0, metavar="S", help="fraction of every movement, 0 to 1 (default 1)")
+    add("--look", action="store_true", help="print how far the result looks from the input, as bsm compare --look does")
     ways = parser.add_argument_group(
         "instead of the automatic mode",
-        "with none of these everything is chosen from the noise of the mesh (of the first frame); "
-        "with any of them the others have the paper's values; a result that takes more away than noise is not written "
-        "without --force",
+        "Without these options, bsm chooses everything by the noise of the mesh, or of the first frame.\n"
+        "If you give one, the others have the values of the paper. A result that removes more than noise\n"
+        "is written only with --force.",
         argument_default=argparse.SUPPRESS,
     )
-    ways.add_argument("--fine", choices=FINE, help="fine step (guided)")
-    given = "what the fine step gets: coarse positions, noisy ones moved to it along its normals, noisy "
-    given += "ones smoothed along coarse normals, or no coarse step"
+    ways.add_argument("--fine", choices=FINE, help="method of the fine step (default guided)")
+    given = (
+        "input of the fine step. positions: those of the coarse step. heights: noisy positions, moved to the coarse "
+    )
+    given += "surface along its normals. normals: noisy positions, smoothed along coarse normals. none: no coarse step"
     ways.add_argument("--hand-over", choices=HAND_OVERS, help=given)
-    ways.add_argument("--iterations", type=int, metavar="N", help="of the fine step, 0: none (the method's own)")
-    share = "share of a block's frequencies that the coarse step keeps, c over n_d (0.1)"
+    ways.add_argument(
+        "--iterations",
+        type=int,
+        metavar="N",
+        help="iterations of the fine step; 0: no fine step (default: by the method)",
+    )
+    share = "fraction of a block's frequencies that the coarse step keeps, c over n_d (default 0.1)"
     ways.add_argument("--keep", type=float, metavar="FRACTION", help=share)
-    ways.add_argument("--block-size", type=int, metavar="N", help="vertices of a block before overlap, about (500)")
+    ways.add_argument(
+        "--block-size", type=int, metavar="N", help="approximate vertices of a block before overlap (default 500)"
+    )
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

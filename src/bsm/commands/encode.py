@@ -19,20 +19,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add_inputs(
         parser,
-        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence: folder, quoted pattern, npz, "
-        "PC2, MDD, USD, GLB with --animation",
-        "file, or folder for any number of inputs (default: IN with .bsm; - for a pipe); many inputs to one .bsm are "
-        "the frames of a sequence",
+        "mesh file (OBJ, OFF, PLY, STL, VTP, npz), - for standard input, or a sequence (see below)",
+        "output file, - for a pipe, or folder for several inputs (default: IN with .bsm). Several inputs to one .bsm "
+        "are the frames of a sequence",
     )
-    below = "every mesh file in folders and below; OUT gets the same folders"
+    below = "encode every mesh file in folders and their subfolders; OUT gets the same folders"
     add("-r", "--recursive", action="store_true", help=below)
     formats = tuple(dict.fromkeys((*MESH_FORMATS, *SEQUENCES_READ)))
-    known = "format of the input: its suffix without the dot (default: by its name or content)"
+    known = "format of the input, as a suffix without the dot (default: by its name or content)"
     add("--format", choices=formats, metavar="FORMAT", help=known)
-    add("--permutation", metavar="FILE.npy", help="also write which input vertex each decoded vertex is")
-    said = "also say this of the mesh, for instance name=Bunny or unit=mm; any number of times"
+    add("--permutation", metavar="FILE.npy", help="write the input vertex of each decoded vertex")
+    said = "store metadata, such as name=Bunny or unit=mm. May be repeated"
     add("--meta", action="append", default=[], metavar="NAME=TEXT", help=said)
-    add("--up", choices=("y", "z"), help="also say which axis points up (as --meta up=y)")
+    add("--up", choices=("y", "z"), help="store the up axis (same as --meta up=y)")
     add_reader_flag(parser)
     add_encode_flags(parser)
 

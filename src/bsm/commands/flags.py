@@ -22,7 +22,7 @@ class Setting:
     help: str
 
     def add(self, group: argparse._ActionsContainer) -> None:
-        """Add it as a flag; a namespace has no such name where it is not given: defaults stand elsewhere."""
+        """Add it as a flag. Without a value the namespace has no such name: defaults are elsewhere."""
         typed = {"type": self.type, "metavar": self.metavar}
         how: dict[str, Any] = {"action": argparse.BooleanOptionalAction} if self.type is bool else typed
         how |= {"dest": self.field, "default": argparse.SUPPRESS, "help": self.help}
@@ -65,46 +65,74 @@ def point(text: str) -> tuple[float, ...]:
 
 
 ENCODE_FLAGS = (
-    Setting("grid", int, "BITS", "exactly the positions that a grid of so many bits per axis has (1 to 20)"),
-    Setting("grid_cell", float, "H", "exactly the positions of a grid of such cells: parts on one fit exactly"),
-    Setting("grid_origin", point, "X,Y,Z", "a place of that grid (default 0,0,0)"),
+    Setting("grid", int, "BITS", "round positions to a grid of BITS bits per axis (1 to 20)"),
+    Setting("grid_cell", float, "H", "round positions to a grid with cells of H. Parts on one grid fit exactly"),
+    Setting("grid_origin", point, "X,Y,Z", "a point of that grid (default 0,0,0)"),
     Setting(
         "effort",
         str,
         "quick|normal|best",
-        "quick: grids without blocks, frames unsearched; best: try more (default normal)",
+        "quick: grids only, larger files; best: try more, smaller files (default normal)",
     ),
-    Setting("quick", bool, "", "another name of --effort quick"),
-    Setting("keep_order", bool, "", "store the order of vertices and faces; of a PC2 or MDD, by default, of vertices"),
+    Setting("quick", bool, "", "same as --effort quick"),
+    Setting(
+        "keep_order",
+        bool,
+        "",
+        "store the order of vertices and faces. PC2 and MDD keep the order of vertices by default",
+    ),
     Setting("threads", int, "N", "threads to use (default: one per core)"),
 )
 
 SETTINGS = (
-    Setting("limits", str, "default|service|wide", "what decoders may refuse is an error (default: default)"),
-    Setting("keep", float, "FRACTION", "largest c_i, as a fraction of a block's vertices (default: as many as pay)"),
+    Setting(
+        "limits",
+        str,
+        "default|service|wide",
+        "exit with an error if decoders with these limits would refuse the stream (default: default)",
+    ),
+    Setting(
+        "keep",
+        float,
+        "FRACTION",
+        "largest c_i, as a fraction of a block's vertices (default: chosen by rate and distortion)",
+    ),
     Setting("coefficients", int, "C", "coefficients kept per block and coordinate, instead of keep"),
-    Setting("step", float, "S", "quantisation step, relative to the bounding box's diagonal; instead of a promise"),
+    Setting(
+        "step", float, "S", "quantization step, relative to the diagonal of the bounding box; replaces the promise"
+    ),
     Setting("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
-    Setting("block_size", int, "N", "vertices of a block before overlap, about (default 550)"),
-    Setting("partition", str, "derived|metis", "who cuts the mesh into blocks (default derived: both sides)"),
-    Setting("key_seed", str, "cosines|svd", "where a chain begins (default cosines, with bits svd)"),
-    Setting("key_interval", int, "K", "every K blocks one depends on none before it, 0: the first (default 8)"),
+    Setting("block_size", int, "N", "approximate vertices of a block before overlap (default 550)"),
+    Setting(
+        "partition", str, "derived|metis", "how the mesh is cut into blocks (default derived: the decoder repeats it)"
+    ),
+    Setting("key_seed", str, "cosines|svd", "first dictionary of a chain (default cosines; with bits, svd)"),
+    Setting("key_interval", int, "K", "every K-th block starts a chain; 0: only the first (default 8)"),
     Setting("power", int, "Z", "exponent of the iterated matrix (default 3)"),
     Setting("iterations", int, "T", "orthogonal iterations per block (default 1)"),
-    Setting("doi", thresholds, "EPS_L,EPS_H", "coefficients of a block until its residual is between two thresholds"),
+    Setting(
+        "doi",
+        thresholds,
+        "EPS_L,EPS_H",
+        "choose the coefficients of a block so that its residual lies between two thresholds",
+    ),
 )
-"""What few need, and the codec's inside for those who study it: `--set NAME=VALUE`."""
+"""Advanced settings of the codec: `--set NAME=VALUE`."""
 
 
 PRESETS = ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none")
 PROMISES = (
-    "how far from the original a mesh may look (see --look), and a vertex be off, of the diagonal of its part: small 3 "
-    "(a preview) and 2 %%; balanced, the default, 1 (the same at a glance) and 1 %%; fine 0.5 and 0.5 %%; "
-    "near-lossless 0.25 and 0.05 %% (of the whole diagonal); grid14: exactly as on a grid of 14 bits; lossless: single "
-    "precision, to the bit; none: nothing "
-    "but what is asked for beside it"
+    "The encoder checks the decoded result before it writes a file. All options that you give hold together.\n\n"
+    "preset         look  vertex  (distance in pictures; of the diagonal of its part)\n"
+    "small          3     2 %     a preview: the shape is right, detail is not\n"
+    "balanced       1     1 %     the default: alike at a glance in smooth shading\n"
+    "fine           0.5   0.5 %   closer; for flat shading\n"
+    "near-lossless  0.25  0.05 %  a bound for measuring, of the diagonal of the whole mesh\n"
+    "grid14                       exactly the positions on a grid of 14 bits\n"
+    "lossless                     exact positions in single precision, exact attributes\n"
+    "none                         only the targets that you give"
 )
-"""Of the presets; written out, since importing what they are takes time."""
+"""A table of the presets; written out, because importing their definitions takes time."""
 
 
 def number_or_length(text: str) -> float | str:
@@ -122,22 +150,39 @@ def named_quality(text: str) -> tuple[str, str]:
 
 
 BOUNDS = (
-    Setting("look", number_or_length, "D", "at most D from the original in pictures: 1 is the default, 3 a preview"),
-    Setting("max_error", number_or_length, "REL", "no vertex farther off than REL diagonals, or a length (0.05mm)"),
+    Setting(
+        "look", number_or_length, "D", "distance from the original in pictures, at most D: 1 is balanced, 3 a preview"
+    ),
+    Setting(
+        "max_error",
+        number_or_length,
+        "REL",
+        "error of every vertex, at most REL diagonals (0.001, 0.1%%) or a length (0.05mm)",
+    ),
 )
 TARGETS = (
-    Setting("nmsve_db", float, "X", "visual error, 10 log10 NMSVE, at most X"),
-    Setting("theta", float, "DEG", "mean angle between the faces' normals before and after at most DEG"),
-    Setting("bpv", float, "X", "at most X bits per vertex, the whole file counted"),
-    Setting("size", number_or_length, "BYTES", "at most BYTES (20000, 20kB)"),
+    Setting("nmsve_db", float, "X", "normalized mean squared visual error, at most X dB"),
+    Setting("theta", float, "DEG", "mean angle between normals of faces before and after, at most DEG degrees"),
+    Setting("bpv", float, "X", "bits per vertex of the whole file, at most X"),
+    Setting("size", number_or_length, "BYTES", "size of the file, at most BYTES (20000, 20kB)"),
 )
 OF_SEQUENCES = (
-    Setting("kg", float, "PERCENT", "Karni and Gotsman's error at most PERCENT"),
-    Setting("bpvf", float, "X", "at most X bits per vertex and frame, the whole file"),
+    Setting("kg", float, "PERCENT", "error of Karni and Gotsman, at most PERCENT"),
+    Setting("bpvf", float, "X", "bits per vertex and frame of the whole file, at most X"),
     Setting("runs", bool, "", "let the faces change from frame to frame"),
-    Setting("gop", int, "N", "frames that are coded together, at most (default 256 to 512)"),
-    Setting("low_delay", int, "N", "send N frames as they come (8: a quarter smaller than 1), keys every --gop frames"),
-    Setting("frame_rate", float, "FPS", "frames per second, as metadata, and of samples of animations (glTF, USD)"),
+    Setting("gop", int, "N", "largest group of frames that are coded together (default 256 to 512)"),
+    Setting(
+        "low_delay",
+        int,
+        "N",
+        "send every N frames at once, with a key frame every --gop frames. 8 takes a fifth fewer bytes than 1",
+    ),
+    Setting(
+        "frame_rate",
+        float,
+        "FPS",
+        "frames per second: stored as metadata; glTF and USD animations are sampled at this rate",
+    ),
 )
 
 
@@ -153,8 +198,8 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
         type=named_quality,
         metavar="NAME=QUALITY",
         default=argparse.SUPPRESS,
-        help="how an attribute is kept: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none; * is any other "
-        "one (*=none: materials and images go, too); may be repeated",
+        help="quality of an attribute: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none. The name * means "
+        "all others; *=none also drops materials and images. May be repeated",
     )
     group.add_argument(
         "--set",
@@ -162,27 +207,27 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
         type=named_setting,
         metavar="NAME=VALUE",
         default=argparse.SUPPRESS,
-        help="one of the settings that few need; --help-all lists them",
+        help="an advanced setting; --help-all lists them. May be repeated",
     )
-    parser.add_argument("--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help="also list the settings")
+    parser.add_argument(
+        "--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help="show this help with all settings"
+    )
     group = parser.add_argument_group(
         "sequences",
-        "a folder or pattern of meshes, several meshes with -o NAME.bsm, npz, PC2, MDD, USD, GLB with\n"
-        "--animation, or npy arrays on a pipe (the faces, then the positions of each frame)",
+        "Inputs: a folder or a pattern of meshes; several meshes with -o NAME.bsm; npz, PC2, MDD, USD; GLB with\n"
+        "--animation; npy arrays on a pipe (the faces, then the positions of each frame).",
     )
     for setting in OF_SEQUENCES:
         setting.add(group)
-    add, beside = group.add_argument, "the mesh of a PC2 or MDD (default: of the same name beside it)"
-    add(
-        "--animation", metavar="NAME", help="this animation of a GLB or glTF, by name or number (0), not the mesh alone"
-    )
+    add, beside = group.add_argument, "mesh of a PC2 or MDD (default: the file of the same name beside it)"
+    add("--animation", metavar="NAME", help="encode this animation of a GLB or glTF, by name or number (0)")
     add("--mesh", dest="cache_mesh", metavar="FILE", help=beside)
-    add("--frames", dest="piped_frames", action="store_true", help="a pipe holds frames, as --format npy")
+    add("--frames", dest="piped_frames", action="store_true", help="the pipe contains frames, as with --format npy")
 
 
 def add_preset_flags(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("what to reach", "checked on what the decoder will see; all that is given holds")
-    group.add_argument("--preset", choices=PRESETS, default=argparse.SUPPRESS, help=PROMISES)
+    group = parser.add_argument_group("quality and size", PROMISES)
+    group.add_argument("--preset", choices=PRESETS, default=argparse.SUPPRESS, help="see above (default: balanced)")
     for setting in BOUNDS:
         setting.add(group)
     targets = group.add_mutually_exclusive_group()
@@ -204,32 +249,36 @@ _Asked = TypeVar("_Asked")
 
 
 def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | None = None) -> None:
-    """Declare inputs, how many are worked on at a time, and, where the command writes, its output."""
+    """Declare the inputs, the number of jobs and, if the command writes, the output."""
     add = parser.add_argument
-    add("inputs", metavar="IN", nargs="+", help=f"{about_them}; URLs as well (s3://bucket/name)")
+    add("inputs", metavar="IN", nargs="+", help=f"{about_them}; or a URL (s3://bucket/name)")
     if output:
         add("-o", "--output", metavar="OUT", help=output)
-    add("-j", "--jobs", type=int, default=1, metavar="N", help="inputs to work on at a time, 0: one per core (1)")
+    add(
+        "-j", "--jobs", type=int, default=1, metavar="N", help="work on N inputs at a time; 0: one per core (default 1)"
+    )
     add("--json", action="store_true", help="print the result as JSON")
     many = parser.add_argument_group("many inputs")
-    many.add_argument("--dask", metavar="ADDRESS", help="work on the Dask cluster of this scheduler")
+    many.add_argument("--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler")
     if output:
-        many.add_argument("--report", metavar="FILE.json", help="write what came of each input, print a table")
-        resumed = "go on from --report: leave what is whole and as it would be made"
+        many.add_argument(
+            "--report", metavar="FILE.json", help="write the result of each input to a file, print a table"
+        )
+        resumed = "continue the run of --report: skip inputs whose output is complete and up to date"
         many.add_argument("--resume", action="store_true", help=resumed)
     else:
         parser.set_defaults(output=None, report=None, resume=False)
 
 
 def refuse_two_on_one_pipe(args: argparse.Namespace, output: str) -> None:
-    """Raise `OptionError` where a file and JSON would both go to standard output, or bytes to a terminal."""
+    """Raise `OptionError` if a file and JSON would both go to standard output, or bytes to a terminal."""
     if output == "-" and args.json:
         raise OptionError("--json and -o - would both write to standard output")
     refuse_terminal(output)
 
 
 def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:
-    """What a command line asks for: the flags that are named as the fields of a dataclass."""
+    """Return the flags of a command line as a dataclass with fields of the same names."""
     given = {field.name: getattr(args, field.name) for field in fields(kind) if hasattr(args, field.name)}  # type: ignore[arg-type]
     return kind(**{**given, **more})
 
@@ -239,8 +288,8 @@ def add_limits_flag(parser: argparse.ArgumentParser) -> None:
         "--limits",
         choices=tuple(NAMED_LIMITS),
         default="default",
-        help="what a stream may cost: service: at most 1 GiB and 10 s, for strangers' files of up to a million "
-        "vertices; wide: what one has made oneself (default: by its vertices and bytes)",
+        help="memory and time that a stream may take. default: in proportion to its vertices and bytes. service: at "
+        "most 1 GiB and 10 s, for untrusted files of up to a million vertices. wide: for your own files only",
     )
 
 
@@ -252,5 +301,5 @@ def add_reader_flag(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--reader",
         choices=READERS,
-        help="who reads mesh files (default: bsm for OBJ, OFF, PLY, STL, VTP and npz, trimesh for GLB, 3MF, DAE, ...)",
+        help="library that reads mesh files (default: bsm for OBJ, OFF, PLY, STL, VTP and npz, else trimesh)",
     )

@@ -20,17 +20,17 @@ PRESETS = ("balanced", "fine", "near-lossless", "grid14")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    scene = ".glb, or .gltf with the files beside it; or the stream of a sequence, which becomes a scene as it is"
+    scene = ".glb, .gltf with the files beside it, or the stream of a sequence, which is wrapped in a scene"
     add("input", metavar="SCENE", help=scene)
-    add("-o", "--output", metavar="OUT.glb", required=True, help="the smaller scene")
-    promised = "what is promised of each mesh (default: grid14, positions as exact as Draco's of 14 bits)"
+    add("-o", "--output", metavar="OUT.glb", required=True, help="the compressed scene")
+    promised = "quality of each mesh (default: grid14, as exact as Draco with 14 bits)"
     add("--preset", choices=PRESETS, default=PRESETS[-1], help=promised)
-    quick = "grids alone, which pages decode with a small decoder, several times as fast "
-    quick += f"(default: in scenes of {MANY} primitives and more)"
+    quick = "code grids only: pages decode them several times as fast, with a small decoder "
+    quick += f"(default: for scenes of {MANY} primitives and more)"
     add("--quick", action=argparse.BooleanOptionalAction, help=quick)
-    plain = "write OUT.fallback.bin, too, with plain arrays: viewers that do not know the extension show these"
+    plain = "also write OUT.fallback.bin with plain arrays, for viewers without the extension"
     add("--fallback", action="store_true", help=plain)
-    images = "write images smaller with Pillow: webp, jpeg, png, webp:85 for a quality, webp:85@1024 for a largest side"
+    images = "recompress images with Pillow: webp, jpeg, png; webp:85 sets a quality, webp:85@1024 also a largest side"
     add("--images", metavar="RULE", help=images)
 
 

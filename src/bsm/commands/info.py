@@ -24,7 +24,7 @@ class InfoJob(Task):
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(parser, "stream, folder of tiles, or - for standard input")
-    parser.add_argument("--loops", action="store_true", help="decode sequences, and say which frames repeat others")
+    parser.add_argument("--loops", action="store_true", help="decode sequences, and list frames that repeat others")
     add_limits_flag(parser)
 
 

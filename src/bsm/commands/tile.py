@@ -29,18 +29,33 @@ from bsm.tiles.work import NOTE, held, refuse_others, remove_made
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("input", metavar="MESH", help="binary PLY, binary STL, npz or OBJ of any size; URLs as well")
-    add("-o", "--output", metavar="FOLDER", required=True, help="folder or URL for shards and their manifest.json")
+    add("input", metavar="MESH", help="binary PLY, binary STL, npz or OBJ of any size, or a URL")
+    add("-o", "--output", metavar="FOLDER", required=True, help="folder or URL for the shards and manifest.json")
     add("--format", choices=("ply", "stl", "npz", "obj"), help="format of the input (default: by its name or content)")
-    add("--triangles", type=int, default=1 << 19, metavar="N", help="of a tile, at most (default 2^19)")
-    add("--grid-cell", type=float, metavar="H", help="the grid of all tiles (default: a power of two by the look)")
-    add("--grid-origin", type=point, metavar="X,Y,Z", help="a place of that grid (default 0,0,0)")
-    add("--finest", action="store_true", help="the finest level alone, no coarser ones")
-    add("--work", metavar="FOLDER", help="for files until all is done: several times the input (default: OUTPUT/.work)")
-    add("-j", "--jobs", type=int, default=1, metavar="N", help="tiles to work on at a time, 0: one per core (1)")
-    add("--dask", metavar="ADDRESS", help="work on this scheduler's Dask cluster, whose machines have the same folders")
-    add("--resume", action="store_true", help="go on with what an earlier run has left in --work")
-    add("--tileset", action="store_true", help="write tileset.json of 3D Tiles, too, with a GLB for each tile")
+    add(
+        "--triangles",
+        type=int,
+        default=1 << 19,
+        metavar="N",
+        help="largest number of triangles of a tile (default 2^19)",
+    )
+    add(
+        "--grid-cell",
+        type=float,
+        metavar="H",
+        help="cell of the grid of all tiles (default: a power of two, chosen by the look)",
+    )
+    add("--grid-origin", type=point, metavar="X,Y,Z", help="a point of that grid (default 0,0,0)")
+    add("--finest", action="store_true", help="write only the finest level")
+    add("--work", metavar="FOLDER", help="folder for temporary files, several times the input (default: OUTPUT/.work)")
+    add("-j", "--jobs", type=int, default=1, metavar="N", help="work on N tiles at a time; 0: one per core (default 1)")
+    add(
+        "--dask",
+        metavar="ADDRESS",
+        help="run on the Dask cluster of this scheduler; its machines must share the folders",
+    )
+    add("--resume", action="store_true", help="continue a stopped run from the files in --work")
+    add("--tileset", action="store_true", help="also write tileset.json (3D Tiles) and a GLB for each tile")
     add("--content", choices=CONTENTS, default=CONTENTS[0], help=CONTENT_HELP)
     add("--json", action="store_true", help="print the manifest")
 

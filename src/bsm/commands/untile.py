@@ -21,19 +21,27 @@ def box(text: str) -> tuple[float, ...]:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("input", metavar="FOLDER", help="folder of tiles, or a URL of one")
+    add("input", metavar="FOLDER", help="folder of tiles, or its URL")
     add(
         "-o",
         "--output",
         metavar="OUT",
         required=True,
-        help=".ply (- for a pipe) of any size, or .../tileset.json for 3D Tiles; in memory, any mesh format, or .bsm",
+        help=".ply of any size, - for a pipe, or .../tileset.json (3D Tiles). Other formats must fit into memory",
     )
-    add("--box", type=box, metavar="X,Y,Z,X,Y,Z", help="the triangles that reach into this box, in memory")
+    add(
+        "--box",
+        type=box,
+        metavar="X,Y,Z,X,Y,Z",
+        help="only triangles that reach into this box; they must fit into memory",
+    )
     of = parser.add_mutually_exclusive_group()
-    of.add_argument("--level", type=int, metavar="N", help="a level, 0 the coarsest (default: the finest)")
+    of.add_argument("--level", type=int, metavar="N", help="level of detail; 0 is the coarsest (default: the finest)")
     of.add_argument(
-        "--error", type=float, metavar="H", help="the coarsest tiles that are at most so far off, in the mesh's unit"
+        "--error",
+        type=float,
+        metavar="H",
+        help="the coarsest tiles with an error of at most H, in the unit of the mesh",
     )
     add("--content", choices=CONTENTS, default=CONTENTS[0], help=CONTENT_HELP)
     add_limits_flag(parser)

@@ -26,7 +26,7 @@ class VerifyJob(Task):
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_inputs(parser, "stream, folder of tiles, or - for standard input")
     add_limits_flag(parser)
-    parser.add_argument("--quick", action="store_true", help="check structure and checksums only, do not decode")
+    parser.add_argument("--quick", action="store_true", help="check structure and checksums only; do not decode")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

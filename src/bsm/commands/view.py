@@ -28,17 +28,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "inputs",
         metavar="IN",
         nargs="*",
-        help="stream, of a mesh or a sequence, or - for a pipe; mesh file, encoded and shown beside its stream; folder "
-        "of tiles; nothing: a page to drop a mesh on",
+        help="stream, - for a pipe, or folder of tiles. A mesh file is encoded and shown beside its stream. Without "
+        "inputs, the page is empty: drop a mesh on it",
     )
-    add("--preset", choices=PRESETS, default="balanced", help="for mesh files (default: balanced)")
-    add("--original", metavar="MESH", help="mesh file that the stream was made of, to compare it with")
-    add("--follow", action="store_true", help="the files are still being written: go on as they grow, as with a pipe")
+    add("--preset", choices=PRESETS, default="balanced", help="preset for mesh files (default: balanced)")
+    add("--original", metavar="MESH", help="mesh file to compare the stream with")
+    add("--follow", action="store_true", help="keep reading files that are still being written")
     add_reader_flag(parser)
     add_limits_flag(parser)
-    add("--save", metavar="PAGE.html", help="write one page with the streams in it; it needs no server and no network")
-    add("--port", type=int, default=0, metavar="N", help="of the server (default: any that is free)")
-    add("--no-open", action="store_true", help="print the address, and leave the browser to you")
+    add("--save", metavar="PAGE.html", help="write a page that contains the streams and needs no server")
+    add("--port", type=int, default=0, metavar="N", help="port of the server (default: a free one)")
+    add("--no-open", action="store_true", help="print the address; do not open a browser")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

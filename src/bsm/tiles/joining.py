@@ -35,7 +35,7 @@ from bsm.tiles.shards import Tiles
 _COPIED = 1 << 24
 TILESET, _CONTENT = "tileset.json", "glb"
 CONTENTS = ("none", "bsm", "draco", "meshopt")  # of GLB: plain, our extension, and by gltf-transform
-CONTENT_HELP = "how a tileset's GLBs are coded: bsm for our loader, draco and meshopt by gltf-transform (none)"
+CONTENT_HELP = "compression of the GLBs of a tileset: bsm; draco or meshopt by gltf-transform (default none)"
 
 
 def write_joined(
