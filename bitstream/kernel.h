@@ -68,7 +68,7 @@ BSM_ARRAY(Doubles, double)
 #endif
 
 /* A file *.simd.c is compiled as a whole for each level of x86-64, with a name of its own for what others call, since
- * the shape of its vectors depends on the level; `levels.c` chooses when the program runs. */
+ * the shape of its vectors depends on the level; `codec/levels.c` chooses when the program runs. */
 #ifdef KERNEL_LEVEL
 #define LEVEL_OF(name, level) name##_v##level
 #define LEVEL_NAME(name, level) LEVEL_OF(name, level)

@@ -15,7 +15,7 @@ from bsm.codec.geometry.attributes import Semantic
 from bsm.codec.geometry.mesh import Metadata
 from bsm.codec.threads import threads_of
 
-NEED_DATA, METADATA, CONNECTIVITY, FRAME, END = 0, 2, 3, 7, 9  # types of events in bsmdec.h
+NEED_DATA, METADATA, CONNECTIVITY, FRAME, END = 0, 2, 3, 7, 9  # types of events in engine/bsmdec.h
 _OF_FRAMES = 1 << NEED_DATA | 1 << METADATA | 1 << CONNECTIVITY | 1 << FRAME | 1 << END
 SEMANTICS: tuple[Semantic, ...] = ("generic", "color", "normal", "texcoord")
 

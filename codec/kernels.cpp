@@ -9,7 +9,7 @@ extern "C" {
 #include "codec/look/likeness.h"
 #include "codec/look/normals.h"
 #include "codec/look/shade.h"
-#include "codec/sequence/kernels.h"
+#include "codec/sequence/temporal.h"
 #include "codec/signal/signal.h"
 #include "codec/static/choice/choice.h"
 #include "codec/static/units.h"

@@ -2,7 +2,7 @@
 #ifdef KERNEL_LEVELS
 
 #include "codec/basis/basis.h"
-#include "codec/sequence/kernels.h"
+#include "codec/sequence/temporal.h"
 #include "codec/signal/signal.h"
 
 #if KERNEL_LEVELS == 1

@@ -2,6 +2,7 @@
 #include "engine/ahead.h"
 
 #include "engine/arithmetic.h"
+#include "engine/corners.h"
 
 enum { MOST_LANES = 64, CHAINS_OF_LANE = 4, MOST_ROWS = 1 << 20, AT_ONCE = 1024 };
 
@@ -36,6 +37,7 @@ struct Ahead {
     int64_t first, count;
     LevelsAhead levels;
     int64_t job, chains, jobs; /* of a run: the next job; the first ones are chains, and one more may read levels */
+    bool (*builder)(bsmdec *decoder);
     bool built, is_built;
 };
 
@@ -165,19 +167,20 @@ static void build_or_read(void *context, int index) {
     Ahead *ahead = context;
     (void)index;
     if (__atomic_fetch_add(&ahead->job, 1, __ATOMIC_RELAXED) == 0) {
-        ahead->built = build(ahead->decoder);
+        ahead->built = ahead->builder(ahead->decoder);
         __atomic_store_n(&ahead->is_built, true, __ATOMIC_RELEASE);
     } else {
         read_levels_ahead(ahead, true);
     }
 }
 
-bool build_beside(bsmdec *decoder) {
+bool build_beside(bsmdec *decoder, bool (*builder)(bsmdec *decoder)) {
     Ahead *ahead = is_parallel(decoder) ? ahead_of(decoder) : NULL;
-    if (ahead == NULL) return build(decoder);
+    if (ahead == NULL) return builder(decoder);
     find_levels(ahead, decoder->mesh.next_block + 1);
-    if (ahead->levels.count == 0 || ahead->levels.progress == GIVEN_UP) return build(decoder);
+    if (ahead->levels.count == 0 || ahead->levels.progress == GIVEN_UP) return builder(decoder);
     ahead->job = 0;
+    ahead->builder = builder;
     run(decoder, 2, build_or_read, ahead);
     return ahead->built;
 }

@@ -269,7 +269,7 @@ BSMDEC_API bsmdec_status bsmdec_attribute_indices(bsmdec *decoder, int index, ui
 
 /* ---- Metadata ----
  *
- * Entries that the author of the stream chose. Names are free; these are known (specification, registry.md):
+ * Entries that the author of the stream chose. Names are free; these are known (spec/registry.md):
  *
  *     name                     type            what
  *     unit                     text            of the positions: "mm", "m", "in", ...

@@ -3,6 +3,7 @@
 
 #include "codec/blocks/blocks.h"
 #include "codec/signal/signal.h"
+#include "engine/zstd.h"
 
 static const double STIFFNESS = 8;
 enum { LEVEL_LIMIT = 400, LEVEL_RATE = 4, PRIOR_WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBOURS, PRIOR_MIXES = SELECTORS * NODES * EXPECTATIONS };

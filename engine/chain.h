@@ -3,33 +3,8 @@
 #define BSMDEC_CHAIN_H
 
 #include "bitstream/coefficients/coefficients.h"
-#include "engine/charges.h"
 #include "engine/coding.h"
-
-/* C and D^-1 of L + diagonal. */
-typedef struct {
-    Singles values, inverse;
-} Factor;
-
-/* How a dictionary is iterated: z, t, and at most how many columns that gives (M 8.4, M 8.7). */
-typedef struct {
-    int64_t power, iterations, most;
-} Schedule;
-
-/* U of a patch that follows none (M 8.3 to M 8.5), of `width` columns, in `arena`; `held` is the factor of L + springs + shift,
- * or NULL. */
-bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs, const Factor *held,
-    int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary);
-/* U of a patch whose predecessor has as many rows, and the dictionary `previous`. */
-bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor, Singles2 previous,
-    int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary);
-bool factorize_patch(const Patch *patch, ConstDoubles springs, double shift, Arena *arena, Factor *factor);
-/* Columns that follow from L, of a block of so many rows (M 8.7). */
-INLINE int64_t iterated_columns(const Header *header, int64_t rows) {
-    return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 1) / 2 : rows;
-}
-INLINE int64_t solving_space(int64_t rows, int64_t columns) { return (rows + 4) * (columns + 16) + 15; }
-MUST_CHECK bool take_factor(Arena *arena, const Patch *patch, Factor *factor);
+#include "engine/dictionaries.h"
 
 /* Sums of weight times position, and weights. */
 typedef struct {
@@ -82,8 +57,5 @@ bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payl
 void leave_chain(Chains *chains);
 /* Count a block as decoded that other chains decoded, and make its charges. */
 bool settle_block(Chains *chains, int64_t index, const Ledger *ledger);
-
-/* zstd (F 6.2): exactly `size` bytes. */
-bool unpack_zstd(Context *context, Span frame, uint8_t *content, int64_t size, Arena *scratch);
 
 #endif

@@ -6,12 +6,6 @@
 /* Nanoseconds to look at an edge while rings are found, to find rings at all, and to report a vertex. */
 static const double LOOK = 18, CALL = 2e4, COPY = 90;
 
-void forget_changes(Changes *changes) {
-    release_all(&changes->answer);
-    release_all(&changes->memory);
-    *changes = (Changes){.memory = arena_of(changes->memory.context), .answer = arena_of(changes->memory.context)};
-}
-
 /* Find the user's numbers of each coded vertex. */
 static bool invert_numbering(Changes *changes, const Numbering *numbering, int64_t coded) {
     int64_t copies = numbering->source.size - numbering->loose.rows;

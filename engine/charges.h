@@ -3,7 +3,7 @@
 #ifndef BSMDEC_CHARGES_H
 #define BSMDEC_CHARGES_H
 
-#include "engine/mesh.h"
+#include "codec/basis/basis.h"
 
 INLINE double above_zero(double x) { return x > 0.0 ? x : 0.0; }
 INLINE double mesh_work(double n, double m, double bytes) {

@@ -26,5 +26,7 @@ typedef struct {
     int inputs, limit, rate, probability, trust;
 } BankPlan;
 MUST_CHECK bool make_bank(Arena *arena, BankPlan plan, Bank *bank);
+/* The model of a sequence's levels, and of columns of whole numbers (S 4.1). */
+MUST_CHECK bool make_level_bank(Arena *arena, Bank *bank);
 
 #endif

@@ -1,5 +1,5 @@
 /* What all fields of integers begin with: corners, orders, models (specification, V 1 to V 6). */
-#include "engine/fields.h"
+#include "engine/corners.h"
 
 enum { MODEL_SLOTS = CONTEXTS * CONTEXT_SIZE * VALUE_NODES, UNLEARNT_HIT = 1 << 28, SLOT_WEIGHT = 6000 };
 

@@ -1,6 +1,9 @@
 /* The functions of bsmdec.h. */
-#include "engine/arithmetic.h"
 #include "engine/decoder.h"
+
+#include "engine/arithmetic.h"
+#include "engine/sequence.h"
+#include "engine/stages.h"
 
 #include <stdlib.h>
 
@@ -163,29 +166,31 @@ bsmdec_status bsmdec_finish(bsmdec *decoder) {
     return BSMDEC_OK;
 }
 
-/* An event of the present mesh: what its header claims, and what it is once the faces are known. */
-static bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
-    const Mesh *mesh = &decoder->mesh;
-    return (bsmdec_event){type, index, count, mesh->announced ? mesh->numbering.size : mesh->header.vertices,
-        mesh->header.faces, decoder->has_mesh ? mesh->header.frames : decoder->sequence.announced};
+/* What comes before the blocks of the first mesh, and these: all that a helper needs. */
+static bool is_for_helpers(const Packet *packet) {
+    return packet->type == HEADER_FRAME || packet->type == CONNECTIVITY_FRAME || packet->type == PARTITION_FRAME || packet->type == BLOCK_FRAME;
 }
 
-/* Have an event wait to be told. */
-bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
-    Context *context = &decoder->context;
-    if (decoder->waiting == decoder->room) {
-        int64_t room = 2 * decoder->room + 16;
-        bsmdec_event *queue;
-        if (!TAKE_OF_HOST(context, room, queue)) return false;
-        for (int64_t i = 0; i < decoder->waiting; i++) queue[i] = decoder->queue[(decoder->first + i) % decoder->room];
-        host_give(context, decoder->queue, (size_t)decoder->room * sizeof *queue);
-        decoder->queue = queue;
-        decoder->room = room;
-        decoder->first = 0;
-    }
-    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room] = event_of(decoder, type, index, count);
-    return true;
+static bool accept_packet(bsmdec *decoder, const Packet *packet) {
+    if (decoder->share.helps && !is_for_helpers(packet)) return true;
+    Mark mark = mark_of(&decoder->scratch);
+    bool in_sequence = decoder->sequence.is_one || (packet->type == HEADER_FRAME && packet->header->gop_frames > 0);
+    decoder->has_checksum = packet->has_positions && decoder->sequence.start == 0;
+    decoder->told = packet->positions;
+    bool done = (in_sequence ? accept_in_sequence : take_in)(decoder, packet);
+    release_to(&decoder->scratch, mark);
+    return done;
 }
+
+static bool accept_damage(bsmdec *decoder) {
+    decoder->context.error = decoder->reader.damage.why;
+    decoder->context.error.status = BSMDEC_CORRUPT;
+    locate(&decoder->context.error, decoder->reader.damaged_offset, -1, -1);
+    return (decoder->sequence.is_one ? accept_damage_in_sequence : accept_damage_in_mesh)(decoder);
+}
+
+/* Nothing follows. */
+static bool accept_end(bsmdec *decoder) { return (decoder->sequence.is_one ? end_sequence : finish_mesh)(decoder); }
 
 /* Take in what has come, until there is an event, an error, or nothing more. */
 static bsmdec_event_type advance(bsmdec *decoder) {
@@ -379,3 +384,22 @@ const bsmdec_error *bsmdec_last_loss(const bsmdec *decoder) { return decoder != 
 const char *bsmdec_last_misuse(const bsmdec *decoder) {
     return decoder != NULL ? decoder->misuse : "the decoder is NULL";
 }
+
+const char *bsmdec_version(void) { return BSMDEC_VERSION; }
+
+const char *bsmdec_status_name(bsmdec_status status) {
+    switch (status) {
+        case BSMDEC_OK: return "ok";
+        case BSMDEC_MISUSED: return "misused";
+        case BSMDEC_FORMAT: return "format";
+        case BSMDEC_CORRUPT: return "corrupt";
+        case BSMDEC_UNSUPPORTED: return "unsupported";
+        case BSMDEC_LIMIT: return "limit";
+        case BSMDEC_NUMERIC: return "numeric";
+        case BSMDEC_NO_MEMORY: return "no memory";
+        case BSMDEC_TRUNCATED: return "truncated";
+        default: return "unknown";
+    }
+}
+
+size_t bsmdec_kind_size(int kind) { return is_kind(kind) ? kind_size(kind) : 0; }

@@ -1,134 +1,8 @@
-/* A decoder, and the stages of a mesh: what is decoded one after the other behind a header. */
+/* What the functions of bsmdec.h have in common. */
 #ifndef BSMDEC_DECODER_H
 #define BSMDEC_DECODER_H
 
-#include "engine/assembly.h"
-#include "engine/attributes.h"
-#include "engine/fields.h"
-#include "engine/gop.h"
-#include "engine/reader.h"
-
-typedef struct Ahead Ahead;
-
-/* What is known of the present mesh. */
-typedef struct {
-    Header header;
-    Arena arena;
-    bool has_faces, has_graph, has_blocks, announced, over;
-    Ints2 faces;
-    Graph graph;
-    Ints labels;         /* of PARTITION, empty without */
-    Numbering numbering;
-    Blocks blocks;
-    bool has_chains, has_grid, has_layer, values_begun;
-    Chains chains;
-    Assembly assembly;
-    Ahead *ahead;         /* what other threads decoded, or NULL */
-    int64_t next_block, chunks;
-    GridField grid;
-    Layer layer;
-    bool has_attributes;
-    Attributes attributes;
-    /* Of a sequence: */
-    bool in_gops;
-    Doubles2 first_frame; /* in BSM units */
-    Mover *movers;
-    int mover_count;
-    Gops gops;
-} Mesh;
-
-/* A mesh that runs have had, the memory that is counted for it, and its vertices. */
-enum { SHELF = 8 };
-typedef struct {
-    int64_t run;
-    double memory;
-    int64_t vertices;
-    Mesh mesh;
-} Shelved;
-
-/* A GOP before what is wanted, that others may need. */
-typedef struct Skipped {
-    struct Skipped *next;
-    Span data;
-} Skipped;
-
-/* How far a sequence has come, over all of its runs (specification, S 1.3, S 9). */
-typedef struct {
-    bool is_one, lost, lossy, damaged;
-    int64_t start, next, announced, missing; /* frames: the first wanted, the next, of all runs, lost so far */
-    int64_t mesh, gop;                       /* the run that brought the present mesh; first frame of the GOP that is shown */
-    bsmdec_error damage, why;                /* the first since frames were lost; why the run is */
-    Shelved *shelf[SHELF];                   /* the one used last at the end */
-    int shelved;
-    double kept;
-    int64_t vertices;                        /* when the run began */
-    Arena waiting;
-    Skipped *first, *last;
-} Sequence;
-
-/* Who decodes which chains of a static mesh or a first frame: chain c is that of number c % `among`, the decoder's is 0; all
- * are its own where `among` is 0. One that helps decodes nothing else, and hands its blocks over. */
-typedef struct {
-    int64_t number, among;
-    bool helps;
-    DecodedBlock handed;
-} Share;
-
-INLINE bool is_own(const Share *share, const Header *header, int64_t index) {
-    return share->among == 0 || index / chain_length(header) % share->among == share->number;
-}
-
-/* Vertices for graphics: those of the mesh, then copies of some, whose vertices are `sources`. `corners` has a corner of
- * each, -1 if no face has it; `indices` has the vertex of each corner. The arrays are empty if nothing is split. */
-typedef struct {
-    Arena arena;
-    bool is_made, is_needed, by[MOST_ATTRIBUTES];
-    int64_t vertices;
-    Ints sources, corners;
-    Words indices;
-} Split;
-
-/* Reported for a block that a helper decodes: it has to be added before anything else is asked for. */
-enum { BLOCK_OF_HELPER = BSMDEC_VALUES + 1 };
-
-/* What is remembered of the present mesh to answer what has changed, and the last answer. */
-typedef struct {
-    Arena memory, answer;
-    bool begun;
-    Ints missing;            /* copies of each vertex that have not come */
-    Bytes final, marks;
-    Doubles2 blended;
-    Ints number, ringed;     /* of vertices around others */
-    Ints starts, members;    /* the user's numbers of each coded vertex; empty: the same */
-    int64_t blocks, reached; /* those of which changes were read: blocks; vertices of a grid or of refinement */
-} Changes;
-void forget_changes(Changes *changes);
-
-struct bsmdec {
-    Context context;
-    Share share;
-    bsmdec_parallel parallel;
-    Reader reader;
-    Arena scratch;
-    bool tolerant, base_alone, has_mesh, ended, over; /* `over`: nothing more is read */
-    Mesh mesh;
-    Sequence sequence;
-    Changes changes;
-    /* Events that wait to be told, a ring. */
-    bsmdec_event *queue;
-    int64_t first, waiting, room;
-    /* What positions are asked of: those of the mesh, or of a frame; in the unit of the mesh, as coded. */
-    bool has_positions;
-    ConstDoubles2 positions;
-    Arena shown;
-    bool has_checksum;    /* whether the stream has told that of all positions: */
-    uint32_t told, shown_sum; /* the one told, and that of all frames so far */
-    Split split;
-    char misuse[128];     /* why the last call was refused */
-    bsmdec_error loss;
-    bsmdec_error *losses; /* of the LOSS events that wait, by index */
-    int64_t loss_count, loss_room;
-};
+#include "engine/state.h"
 
 /* Note why a call is refused; returns BSMDEC_MISUSED. */
 bsmdec_status refuse(bsmdec *decoder, Message message);
@@ -147,41 +21,8 @@ bool fits(bsmdec *decoder, const void *array, size_t count, int64_t expected);
 bool has_places(bsmdec *decoder);
 /* Where vertex v of the user is; `loose` counts those in no face. */
 const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose);
-INLINE void forget_split(bsmdec *decoder) {
-    release_all(&decoder->split.arena);
-    decoder->split = (Split){.arena = decoder->split.arena};
-}
 /* An attribute of which values may have come; NULL, and the reason is noted, if there is none. */
 const Attribute *begun_attribute(bsmdec *decoder, int index);
 bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute);
-
-bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
-/* Take a packet in; what follows from it is told. */
-bool accept_packet(bsmdec *decoder, const Packet *packet);
-bool accept_damage(bsmdec *decoder);
-bool accept_end(bsmdec *decoder);
-/* Positions of a mesh that is not whole yet, as far as they are known. */
-bool look_at_positions(bsmdec *decoder);
-void end_mesh(Mesh *mesh);
-void begin_mesh(bsmdec *decoder, const Header *header);
-bool take_in(bsmdec *decoder, const Packet *packet);
-/* Blocks, and all that takes them in, when they are first needed. */
-bool build(bsmdec *decoder);
-/* Have an error be told as a loss: of so many frames of a sequence from `index` on, or of a block. */
-bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
-
-/* Whether the checksum of all positions is the one that was told; a tolerant decoder tells of another as a loss. */
-bool check_sum(bsmdec *decoder, uint32_t found);
-
-/* The same for sequences. */
-bool accept_in_sequence(bsmdec *decoder, const Packet *packet);
-bool accept_damage_in_sequence(bsmdec *decoder);
-bool end_sequence(bsmdec *decoder);
-/* Make a frame that was told the one that is asked for. */
-bool show(bsmdec *decoder, int64_t index);
-void close_sequence(bsmdec *decoder);
-
-/* Bear an error as a loss of `block`, or of something else if that is -1: false where it is not to be borne. */
-bool bear(bsmdec *decoder, int64_t block, bool anywhere);
 
 #endif

@@ -1,17 +1,12 @@
-/* GOPs to frames (specification, S 3.7 to S 7, S 10): codec/sequence/gop.py, history.py and tracks.py. */
+/* GOPs to frames (specification, S 3.7 to S 7, S 10): codec/sequence/gop.py and tracks.py. */
+#include "engine/frames.h"
+
+#include "bitstream/coefficients/coefficients.h"
 #include "codec/signal/signal.h"
-#include "engine/gop.h"
 
 static const PredictionRules RULES = {.forgetting = 0.985, .ridge = 0.004, .noise = 30, .around = 30, .dense_rows = 16, .renewal = 8};
-static const int LAG[LAGS] = {1, 2, 3, 5, 8, 13, 21, 34};
 static const double SQUARES = 0.5, CUBES = 0.3, SMALLEST_RADIUS = 0x1p-24, TRACK_MEMORY = 40;
 static const double QUARTERS[4] = {1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605};
-
-int64_t lags_of(int64_t kept) {
-    int64_t count = 0;
-    while (count < LAGS && LAG[count] < kept) count++;
-    return count;
-}
 
 static Doubles2 rows_from(Doubles2 all, int64_t first, int64_t count) { return (Doubles2){all.data + first * all.columns, count, all.columns}; }
 
@@ -77,13 +72,13 @@ static bool fill_known(Bend bend, ConstDoubles2 first_frame, const Mover *movers
 
 /* What is known of a part: around it, and its differences. */
 static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, const Mover *movers, int count, int64_t columns, Arena *scratch) {
-    const Site *part = gops->part + index;
+    const Site *part = gops->parts.part + index;
     int64_t n = part->patch.size, ends = part->around.size;
     Singles2 dictionary;
     Doubles2 here, around, expected, differences, places;
     if (!take_doubles2(scratch, n, columns, &here) || !take_doubles2(scratch, ends, columns, &around)
         || !take_doubles2(scratch, n, columns, &expected) || !take_doubles2(scratch, part->width, columns, &differences)
-        || !lend_dictionary(gops, index, scratch, &dictionary) || !take_doubles2(scratch, n, 3, &places))
+        || !lend_dictionary(&gops->parts, index, scratch, &dictionary) || !take_doubles2(scratch, n, 3, &places))
         return false;
     gather_rows(first_frame, part->patch.vertices, places);
     Bend bend = bend_of(const_doubles2(places));
@@ -105,25 +100,27 @@ static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, cons
 
 bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, ConstInts2 faces,
     ConstDoubles2 first_frame, int64_t given, const Mover *movers, int count, Arena *scratch) {
-    *gops = (Gops){.context = context, .header = header, .graph = graph, .blocks = blocks, .given = (double)given, .tracks = count + 1, .begun = true};
-    gops->arena = gops->dictionaries = gops->history = gops->levels = gops->frames = arena_of(context);
+    const Arena none = arena_of(context);
+    *gops = (Gops){.context = context, .given = (double)given, .tracks = count + 1, .begun = true, .arena = none, .history = none,
+        .levels = none, .frames = none};
+    gops->parts = (Parts){.context = context, .header = header, .graph = graph, .blocks = blocks, .arena = &gops->arena, .dictionaries = none};
     double work, widths = 0, n = (double)graph->size;
     int64_t columns = BENDING;
     for (int k = 0; k < count; k++) widths += (double)movers[k].width;
-    if (!find_parts(gops, faces, first_frame, scratch) || !reserve_dictionaries(gops, 0, 0, &work) || !keep(context, TRACK_MEMORY * n * widths, 0)
-        || !keep(context, 8 * (BENDING + widths) * gops->around, 0))
+    if (!find_parts(&gops->parts, faces, first_frame, scratch) || !reserve_dictionaries(&gops->parts, 0, 0, &work) || !keep(context, TRACK_MEMORY * n * widths, 0)
+        || !keep(context, 8 * (BENDING + widths) * gops->parts.around, 0))
         return false;
     if (!TAKE_ZEROS(&gops->arena, gops->tracks, gops->track)) return false;
     for (int k = 0; k <= count; k++) {
         Track *track = gops->track + k;
         track->width = k > 0 ? movers[k - 1].width : 3;
         track->kept = k > 0 ? 2 : least(MOST_KEPT, largest(2, (1 << 19) / graph->size));
-        if (!take_doubles2(&gops->arena, gops->rows, k > 0 ? track->width : BENDING, &track->known)) return false;
+        if (!take_doubles2(&gops->arena, gops->parts.rows, k > 0 ? track->width : BENDING, &track->known)) return false;
         track->starts_at_first = k == 0;
         columns += k > 0 ? track->width : 0;
     }
     bool done = true;
-    for (int64_t i = 0; done && i < gops->count; i++) {
+    for (int64_t i = 0; done && i < gops->parts.count; i++) {
         Mark mark = mark_of(scratch);
         done = know_part(gops, i, first_frame, movers, count, columns, scratch);
         release_to(scratch, mark);
@@ -139,7 +136,7 @@ void suspend_gops(Gops *gops) {
     release_all(&gops->history);
     release_all(&gops->levels);
     release_all(&gops->frames);
-    release_dictionaries(gops);
+    release_dictionaries(&gops->parts);
 }
 
 void end_gops(Gops *gops) {
@@ -147,7 +144,7 @@ void end_gops(Gops *gops) {
     release_all(&gops->history);
     release_all(&gops->levels);
     release_all(&gops->frames);
-    release_all(&gops->dictionaries);
+    release_all(&gops->parts.dictionaries);
     release_all(&gops->arena);
     gops->begun = false;
 }
@@ -265,7 +262,7 @@ static bool decode_learnt_part(Gops *gops, const Telling *telling, int k, const 
     const GopField *field = telling->gop->field + k;
     Track *track = gops->track + k;
     int64_t m = ends.rows, c = part->width;
-    Doubles2 before = telling->gop->method == LEARNT_NEXT ? track->inherited : (Doubles2){NULL, gops->rows, 0};
+    Doubles2 before = telling->gop->method == LEARNT_NEXT ? track->inherited : (Doubles2){NULL, gops->parts.rows, 0};
     Doubles2 known, found = telling->found[k];
     if (!join_columns(rows_from(track->known, part->first, m + c), rows_from(before, part->first, m + c), scratch, &known)) return false;
     if (field->components > 0
@@ -339,11 +336,11 @@ static bool decode_next_part(Gops *gops, const Telling *telling, int k, const Si
 
 /* Fill a part of the field from what is told of it. */
 static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_t *begin, Arena *scratch) {
-    const Site *part = gops->part + index;
+    const Site *part = gops->parts.part + index;
     int64_t n = part->patch.size, m = part->around.size, c = part->width, total = gops->field.columns, place = 0;
     Singles2 dictionary;
     Doubles2 around, differences, positions, extension;
-    if (!lend_dictionary(gops, index, scratch, &dictionary) || !take_doubles2(scratch, m, total, &around)
+    if (!lend_dictionary(&gops->parts, index, scratch, &dictionary) || !take_doubles2(scratch, m, total, &around)
         || !take_doubles2(scratch, c, total, &differences) || !take_doubles2(scratch, n, total, &positions)
         || !take_doubles2(scratch, n, total, &extension))
         return false;
@@ -374,7 +371,7 @@ static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_
 static bool place_parts(Gops *gops, const Telling *telling, Arena *scratch) {
     int64_t begin = 0;
     bool done = true;
-    for (int64_t i = 0; done && i < gops->count; i++) {
+    for (int64_t i = 0; done && i < gops->parts.count; i++) {
         Mark mark = mark_of(scratch);
         done = place_part(gops, telling, i, &begin, scratch);
         release_to(scratch, mark);
@@ -384,7 +381,7 @@ static bool place_parts(Gops *gops, const Telling *telling, Arena *scratch) {
 
 static int64_t coded_rows(const Gops *gops) {
     int64_t rows = 0;
-    for (int64_t i = 0; i < gops->count; i++) rows += gops->part[i].width;
+    for (int64_t i = 0; i < gops->parts.count; i++) rows += gops->parts.part[i].width;
     return rows;
 }
 
@@ -392,22 +389,22 @@ static int64_t coded_rows(const Gops *gops) {
 static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int32_t *before, int64_t columns, Arena *scratch, Ints levels) {
     Mark mark = mark_of(scratch);
     Matrix *matrices;
-    if (!TAKE(scratch, gops->count, matrices)) return false;
+    if (!TAKE(scratch, gops->parts.count, matrices)) return false;
     int64_t begin = 0;
-    for (int64_t i = 0; i < gops->count; i++) {
-        int64_t rows = gops->part[i].width, earlier = i > 0 && before == NULL ? gops->part[i - 1].width : 0;
+    for (int64_t i = 0; i < gops->parts.count; i++) {
+        int64_t rows = gops->parts.part[i].width, earlier = i > 0 && before == NULL ? gops->parts.part[i - 1].width : 0;
         int32_t *own = levels.data + begin * columns;
         matrices[i] = (Matrix){rows, 0, own, before != NULL ? before + begin * columns : own - earlier * columns, before != NULL ? rows : earlier};
         begin += rows;
     }
-    bool done = read_matrices(gops->context, bank, field->levels, matrices, gops->count, columns, 0, scratch);
+    bool done = read_matrices(gops->context, bank, field->levels, matrices, gops->parts.count, columns, 0, scratch);
     release_to(scratch, mark);
     return done;
 }
 
 /* Make room for the field of a GOP, and for batches of its frames. */
 static bool begin_field(Gops *gops, const Gop *gop) {
-    int64_t columns = 0, n = gops->graph->size, shown = least(gop->frames, BATCH);
+    int64_t columns = 0, n = gops->parts.graph->size, shown = least(gop->frames, BATCH);
     for (int k = 0; k < gops->tracks; k++) columns += gops->basis[k].columns;
     gops->batched = -1;
     if (!zero_doubles2(&gops->frames, n, columns, &gops->field) || !TAKE(&gops->frames, gops->tracks, gops->batch)) return false;
@@ -435,7 +432,7 @@ static bool decode_learnt(Gops *gops, const Gop *gop, Arena *scratch) {
         const GopField *field = gop->field + k;
         Bank bank;
         if (!zero_ints(scratch, coded_rows(gops) * field->components, telling.levels + k)
-            || !take_doubles2(scratch, gops->rows, least(field->components, INHERITED), telling.found + k))
+            || !take_doubles2(scratch, gops->parts.rows, least(field->components, INHERITED), telling.found + k))
             return false;
         Mark mark = mark_of(scratch);
         if (!make_level_bank(scratch, &bank)
@@ -447,7 +444,7 @@ static bool decode_learnt(Gops *gops, const Gop *gop, Arena *scratch) {
     release_all(&gops->history);
     for (int k = 0; k < gops->tracks; k++) {
         Doubles2 found = telling.found[k], *inherited = &gops->track[k].inherited;
-        if (!take_doubles2(&gops->history, gops->rows, found.columns, inherited)) return false;
+        if (!take_doubles2(&gops->history, gops->parts.rows, found.columns, inherited)) return false;
         copy_columns(const_doubles2(found), 0, found.columns, *inherited, 0);
     }
     gops->can_inherit = true;
@@ -463,9 +460,9 @@ static bool begin_history(Gops *gops) {
         memset(track->ring, 0, sizeof track->ring);
         track->latest = 0;
         track->count = 1;
-        if (!make_level_bank(&gops->history, &track->bank) || !zero_doubles(&gops->history, gops->rows * track->width, track->ring)) return false;
+        if (!make_level_bank(&gops->history, &track->bank) || !zero_doubles(&gops->history, gops->parts.rows * track->width, track->ring)) return false;
         if (track->starts_at_first)
-            copy_columns(const_doubles2(track->known), 0, track->width, (Doubles2){track->ring[0].data, gops->rows, track->width}, 0);
+            copy_columns(const_doubles2(track->known), 0, track->width, (Doubles2){track->ring[0].data, gops->parts.rows, track->width}, 0);
     }
     return true;
 }
@@ -476,8 +473,8 @@ static bool keep_frames(Gops *gops, Track *track, ConstDoubles2 time, ConstDoubl
     for (int64_t t = largest(0, frames - track->kept); t < frames; t++) {
         track->latest = (track->latest + track->kept - 1) % track->kept;
         Doubles *frame = track->ring + track->latest;
-        if (frame->data == NULL && !take_doubles(&gops->history, gops->rows * width, frame)) return false;
-        for (int64_t r = 0; r < gops->rows; r++)
+        if (frame->data == NULL && !take_doubles(&gops->history, gops->parts.rows * width, frame)) return false;
+        for (int64_t r = 0; r < gops->parts.rows; r++)
             for (int64_t d = 0; d < width; d++) {
                 double sum = 0.0;
                 for (int64_t f = 0; f < frames; f++) sum += spectra.data[r * spectra.columns + f * width + d] * time.data[t * frames + f];
@@ -518,7 +515,7 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
         int64_t columns = track->width * gop->frames;
         if (field->back > track->count) return FAIL(context, CORRUPT, "a frame refers to one # before it, where # are kept", field->back, track->count);
         if (gops->together != gop->frames && !zero_ints(&gops->levels, rows * columns, &track->levels)) return false;
-        if (!zero_ints(scratch, rows * columns, telling.levels + k) || !take_doubles2(scratch, gops->rows, columns, telling.found + k)
+        if (!zero_ints(scratch, rows * columns, telling.levels + k) || !take_doubles2(scratch, gops->parts.rows, columns, telling.found + k)
             || !hold_cosines(track->width, const_doubles2(telling.time), &gops->frames, gops->basis + k))
             return false;
         if (field->components > 0 && !read_levels(gops, track->bank, field, track->levels.data, columns, scratch, telling.levels[k])) return false;
@@ -548,7 +545,7 @@ bool decode_gop(Gops *gops, const Gop *gop, Arena *scratch) {
 }
 
 static bool show_batch(Gops *gops, int64_t first, Arena *scratch) {
-    int64_t shown = least(BATCH, gops->gop.frames - first), n = gops->graph->size, place = 0;
+    int64_t shown = least(BATCH, gops->gop.frames - first), n = gops->parts.graph->size, place = 0;
     for (int k = 0; k < gops->tracks; k++) {
         Doubles2 basis = gops->basis[k], weights;
         int64_t width = gops->track[k].width, told = basis.rows / width;
@@ -568,6 +565,6 @@ static bool show_batch(Gops *gops, int64_t first, Arena *scratch) {
 
 bool show_frame(Gops *gops, int64_t t, Arena *scratch, int track, ConstDoubles2 *frame) {
     if (gops->batched != t - t % BATCH && !show_batch(gops, t - t % BATCH, scratch)) return false;
-    *frame = const_doubles2(rows_from(gops->batch[track], t % BATCH * gops->graph->size, gops->graph->size));
+    *frame = const_doubles2(rows_from(gops->batch[track], t % BATCH * gops->parts.graph->size, gops->parts.graph->size));
     return true;
 }

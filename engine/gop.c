@@ -139,25 +139,25 @@ static double part_work(const Site *part, double columns, double loop, double ar
 
 static double gop_work(const Gops *gops, const Gop *gop) {
     bool more = gop->method == LEARNT_NEXT, learnt = has_basis(gop);
-    double t = (double)gop->frames, columns = columns_of_gop(gop), work = t * FRAME_WORK * gop->count, rows = gops->around, others = 0;
+    double t = (double)gop->frames, columns = columns_of_gop(gop), work = t * FRAME_WORK * gop->count, rows = gops->parts.around, others = 0;
     for (int k = 1; k < gop->count; k++) others += !learnt || gop->field[k].components > 0;
-    work += (PART_WORK + ANOTHER_WORK * others) * (double)gops->count;
-    for (int64_t i = 0; i < gops->count; i++) {
-        rows += (double)gops->part[i].width;
-        work += part_work(gops->part + i, columns, LOOP_WORK + (more ? INHERITED_LOOP : 0), AROUND_WORK + (more ? INHERITED_AROUND : 0));
+    work += (PART_WORK + ANOTHER_WORK * others) * (double)gops->parts.count;
+    for (int64_t i = 0; i < gops->parts.count; i++) {
+        rows += (double)gops->parts.part[i].width;
+        work += part_work(gops->parts.part + i, columns, LOOP_WORK + (more ? INHERITED_LOOP : 0), AROUND_WORK + (more ? INHERITED_AROUND : 0));
     }
     for (int k = 0; k < gop->count; k++) {
         const GopField *field = gop->field + k;
         double width = (double)field->width, r = (double)field->components;
         double known = width * (double)(2 + lags_of(gops->track[k].kept) + (field->back > 0));
         work += learnt ? t * width * r * (10 + 2 * r) : REFERRED * rows * known * known;
-        work += t * width * (gops->given * SHOWN_WORK + (double)gops->graph->size * r / 15);
+        work += t * width * (gops->given * SHOWN_WORK + (double)gops->parts.graph->size * r / 15);
     }
     return work;
 }
 
 bool reserve_gop(Gops *gops, const Gop *gop, double received) {
-    double work, memory = gop_memory(gops->graph->size, gop, gops->around);
-    double use = 48 * (double)gops->largest * columns_of_gop(gop);
-    return reserve_dictionaries(gops, memory, use, &work) && spend(gops->context, work + gop_work(gops, gop), received);
+    double work, memory = gop_memory(gops->parts.graph->size, gop, gops->parts.around);
+    double use = 48 * (double)gops->parts.largest * columns_of_gop(gop);
+    return reserve_dictionaries(&gops->parts, memory, use, &work) && spend(gops->context, work + gop_work(gops, gop), received);
 }

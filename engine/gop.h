@@ -1,13 +1,12 @@
-/* Groups of frames of a sequence: what each says, what all of a mesh build on, and their frames (specification, S). */
+/* Groups of frames of a sequence: what each says, and what all of a mesh build on (specification, S). */
 #ifndef BSMDEC_GOP_H
 #define BSMDEC_GOP_H
 
-#include "codec/sequence/kernels.h"
-#include "engine/chain.h"
-#include "engine/levels.h"
+#include "engine/coding.h"
+#include "engine/parts.h"
 
 enum { LEARNT, KEY_FRAMES, NEXT_FRAMES, LEARNT_NEXT };
-enum { BENDING = 19, INHERITED = 24, MOST_KEPT = 64, LAGS = 8, BATCH = 8 };
+enum { BENDING = 19, INHERITED = 24, MOST_KEPT = 64, BATCH = 8 };
 
 /* A field of a GOP: positions, or an attribute that moves; nothing is told of it if `step` is 0. */
 typedef struct {
@@ -37,19 +36,13 @@ typedef struct {
 bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const Mover *movers, int count, bool tolerant, Arena *arena, Gop *gop);
 double gop_memory(int64_t vertices, const Gop *gop, double around);
 /* How many changes between frames before help to predict those of a GOP, where so many are kept (S 7.2). */
-int64_t lags_of(int64_t kept);
-
-/* A part of the mesh (S 3). */
-typedef struct {
-    Patch patch;
-    Doubles springs, stiffness;
-    Ints starts, outer, around; /* `outer`: which of the vertices `around` each spring goes to */
-    Factor factor;
-    int64_t width, first; /* columns of the dictionary; row of the first vertex around it, where rows of all parts are stacked */
-    double making, work;  /* bytes that making the dictionary takes; nanoseconds that it took, -1 before */
-    Singles2 dictionary;  /* no rows unless it is kept */
-    Mark before;
-} Site;
+enum { LAGS = 8 };
+static const int LAG[LAGS] = {1, 2, 3, 5, 8, 13, 21, 34};
+INLINE int64_t lags_of(int64_t kept) {
+    int64_t count = 0;
+    while (count < LAGS && LAG[count] < kept) count++;
+    return count;
+}
 
 /* What is known of a field before its first frame. Of each part, matrices have the rows of what is around it, then one for
  * each column of the dictionary; those of all parts are stacked. */
@@ -68,15 +61,10 @@ typedef struct {
 /* Everything that GOPs of a mesh are decoded with. */
 typedef struct {
     Context *context;
-    const Header *header;
-    const Graph *graph;
-    const Blocks *blocks;
     double given;            /* vertices that the user has */
     bool begun;
-    Arena arena, dictionaries, history, levels, frames; /* what stays; dictionaries; what frames refer to; the present GOP */
-    int64_t count, kept, rows, wide, largest;   /* parts; first ones whose dictionaries are kept; stacked rows */
-    Site *part;
-    double around, reserved, use, making;
+    Arena arena, history, levels, frames; /* what stays; what frames refer to; the present GOP */
+    Parts parts;
     int tracks;
     Track *track;
     bool can_follow, can_inherit;
@@ -89,27 +77,7 @@ typedef struct {
     int64_t batched;
 } Gops;
 
-bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, ConstInts2 faces,
-    ConstDoubles2 first_frame, int64_t given, const Mover *movers, int count, Arena *scratch);
-/* Keep only what a later run of the mesh cannot do without. */
-void suspend_gops(Gops *gops);
-void end_gops(Gops *gops);
-/* Frames are missing here. */
-void forget_frames(Gops *gops);
 /* Whether there is room for a GOP, and its work is paid for (S 8). */
 bool reserve_gop(Gops *gops, const Gop *gop, double received);
-/* After this, frames can be shown. */
-bool decode_gop(Gops *gops, const Gop *gop, Arena *scratch);
-/* What frame `t` of the GOP is in a track, until the GOP is over. */
-bool show_frame(Gops *gops, int64_t t, Arena *scratch, int track, ConstDoubles2 *frame);
-
-/* Parts: what `codec/sequence/dictionaries.py` has. */
-bool find_parts(Gops *gops, ConstInts2 faces, ConstDoubles2 first_frame, Arena *scratch);
-bool reserve_dictionaries(Gops *gops, double memory, double use, double *work);
-void release_dictionaries(Gops *gops);
-/* U of a part, until `scratch` is released or room is reserved again. */
-bool lend_dictionary(Gops *gops, int64_t index, Arena *scratch, Singles2 *dictionary);
-/* What continues a field into a part, of which `ends` are the rows around it. */
-bool extend_part(const Site *part, ConstDoubles2 ends, Arena *scratch, Doubles2 extension);
 
 #endif

@@ -1,5 +1,8 @@
 /* Positions on a grid (specification, V 7 to V 10, V 12, V 15, V 16). */
-#include "engine/fields.h"
+#include "engine/grid.h"
+
+#include "engine/charges.h"
+#include "engine/corners.h"
 
 enum { AXES = 3, SUM_LEARNERS = 48, SIZE_LEARNERS = 12, FLOAT_SLOTS = 27 };
 static const int64_t NO_FLOAT = INT64_C(1) << 40;

@@ -35,7 +35,7 @@ void list_header(const Header *header, double *numbers);
 INLINE int64_t chain_length(const Header *header) { return header->key_interval > 0 ? header->key_interval : header->blocks; }
 
 enum { LEVELS, OCTAHEDRAL, BITS, RECOMPUTED };
-enum { MOST_WORDS = 8, MOST_NAME = 255 };
+enum { MOST_ATTRIBUTES = 256, MOST_WORDS = 8, MOST_NAME = 255 };
 
 /* An attribute, but for its values. */
 typedef struct {

@@ -1,6 +1,9 @@
 /* Levels that refine what blocks decoded to (specification, V 11, M 17). */
+#include "engine/layer.h"
+
 #include "codec/signal/signal.h"
-#include "engine/fields.h"
+#include "engine/charges.h"
+#include "engine/corners.h"
 
 enum { AXES = 3, LEARNERS = 12, LEVEL_SLOTS_ALL = 2 * 5 * 512 * 32, LEVEL_SELECTORS = 2 * 32, LEVEL_INPUTS = 5, LEVEL_RATE = 16, BENT_BY = 2 };
 

@@ -1,9 +1,10 @@
 /* ORDER: vertices and faces as they were given (specification, F 9, C 9). */
+#include "engine/order.h"
+
 #include "bitstream/coefficients/coefficients.h"
 #include "bitstream/connectivity/connectivity.h"
 #include "engine/charges.h"
 #include "engine/coding.h"
-#include "engine/levels.h"
 
 enum { MOST_GIVEN = 1 << 24, STEP_UNARY = 6, STEP_SPAN = SIGNED_SPAN(STEP_UNARY) + 1, STEP_INPUTS = 4, CLASSES = 32, TURN_SLOTS = 108 };
 enum { FIRST, COPY, LOOSE };

@@ -1,6 +1,8 @@
 /* Parts of a mesh whose frames move: the weights of their edges, what they hang on, and their dictionaries (S 3, S 8.2). */
+#include "engine/parts.h"
+
 #include "codec/signal/signal.h"
-#include "engine/gop.h"
+#include "engine/charges.h"
 
 static const double FLATNESS = 0x1p-12, SMALLNESS = 0x1p-48, SMALLEST_WEIGHT = 0x1p-5, LARGEST_WEIGHT = 8, BEND = 0x1p-6, TETHER = 0x1p-16;
 static const double SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4, SPARE_MEMORY = 4 * 0x1p20;
@@ -93,34 +95,34 @@ static bool keep_part(Arena *arena, Site *part) {
         && STAYS(arena, part->outer) && STAYS(arena, part->around);
 }
 
-static bool find_part(Gops *gops, int64_t index, ConstDoubles weights, ConstInts rank, Ints place, Arena *scratch, Site *part) {
-    Context *context = gops->context;
-    int64_t size = gops->blocks->cores.data[index];
-    *part = (Site){.work = -1, .first = gops->rows};
-    if (!spend(context, block_work((double)size, (double)gops->blocks->edges.data[index], 0) - UNCODED_WORK, 0)
-        || !order_patch(gops->graph, members_of(gops->blocks, index, size), scratch, &part->patch)
-        || !hang_part(gops->graph, weights, rank, place, scratch, part) || !find_patch_fronts(context, scratch, &part->patch))
+static bool find_part(Parts *parts, int64_t index, ConstDoubles weights, ConstInts rank, Ints place, Arena *scratch, Site *part) {
+    Context *context = parts->context;
+    int64_t size = parts->blocks->cores.data[index];
+    *part = (Site){.work = -1, .first = parts->rows};
+    if (!spend(context, block_work((double)size, (double)parts->blocks->edges.data[index], 0) - UNCODED_WORK, 0)
+        || !order_patch(parts->graph, members_of(parts->blocks, index, size), scratch, &part->patch)
+        || !hang_part(parts->graph, weights, rank, place, scratch, part) || !find_patch_fronts(context, scratch, &part->patch))
         return false;
     const Fronts *fronts = &part->patch.fronts;
     double factor = fronts->places.data[fronts->places.size - 1];
     if (!keep(context, SITE_MEMORY + ROW_MEMORY * (double)size + 8 * factor, 0) || !spend(context, 2 * factor_work(fronts), 0)
-        || !keep_part(&gops->arena, part))
+        || !keep_part(parts->arena, part))
         return false;
-    part->width = least(gops->header->coefficients, size);
+    part->width = least(parts->header->coefficients, size);
     part->making = patch_memory(fronts, part->width);
-    return factorize_patch(&part->patch, const_doubles(part->springs), TETHER, &gops->arena, &part->factor);
+    return factorize_patch(&part->patch, const_doubles(part->springs), TETHER, parts->arena, &part->factor);
 }
 
-bool find_parts(Gops *gops, ConstInts2 faces, ConstDoubles2 first_frame, Arena *scratch) {
-    Context *context = gops->context;
-    const Graph *graph = gops->graph;
-    const Blocks *blocks = gops->blocks;
+bool find_parts(Parts *parts, ConstInts2 faces, ConstDoubles2 first_frame, Arena *scratch) {
+    Context *context = parts->context;
+    const Graph *graph = parts->graph;
+    const Blocks *blocks = parts->blocks;
     Doubles weights;
     Ints rank, place;
     if (!zero_doubles(scratch, graph->neighbours.size, &weights) || !take_ints(scratch, graph->size, &rank) || !take_ints(scratch, graph->size, &place)
-        || !TAKE_ZEROS(&gops->arena, blocks->count, gops->part))
+        || !TAKE_ZEROS(parts->arena, blocks->count, parts->part))
         return false;
-    gops->count = blocks->count;
+    parts->count = blocks->count;
     if (!weigh_edges(context, graph, faces, first_frame, weights)) return false;
     for (int64_t v = 0; v < graph->size; v++) place.data[v] = -1;
     for (int64_t i = 0; i < blocks->count; i++) {
@@ -128,16 +130,15 @@ bool find_parts(Gops *gops, ConstInts2 faces, ConstDoubles2 first_frame, Arena *
         for (int64_t r = 0; r < core.size; r++) rank.data[core.data[r]] = (int32_t)i;
     }
     for (int64_t i = 0; i < blocks->count; i++) {
-        Site *part = gops->part + i;
+        Site *part = parts->part + i;
         Mark mark = mark_of(scratch);
-        bool found = find_part(gops, i, const_doubles(weights), const_ints(rank), place, scratch, part);
+        bool found = find_part(parts, i, const_doubles(weights), const_ints(rank), place, scratch, part);
         release_to(scratch, mark);
         if (!found) return false;
-        gops->rows += part->around.size + part->width;
-        gops->around += (double)part->around.size;
-        gops->wide = largest(gops->wide, part->around.size + part->width);
-        gops->largest = largest(gops->largest, part->patch.size);
-        gops->making = gops->making > part->making ? gops->making : part->making;
+        parts->rows += part->around.size + part->width;
+        parts->around += (double)part->around.size;
+        parts->largest = largest(parts->largest, part->patch.size);
+        parts->making = parts->making > part->making ? parts->making : part->making;
     }
     return true;
 }
@@ -145,59 +146,59 @@ bool find_parts(Gops *gops, ConstInts2 faces, ConstDoubles2 first_frame, Arena *
 static double dictionary_memory(const Site *part) { return 8.0 * (double)part->patch.size * (double)part->width; }
 
 /* Those that are kept are always the first ones. */
-static void drop_from(Gops *gops, int64_t count) {
-    if (count < gops->count && gops->part[count].dictionary.rows > 0) release_to(&gops->dictionaries, gops->part[count].before);
-    for (int64_t i = count; i < gops->count; i++) gops->part[i].dictionary.rows = 0;
+static void drop_from(Parts *parts, int64_t count) {
+    if (count < parts->count && parts->part[count].dictionary.rows > 0) release_to(&parts->dictionaries, parts->part[count].before);
+    for (int64_t i = count; i < parts->count; i++) parts->part[i].dictionary.rows = 0;
 }
 
-void release_dictionaries(Gops *gops) {
-    if (gops->part != NULL) drop_from(gops, 0);
-    gops->context->spent.kept -= gops->reserved;
-    gops->reserved = gops->use = 0;
-    gops->kept = 0;
+void release_dictionaries(Parts *parts) {
+    if (parts->part != NULL) drop_from(parts, 0);
+    parts->context->spent.kept -= parts->reserved;
+    parts->reserved = parts->use = 0;
+    parts->kept = 0;
 }
 
 /* Have room for what comes next, and keep as many dictionaries as there is room for besides; the `work` of making others. */
-bool reserve_dictionaries(Gops *gops, double memory, double use, double *work) {
-    Context *context = gops->context;
-    double free_memory = memory_left(context), room = free_memory + gops->reserved - memory - use - SPARE_MEMORY, all = 0, held = 0;
+bool reserve_dictionaries(Parts *parts, double memory, double use, double *work) {
+    Context *context = parts->context;
+    double free_memory = memory_left(context), room = free_memory + parts->reserved - memory - use - SPARE_MEMORY, all = 0, held = 0;
     bool whole = true;
     int64_t count = 0;
-    for (int64_t i = 0; i < gops->count; i++) {
-        whole = whole && gops->part[i].dictionary.rows > 0;
-        all += dictionary_memory(gops->part + i);
+    for (int64_t i = 0; i < parts->count; i++) {
+        whole = whole && parts->part[i].dictionary.rows > 0;
+        all += dictionary_memory(parts->part + i);
     }
-    double making = whole && all <= room ? 0 : gops->making;
+    double making = whole && all <= room ? 0 : parts->making;
     if (!afford(context, free_memory - room + making)) return false;
-    while (count < gops->count && held + dictionary_memory(gops->part + count) <= room - making) held += dictionary_memory(gops->part + count++);
-    if (!keep(context, memory + held - gops->reserved, 0)) return false;
-    gops->reserved = memory + held;
-    gops->use = use;
-    drop_from(gops, count);
+    while (count < parts->count && held + dictionary_memory(parts->part + count) <= room - making) held += dictionary_memory(parts->part + count++);
+    if (!keep(context, memory + held - parts->reserved, 0)) return false;
+    parts->reserved = memory + held;
+    parts->use = use;
+    drop_from(parts, count);
     *work = 0;
-    for (int64_t i = least(gops->kept, count); i < gops->count; i++) *work += gops->part[i].work > 0 ? gops->part[i].work : 0;
-    gops->kept = count;
+    for (int64_t i = least(parts->kept, count); i < parts->count; i++) *work += parts->part[i].work > 0 ? parts->part[i].work : 0;
+    parts->kept = count;
     return true;
 }
 
-bool lend_dictionary(Gops *gops, int64_t index, Arena *scratch, Singles2 *dictionary) {
-    Context *context = gops->context;
-    Site *part = gops->part + index;
+bool lend_dictionary(Parts *parts, int64_t index, Arena *scratch, Singles2 *dictionary) {
+    Context *context = parts->context;
+    Site *part = parts->part + index;
     *dictionary = part->dictionary;
     if (part->dictionary.rows > 0) return true;
-    if (!afford(context, part->making + gops->use)) return false;
-    bool stays = index < gops->kept;
+    if (!afford(context, part->making + parts->use)) return false;
+    bool stays = index < parts->kept;
     Mark mark = mark_of(scratch);
     double before = context->spent.spent;
-    part->before = mark_of(&gops->dictionaries);
+    part->before = mark_of(&parts->dictionaries);
     context->prepaid = part->work >= 0; /* by who has reserved */
-    bool made = key_dictionary(context, gops->header, &part->patch, const_doubles(part->springs), NULL, part->width,
-        stays ? &gops->dictionaries : scratch, scratch, dictionary);
+    bool made = key_dictionary(context, parts->header, &part->patch, const_doubles(part->springs), NULL, part->width,
+        stays ? &parts->dictionaries : scratch, scratch, dictionary);
     if (part->work < 0 && made) part->work = context->spent.spent - before;
     context->prepaid = false;
     if (stays) release_to(scratch, mark);
     if (stays && made) part->dictionary = *dictionary;
-    if (!made) release_to(&gops->dictionaries, part->before);
+    if (!made) release_to(&parts->dictionaries, part->before);
     return made;
 }
 

@@ -1,69 +1,9 @@
-/* Bytes to packets: frames, what they hold, and which may follow which (specification, F 2, F 3, F 5, F 8). */
+/* Bytes to packets (specification, F 2, F 3, F 5, F 8). */
 #ifndef BSMDEC_READER_H
 #define BSMDEC_READER_H
 
-#include "engine/header.h"
-
-typedef enum {
-    VALUES_FRAME, HEADER_FRAME, METADATA_FRAME, CONNECTIVITY_FRAME, PARTITION_FRAME, ORDER_FRAME, BLOCK_FRAME, GOP_FRAME,
-    GRID_FRAME = 12, REFINEMENT_FRAME, ATTRIBUTE_FRAME, END_FRAME,
-    NO_FRAME = -1,
-} FrameType;
-
-/* What a frame says; what a kind has not is 0. Its data are the reader's, until more bytes come. */
-typedef struct {
-    FrameType type;
-    int64_t index;        /* of a block, a GOP's first frame, an attribute */
-    int64_t coefficients; /* of a block */
-    int64_t first, count; /* of a grid, a layer or values */
-    uint32_t sum;         /* of END, whose `count` is that of frames */
-    bool has_positions;   /* whether END has their checksum, which is this: */
-    uint32_t positions;
-    Span data;
-    const Header *header;
-    const Declaration *declaration;
-} Packet;
-
-/* What the author says of a mesh, one entry. */
-typedef struct {
-    Span name;
-    Kind kind;
-    int64_t whole;
-    double number;
-    Span bytes;
-} Saying;
-
-typedef struct Branch Branch;
-/* Entries by name: a tree by the first bit in which names differ, so that no names take longer than their bits. */
-typedef struct {
-    Arena arena;
-    void *root;
-    Saying **said;
-    int64_t count, room;
-} Metadata;
-
-/* The entry of a name, NULL if there is none. */
-const Saying *find_name(const Metadata *metadata, Span name);
-bool add_saying(Metadata *metadata, const Value *key, const Value *value);
-
-enum { MOST_ATTRIBUTES = 256 };
-typedef struct {
-    const Header *header; /* of the present run, NULL before the first */
-    FrameType last;       /* NO_FRAME before the first */
-    uint32_t allowed;     /* bit k: type k */
-    bool lossy, resuming, joining, joined; /* resuming: behind damage, before anything else has come */
-    int64_t next_block, next_frame, next_vertex, valued, next_value;
-    Declaration *declared[MOST_ATTRIBUTES];
-    int declared_count;
-} Grammar;
-
-void begin_grammar(Grammar *grammar, bool joining);
-bool announces(const Grammar *grammar, int type);
-uint32_t expected_types(const Grammar *grammar);
-void lose_frames(Grammar *grammar);
-bool check_packet(Context *context, const Grammar *grammar, const Packet *packet);
-/* What an attribute's packet declares has to stay: `declaration` is the grammar's own copy of it. */
-void advance_grammar(Grammar *grammar, const Packet *packet, Declaration *declaration);
+#include "engine/grammar.h"
+#include "engine/metadata.h"
 
 /* Bytes that cannot be read, while what follows them is looked for (F 8.2): from a place on, where frames should stand one
  * behind the other if that is `sure`, and then from others. */

@@ -1,6 +1,9 @@
-/* Sequences: runs, one behind the other, each a mesh and its GOPs (specification, S 1, S 9): codec/sequence/decoder.py and
- * run_decoding.py. */
+/* Sequences: runs, one behind the other, each a mesh and its GOPs (specification, S 1, S 9). */
+#include "engine/sequence.h"
+
 #include "engine/ahead.h"
+#include "engine/charges.h"
+#include "engine/stages.h"
 
 static bool is_tolerable(const bsmdec *decoder) {
     return decoder->tolerant && failed(&decoder->context) && !decoder->context.starved;

@@ -1,5 +1,9 @@
 /* The stages of one mesh: faces, blocks or grids, refinements, attributes (specification, F 3.8, F 8.3). */
+#include "engine/stages.h"
+
 #include "engine/ahead.h"
+#include "engine/charges.h"
+#include "engine/topology.h"
 
 /* Whether a frame's place is before what has begun: behind a loss the grammar does not know what came before it. */
 static bool comes_late(const Mesh *mesh, FrameType type) {
@@ -15,36 +19,6 @@ void end_mesh(Mesh *mesh) {
     end_layer(&mesh->layer);
     end_gops(&mesh->gops);
     release_all(&mesh->arena);
-}
-
-bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count) {
-    Context *context = &decoder->context;
-    if (decoder->loss_count == decoder->loss_room) {
-        int64_t room = 2 * decoder->loss_room + 16;
-        bsmdec_error *losses;
-        if (!TAKE_OF_HOST(context, room, losses)) return false;
-        if (decoder->loss_count > 0) memcpy(losses, decoder->losses, (size_t)decoder->loss_count * sizeof *losses);
-        host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *losses);
-        decoder->losses = losses;
-        decoder->loss_room = room;
-    }
-    decoder->losses[decoder->loss_count++] = error;
-    return tell(decoder, BSMDEC_LOSS, index, count);
-}
-
-bool bear(bsmdec *decoder, int64_t block, bool anywhere) {
-    Context *context = &decoder->context;
-    if (!decoder->tolerant || !anywhere || context->starved || fine(context)) return false;
-    locate(&context->error, decoder->reader.last_offset, decoder->reader.last_frame, block);
-    if (block >= 0 && decoder->mesh.has_chains) lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, block);
-    return tell_loss(decoder, take_error(context), block, 0);
-}
-
-void begin_mesh(bsmdec *decoder, const Header *header) {
-    forget_split(decoder);
-    forget_changes(&decoder->changes);
-    decoder->mesh = (Mesh){.header = *header, .arena = arena_of(&decoder->context)};
-    decoder->has_mesh = true;
 }
 
 static bool accept_connectivity(bsmdec *decoder, Span data) {
@@ -127,13 +101,13 @@ static bool ends_with_blocks(const bsmdec *decoder) {
 
 static bool end_with_blocks(bsmdec *decoder) {
     decoder->over = true;
-    return accept_end(decoder);
+    return finish_mesh(decoder);
 }
 
 static bool accept_block(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     DecodedBlock block;
-    if (!(mesh->has_chains ? build(decoder) : build_beside(decoder)) || !skip_to(decoder, packet->index)) return false;
+    if (!(mesh->has_chains ? build(decoder) : build_beside(decoder, build)) || !skip_to(decoder, packet->index)) return false;
     mesh->next_block++;
     if (!is_own(&decoder->share, &mesh->header, packet->index)) return decoder->share.helps || tell(decoder, (bsmdec_event_type)BLOCK_OF_HELPER, packet->index, 0);
     bool last = ends_with_blocks(decoder) && mesh->next_block == mesh->header.blocks;
@@ -259,38 +233,18 @@ bool take_in(bsmdec *decoder, const Packet *packet) {
         case REFINEMENT_FRAME: return accept_refinement(decoder, packet);
         case ATTRIBUTE_FRAME: return accept_attribute(decoder, packet);
         case VALUES_FRAME: return accept_values(decoder, packet);
-        case END_FRAME: return accept_end(decoder);
+        case END_FRAME: return finish_mesh(decoder);
         default: return FAIL(context, UNSUPPORTED, "frames of type # are unknown to this decoder", packet->type);
     }
 }
 
-/* What comes before the blocks of the first mesh, and these: all that a helper needs. */
-static bool is_for_helpers(const Packet *packet) {
-    return packet->type == HEADER_FRAME || packet->type == CONNECTIVITY_FRAME || packet->type == PARTITION_FRAME || packet->type == BLOCK_FRAME;
-}
-
-bool accept_packet(bsmdec *decoder, const Packet *packet) {
-    if (decoder->share.helps && !is_for_helpers(packet)) return true;
-    Mark mark = mark_of(&decoder->scratch);
-    bool in_sequence = decoder->sequence.is_one || (packet->type == HEADER_FRAME && packet->header->gop_frames > 0);
-    decoder->has_checksum = packet->has_positions && decoder->sequence.start == 0;
-    decoder->told = packet->positions;
-    bool done = (in_sequence ? accept_in_sequence : take_in)(decoder, packet);
-    release_to(&decoder->scratch, mark);
-    return done;
-}
-
-bool accept_damage(bsmdec *decoder) {
+bool accept_damage_in_mesh(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
-    Damage *damage = &decoder->reader.damage;
+    FrameType type = decoder->reader.damage.type;
     bool started = mesh->has_chains || mesh->has_grid;
-    bool bearable = started || (mesh->has_faces && (damage->type == BLOCK_FRAME || damage->type == ATTRIBUTE_FRAME));
-    decoder->context.error = damage->why;
-    decoder->context.error.status = BSMDEC_CORRUPT;
-    locate(&decoder->context.error, decoder->reader.damaged_offset, -1, -1);
-    if (decoder->sequence.is_one) return accept_damage_in_sequence(decoder);
+    bool bearable = started || (mesh->has_faces && (type == BLOCK_FRAME || type == ATTRIBUTE_FRAME));
     if (mesh->has_grid) mesh->grid.broken = true;
-    if (mesh->has_layer && !mesh->values_begun && damage->type != VALUES_FRAME) mesh->layer.lossy = true;
+    if (mesh->has_layer && !mesh->values_begun && type != VALUES_FRAME) mesh->layer.lossy = true;
     return bearable && bear(decoder, -1, true);
 }
 
@@ -334,10 +288,8 @@ static bool is_whole(const Mesh *mesh) {
     return !mesh->assembly.lossy && !(mesh->has_layer && mesh->layer.lossy);
 }
 
-/* Nothing follows. */
-bool accept_end(bsmdec *decoder) {
+bool finish_mesh(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
-    if (decoder->sequence.is_one) return end_sequence(decoder);
     if (!decoder->has_mesh || !mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
     if (mesh->header.on_grid ? !begun_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
     if (!finish_attributes(decoder) || !finish_positions(decoder)) return false;

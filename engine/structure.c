@@ -1,4 +1,6 @@
 /* Graph, parts and blocks of a mesh, all integers (specification, M 2 to M 6). */
+#include "engine/structure.h"
+
 #include "codec/blocks/blocks.h"
 #include "codec/geometry/geometry.h"
 #include "engine/charges.h"

@@ -1,14 +1,20 @@
-"""The arrows of CONTRIBUTING.md: which package may import which."""
+"""The arrows of CONTRIBUTING.md: which package may import which, in Python and C; and no circle in any language."""
 
 import ast
+import io
+import re
 import sys
+import tokenize
+from collections import defaultdict
+from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parent.parent
 KNOW_BYTES = ("bsm.codec.static", "bsm.codec.sequence")
-KNOWN_TO_ALL = tuple(f"bsm.bitstream.{name}" for name in ("errors", "limits", "once"))
+KNOWN_TO_ALL = tuple(f"bsm.bitstream.{name}" for name in ("errors", "limits", "once", "kernel", "trellis"))
 FLOORS = {
     "bsm": (
         ("bitstream", "__version__", "_engine", "_kernels"),
@@ -40,8 +46,8 @@ FLOORS = {
         ("sequence",),
     ),
     "bsm.bitstream": (
-        ("_kernels", "errors", "once"),
-        ("limits",),
+        ("_kernels", "errors", "once", "kernel"),
+        ("limits", "trellis"),
         ("entropy",),
         ("connectivity", "coefficients", "fields"),
         ("attributes",),
@@ -57,6 +63,25 @@ FLOORS = {
         ("choice",),
         ("encoder",),
     ),
+    "engine": (
+        ("bsmdec", "arithmetic", "charges"),
+        ("context",),
+        ("wire",),
+        ("coding", "maps", "zstd"),
+        ("corners", "header", "metadata"),
+        ("declaration", "grid", "layer", "order", "packet", "structure"),
+        ("attribute", "dictionaries", "grammar", "topology"),
+        ("attribute_set", "chain", "parts", "reader"),
+        ("assembly", "gop"),
+        ("frames",),
+        ("state",),
+        ("ahead",),
+        ("stages",),
+        ("sequence",),
+        ("decoder",),
+        ("changes", "split"),
+        ("whole", "python", "wasm"),
+    ),
 }
 BITSTREAM_LIBRARIES = {"numpy", "msgpack", "zstandard"}
 # Of these, only numpy is there wherever a mesh or a sequence is encoded.
@@ -64,8 +89,18 @@ CODEC_LIBRARIES = {"numpy": "bsm.codec", "scipy": "bsm.codec.denoise", "pymetis"
 
 
 # Where each room is, and the name that it is imported by.
-FOLDERS = {"bitstream": "bsm.bitstream", "codec": "bsm.codec", "src/bsm": "bsm", "tools": "tools", "spec": "spec"}
+FOLDERS = {
+    "bitstream": "bsm.bitstream",
+    "codec": "bsm.codec",
+    "src/bsm": "bsm",
+    "engine": "engine",
+    "tools": "tools",
+    "spec": "spec",
+}
 ROOMS = (*FOLDERS.values(), "tests")
+WEB = ROOT / "tools/web/src"
+# In the place of files that a build for pages is without; what C has of the library there.
+INSTEAD = ("absent", "host")
 
 
 def module_name(path: Path, folder: str) -> str:
@@ -79,6 +114,97 @@ MODULES = {
     for path in (ROOT / folder).rglob("*.py")
     if not folder.startswith("src") or not {"codec", "bitstream"} & set(path.relative_to(ROOT / folder).parts[:1])
 }
+
+
+def sources(*endings: str) -> dict[Path, str]:
+    """The texts of the C of rooms; a file and its header are one module, and so are those of a level of processors."""
+    paths = (path for folder in ("bitstream", "codec", "src/bsm", "engine") for path in (ROOT / folder).rglob("*"))
+    left_out = ("examples", "rust", "include", "codec", "bitstream")
+    return {
+        path: re.sub(r"/\*.*?\*/", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+        for path in sorted({path.resolve() for path in paths if path.suffix in endings})
+        if not set(path.relative_to(ROOT).parts[1:-1]) & set(left_out) and path.stem not in INSTEAD
+    }
+
+
+SOURCES = sources(".c", ".h", ".cpp", ".hpp")
+
+
+def c_name(path: Path) -> str:
+    """The module of a C file: `codec/basis/cosines.simd.c` is `bsm.codec.basis.cosines`."""
+    folder = max((folder for folder in FOLDERS if path.is_relative_to(ROOT / folder)), key=len)
+    return module_name(path.with_name(path.name.split(".")[0]), folder)
+
+
+def included(path: Path) -> set[Path]:
+    """The headers that a C file includes itself; which file of the repository is meant is said from its root."""
+    return {ROOT / name for name in re.findall(r'^\s*#\s*include "([^"]+)"', SOURCES[path], re.MULTILINE)}
+
+
+@cache
+def seen(path: Path) -> frozenset[Path]:
+    """All headers that a C file includes, straight or through others."""
+    return frozenset().union(*({header} | seen(header) for header in included(path)))
+
+
+def words(path: Path) -> set[str]:
+    """Names in a C file, but for those of members."""
+    return set(re.findall(r"(?<![.\w])(?<!->)[A-Za-z_]\w*", SOURCES[path]))
+
+
+def defined(path: Path) -> list[str]:
+    """The functions of a C file that others may call."""
+    kinds = r"(?!static|typedef|return|else|INLINE|SHARED|KERNEL static|OFTEN static)(?:\w+[ *]+)+"
+    return re.findall(rf"^{kinds}(?:LEVEL\()?(\w+)\)?\([^;{{}}]*\)\s*\{{", SOURCES[path], re.MULTILINE)
+
+
+def arrows_of_c() -> dict[str, set[str]]:
+    """What each module of C includes or calls: functions that are declared in a header it sees, and defined once."""
+    homes, arrows = defaultdict(set), defaultdict(set)
+    for path in SOURCES:
+        for function in defined(path):
+            homes[function].add(c_name(path))
+    for path in SOURCES:
+        declared = set().union(*map(words, seen(path)))
+        calls = words(path) & declared & homes.keys() if path.suffix in (".c", ".cpp") else ()
+        found = {
+            *map(c_name, included(path)),
+            *(home for name in calls for home in homes[name] if len(homes[name]) == 1),
+        }
+        arrows[c_name(path)] |= found - {c_name(path)}
+    return arrows
+
+
+def arrows_of_python() -> dict[str, set[str]]:
+    """What each module of Python imports; a package is what its `__init__.py` holds."""
+    arrows = {}
+    for name, path in MODULES.items():
+        steps = (item.split(".") for item in imports(path.read_text()))
+        found = {".".join(parts[:count]) for parts in steps for count in (len(parts), len(parts) - 1)} & MODULES.keys()
+        arrows[name] = {item for item in found if not f"{name}.".startswith(f"{item}.")}
+    return arrows
+
+
+def arrows_of_typescript() -> dict[str, set[str]]:
+    """What each module of TypeScript imports of others, types too."""
+    files = {path.relative_to(WEB).with_suffix("").as_posix(): path for path in sorted(WEB.rglob("*.ts"))}
+    pattern = r"""(?:from|import)\s*\(?\s*["'](\.[^"']+)["']"""
+    return {
+        name: {
+            (path.parent / item).resolve().relative_to(WEB).as_posix() for item in re.findall(pattern, path.read_text())
+        }
+        & files.keys()
+        for name, path in files.items()
+    }
+
+
+def circle_in(arrows: dict[str, set[str]]) -> list[str]:
+    """Modules that need each other, in turn; none is the usual."""
+    try:
+        TopologicalSorter(arrows).prepare()
+    except CycleError as error:
+        return list(error.args[1])
+    return []
 
 
 def room_of(name: str) -> str:
@@ -137,6 +263,8 @@ def allowed(importer: str, imported: str) -> bool:
         return library in CODEC_LIBRARIES and f"{importer}.".startswith(f"{CODEC_LIBRARIES[library]}.")
     if room == "spec":
         return library not in ROOMS
+    if room == "engine":
+        return library in ("bsm.bitstream", "bsm.codec")
     if room == "bsm":
         return library not in ("tools", "tests", "spec") and not imported.startswith(".")
     return not imported.startswith(".")
@@ -180,11 +308,73 @@ def test_imports_follow_the_arrows():
         ("bsm.cli", "import bsm.codec.geometry.mesh, bsm.bitstream.container.writer, matplotlib", True),
         ("bsm.cli", "import tools.attack", False),
         ("spec.reference", "from bsm.codec.geometry.mesh import TriangleMesh", False),
+        ("engine.stages", "import engine.ahead", True),
+        ("engine.ahead", "import engine.stages", False),
+        ("engine.chain", "import bsm.codec.signal.signal, bsm.bitstream.coefficients.coefficients", True),
+        ("bsm.codec.signal.signal", "import engine.chain", False),
     ],
 )
 def test_the_rule_itself(importer, source, expected):
     assert all(allowed(importer, item) for item in imports(source)) is expected
 
 
+def test_includes_follow_the_arrows():
+    found = {(c_name(path), c_name(header)) for path in SOURCES for header in included(path)}
+    wrong = sorted(f"{name} may not include {item}" for name, item in found if not allowed(name, item))
+    assert not wrong, f"{', '.join(wrong)} (see CONTRIBUTING.md)"
+
+
+@pytest.mark.parametrize("arrows", [arrows_of_python, arrows_of_c, arrows_of_typescript])
+def test_no_circles(arrows):
+    assert not circle_in(arrows())
+
+
+def test_circles_are_found(monkeypatch):
+    assert circle_in({"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}})
+    wire, stages = ROOT / "engine/wire.c", ROOT / "engine/stages.c"
+    assert "engine.stages" in arrows_of_c()["engine.decoder"]
+    assert "engine.reader" not in arrows_of_c()["engine.grammar"]
+    monkeypatch.setitem(SOURCES, wire, f'{SOURCES[wire]}\n#include "engine/reader.h"\n')
+    assert circle_in(arrows_of_c())
+    monkeypatch.undo()
+    monkeypatch.setitem(
+        SOURCES, stages, f"{SOURCES[stages]}\nvoid never_called(bsmdec *decoder) {{ close_sequence(decoder); }}\n"
+    )
+    assert not circle_in(arrows_of_c())  # what no header declares is another function
+    monkeypatch.setitem(SOURCES, stages, f'{SOURCES[stages]}#include "engine/sequence.h"\n')
+    assert circle_in(arrows_of_c())
+
+
+def prose(path: Path) -> str:
+    """Comments and docstrings of a source."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix != ".py":
+        return "".join(re.findall(r"/\*.*?\*/|//[^\n]*", text, re.DOTALL))
+    tokens = list(tokenize.generate_tokens(io.StringIO(text).readline))
+    return "".join(token.string for token in tokens if token.type == tokenize.COMMENT or token.string.startswith('"""'))
+
+
+def test_comments_name_files_that_are_there():
+    """A name without a folder is that of a file beside, or further up; one with a folder ends a path."""
+    product = [path for path in MODULES.values() if path.parts[len(ROOT.parts)] not in ("tools", "spec")]
+    files = [path.relative_to(ROOT) for path in (*product, *SOURCES, *WEB.rglob("*.ts"))]
+    wrong = []
+    for file in files:
+        for name in re.findall(r"(?<![\w/.<*-])(?:\w+/)*\w[\w.]*\.(?:py|c|h|ts|md)\b(?![\w(/*.])", prose(ROOT / file)):
+            beside = any((ROOT / folder / name).is_file() for folder in file.parents)
+            if not beside and not ("/" in name and any(f"/{other}".endswith(f"/{name}") for other in files)):
+                wrong.append(f"{file}: {name}")
+    assert not wrong
+
+
+def test_headers_without_a_source_have_names_of_their_own():
+    """A reader takes `x.h` for the header of `x.c`, wherever that is."""
+    headers = [path for path in SOURCES if path.suffix == ".h" and not any(path.parent.glob(f"{path.stem}.*c*"))]
+    others = {path.stem.split(".")[0] for path in SOURCES if path.suffix in (".c", ".cpp")}
+    assert not [str(path.relative_to(ROOT)) for path in headers if path.stem in others]
+
+
 def test_nothing_escapes():
     assert {"bsm.bitstream.container.wire", "bsm.codec.geometry.mesh", "tools"} <= set(MODULES)
+    assert {"engine.stages", "engine.python.binding", "bsm.codec.basis.cosines"} <= set(map(c_name, SOURCES))
+    assert {"engine", "viewer/view"} <= arrows_of_typescript().keys()

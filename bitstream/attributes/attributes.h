@@ -82,7 +82,7 @@ int32_t fold_at(const Work *work, int32_t v, const Base *base, int component);
 int32_t gap_classes(const Work *work, const Place *place, int component, int32_t unit);
 int64_t square_root(uint64_t x);
 
-/* Values of attributes on faces. See faces.py and faces.c. */
+/* Values of attributes on faces. See values.py and faces.c. */
 /* As Python keeps it; m faces of c components. */
 typedef struct {
     ConstInts largest; /* c: values of each component are 0 .. largest, below 2^20 */

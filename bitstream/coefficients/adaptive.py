@@ -79,7 +79,7 @@ def look_at_block(past: Past, levels: Magnitudes) -> Magnitudes:
 
 
 Levels = npt.NDArray[np.int32]
-STATES = 8  # a state is the numbers of the last three grids, the latest in the lowest bit (`trellis.h`)
+STATES = 8  # a state is the numbers of the last three grids, the latest in the lowest bit (`bitstream/trellis.h`)
 
 
 def points_of_levels(levels: Levels) -> Levels:

@@ -5,9 +5,7 @@
 #include "bitstream/entropy/entropy.h"
 
 /* The front of the conquest: closed polygons of nodes, and buckets by free degree (specification, C 5.2 to C 5.4).
- *
- * See front.py for what a node is. A node that was closed has the free degree DEAD.
- */
+ * A node that was closed has the free degree DEAD. */
 /* As Python keeps it: a row per node, of eight columns; first node of each bucket or -1, how many nodes were made, how
  * many of these are not closed, last node of each bucket. */
 typedef struct {

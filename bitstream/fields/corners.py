@@ -185,7 +185,7 @@ MODEL_BYTES = 4 * (_CONTEXTS * _CONTEXT_SIZE * _NODES + PREDICTIONS * (_HIT_CONT
 
 
 class ValueModel(NamedTuple):
-    """What is learnt about integers (V 3); the struct of that name in `value.h`."""
+    """What is learnt about integers (V 3); the struct of that name in `fields.h`."""
 
     slots: npt.NDArray[np.uint32]
     hits: npt.NDArray[np.uint32]

@@ -4,7 +4,7 @@
  * Cholesky factor of the second moments of the rows before.
  */
 #include "bitstream/coefficients/coefficients.h"
-#include "codec/sequence/kernels.h"
+#include "codec/sequence/temporal.h"
 
 /* Rows of the Cholesky factor of moments + ridge I, extended over all columns. */
 INLINE void factorize_moments(Doubles2 moments, double ridge, double *factor) {

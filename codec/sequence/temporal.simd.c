@@ -2,7 +2,7 @@
  * of its coordinates in as many frames as a vector has numbers. */
 #define VECTORS_OF_DOUBLES
 #include "codec/basis/vectors.h"
-#include "codec/sequence/kernels.h"
+#include "codec/sequence/temporal.h"
 
 /* Some vertices from v on, and some coordinates side by side, of which the first is in `column` of the weights. */
 INLINE void show_vertices(const int rows, const int vectors, ConstDoubles2 field, int64_t first, ConstDoubles2 weights,

@@ -1,6 +1,6 @@
 /* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order; and what
  * continues the known (M 7.4), sums in the order of rows. */
-#include "bitstream/coefficients/coefficients.h"
+#include "bitstream/trellis.h"
 #include "codec/geometry/geometry.h"
 #include "codec/signal/signal.h"
 

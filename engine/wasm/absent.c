@@ -1,5 +1,7 @@
 /* In the place of what a smaller build is without (tools/web/scripts/kernels.mjs): the linker takes these where there is nothing else. */
 #include "engine/ahead.h"
+#include "engine/sequence.h"
+#include "engine/zstd.h"
 
 #define ABSENT __attribute__((weak))
 
@@ -20,7 +22,7 @@ ABSENT void close_sequence(bsmdec *decoder) { (void)decoder; }
 ABSENT void end_gops(Gops *gops) { (void)gops; }
 
 /* A page has no threads: its workers have decoders of their own. */
-ABSENT bool build_beside(bsmdec *decoder) { return build(decoder); }
+ABSENT bool build_beside(bsmdec *decoder, bool (*builder)(bsmdec *decoder)) { return builder(decoder); }
 ABSENT void look_ahead(bsmdec *decoder, const Packet *packet) { (void)decoder, (void)packet; }
 ABSENT const ReadyBlock *find_ready(const bsmdec *decoder, const Packet *packet) {
     (void)decoder, (void)packet;

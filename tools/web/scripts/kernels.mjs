@@ -139,8 +139,8 @@ const HOT = /fields\/(value|grid|corners)/;
 export const KERNEL_BUILDS = {
     "built/kernels.wasm": { vectors: true, fast: HOT },
     "built/kernels-scalar.wasm": { vectors: false, fast: HOT },
-    "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attributes|values|declaration|zstd|split|whole)\.c/ },
-    "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attributes|values|declaration|zstd|split|whole)\.c/ },
+    "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attribute|attribute_set|declaration|zstd|split|whole)\.c/ },
+    "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attribute|attribute_set|declaration|zstd|split|whole)\.c/ },
     "built/quick.wasm": { vectors: true, exported: ["__heap_base", ...LIGHT], fast: /fields|conquest/ },
 };
 

@@ -1,7 +1,11 @@
 /* Values of attributes, from whole numbers to what the user is given (specification, D 4). */
-#include "engine/attributes.h"
+#include "engine/attribute.h"
 
 enum { MOST_WHOLE = (1 << 20) - 1, PIECE_BITS = 16 };
+
+bool take_values(Arena *arena, const Attribute *one, void **values) {
+    return is_there(*values = find_zeros(arena, one->rows * one->declaration.components, kind_size(one->declaration.kind)));
+}
 
 void store_number(void *values, int64_t place, int kind, double number) {
     switch (kind) {

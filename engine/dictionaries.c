@@ -1,12 +1,22 @@
 /* Dictionaries of blocks (specification, M 8): orthogonal iterations. */
 #include "codec/geometry/geometry.h"
-#include "engine/chain.h"
+#include "engine/dictionaries.h"
 
 static const double LEAST_PIVOT = 0x1p-20, EXACT_SHIFT = 0x1p-5;
 /* The share of hash columns in a start that might lack something, of cosines and of a predecessor's columns (M 8.3). */
 static const double START_NOISE = 0.25, FOLLOWING_NOISE = 0x1p-8;
 enum { EXACT_POWER = 2, EXACT_ITERATIONS = 128, FIRST_CARE = 16 };
 enum { NEEDS_CARE = 1, LOST = 2 };
+
+/* How a dictionary is iterated: z, t, and at most how many columns that gives (M 8.4, M 8.7). */
+typedef struct {
+    int64_t power, iterations, most;
+} Schedule;
+
+/* Columns that follow from L, of a block of so many rows (M 8.7). */
+static int64_t iterated_columns(const Header *header, int64_t rows) {
+    return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 1) / 2 : rows;
+}
 
 bool take_factor(Arena *arena, const Patch *patch, Factor *factor) {
     int64_t size = patch->fronts.places.data[patch->fronts.places.size - 1];

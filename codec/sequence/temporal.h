@@ -1,6 +1,6 @@
-/* Kernels of sequences. */
-#ifndef BSM_SEQUENCE_KERNELS_H
-#define BSM_SEQUENCE_KERNELS_H
+/* What frames are predicted from, and how they are made of what was coded. */
+#ifndef BSM_TEMPORAL_H
+#define BSM_TEMPORAL_H
 
 #include "bitstream/kernel.h"
 

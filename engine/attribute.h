@@ -1,10 +1,10 @@
-/* What a mesh carries beside its shape: seams, values, and how the user is given them (specification, D, A). */
-#ifndef BSMDEC_ATTRIBUTES_H
-#define BSMDEC_ATTRIBUTES_H
+/* An attribute of a mesh: its values, and how the user is given them (specification, D, A). */
+#ifndef BSMDEC_ATTRIBUTE_H
+#define BSMDEC_ATTRIBUTE_H
 
 #include "bitstream/attributes/attributes.h"
-#include "engine/fields.h"
-#include "engine/reader.h"
+#include "engine/header.h"
+#include "engine/order.h"
 
 /* Corners that share a value, where attributes have seams: the seams, and how many values there are. */
 typedef struct {
@@ -40,33 +40,8 @@ typedef struct {
     Group group[MOST_GROUPS];
 } Attribute;
 
-/* Those of one mesh, by number; NULL for those that were not declared. */
-typedef struct {
-    Context *context;
-    const Header *header;
-    ConstInts2 faces;
-    Arena *arena;
-    Arena coding;          /* what the attribute takes whose values come */
-    Attribute *one[MOST_ATTRIBUTES];
-    int count;
-    bool has_corners, begun;
-    Corners corners;
-    double numbers;
-    Arena recent;
-    const Attribute *latest; /* whose values came last, and marks of their rows; no marks: of all */
-    Bytes fresh;
-} Attributes;
-
-void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena);
-void end_attributes(Attributes *attributes);
-bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams, Arena *scratch);
-/* Whether all of them have as many rows as they must (D 1.2). */
-bool check_rows(const Attributes *attributes, const Numbering *numbering);
-/* What is needed before values come, or where none do. */
-bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch);
+/* Zeros for the values of all rows. */
 MUST_CHECK bool take_values(Arena *arena, const Attribute *one, void **values);
-/* `places`: values of a grid, if all of them are there, otherwise none. */
-bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch);
 /* Normals that follow from positions (D 4.4). */
 bool recompute(Attribute *one, ConstDoubles2 positions, Arena *scratch);
 

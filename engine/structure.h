@@ -1,6 +1,6 @@
-/* Faces, their graph, parts and blocks, and how the user numbers them (specification, C 4 to C 10, M 2 to M 6, F 9). */
-#ifndef BSMDEC_MESH_H
-#define BSMDEC_MESH_H
+/* The graph of a mesh, its blocks and their patches (specification, M 2 to M 6). */
+#ifndef BSMDEC_STRUCTURE_H
+#define BSMDEC_STRUCTURE_H
 
 #include "codec/basis/basis.h"
 #include "engine/header.h"
@@ -27,9 +27,6 @@ typedef struct {
     Fronts fronts;
 } Patch;
 
-bool decode_connectivity(Context *context, Span payload, const Header *header, Arena *arena, Arena *scratch, Ints2 *faces);
-bool decode_labels(Context *context, Span payload, const Graph *graph, int64_t parts, Arena *scratch, Ints labels);
-
 bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph);
 /* `labels`: the part of each vertex, or no array for what follows from the graph. */
 bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch, Blocks *blocks);
@@ -41,17 +38,5 @@ INLINE ConstInts members_of(const Blocks *blocks, int64_t index, int64_t count) 
     return (ConstInts){blocks->members.data + blocks->starts.data[index], count};
 }
 INLINE int64_t size_of_block(const Blocks *blocks, int64_t index) { return blocks->starts.data[index + 1] - blocks->starts.data[index]; }
-
-/* How the user of a mesh numbers what was coded. */
-typedef struct {
-    int64_t size;      /* vertices that the user has */
-    ConstInts2 faces;
-    ConstInts source;  /* what each of the user's vertices was coded as, -1 for none; empty: what has its number */
-    ConstInts corners; /* the coded corner that each of the user's is; empty: the same */
-    bool is_split;     /* vertices that were coded as one are several of the user's, or in no face */
-    ConstDoubles2 loose; /* positions of those in no face, in their order */
-} Numbering;
-
-bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *header, Arena *arena, Arena *scratch, Numbering *numbering);
 
 #endif

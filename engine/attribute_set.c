@@ -1,5 +1,8 @@
 /* Declarations, seams, and rows of attributes (specification, D 1 to D 3). */
-#include "engine/attributes.h"
+#include "engine/attribute_set.h"
+
+#include "engine/charges.h"
+#include "engine/corners.h"
 
 enum { SEAM = 1, SEAM_INPUTS = 4, OTHERS = 9, SEAM_SLOTS = 32 * 32 + 9 * 16 + MOST_ATTRIBUTES + 9, MOST_WHOLE = (1 << 20) - 1 };
 enum { GUESSES_PLAIN = MOST_COMPONENTS * BASES * VALENCES, GUESSES_OTHERS = 2 * BASES * VALENCES, FACE_MEMORY = 257, DIRECTIONS = 12 };
@@ -129,11 +132,6 @@ static bool lay_out(Attributes *attributes, Attribute *one, const Numbering *num
     }
     for (int64_t r = placed; r < one->rows; r++) one->vertices.data[r] = -1;
     return true;
-}
-
-/* Zeros for the values of all rows. */
-bool take_values(Arena *arena, const Attribute *one, void **values) {
-    return is_there(*values = find_zeros(arena, one->rows * one->declaration.components, kind_size(one->declaration.kind)));
 }
 
 bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scratch) {

@@ -1,8 +1,8 @@
 /* CONNECTIVITY to faces (specification, C 4 to C 8), and the labels of PARTITION (C 10). */
-#include "engine/coding.h"
-#include "engine/mesh.h"
+#include "engine/topology.h"
 
 #include "bitstream/connectivity/connectivity.h"
+#include "engine/coding.h"
 
 enum { FIRST_NODES_ROOM = 16, TALLIES = 8, TALLY_DUMMIES = 3, TALLY_TURNS, TALLY_STEPS, FAN_SLOTS = 32, EVENT_TRUST = 30 };
 /* Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together (M 14.8). */

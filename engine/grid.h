@@ -1,0 +1,28 @@
+/* Positions on a grid (specification, V 7 to V 10, V 12, V 15, V 16). */
+#ifndef BSMDEC_GRID_H
+#define BSMDEC_GRID_H
+
+#include "bitstream/fields/fields.h"
+#include "engine/header.h"
+
+/* Positions on a grid, and what is learnt of them. */
+typedef struct {
+    Context *context;
+    const Header *header;
+    ConstInts2 faces;
+    Corners corners;
+    ValueModel model;
+    Grid grid;
+    Light light;
+    Floats floats;
+    Ints largest, order;
+    Ints2 values;
+    Doubles2 positions; /* in the unit of the mesh */
+    int64_t coded;
+    bool broken;
+} GridField;
+
+bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena, Arena *scratch);
+bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch);
+
+#endif

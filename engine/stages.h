@@ -1,0 +1,21 @@
+/* The stages of one mesh: faces, blocks or grids, refinements, attributes (specification, F 3.8, F 8.3). */
+#ifndef BSMDEC_STAGES_H
+#define BSMDEC_STAGES_H
+
+#include "engine/state.h"
+
+/* Take a packet in; what follows from it is told. */
+bool take_in(bsmdec *decoder, const Packet *packet);
+/* The error is the context's. */
+bool accept_damage_in_mesh(bsmdec *decoder);
+/* Nothing follows. */
+bool finish_mesh(bsmdec *decoder);
+void end_mesh(Mesh *mesh);
+/* Blocks, and all that takes them in, when they are first needed. */
+bool build(bsmdec *decoder);
+/* Positions of a mesh that is not whole yet, as far as they are known. */
+bool look_at_positions(bsmdec *decoder);
+/* Whether the checksum of all positions is the one that was told; a tolerant decoder tells of another as a loss. */
+bool check_sum(bsmdec *decoder, uint32_t found);
+
+#endif

@@ -1,0 +1,60 @@
+/* What is told, and what is forgotten when a mesh begins. */
+#include "engine/state.h"
+
+void forget_changes(Changes *changes) {
+    release_all(&changes->answer);
+    release_all(&changes->memory);
+    *changes = (Changes){.memory = arena_of(changes->memory.context), .answer = arena_of(changes->memory.context)};
+}
+
+void begin_mesh(bsmdec *decoder, const Header *header) {
+    forget_split(decoder);
+    forget_changes(&decoder->changes);
+    decoder->mesh = (Mesh){.header = *header, .arena = arena_of(&decoder->context)};
+    decoder->has_mesh = true;
+}
+
+bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
+    const Mesh *mesh = &decoder->mesh;
+    return (bsmdec_event){type, index, count, mesh->announced ? mesh->numbering.size : mesh->header.vertices,
+        mesh->header.faces, decoder->has_mesh ? mesh->header.frames : decoder->sequence.announced};
+}
+
+bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
+    Context *context = &decoder->context;
+    if (decoder->waiting == decoder->room) {
+        int64_t room = 2 * decoder->room + 16;
+        bsmdec_event *queue;
+        if (!TAKE_OF_HOST(context, room, queue)) return false;
+        for (int64_t i = 0; i < decoder->waiting; i++) queue[i] = decoder->queue[(decoder->first + i) % decoder->room];
+        host_give(context, decoder->queue, (size_t)decoder->room * sizeof *queue);
+        decoder->queue = queue;
+        decoder->room = room;
+        decoder->first = 0;
+    }
+    decoder->queue[(decoder->first + decoder->waiting++) % decoder->room] = event_of(decoder, type, index, count);
+    return true;
+}
+
+bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count) {
+    Context *context = &decoder->context;
+    if (decoder->loss_count == decoder->loss_room) {
+        int64_t room = 2 * decoder->loss_room + 16;
+        bsmdec_error *losses;
+        if (!TAKE_OF_HOST(context, room, losses)) return false;
+        if (decoder->loss_count > 0) memcpy(losses, decoder->losses, (size_t)decoder->loss_count * sizeof *losses);
+        host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *losses);
+        decoder->losses = losses;
+        decoder->loss_room = room;
+    }
+    decoder->losses[decoder->loss_count++] = error;
+    return tell(decoder, BSMDEC_LOSS, index, count);
+}
+
+bool bear(bsmdec *decoder, int64_t block, bool anywhere) {
+    Context *context = &decoder->context;
+    if (!decoder->tolerant || !anywhere || context->starved || fine(context)) return false;
+    locate(&context->error, decoder->reader.last_offset, decoder->reader.last_frame, block);
+    if (block >= 0 && decoder->mesh.has_chains) lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, block);
+    return tell_loss(decoder, take_error(context), block, 0);
+}
