@@ -4,7 +4,7 @@ import { ATTRIBUTE, AWAITED, BLOCK, CONNECTIVITY, END, Engine, FAILED, FRAME, HE
 import { BsmError, errorLike } from "./errors";
 import type { AttributeEvent, Event, Mesh, Wishes } from "./events";
 import type { Header } from "./header";
-import type { SharedBlock } from "./helper";
+import type { SharedBlock } from "./share";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";

@@ -2,7 +2,7 @@
 import type { Event, FrameEvent } from "./events";
 import { Drawing, type Picture } from "./drawing";
 import { BsmError, type Described } from "./errors";
-import type { Share, SharedBlock } from "./helper";
+import type { Share, SharedBlock } from "./share";
 import { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 import { END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./signals";

@@ -1,14 +1,13 @@
 /** The decoder in C: its calls, and what lies in its memory. */
 import { DOMAINS, KINDS, SEMANTICS, type Attribute } from "./attributes";
 import { BsmError, errorLike, LimitError } from "./errors";
-import type { Changes, Metadata } from "./events";
+import type { Changes, Loose, Metadata } from "./events";
 import type { Header } from "./header";
-import type { Share, SharedBlock } from "./helper";
 import type { Exports, Kernels } from "./kernels";
 import { DEFAULT_LIMITS, type Limits } from "./limits";
-import type { Loose } from "./numbering";
+import type { Share, SharedBlock } from "./share";
 
-/** Events in the order of bsmdec.h, and one of decoders with helpers. */
+/** Events in the order of engine/bsmdec.h, and one of decoders with helpers. */
 export const [NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, FAILED, , AWAITED] = Array.from({ length: 14 }, (_, i) => i);
 
 const NAMES: Record<number, string> = { 3: "Format", 4: "Corrupt", 5: "Unsupported", 6: "Limit", 7: "Numeric", 8: "Limit", 12: "Truncated" };

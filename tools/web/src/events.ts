@@ -2,7 +2,6 @@
 import type { Attribute } from "./attributes";
 import type { Described } from "./errors";
 import type { Header } from "./header";
-import type { Loose } from "./numbering";
 
 /** What the author says of a mesh, by names. */
 export type Metadata = Map<string, string | number | bigint | Uint8Array>;
@@ -12,6 +11,12 @@ export interface Changes {
     vertices: Int32Array;
     positions: Float64Array;
     final: Uint8Array;
+}
+
+/** Positions of vertices that no face uses. */
+export interface Loose {
+    vertices: Int32Array;
+    positions: Float64Array;
 }
 
 /** The header has arrived. */

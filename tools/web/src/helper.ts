@@ -1,35 +1,9 @@
 /** Decodes some of the chains of a stream beside a decoder, which has the others: chains know nothing of each other. */
 import { BLOCK, Engine, FAILED, HEADER, LOSS, NEED, OVER } from "./engine";
-import type { Described } from "./errors";
-import type { Header } from "./header";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
+import type { Share, SharedBlock } from "./share";
 import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
-
-/** A block's own reconstruction, before it is blended with others; positions in BSM units. */
-export interface DecodedBlock {
-    vertices: Int32Array;
-    positions: Float64Array;
-    weights: Float64Array;
-}
-
-/** A block that a helper has decoded, or what is wrong with it. */
-export interface SharedBlock {
-    index: number;
-    block?: DecodedBlock;
-    problem?: Described;
-}
-
-/** Which of those that share the chains of a stream has which: chain c is that of number c % `among`; 0 is the decoder. */
-export interface Share {
-    number: number;
-    among: number;
-}
-
-/** The chain that a block is in (M 10.1). */
-export function chainOf({ keyInterval, blocks }: Header, index: number): number {
-    return Math.floor(index / (keyInterval || blocks));
-}
 
 /** Takes the whole stream, as the decoder does, and gives the blocks of its share. */
 export class Helper {

@@ -15,7 +15,7 @@ interface Kind<View extends Numbers> {
     new (buffer: ArrayBufferLike, offset: number, length: number): View;
 }
 
-/** What a kernel takes: int64, double, arrays as the structures of kernel.h, structures of all these. */
+/** What a kernel takes: int64, double, arrays as the structures of bitstream/kernel.h, structures of all these. */
 export type Argument = bigint | number | Place<Numbers> | readonly Argument[];
 
 /** An array in the memory of the kernels; of two dimensions if `columns` is given. */

@@ -1,11 +1,5 @@
 /** How the user of a mesh numbers what was coded (specification, C 9, F 9). */
-import type { Changes } from "./events";
-
-/** Positions of vertices that no face uses. */
-export interface Loose {
-    vertices: Int32Array;
-    positions: Float64Array;
-}
+import type { Changes, Loose } from "./events";
 
 /** The user's faces, and what each of the user's vertices was coded as, -1 for none; without it as what has its number. */
 export class Numbering {

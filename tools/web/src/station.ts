@@ -2,7 +2,8 @@
 import { Decoder, END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./decoder";
 import { openDesk as opened, serveWith, Teller, type Desk, type Guard, type Say, type Start } from "./desk";
 import type { Header } from "./header";
-import { Helper, type Share, type SharedBlock } from "./helper";
+import { Helper } from "./helper";
+import type { Share, SharedBlock } from "./share";
 import type { Kernels } from "./kernels";
 import { helpersFor, Team } from "./team";
 

@@ -1,7 +1,7 @@
 /** Threads that help a decoder: each decodes some of the chains of the stream. */
 import { decode, Decoder, NEED_BLOCK, type Mesh } from "./decoder";
 import type { Header } from "./header";
-import { chainOf, type SharedBlock } from "./helper";
+import { chainOf, type SharedBlock } from "./share";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 import type { Answer, Endpoint, Order, Start } from "./desk";

@@ -1,0 +1,28 @@
+/** What those that share the chains of a stream have in common. */
+import type { Described } from "./errors";
+import type { Header } from "./header";
+
+/** A block's own reconstruction, before it is blended with others; positions in BSM units. */
+export interface DecodedBlock {
+    vertices: Int32Array;
+    positions: Float64Array;
+    weights: Float64Array;
+}
+
+/** A block that a helper has decoded, or what is wrong with it. */
+export interface SharedBlock {
+    index: number;
+    block?: DecodedBlock;
+    problem?: Described;
+}
+
+/** Which of those that share the chains of a stream has which: chain c is that of number c % `among`; 0 is the decoder. */
+export interface Share {
+    number: number;
+    among: number;
+}
+
+/** The chain that a block is in (M 10.1). */
+export function chainOf({ keyInterval, blocks }: Header, index: number): number {
+    return Math.floor(index / (keyInterval || blocks));
+}
