@@ -56,8 +56,6 @@ NB_MODULE(_kernels, m) {
         Unlocked());
 
     m.def("points_of_levels", &points_of_levels, "levels"_a, "points"_a, Unlocked());
-    m.def("look_at_block", checked<look_at_block>, "past"_a, "levels"_a, "inputs"_a, Unlocked());
-    m.def("bin_of_expectation", checked<bin_of_expectation>, "weights"_a, "inputs"_a);
     m.def("code_block", checked<code_block>, "coder"_a, "bank"_a, "past"_a, "expectations"_a, "levels"_a, Unlocked());
     m.def("search_levels", checked<search_levels>, "bank"_a, "past"_a, "expectations"_a, "targets"_a, "price"_a,
         "costs"_a, "ways"_a, "origins"_a, "levels"_a, "kept"_a, Unlocked());

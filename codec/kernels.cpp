@@ -121,10 +121,6 @@ NB_MODULE(_kernels, m) {
     m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "weights"_a, "smoothed"_a, Unlocked());
     m.def("smooth_all", checked<&smooth_all>, "offsets"_a, "neighbours"_a, "positions"_a, "weights"_a, "scratch"_a,
           "smoothed"_a, Unlocked());
-    m.def("find_rings", &find_rings, "offsets"_a, "neighbours"_a, "number"_a, "vertices"_a, "rows"_a, "starts"_a,
-          Unlocked());
-    m.def("filter_rows", &filter_rows, "offsets"_a, "neighbours"_a, "number"_a, "positions"_a, "weights"_a, "rows"_a,
-          "starts"_a, "current"_a, "following"_a, "smoothed"_a, Unlocked());
     m.def("cotangents", &cotangents, "offsets"_a, "neighbours"_a, "faces"_a, "positions"_a, "flatness"_a,
           "smallness"_a, "weights"_a, Unlocked());
     m.def("hold", &hold, "offsets"_a, "neighbours"_a, "weights"_a, "rank"_a, "vertices"_a, "own_offsets"_a,

@@ -7,9 +7,9 @@ import tracemalloc
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from bsm.bitstream.container.scanner import scan
 from bsm.decoding import Decoder, SequenceDecoder
 from bsm.events import END_OF_STREAM, FrameEvent, Signal
+from tools.surgery import scan
 
 
 def events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any) -> list[Any]:

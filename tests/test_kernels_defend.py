@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from bsm.bitstream import _kernels as of_bytes
-from bsm.bitstream.coefficients import adaptive
 from bsm.codec import _kernels as of_arrays
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -112,8 +111,6 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     frames, steps = local_frames(bare.positions, bare.faces), np.ones((size, 3))
     seen = Sensitivity(bare.positions, bare.faces, graph_of_faces(bare.faces, size), LookMetric(bare), 0.01)
     seen.levels(2.0 * bare.positions, frames, steps, lambda _: steps, 0.01, np.full(size, np.inf))
-    adaptive.look_at_block(adaptive.make_past(60), np.ones((9, 3), np.int32))
-    adaptive._kernels.bin_of_expectation(np.ones(20, np.int32), np.ones(20, np.int32))
     names = {*KERNELS} - NOTHING_SHORT
     assert not names - set(refusals), "kernels that this test does not reach"
     assert not {name for name in names if not refusals[name]}, "kernels that refuse nothing"

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.packets import PARSERS
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
-from bsm.bitstream.fields.corners import MOST_LARGEST, FieldDecoder, FieldEncoder
+from bsm.bitstream.fields.corners import MOST_LARGEST, FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, light_field
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import TriangleMesh
+from tools.payloads import FieldDecoder, decode_connectivity
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
 
 Ints = npt.NDArray[np.int32]

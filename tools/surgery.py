@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import msgpack
@@ -16,6 +17,8 @@ from bsm.bitstream.container.header import (
     Paper,
     fields_of,
 )
+from bsm.bitstream.container.packets import Packet
+from bsm.bitstream.container.scanner import FrameSpan, Scanner
 from bsm.bitstream.container.wire import (
     MAGIC,
     PREAMBLE_BYTES,
@@ -28,7 +31,8 @@ from bsm.bitstream.container.wire import (
     write_map,
     write_varint,
 )
-from bsm.bitstream.errors import BsmError
+from bsm.bitstream.container.writer import Writer
+from bsm.bitstream.errors import BsmError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 
 Frames = list[tuple[int, bytes]]
@@ -45,6 +49,21 @@ def frames_of(stream: bytes) -> Frames:
         frames.append((frame.type, frame.payload))
         offset += frame.size
     return [frame for frame in frames if frame[0] != FrameType.END]
+
+
+def scan(chunks: Iterable[bytes], scanner: Scanner | None = None) -> Iterator[tuple[Packet, FrameSpan]]:
+    """Yield the packets of a whole stream, and where the frame of each lies."""
+    scanner = scanner or Scanner()
+    for chunk in chunks:
+        yield from scanner.receive(chunk)
+    if not scanner.ended:
+        raise TruncatedError("the stream ends before its END frame")
+
+
+def write_stream(packets: list[Packet]) -> bytes:
+    """Return a whole stream: preamble, the packets given, END."""
+    writer = Writer()
+    return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])
 
 
 def stream_of(frames: Frames, version: int = VERSION) -> bytes:

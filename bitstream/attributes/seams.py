@@ -6,14 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import (
-    Coder,
-    finish_reading,
-    finish_writing,
-    make_bank,
-    start_reading,
-    start_writing,
-)
+from bsm.bitstream.entropy.range_coder import Coder, finish_writing, make_bank, start_writing
 from bsm.bitstream.fields.corners import Corners
 from bsm.bitstream.once import cached_property
 
@@ -79,20 +72,11 @@ def find_seams(corners: Corners, values: npt.ArrayLike) -> Flags:
 
 def encode_seams(corners: Corners, seams: Flags, earlier: tuple[Flags, ...] = ()) -> bytes:
     coder = start_writing(len(seams) + 64)
-    _code(coder, corners, seams.copy(), earlier)
+    code_edges(coder, corners, seams.copy(), earlier)
     return finish_writing(coder)
 
 
-def decode_seams(payload: bytes, corners: Corners, earlier: tuple[Flags, ...] = ()) -> Flags:
-    """Twin of `encode_seams`: returns the seams, shape (3 m,)."""
-    coder = start_reading(payload)
-    seams = np.zeros(len(corners.opposite), np.uint8)
-    _code(coder, corners, seams, earlier)
-    finish_reading(coder)
-    return seams
-
-
-def _code(coder: Coder, corners: Corners, seams: Flags, earlier: tuple[Flags, ...]) -> None:
+def code_edges(coder: Coder, corners: Corners, seams: Flags, earlier: tuple[Flags, ...]) -> None:
     ends = np.empty((len(corners.rank), 3), np.int32)
     _kernels.code_edges(
         coder, make_bank(_SLOTS, _OTHERS, _INPUTS, limit=255), corners, seams, _others(earlier, len(seams)), ends

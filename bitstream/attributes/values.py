@@ -13,7 +13,6 @@ from bsm.bitstream.fields import corners as shared
 
 Ints = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]
-LARGEST_SIZE = (1 << 19) - 1  # levels are as large as those of other values may be, at most
 
 
 def octahedral_normals(levels: npt.ArrayLike, size: int) -> npt.NDArray[np.float64]:
@@ -65,12 +64,6 @@ class _Values(NamedTuple):
     chart: Longs
 
 
-def values_charge(vertices: int, faces: int, components: int, kind: Kind) -> int:
-    """Bytes of memory that coding values of vertices takes at most; its work is linear in `vertices` + `faces`."""
-    per_vertex = shared.BYTES_PER_VERTEX + 60 + 16 * components + (48 if kind == "normal" else 0)
-    return per_vertex * vertices + shared.BYTES_PER_FACE * faces + shared.MODEL_BYTES + (components << 17) + (1 << 17)
-
-
 def values_field(
     faces: npt.ArrayLike,
     vertices: int,
@@ -107,9 +100,8 @@ def values_field(
             lambda coder, *rows: kernel(coder, model, corners, values, *rows), values.order, values.values
         )
 
-    charge = values_charge(vertices, len(np.asarray(faces)), components, kind)
     canonical = partial(canonical_levels, size=int(top[0]) // 2) if kind == "normal" else None
-    return shared.Field(np.zeros_like(top), top, charge, start, canonical)
+    return shared.Field(np.zeros_like(top), top, start, canonical)
 
 
 def ring_of_twins(places: npt.ArrayLike | None, vertices: int) -> Ints:
@@ -182,9 +174,4 @@ def face_values_field(faces: npt.ArrayLike, largest: npt.ArrayLike) -> shared.Fi
         order, code = np.arange(count, dtype=np.int32), _kernels.code_faces
         return shared.State(lambda coder, *rows: code(coder, model, corners, values, *rows), order, given)
 
-    charge = (
-        (3 * shared.BYTES_PER_VERTEX + shared.BYTES_PER_FACE + 8 * components) * len(table)
-        + shared.MODEL_BYTES
-        + (1 << 17)
-    )
-    return shared.Field(np.zeros_like(top), top, charge, start)
+    return shared.Field(np.zeros_like(top), top, start)

@@ -13,7 +13,7 @@ from bsm.bitstream import _kernels
 from bsm.bitstream._kernels import priors
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.entropy.range_coder import ONE
-from bsm.bitstream.errors import CorruptError, OptionError
+from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 
 TARGET_UNIT = 256  # targets are in 1 / TARGET_UNIT of a quantization step
@@ -49,8 +49,6 @@ def choose_levels(model: CoefficientModel, targets: npt.NDArray[np.int64], weigh
 Magnitudes = npt.NDArray[np.int32]
 NEIGHBOURS = 20  # inputs of an expectation
 SITUATIONS = 6  # each has its own weights: first block of a chain or a later one, times coordinate
-UNIT = 16  # an input of a level of 1; expectations are in 1 / UNIT, too
-WEIGHT_BITS = 10  # a weight of 1.0 is 1 << WEIGHT_BITS
 BINS = 48  # three to the octave
 _ABOVE = 8  # rows of zeros in front of the first frequency, as far as any neighbour reaches
 _BEYOND = 3  # and behind the last
@@ -69,13 +67,6 @@ def make_past(width: int) -> Past:
     """The past of a chain that has none, for blocks of at most `width` rows."""
     shape = (_ABOVE + width + _BEYOND, 3)
     return Past(np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(shape, np.int32), np.zeros(1, np.int64))
-
-
-def look_at_block(past: Past, levels: Magnitudes) -> Magnitudes:
-    """The inputs of the expectations of a block's coefficients, shape (c, 3); the block becomes a part of `past`."""
-    inputs = np.empty((levels.size, NEIGHBOURS), np.int32)
-    _kernels.look_at_block(past, levels, inputs)
-    return inputs
 
 
 Levels = npt.NDArray[np.int32]
@@ -172,20 +163,9 @@ def encode_coefficients(model: CoefficientModel, levels: Levels) -> bytes:
     if len(levels) > model.width or np.abs(levels.astype(np.int64)).max(initial=0) > MAX_LEVEL:
         raise OptionError(f"levels must be at most {model.width} rows of magnitudes up to {MAX_LEVEL}")
     coder = entropy.start_writing(_BYTES_PER_LEVEL * levels.size)
-    _code_block(coder, model, np.array(levels, np.int32, order="C"))
+    code_block(coder, model, np.array(levels, np.int32, order="C"))
     return entropy.finish_writing(coder)
 
 
-def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> Levels:
-    """Twin of `encode_coefficients`: read `count` rows, shape (count, 3)."""
-    if count > model.width:
-        raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
-    levels = np.zeros((count, 3), np.int32)
-    coder = entropy.start_reading(payload)
-    _code_block(coder, model, levels)
-    entropy.finish_reading(coder)
-    return levels
-
-
-def _code_block(coder: entropy.Coder, model: CoefficientModel, levels: Levels) -> None:
+def code_block(coder: entropy.Coder, model: CoefficientModel, levels: Levels) -> None:
     _kernels.code_block(coder, model.bank, model.past, model.expectations, levels)

@@ -100,9 +100,6 @@ INLINE void close_block(Chain *chain) {
     ++*chain->blocks;
 }
 
-int64_t look_at_block(Past past, ConstInts2 levels, Ints2 inputs);
-int64_t bin_of_expectation(ConstInts weights, ConstInts inputs);
-
 /* How a level becomes decisions: nodes and contexts (specification, M 9.5, M 9.6). */
 enum {
     EXPECTATIONS = 3, /* from everything, from the same block alone, from earlier blocks alone */

@@ -9,7 +9,6 @@ import numpy.typing as npt
 from bsm.bitstream import _kernels
 from bsm.bitstream.coefficients.adaptive import COSTS
 from bsm.bitstream.entropy import range_coder as entropy
-from bsm.bitstream.errors import TruncatedError
 
 Levels = npt.NDArray[np.int32]
 Prices = npt.NDArray[np.int16]
@@ -82,16 +81,12 @@ def decode_levels(
     entropy.finish_reading(coder)
 
 
-def code_column(coder: entropy.Coder, values: Levels) -> entropy.Coder:
-    """Write whole numbers, shape (n,), or read them into `values`, by a model of their own."""
-    column = values.reshape(-1, 1)
-    if not entropy.is_reading(coder):
-        coder = entropy.make_room(coder, 16 * len(values) + 8)
+def write_column(coder: entropy.Coder, values: Levels) -> entropy.Coder:
+    """Write whole numbers, shape (n,), by a model of their own."""
+    column, coder = values.reshape(-1, 1), entropy.make_room(coder, 16 * len(values) + 8)
     used = np.flatnonzero(values)
     rows = int(used[-1]) + 1 if len(used) else 0
     _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, _extent_of(column, (1, 0)))
-    if entropy.overran(coder):
-        raise TruncatedError(f"the payload of {len(values)} numbers ends too early")
     return coder
 
 

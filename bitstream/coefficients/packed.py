@@ -5,11 +5,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import CorruptError, OptionError, imported
+from bsm.bitstream.errors import OptionError, imported
 
 _MAGIC = b"\x28\xb5\x2f\xfd"
 _LEVEL = 19
-MAX_WINDOW = 1 << 23
 
 
 def compress(data: bytes) -> bytes:
@@ -17,31 +16,6 @@ def compress(data: bytes) -> bytes:
     compressor = _zstandard().ZstdCompressor(level=_LEVEL, write_checksum=False, write_content_size=True)
     frame: bytes = compressor.compress(data)[len(_MAGIC) :]
     return frame if len(frame) < len(data) else data
-
-
-def decompress(data: bytes, exact_size: int) -> bytes:
-    """Inverse of `compress`; never allocates for more than `exact_size` bytes."""
-    if len(data) == exact_size:
-        return data
-    if len(data) > exact_size:
-        raise CorruptError(f"{len(data)} compressed bytes for {exact_size} bytes of content")
-    frame = _MAGIC + data
-    zstandard = _zstandard()
-    try:
-        parameters = zstandard.get_frame_parameters(frame)
-        if parameters.content_size != exact_size:
-            raise CorruptError(f"zstd frame claims {parameters.content_size} bytes where {exact_size} belong")
-        if parameters.window_size > MAX_WINDOW:
-            raise CorruptError(f"zstd frame has a window of {parameters.window_size} bytes, legal are {MAX_WINDOW}")
-        if parameters.has_checksum:
-            raise CorruptError("zstd frame has a checksum of its content")
-        decompressor = zstandard.ZstdDecompressor()
-        content: bytes = decompressor.decompress(frame, max_output_size=exact_size, allow_extra_data=False)
-    except zstandard.ZstdError as error:
-        raise CorruptError(f"zstd frame is damaged: {error}") from error
-    if len(content) != exact_size:
-        raise CorruptError(f"zstd frame holds {len(content)} bytes where {exact_size} belong")
-    return content
 
 
 def _zstandard() -> Any:
@@ -63,17 +37,6 @@ def pack_coefficients(values: npt.NDArray[Any], bits: int) -> bytes:
         raise OptionError(f"coefficients {flat.min()}..{flat.max()} do not fit {bits} bits")
     digits = np.unpackbits(flat.astype(">u4").view(np.uint8).reshape(-1, 4), axis=1)
     return compress(np.packbits(digits[:, MAX_BITS - bits :]).tobytes())
-
-
-def unpack_coefficients(data: bytes, count: int, bits: int) -> npt.NDArray[np.uint32]:
-    _check_bits(bits)
-    packed = np.frombuffer(decompress(data, (count * bits + 7) // 8), dtype=np.uint8)
-    digits = np.unpackbits(packed)
-    if digits[count * bits :].any():
-        raise CorruptError("the bits behind the last packed coefficient are not 0")
-    padded = np.zeros((count, MAX_BITS), dtype=np.uint8)
-    padded[:, MAX_BITS - bits :] = digits[: count * bits].reshape(count, bits)
-    return np.packbits(padded, axis=1).view(">u4").astype(np.uint32).ravel()
 
 
 def _check_bits(bits: int) -> None:

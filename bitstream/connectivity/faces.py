@@ -1,4 +1,4 @@
-"""Faces to bytes and back, exactly up to numbering: counts, the conquest of a cut surface, fans, degenerate faces."""
+"""Faces to bytes: counts, the conquest of a cut surface, fans, degenerate faces; exact up to numbering."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -8,8 +8,7 @@ import numpy.typing as npt
 
 from bsm.bitstream import _kernels
 from bsm.bitstream.entropy import range_coder as entropy
-from bsm.bitstream.errors import CorruptError, MeshError, TruncatedError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.errors import MeshError
 
 Ints = npt.NDArray[np.int32]
 
@@ -91,13 +90,13 @@ def code_rare(coder: entropy.Coder, models: Models, kind: int, value: int) -> in
     return entropy.code_unsigned(coder, models.rare, np.zeros(1, np.int64), 0, _RARE_UNARY, value, kind)
 
 
-DONE, NONSENSE, NO_ROOM = range(3)  # how a call of the kernel ends; without room, make some and call again
+NO_ROOM = 2  # what the kernel answers where it needs more memory
 _DUMMIES, _TURNS, _STEPS, _TALLIES = 3, 4, 5, 8
 _TURN_BYTES = 1024  # more than one triangle can take
 
 
 class Guide(NamedTuple):
-    """What only the encoder knows; a decoder has empty arrays."""
+    """What only the encoder knows."""
 
     surface: Surface
     conquered: npt.NDArray[np.uint8]
@@ -151,8 +150,8 @@ class Seams(NamedTuple):
     latest: Ints
 
 
-def code_seams(coder: entropy.Coder, faces: Ints, vertices: Ints) -> tuple[int, Ints]:
-    """Code the vertex of every fan; return the number of vertices, or -1 for nonsense, and the vertices, shape (f,)."""
+def write_seams(coder: entropy.Coder, faces: Ints, vertices: Ints) -> None:
+    """Write the vertex of every fan, shape (f,)."""
     size, origin = len(vertices), faces.reshape(-1)
     border = np.flatnonzero(match_halfedges(origin, size) < 0)
     after, before = np.full((2, size), -1, np.int32)  # fans along the boundary
@@ -161,12 +160,10 @@ def code_seams(coder: entropy.Coder, faces: Ints, vertices: Ints) -> tuple[int, 
     before[after[at_border]] = at_border
     vertex, sibling, latest = np.empty((3, size), np.int32)
     seams = Seams(vertex, after, before, sibling, latest)
-    return _kernels.code_fans(coder, entropy.make_bank(_SLOTS, 1, 1), vertices, seams), vertex
+    _kernels.code_fans(coder, entropy.make_bank(_SLOTS, 1, 1), vertices, seams)
 
 
 _FIRST_CAPACITY = 1 << 16
-_FACE_MEMORY, _VERTEX_MEMORY, _FAN_MEMORY = 100, 400, 240
-"""Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together."""
 _BYTES_PER_FAN = 32  # more than the vertex of a fan, or a corner of a degenerate face, can take
 
 
@@ -205,7 +202,7 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConne
         raise MeshError(f"vertex {missing} is in no face; remove isolated vertices first")
     vertices = number[used[:fans]]
     if fans > regular:
-        code_seams(coder, conquest.faces, vertices)
+        write_seams(coder, conquest.faces, vertices)
     corners = number[used[fans:]]
     _kernels.code_degenerate(coder, corners, regular)
     return EncodedConnectivity(
@@ -216,50 +213,13 @@ def encode_connectivity(faces: npt.ArrayLike, vertex_count: int) -> EncodedConne
     )
 
 
-def decode_connectivity(payload: bytes, vertex_count: int, face_count: int, limits: Limits = DEFAULT_LIMITS) -> Ints:
-    """Decode what `encode_connectivity` made of `face_count` triangles of `vertex_count` vertices."""
-    limits.check("vertices", vertex_count)
-    limits.check("faces", face_count)
-    if not 0 < vertex_count <= 3 * face_count:
-        raise CorruptError(f"{face_count} triangles cannot have {vertex_count} vertices")
-    coder, models = entropy.start_reading(payload), make_models(vertex_count)
-    degenerate, lonely, surplus, loops = (code_rare(coder, models, RARE_HEADER, 0) for _ in range(4))
-    proper, regular = face_count - degenerate, vertex_count - lonely
-    fans = regular + surplus
-    if proper < 0 or regular < 0 or lonely > 3 * degenerate or fans > 3 * proper or loops > 3 * proper:
-        raise _nonsense(coder, "the counts at its start contradict each other")
-    limits.check("vertices", fans + loops)
-    memory = _FACE_MEMORY * face_count + _VERTEX_MEMORY * vertex_count + _FAN_MEMORY * (surplus + loops)
-    limits.check_memory(memory, vertex_count, len(coder.data))
-    guide = make_guide(Surface(*np.empty((4, 0), np.int32)), 0)
-    coder, conquest = conquer(coder, models, guide, make_conquest(proper, fans, loops))
-    faces = conquest.faces
-    count = regular
-    if surplus > 0:
-        count, vertices = code_seams(coder, faces, np.full(fans, -1, np.int32))
-        faces = vertices[faces]
-    corners = np.empty(3 * degenerate, np.int32)
-    if count != regular or _kernels.code_degenerate(coder, corners, regular) != vertex_count:
-        raise _nonsense(coder, f"it does not make {vertex_count} vertices")
-    entropy.finish_reading(coder)
-    return np.concatenate([faces, corners.reshape(-1, 3)]) if degenerate else faces
-
-
 def conquer(coder: entropy.Coder, models: Models, guide: Guide, conquest: Conquest) -> tuple[entropy.Coder, Conquest]:
-    """Code the surface, with more memory each time that is asked for; so memory follows the progress, not a claim."""
-    while (end := _kernels.conquer(coder, models, guide, conquest)) == NO_ROOM:
+    """Code the surface, with more memory each time that the kernel asks for it."""
+    while _kernels.conquer(coder, models, guide, conquest) == NO_ROOM:
         nodes, heads = conquest.front
         front = Front(np.concatenate([nodes, np.empty_like(nodes)]), heads)
         coder, conquest = entropy.make_room(coder, _TURN_BYTES + len(coder.data)), conquest._replace(front=front)
-    if end == NONSENSE:
-        raise _nonsense(coder, f"it does not make {len(conquest.faces)} triangles")
     return coder, conquest
-
-
-def _nonsense(coder: entropy.Coder, problem: str) -> CorruptError | TruncatedError:
-    if entropy.overran(coder):
-        return TruncatedError(f"a connectivity payload of {len(coder.data)} bytes ends too early")
-    return CorruptError(f"a connectivity payload is damaged: {problem}")
 
 
 def _number_by_appearance(sequence: Ints, size: int) -> tuple[Ints, Ints]:

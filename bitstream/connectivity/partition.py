@@ -4,8 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.entropy.range_coder import finish_reading, finish_writing, make_bank, start_reading, start_writing
-from bsm.bitstream.errors import CorruptError
+from bsm.bitstream.entropy.range_coder import Coder, finish_writing, make_bank, start_writing
 
 Indices = npt.NDArray[np.int32]
 
@@ -17,18 +16,10 @@ _CONTEXTS = 16 * (_CANDIDATES + 1)
 def encode_labels(offsets: Indices, neighbours: Indices, labels: Indices, parts: int) -> bytes:
     """Code `labels`, shape (n,), numbered by first appearance, over the graph that the decoder will have."""
     coder = start_writing(8 * len(labels) + 64)
-    bank = make_bank(_INPUTS * _CONTEXTS, _CANDIDATES + 1, _INPUTS)
-    _kernels.code_labels(coder, bank, offsets, neighbours, np.array(labels, np.int32, order="C"), parts)
+    code_labels(coder, offsets, neighbours, np.array(labels, np.int32, order="C"), parts)
     return finish_writing(coder)
 
 
-def decode_labels(data: bytes, offsets: Indices, neighbours: Indices, parts: int) -> Indices:
-    """Twin of `encode_labels`: returns the labels, shape (n,)."""
-    labels = np.zeros(len(offsets) - 1, np.int32)
-    coder = start_reading(data)
+def code_labels(coder: Coder, offsets: Indices, neighbours: Indices, labels: Indices, parts: int) -> int:
     bank = make_bank(_INPUTS * _CONTEXTS, _CANDIDATES + 1, _INPUTS)
-    used = _kernels.code_labels(coder, bank, offsets, neighbours, labels, parts)
-    finish_reading(coder)
-    if used != parts:
-        raise CorruptError(f"the partition has {used} parts where the header has {parts}")
-    return labels
+    return _kernels.code_labels(coder, bank, offsets, neighbours, labels, parts)

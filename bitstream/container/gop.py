@@ -2,10 +2,9 @@
 
 import math
 import struct
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import IntEnum
-from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -32,27 +31,6 @@ def write_stretches(shown: npt.NDArray[np.int64] | None) -> bytes:
         at += count
         due = int(shown[at - 1]) + 1
     return b"".join(map(write_varint, [len(parts) // 2, *parts]))
-
-
-def parse_stretches(cursor: Cursor, frames: int) -> npt.NDArray[np.int64] | None:
-    """Inverse of `write_stretches` for so many frames: an array of shape (T,), or None."""
-    count = cursor.varint()
-    if not count:
-        return None
-    shown = np.empty(frames, np.int64)
-    at, due = 0, 0
-    for _ in range(count):
-        beyond, way = divmod(cursor.varint(), 3)
-        length = cursor.varint()
-        first = due + (beyond // 2 if beyond % 2 == 0 else -(beyond + 1) // 2)
-        last = first + WAYS[way] * (length - 1)
-        if not (0 < length <= frames - at and 0 <= min(first, last) <= max(first, last) < frames):
-            raise CorruptError(f"a stretch of {length} frames from frame {first} on, of a GOP of {frames}")
-        shown[at : at + length] = first + WAYS[way] * np.arange(length)
-        at, due = at + length, last + 1
-    if at < frames:
-        raise CorruptError(f"stretches of {at} frames in a GOP of {frames}")
-    return shown
 
 
 MAX_EXPONENT = 400
@@ -151,28 +129,6 @@ def _write_field(field: GopField, method: GopMethod) -> bytes:
     return b"".join([*parts, field.levels])
 
 
-def parse_gop_body(
-    data: bytes, longest: int, run: int = 0, widths: Mapping[int, int] = MappingProxyType({}), *, tolerant: bool = False
-) -> GopBody:
-    cursor = Cursor(data)
-    method, frames, with_attributes = _parse_beginning(cursor, longest, run)
-    shown = parse_stretches(cursor, frames) if method.has_basis else None
-    body = GopBody(method, frames, (), shown)
-    count = cursor.varint() if with_attributes else 0
-    if with_attributes and not count:
-        raise CorruptError("a GOP with attributes that has none")
-    fields = {number: still(width) for number, width in widths.items()}
-    before = -1
-    for _ in range(count):
-        number, part = cursor.varint(), cursor.take(cursor.varint())
-        if number <= before or not (tolerant or number in widths):
-            raise CorruptError(f"a GOP has attribute {number}, which does not move, or is not the next one")
-        before = number
-        if number in widths:
-            fields[number] = _parse_field(part, body, widths[number])
-    return replace(body, fields=(_parse_field(cursor.rest(), body, 3), *fields.values()))
-
-
 def method_of(first: int) -> GopMethod:
     return GopMethod(first % WITH_ATTRIBUTES)
 
@@ -191,25 +147,3 @@ def _parse_beginning(cursor: Cursor, longest: int, run: int) -> tuple[GopMethod,
     if not 1 <= frames <= longest:
         raise CorruptError(f"a GOP of {frames} frames where 1 to {longest} are legal")
     return method, frames, kind >= WITH_ATTRIBUTES
-
-
-def _parse_field(data: bytes, body: GopBody, width: int) -> GopField:
-    cursor = Cursor(data)
-    step = float(struct.unpack("<f", cursor.take(4))[0])
-    if not 0.0 < step < math.inf:
-        raise CorruptError(f"a GOP with the step {step}")
-    if not body.method.has_basis:
-        back = cursor.varint() if body.method is GopMethod.NEXT_FRAME else 0
-        if 0 < back < body.frames:
-            raise CorruptError(f"{body.frames} frames that start from those {back} before them")
-        return GopField(width, step, width * body.frames, np.empty(0, np.int32), b"", cursor.rest(), back)
-    components = cursor.varint()
-    if components > width * body.coded:
-        raise CorruptError(f"{components} components for {body.coded} frames")
-    codes = np.array([cursor.varint() for _ in range(components)], np.int64)
-    exponents = np.cumsum(np.where(codes % 2 == 0, codes // 2, -(codes + 1) // 2))
-    if len(exponents) and not 0 <= exponents.min() <= exponents.max() <= MAX_EXPONENT:
-        raise CorruptError(f"a basis with step exponents outside 0..{MAX_EXPONENT}")
-    exponents = exponents.astype(np.int32)
-    basis = cursor.take(cursor.varint())
-    return GopField(width, step, components, exponents, basis, cursor.rest())

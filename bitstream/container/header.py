@@ -408,11 +408,6 @@ class Declaration:
         return self.kind >= FLOAT32
 
     @property
-    def by_vertex(self) -> bool:
-        """Whether the user is given values by vertices."""
-        return (self.domain, self.origin) in ((VERTEX, AS_CODED), (CORNER, OTHERWISE))
-
-    @property
     def offsets(self) -> tuple[float, ...]:
         """What level 0 stands for, of each coded number."""
         return self.offset or (0.0,) * self.words

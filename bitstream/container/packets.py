@@ -112,16 +112,6 @@ class End:
     positions: int | None = None
 
 
-@dataclass(frozen=True)
-class Damaged:
-    """Bytes that a tolerant reader could not read and skipped."""
-
-    type: FrameType | None
-    offset: int
-    length: int
-    reason: str
-
-
 Packet: TypeAlias = (
     Header | Metadata | Connectivity | Partition | Order | Attribute | Block | Gop | Grid | Refinement | Values | End
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from bsm.bitstream.container.packets import PARSERS, End, Packet
@@ -14,7 +14,7 @@ from bsm.bitstream.container.wire import (
     parse_frame,
     parse_preamble,
 )
-from bsm.bitstream.errors import BsmError, CorruptError, TruncatedError, UnsupportedError
+from bsm.bitstream.errors import BsmError, CorruptError, UnsupportedError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 
 
@@ -69,12 +69,3 @@ class Scanner:
     def _drop(self, count: int) -> None:
         del self._buffer[:count]  # a bytearray does this in amortised constant time
         self._offset += count
-
-
-def scan(chunks: Iterable[bytes], scanner: Scanner | None = None) -> Iterator[tuple[Packet, FrameSpan]]:
-    """The packets of a whole stream, and where the frame of each lies."""
-    scanner = scanner or Scanner()
-    for chunk in chunks:
-        yield from scanner.receive(chunk)
-    if not scanner.ended:
-        raise TruncatedError("the stream ends before its END frame; get the rest of it")

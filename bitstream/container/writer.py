@@ -44,9 +44,3 @@ class Writer:
         self._frames += 1
         self._crc = zlib.crc32(frame, self._crc)
         return frame
-
-
-def write_stream(packets: list[Packet], limits: Limits = DEFAULT_LIMITS) -> bytes:
-    """Return a whole stream: preamble, the packets given, END."""
-    writer = Writer(limits)
-    return b"".join([writer.start(), *(writer.write(packet) for packet in packets), writer.end()])

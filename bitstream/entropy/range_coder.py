@@ -12,7 +12,7 @@ ONE = 1 << 16  # probabilities that are coded are integers in 1 .. ONE - 1
 
 MOST_INPUTS = 16  # contexts that can be mixed in a decision
 
-_LOW, _RANGE, _POSITION, _READING, _FULL = range(5)
+_POSITION, _FULL = 2, 4
 _MAX_COUNT = 1023
 _MAX_RATE = 1024
 _SUFFIX_NODES = 24
@@ -65,17 +65,13 @@ def start_writing(capacity: int) -> Coder:
 
 
 def make_room(coder: Coder, capacity: int) -> Coder:
-    """Return a coder that continues `coder` and reads, or can write at least `capacity` bytes more."""
-    if is_reading(coder) or int(coder.state[_POSITION]) + capacity < coder.data.size:
+    """Return a coder that continues `coder` and can write at least `capacity` bytes more."""
+    if int(coder.state[_POSITION]) + capacity < coder.data.size:
         return coder
     written = int(coder.state[_POSITION])
     data = np.empty(written + capacity + 8, np.uint8)
     data[:written] = coder.data[:written]
     return Coder(coder.state, data)
-
-
-def is_reading(coder: Coder) -> bool:
-    return bool(coder.state[_READING])
 
 
 def start_reading(payload: bytes) -> Coder:
@@ -113,7 +109,7 @@ def finish_reading(coder: Coder) -> None:
 
 def overran(coder: Coder) -> bool:
     """Whether more was read than any complete payload of this length can hold."""
-    return is_reading(coder) and int(coder.state[_POSITION]) > coder.data.size + _AHEAD
+    return int(coder.state[_POSITION]) > coder.data.size + _AHEAD
 
 
 def unsigned_span(unary: int) -> int:

@@ -9,13 +9,10 @@ import numpy.typing as npt
 
 from bsm.bitstream import _kernels
 from bsm.bitstream.entropy import range_coder as entropy
-from bsm.bitstream.errors import CorruptError, MeshError, OptionError, TruncatedError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.errors import MeshError, OptionError
 
 Ints = npt.NDArray[np.int32]
 MOST_FACES = (1 << 30) // 3
-BYTES_PER_VERTEX = 24
-BYTES_PER_FACE = 48  # of memory, scratch included, for corners and order
 
 
 class Corners(NamedTuple):
@@ -72,40 +69,15 @@ class State(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """One kind of integers on vertices or faces: range of each column, bytes of memory to code it, how that begins."""
+    """One kind of integers on vertices or faces: the range of each column, and how coding begins."""
 
     low: Ints
     high: Ints
-    charge: int
     start: Callable[[], State]
     canonical: Callable[[Ints], Ints] | None = None  # what a decoder makes of values, where several mean the same
 
 
-class _FieldCoder:
-    """What encoder and decoder share: how far they are."""
-
-    def __init__(self, state: State) -> None:
-        self._state = state
-        self._next = 0
-
-    @property
-    def order(self) -> Ints:
-        """Vertices or faces in the order in which they are coded, shape (n,); it follows from the faces of the mesh."""
-        return self._state.order
-
-    @property
-    def coded(self) -> int:
-        return self._next
-
-    def _take(self, count: int) -> slice:
-        first, left = self._next, len(self.order) - self._next
-        if not 0 < count <= left:
-            raise OptionError(f"a chunk of {count} where {left} are left")
-        self._next = len(self.order)  # nothing comes behind an error
-        return slice(first, first + count)
-
-
-class FieldEncoder(_FieldCoder):
+class FieldEncoder:
     """Codes the values of a field."""
 
     def __init__(self, field: Field, values: npt.ArrayLike) -> None:
@@ -116,31 +88,23 @@ class FieldEncoder(_FieldCoder):
             raise MeshError(f"values are outside their range, {field.low} to {field.high}")
         if field.canonical is not None and (field.canonical(given) != given).any():
             raise MeshError("values are not those that a decoder makes of them")
-        super().__init__(field.start())
+        self._state, self._next = field.start(), 0
         if len(given) != len(self.order):
             raise MeshError(f"{len(given)} values where there are {len(self.order)} vertices or faces")
         self._state.values[:] = given
 
+    @property
+    def order(self) -> Ints:
+        """Vertices or faces in the order in which they are coded, shape (n,); it follows from the faces of the mesh."""
+        return self._state.order
+
     def chunk(self, count: int) -> bytes:
         """Code the next `count` of `order`; raises `OptionError` if there are fewer."""
-        rows = self._take(count)
-        payload = write_rows(self._state.code, rows.start, count)
-        self._next = rows.stop
-        return payload
-
-
-class FieldDecoder(_FieldCoder):
-    def __init__(self, field: Field, limits: Limits = DEFAULT_LIMITS) -> None:
-        limits.check("field_bytes", field.charge)
-        super().__init__(field.start())
-
-    def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
-        """Decode the next `count` of `order`."""
-        rows = self._take(count)
-        read_rows(self._state.code, payload, rows.start, count)
-        self._next = rows.stop
-        which = self.order[rows].copy()
-        return which, self._state.values[which]
+        left = len(self.order) - self._next
+        if not 0 < count <= left:
+            raise OptionError(f"a chunk of {count} where {left} are left")
+        self._next += count
+        return write_rows(self._state.code, self._next - count, count)
 
 
 def write_rows(code: Kernel, first: int, count: int, row_bytes: int = 4) -> bytes:
@@ -150,16 +114,6 @@ def write_rows(code: Kernel, first: int, count: int, row_bytes: int = 4) -> byte
         coder = entropy.make_room(coder, _ROOM + row_bytes * (end - first))
         first += code(coder, first, end - first)
     return entropy.finish_writing(coder)
-
-
-def read_rows(code: Kernel, payload: bytes, first: int, count: int) -> None:
-    coder = entropy.start_reading(payload)
-    done = code(coder, first, count)
-    if entropy.overran(coder):
-        raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {count} values")
-    if done < count:
-        raise CorruptError(f"number {done} of a payload of {count} has a value out of range")
-    entropy.finish_reading(coder)
 
 
 def checked_largest(largest: npt.ArrayLike, columns: range) -> Ints:
@@ -180,8 +134,6 @@ _WEIGHT_ROWS = _NODES + 3 * 6
 _INPUTS = PREDICTIONS + _CONTEXTS + 1
 _HIT_CONTEXTS = 32
 _SCALE_CONTEXTS = 512
-MODEL_BYTES = 4 * (_CONTEXTS * _CONTEXT_SIZE * _NODES + PREDICTIONS * (_HIT_CONTEXTS + 2 * _SCALE_CONTEXTS))
-"""About what a model takes."""
 
 
 class ValueModel(NamedTuple):

@@ -65,11 +65,6 @@ class _Grid(NamedTuple):
     learners: npt.NDArray[np.int64]
 
 
-def grid_charge(vertices: int, faces: int) -> int:
-    """Bytes of memory that coding a grid takes at most; its work is linear in `vertices` + `faces`, 3 µs per vertex."""
-    return (shared.BYTES_PER_VERTEX + 60) * vertices + shared.BYTES_PER_FACE * faces + shared.MODEL_BYTES + (1 << 20)
-
-
 def grid_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> shared.Field:
     """Positions on a grid, in as few bytes as can be."""
     top = shared.checked_largest(largest, range(AXES, AXES + 1))
@@ -94,7 +89,7 @@ def grid_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> s
             lambda coder, *rows: _kernels.code_grid(coder, model, corners, grid, *rows), grid.order, grid.values
         )
 
-    return shared.Field(np.zeros_like(top), top, grid_charge(vertices, len(np.asarray(faces))), start)
+    return shared.Field(np.zeros_like(top), top, start)
 
 
 _SIZES = 24
@@ -109,7 +104,7 @@ class _Light(NamedTuple):
 
 
 def light_field(faces: npt.ArrayLike, vertices: int, largest: npt.ArrayLike) -> shared.Field:
-    """Positions on a grid that are quick to decode (V 15), which takes less than `grid_charge`."""
+    """Positions on a grid that are quick to decode (V 15)."""
     full = grid_field(faces, vertices, largest)
 
     def start() -> shared.State:
@@ -138,12 +133,6 @@ def ordered(values: npt.ArrayLike) -> Numbers:
     return np.where(bits >> 31, (1 << 31) - 1 - bits, bits)
 
 
-def floats_of(numbers: Numbers) -> npt.NDArray[np.float32]:
-    """Inverse of `ordered`: floats of the same shape as their numbers."""
-    bits = np.where(numbers < 0, (1 << 31) - 1 - numbers, numbers)
-    return np.ascontiguousarray(bits.astype(np.uint32)).view(np.float32)
-
-
 class Cells(NamedTuple):
     """Numbers of floats in the cells of values (V 16.2), all of shape (k, 3)."""
 
@@ -168,21 +157,11 @@ class Floats:
             np.full((AXES, max(largest) + 1), _NO_FLOAT, np.int64),
         )
 
-    @staticmethod
-    def charge(largest: tuple[int, ...]) -> int:
-        return 24 * (max(largest) + 1)
-
     def encode(self, values: Ints, cells: Cells, floats: Numbers) -> bytes:
         """Code the numbers of floats, shape (k, 3), each in its cell, of values of a grid, shape (k, 3)."""
         if ((floats < cells.low) | (floats >= cells.high)).any():
             raise OptionError("a float is not in the cell of its value")
         return shared.write_rows(self._kernel(values, cells, floats), 0, len(values), _BYTES_PER_ROW)
-
-    def decode(self, payload: bytes, values: Ints, cells: Cells) -> Numbers:
-        """Twin of `encode`: returns the numbers of the floats, shape (k, 3)."""
-        floats = np.zeros(values.shape, np.int64)
-        shared.read_rows(self._kernel(values, cells, floats), payload, 0, len(values))
-        return floats
 
     def _kernel(self, values: Ints, cells: Cells, floats: Numbers) -> shared.Kernel:
         given, numbers = np.ascontiguousarray(values), (*cells, floats)
@@ -196,7 +175,6 @@ MOST_LEVEL = 1 << 20
 _LEVEL_INPUTS, _CONTEXT_SIZE, _NODES, _SORTS = 5, 512, 32, 2
 _LEVEL_SLOTS = _SORTS * _LEVEL_INPUTS * _CONTEXT_SIZE * _NODES
 _RATE = 16
-MODEL_BYTES = 4 * _LEVEL_SLOTS  # about what a model takes
 
 
 class _Levels(NamedTuple):
@@ -206,11 +184,6 @@ class _Levels(NamedTuple):
     gaps: Ints
     means: Ints
     learners: npt.NDArray[np.int64]
-
-
-def levels_charge(vertices: int, faces: int) -> int:
-    """Bytes of memory that coding levels takes at most; its work is linear in `vertices` + `faces`, 1 µs per level."""
-    return (shared.BYTES_PER_VERTEX + 12 * AXES) * vertices + shared.BYTES_PER_FACE * faces + MODEL_BYTES + (1 << 17)
 
 
 def levels_field(faces: npt.ArrayLike, vertices: int) -> shared.Field:
@@ -229,4 +202,4 @@ def levels_field(faces: npt.ArrayLike, vertices: int) -> shared.Field:
             lambda coder, *rows: _kernels.code_levels(coder, model, corners, levels, *rows), corners.rank, levels.levels
         )
 
-    return shared.Field(-top, top, levels_charge(vertices, len(np.asarray(faces))), start)
+    return shared.Field(-top, top, start)

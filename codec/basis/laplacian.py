@@ -12,15 +12,12 @@ further, make a front: its own steps, and the later steps to which they lead, it
 matrix, one row for each of its own steps, own steps first and then the border; this costs some fill and buys vector
 instructions (C. Ashcraft, R. Grimes, "The influence of relaxed supernode partitions on the multifrontal method", 1989).
 
-What dictionaries cost, in nanoseconds of a core and in bytes, is said before anything is done: mathematics states
-prices, stages pay them, and `Steps` is how a price travels. The numbers are those of one machine, an x86-64 server with
-AVX-512; `python -m tools.attack charges` says how true they are of another. They are for refusing what would take much
-longer than it is worth: a factor of two is close enough, and what counts is that nothing is left out.
+Costs are nanoseconds of a core and bytes, as decoders estimate them: encoders leave out early what decoders would
+refuse.
 """
 
-from collections.abc import Callable, Generator
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -153,50 +150,6 @@ def dense_laplacian(block: Block) -> Matrix:
 
 
 ONCE = 5.0  # of each number of a dictionary, however often it is iterated
-CARE = 6.0  # of each row and pair of columns of which one is made orthonormal by itself
-
-Spend: TypeAlias = Callable[[float], None]
-"""Is told of work before it is done, and may refuse it by raising `LimitError`."""
-
-
-Price: TypeAlias = Callable[[int], float]  # work of one step for so many columns, nanoseconds
-Steps: TypeAlias = Generator[Price, None, Basis]
-"""A computation that yields the price of each step before it takes it, and returns its columns."""
-
-
-def settle(steps: Steps, pay: Callable[[Price], None]) -> Basis:
-    """The columns, shape (n, c), that `steps` lead to; each price is handed to `pay` before the step is taken."""
-    while True:
-        try:
-            price = next(steps)
-        except StopIteration as end:
-            columns: Basis = end.value
-            return columns
-        pay(price)
-
-
-def unpaid(steps: Steps) -> Basis:
-    """The columns, shape (n, c), that `steps` lead to, whatever they cost."""
-    return settle(steps, lambda price: None)
-
-
-def up_to(most: int, steps: Steps) -> Steps:
-    """`steps` of which nobody wants more than so many columns, whatever number they are priced for."""
-
-    def cut(price: Price) -> Price:
-        return lambda columns: price(min(columns, most))
-
-    while True:
-        try:
-            price = next(steps)
-        except StopIteration as end:
-            columns: Basis = end.value
-            return columns
-        yield cut(price)
-
-
-def free(work: float) -> None:
-    """Encoders of one's own meshes have no allowance to spend."""
 
 
 def factor_cost(fronts: Fronts) -> float:
@@ -215,21 +168,10 @@ def onorm_cost(rows: int, columns: int) -> float:
 
 
 def dictionary_cost(fronts: Fronts, columns: int, solutions: int) -> float:
-    """Work of making a dictionary of columns that need no care."""
+    """Work of making a dictionary."""
     rows = len(fronts.rows)
     rounds = solutions * solve_cost(fronts, columns) + (solutions + 1) * onorm_cost(rows, columns)
     return ONCE * rows * _whole(columns) + rounds
-
-
-def careful_cost(fronts: Fronts, columns: int, solutions: int, care: int) -> float:
-    """Work of making it anew, with so many columns, at most, made orthonormal one by one."""
-    return dictionary_cost(fronts, columns, solutions) + CARE * len(fronts.rows) * columns * care
-
-
-def completion_cost(rows: int, first: int, columns: int) -> float:
-    """Work of completing so many first columns to more."""
-    more = max(0, columns - first)
-    return (first**3 / 3.0 + more * first * (first + rows)) / 15.0 + 2.0 * rows * columns + 1500.0
 
 
 def iteration_memory(fronts: Fronts, columns: int) -> int:

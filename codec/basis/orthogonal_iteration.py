@@ -10,25 +10,12 @@ size holds the subspace of every smaller size, and the residual for all of them 
 no further iteration.
 """
 
-from functools import partial
-
 import numpy as np
 
 from bsm.bitstream.errors import NumericError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Basis, Matrix
-from bsm.codec.basis.laplacian import (
-    Factor,
-    Laplacian,
-    Steps,
-    careful_cost,
-    check_rows,
-    completion_cost,
-    dictionary_cost,
-    factorize,
-    unpaid,
-    up_to,
-)
+from bsm.codec.basis.laplacian import Factor, Laplacian, check_rows, factorize
 
 _DONE, _NEEDS_CARE = 0, 1
 """What the kernel answers where U is there, and where columns have to be made orthonormal one by one."""
@@ -54,37 +41,21 @@ def cosine_columns(rows: int, columns: int) -> Matrix:
     return cosines
 
 
-def orthogonal_iteration(factor: Factor, start: Basis, *, power: int, iterations: int) -> Basis:
-    """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1)."""
-    return unpaid(iteration_steps(factor, start, power=power, iterations=iterations))
-
-
-def iteration_steps(factor: Factor, start: Basis, *, power: int, iterations: int, width: int | None = None) -> Steps:
-    """`orthogonal_iteration` from `start`, shape (n, c) or wider, with the price of each step."""
+def orthogonal_iteration(
+    factor: Factor, start: Basis, *, power: int, iterations: int, width: int | None = None
+) -> Basis:
+    """U(t) = Onorm(R^z U(t-1)), `iterations` times (Algorithm 1), from `start`, shape (n, c) or wider."""
     rows, width = len(start), start.shape[1] if width is None else min(width, start.shape[1])
-    solutions = power * iterations
-    yield partial(dictionary_cost, factor.fronts, solutions=solutions)
-    start = np.ascontiguousarray(start)
     check_rows(factor, rows)
     subspace = np.empty((rows, width), np.float32)
     scratch = np.empty(_kernels.iteration_space(rows, width), np.float32)
-    arrays = factor.fronts, factor.values, factor.inverse, start
+    arrays = factor.fronts, factor.values, factor.inverse, np.ascontiguousarray(start)
     care = 0
-    while (found := _kernels.iterate(*arrays, solutions, care, scratch, subspace)) == _NEEDS_CARE:
+    while (found := _kernels.iterate(*arrays, power * iterations, care, scratch, subspace)) == _NEEDS_CARE:
         care = 4 * care or FIRST_CARE
-        yield partial(careful_cost, factor.fronts, solutions=solutions, care=care)
     if found != _DONE:
         raise NumericError("the columns of a dictionary cannot be made orthonormal")
     return subspace
-
-
-def completed_steps(first: Steps, rows: int, most: int, width: int) -> Steps:
-    """The columns that `first` leads to, `most` of them at most, completed to `width`, with the price of each step."""
-    columns = yield from up_to(most, first)
-    if columns.shape[1] == width:
-        return columns
-    yield partial(completion_cost, rows, most)
-    return completed(columns, width)
 
 
 def completed(first: Basis, width: int) -> Basis:
@@ -92,6 +63,8 @@ def completed(first: Basis, width: int) -> Basis:
 
     R. Schreiber, B. Parlett, "Block reflectors: theory and computation", 1988; this is one that is not symmetric.
     """
+    if first.shape[1] == width:
+        return first
     whole = np.empty((len(first), width), np.float32)
     scratch = np.empty(_kernels.completion_space(first.shape[1]), np.float32)
     if not _kernels.complete_columns(np.ascontiguousarray(first), LEAST_PIVOT, scratch, whole):
@@ -127,13 +100,8 @@ def resized(previous: Basis, width: int) -> Basis:
 
 def exact_basis(laplacian: Laplacian, start: Basis, springs: float | Matrix = 0.0) -> Basis:
     """The lowest eigenvectors of L + diag(springs): many orthogonal iterations from `start`, see `first_columns`."""
-    return unpaid(exact_steps(laplacian, start, springs))
-
-
-def exact_steps(laplacian: Laplacian, start: Basis, springs: float | Matrix) -> Steps:
-    """`exact_basis` from `start`, shape (n, c), with the price of each step."""
     factor = factorize(laplacian, springs + EXACT_SHIFT)
-    return (yield from iteration_steps(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS))
+    return orthogonal_iteration(factor, start, power=EXACT_POWER, iterations=EXACT_ITERATIONS)
 
 
 def hash_columns(rows: int, columns: int) -> Matrix:

@@ -9,9 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bsm.bitstream.container.gop import GopBody, GopField, GopMethod, still
-from bsm.bitstream.container.header import Declaration
 from bsm.bitstream.errors import NumericError, OptionError, TargetError
-from bsm.codec.arrays import Matrix, Order
+from bsm.codec.arrays import Matrix
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.frames import distinct_frames
 from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
@@ -29,31 +28,6 @@ OUTLIER = 10.0  # how many times as far as all are on average a single value may
 MARGIN = 1e-6  # by which integers keep away from halves, which processors may round either way
 FIRST_FRAME = 0.5  # bound of the first frame, as a part of that of the others
 LARGEST = 1e100
-
-
-@dataclass(frozen=True, eq=False)
-class MovingAttribute:
-    """An attribute that moves, as a decoder knows it before the first GOP."""
-
-    number: int
-    declaration: Declaration
-    first: Values | None
-    rows: Order
-
-    @property
-    def width(self) -> int:
-        """Numbers d of a vertex."""
-        return self.declaration.components
-
-    @property
-    def start(self) -> Matrix:
-        """What GOPs build upon, shape (n, d)."""
-        return np.zeros((self.declaration.rows, self.width)) if self.first is None else beyond_one(self.first)
-
-    def in_frame(self, attribute: Attribute, change: Matrix) -> Attribute:
-        """The attribute in a frame, given in another, that differs from the first one by `change`, shape (n, d)."""
-        assert self.first is not None
-        return replace(attribute, values=changed(self.first, change)[self.rows])
 
 
 def beyond_one(first: Values) -> Matrix:

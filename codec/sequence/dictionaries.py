@@ -9,17 +9,16 @@ import numpy as np
 
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Faces, Indices, Matrix, Positions
-from bsm.codec.basis.laplacian import Factor, Fronts, Held, Price, Steps, cotangent_weights, factor_cost, hold, settle
+from bsm.codec.basis.laplacian import Factor, Held, cotangent_weights, hold
 from bsm.codec.blocks.overlap import Blocks
-from bsm.codec.signal.chain import ChainRules, Suspended, continued, key_steps
+from bsm.codec.signal.chain import ChainRules, Suspended, continued, key_dictionary
 from bsm.codec.signal.transform import project, reconstruct
-from bsm.codec.static.work import Allowance, block_cost, block_memory
+from bsm.codec.static.work import Allowance, block_memory
 from bsm.codec.threads import ordered_map
 
 TETHER = 2.0**-16  # stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches
 SITE_MEMORY, ROW_MEMORY = 6000.0, 352.0
 """Bytes of what is known of a part besides its factor, whatever its size and for each row."""
-UNCODED = 4e4  # nanoseconds by which a part is cheaper than a block that is decoded, before it has its dictionary
 SPARE = 4.0 * 2**20  # bytes that no dictionary is kept in, though they are granted
 
 Result = TypeVar("Result")
@@ -39,10 +38,6 @@ class Site:
         return self.held.laplacian.block.vertices
 
     @property
-    def fronts(self) -> Fronts:
-        return self.held.laplacian.fronts
-
-    @property
     def memory(self) -> float:
         return 8.0 * len(self.vertices) * self.width
 
@@ -60,8 +55,8 @@ class Site:
         """Rows, shape (n_i, m), that continue a field, of which `ends`, shape (k_i, m), is what it is around."""
         return continued(self.factor, self.held.springs, self.held.pulls(ends))
 
-    def steps(self, rules: ChainRules) -> Steps:
-        return key_steps(rules, Suspended(self.held.laplacian, self.held.springs, rules.shift), self.width)
+    def dictionary(self, rules: ChainRules) -> Basis:
+        return key_dictionary(rules, Suspended(self.held.laplacian, self.held.springs, rules.shift), self.width)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +95,6 @@ class Dictionaries:
         self._allowance = allowance
         self._threads = threads
         self._parts: list[Part | None] = [None] * len(sites)
-        self._work = np.full(len(sites), np.nan)  # for making each; not known before it was made once
         self._kept = 0
         self._reserved = self._use = 0.0
 
@@ -128,7 +122,7 @@ class Dictionaries:
         room = self._room(memory, use, received)
         return self._making_beside(room) <= room
 
-    def reserve(self, memory: float = 0.0, use: float = 0.0) -> float:
+    def reserve(self, memory: float = 0.0, use: float = 0.0) -> None:
         """Have room for what comes next, and keep as many dictionaries as there is room for besides."""
         room = self._room(memory, use)
         making = self._making_beside(room)
@@ -138,9 +132,7 @@ class Dictionaries:
         self._allowance.keep(held - self._reserved)
         self._reserved, self._use = held, use
         self._parts[count:] = [None] * (len(self.sites) - count)
-        again = self._work[min(self._kept, count) :]
         self._kept = count
-        return float(np.nansum(again))
 
     def _room(self, memory: float, use: float, received: int = 0) -> float:
         return self._allowance.room(received) + self._reserved - memory - use - SPARE
@@ -173,24 +165,10 @@ class Dictionaries:
             yield part
             return
         with self._allowance.hold(self.sites[index].making + self._use):
-            part = self._furnished(index)
+            part = Part(self.sites[index], self.sites[index].dictionary(self._rules))
             if index < self._kept:
                 self._parts[index] = part
             yield part
-
-    def _furnished(self, index: int) -> Part:
-        """A part with its dictionary, whose work is spent when it is made first, and otherwise by who has reserved."""
-        site, work = self.sites[index], 0.0
-
-        def pay(price: Price) -> None:
-            nonlocal work
-            work += price(site.width)
-            if np.isnan(self._work[index]):
-                self._allowance.spend(price(site.width))
-
-        part = Part(site, settle(site.steps(self._rules), pay))
-        self._work[index] = work
-        return part
 
 
 def find_sites(
@@ -205,11 +183,9 @@ def find_sites(
 
     def find(index: int) -> Site:
         size = len(blocks.core(index))
-        allowance.spend(block_cost(size, blocks.edges_of(index), 0) - UNCODED)
         held = hold(graph, weights, rank, blocks.part(index))
         fronts = held.laplacian.fronts
         allowance.keep(SITE_MEMORY + ROW_MEMORY * size + 8.0 * int(fronts.places[-1]))
-        allowance.spend(2.0 * factor_cost(fronts))
         return Site(held, Suspended(held.laplacian, held.springs, TETHER).factor, min(width, size))
 
     return tuple(ordered_map(find, range(blocks.count), threads))

@@ -37,7 +37,7 @@ from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
 from bsm.codec.static.verification import Original
 from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
-from bsm.codec.static.work import Allowance, run_cost
+from bsm.codec.static.work import Allowance
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,7 +260,7 @@ class SequenceEncoder:
             for body in bodies:
                 if 0 < self._count < run.first + self._done + body.frames:
                     raise OptionError(f"{self._count} frames were announced and more came")
-                first_frame.admit(body, self._done)
+                first_frame.admit(body)
                 yield packets.Gop(run.first + self._done, write_gop_body(body, index, numbers))
                 self._done += body.frames
                 self.samples += body.frames * len(self.vertex_order)
@@ -341,7 +341,7 @@ class Meshes:
     def again(self, begun: JoinedRun) -> OpenedMesh | None:
         """What is kept of the mesh of a run that begins; None: it is to be sent."""
         run, before = self._known.get(_digest(begun), (-1, begun.given))
-        opened = self._shelf.take(run) if run in self._shelf else None
+        opened = self._shelf.take(run)
         if opened is not None:
             moving = {mover.name for mover in opened.movers}
             others = (one for one in before.attributes if one.name not in moving)
@@ -349,11 +349,7 @@ class Meshes:
         if opened is None:
             self._shelf.make_room()
             return None
-        allowance = opened.gops.first_frame.allowance
-        allowance.follow(self.allowance)
-        with as_of_decoders(opened.gops.first_frame.limits):
-            allowance.spend(run_cost(mesh=False))
-        allowance.show(opened.gops.first_frame.header.vertices)  # the first GOP does, at least
+        opened.gops.first_frame.allowance.follow(self.allowance)
         return opened
 
     def keep(self, opened: OpenedMesh, ended: JoinedRun) -> None:
@@ -361,9 +357,7 @@ class Meshes:
         first_frame = opened.gops.first_frame
         first_frame.setting.dictionaries.release()
         self.allowance.follow(first_frame.allowance)
-        if opened.run not in self._shelf:
-            self._shelf.put(opened.run, opened)
-        self._shelf.leave(opened.run)
+        self._shelf.keep(opened.run, opened)
         given = TriangleMesh(ended.given.positions, ended.given.faces, ended.given.attributes)
         self._known[_digest(ended)] = opened.run, given
 

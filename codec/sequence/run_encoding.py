@@ -22,8 +22,8 @@ from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, admit, as_of_decoders, blended, encode_blocks
-from bsm.codec.static.work import Allowance, run_cost
+from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, as_of_decoders, blended, encode_blocks
+from bsm.codec.static.work import Allowance, mesh_memory
 
 FIRST_STEP = 0.3
 """Of the first frame, in steps of the others, which follow from it; 0.4 costs 0.5 % more, with low delay 1 to 3 %."""
@@ -62,14 +62,12 @@ class FirstFrame:
         )
         return self.setting.fits(replace(body, fields=(positions, *others)), _received(body))
 
-    def admit(self, body: GopBody, number: int) -> None:
-        """Do the sums of decoders for a GOP from frame `number` on, or raise `OptionError` if they would refuse it."""
-        vertices, allowance, received = self.setting.vertices, self.allowance, _received(body)
-        allowance.keep(0.0, received)
-        allowance.show(vertices * (body.frames if number else body.frames - 1))
+    def admit(self, body: GopBody) -> None:
+        """Take note of a GOP; raise `OptionError` if decoders would lack the memory for it."""
+        self.allowance.keep(0.0, _received(body))
         with as_of_decoders(self.limits):
-            allowance.limits.check("sequence_bytes", gop_memory(vertices, body))
-            allowance.spend(self.setting.reserve(body), received)
+            self.allowance.limits.check("sequence_bytes", gop_memory(self.setting.vertices, body))
+            self.setting.reserve(body)
 
 
 def _received(body: GopBody) -> int:
@@ -105,17 +103,16 @@ def encode_first_frame(
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
     allowance = Allowance(NAMED_LIMITS[options.limits]())
     allowance.follow(before)
-    allowance.show(header.vertices)  # the first GOP does, at least
+    allowance.grant(header.vertices)
     with as_of_decoders(options.limits):
-        allowance.spend(run_cost(mesh=True))
-        admit(allowance, prepared, blocks)
+        allowance.keep(mesh_memory(header.vertices, header.faces), len(prepared.connectivity.data))
+        allowance.afford(max(block.memory for block in blocks))
         allowance.keep(0.0, sum(len(block.packet.data) + FRAME for block in blocks))
         allowance.limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
         setting = make_setting(
             scheme,
             prepared.mesh.faces,
             positions,
-            given=prepared.given,
             width=width,
             threads=options.threads,
             allowance=allowance,

@@ -122,26 +122,19 @@ class _Place(Generic[Mesh]):
 
 
 class Shelf(Generic[Mesh]):
-    """Meshes that runs have had, the last ones; encoder and decoder each have one, and count alike."""
+    """Meshes that runs have had, the last ones: those that decoders keep."""
 
     def __init__(self, allowance: Allowance) -> None:
         self._allowance = allowance
         self._places: dict[int, _Place[Mesh]] = {}  # by the run that brought them, the one used last at the end
         self._before = self._counted()
 
-    def __contains__(self, run: int) -> bool:
-        return run in self._places
-
-    def put(self, run: int, mesh: Mesh) -> None:
-        self._places[run] = _Place(mesh)
-
     def take(self, run: int) -> Mesh | None:
         """The mesh that a run has brought, used again; None if it is not there."""
-        place = self._places.pop(run, None)
-        if place is None:
+        if run not in self._places:
             return None
-        self._places[run] = place
-        return place.mesh
+        self._places[run] = self._places.pop(run)
+        return self._places[run].mesh
 
     def make_room(self) -> None:
         """Before a run brings a mesh, give up the one that was used longest ago, if there are as many as may be."""
@@ -150,17 +143,12 @@ class Shelf(Generic[Mesh]):
             self._allowance.give_back(oldest.memory, oldest.vertices)
             self._before = self._counted()
 
-    def leave(self, run: int) -> None:
-        """Take note that a run ends whose mesh `run` has brought; if that is not kept, its memory is given back."""
-        memory, vertices = self._counted()
-        memory, vertices = memory - self._before[0], vertices - self._before[1]
-        place = self._places.get(run)
-        if place is None:
-            self._allowance.give_back(memory, vertices)
-        else:
-            place.memory += memory
-            place.vertices += vertices
-        self._before = self._counted()
+    def keep(self, run: int, mesh: Mesh) -> None:
+        """Take note that a run ends whose mesh `run` has brought, and of the memory that it took."""
+        place, (memory, vertices) = self._places.setdefault(run, _Place(mesh)), self._counted()
+        place.memory += memory - self._before[0]
+        place.vertices += vertices - self._before[1]
+        self._before = memory, vertices
 
     def _counted(self) -> tuple[float, int]:
         return self._allowance.kept, self._allowance.vertices

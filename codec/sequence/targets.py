@@ -67,11 +67,6 @@ def _percent(part: float, whole: float) -> float:
     return 100.0 * math.sqrt(part / whole) if whole else math.inf
 
 
-def flicker_of(original: Positions, decoded: Positions) -> float:
-    """`SequenceComparison.flicker` of frames, both of shape (T, n, 3)."""
-    return _percent(*_changes(original, decoded))
-
-
 def _changes(original: Positions, decoded: Positions) -> tuple[float, float]:
     error, motion = (float(np.square(np.diff(part, 2, axis=0)).sum()) for part in (decoded - original, original))
     return error, motion

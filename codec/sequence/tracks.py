@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations_with_replacement
@@ -12,11 +12,10 @@ import numpy as np
 
 from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.codec.arrays import Faces, Levels, Matrix, sum_in_order
-from bsm.codec.basis.laplacian import solve_cost
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.temporal import BATCH
 from bsm.codec.static.coding import Scheme
-from bsm.codec.static.work import LEVEL, Allowance
+from bsm.codec.static.work import Allowance
 
 KEPT, MOST_KEPT, LEAST_KEPT = 1 << 19, 64, 2
 """Positions that low-delay frames may refer to, about, and frames at most and at least, of attributes always."""
@@ -25,14 +24,6 @@ LAGS = (1, 2, 3, 5, 8, 13, 21, 34)
 INHERITED = 24
 """Components of a GOP that those of the next one are predicted from: what moved comes again, mixed in another way."""
 TRACK_MEMORY = 40.0  # bytes of a number of a vertex in the first frame of an attribute that moves
-
-
-FRAME, SHOWN = 2.5e4, 11.0 / 3.0  # of a field of a frame, and of a number of a vertex in it
-GOP, FIELD = 3.5e5, 1e5  # of a GOP, whatever its size, and of another field that it tells of
-PART, ANOTHER = 1.3e5, 4.5e4  # of a part in a GOP, whatever its size, and of another field there
-LOOP, AROUND = 66.0, 10.0  # of a column in a row of a closed loop, and of a vertex around that it begins with
-INHERITED_LOOP, INHERITED_AROUND = 90.0, 10.0  # what these cost more where components of the GOP before are known
-REFERRED = 1.1  # of two columns that are known of low-delay frames, in a row, and of a vertex around
 
 
 def frames_kept(vertices: int) -> int:
@@ -93,7 +84,6 @@ class Setting:
     """What every GOP of a sequence is coded with."""
 
     vertices: int
-    given: int
     dictionaries: Dictionaries
     tracks: tuple[Track, ...]
 
@@ -104,37 +94,13 @@ class Setting:
     def fits(self, body: GopBody, received: int) -> bool:
         return self.dictionaries.fits(*self._memory(body), received)
 
-    def reserve(self, body: GopBody) -> float:
-        return self.dictionaries.reserve(*self._memory(body)) + self._work(body)
+    def reserve(self, body: GopBody) -> None:
+        self.dictionaries.reserve(*self._memory(body))
 
     def _memory(self, body: GopBody) -> tuple[float, float]:
         """Bytes for decoding a GOP, and for a part besides: levels, coefficients in the loop, what becomes of them."""
         around = sum(len(site.around) for site in self.sites)
         return gop_memory(self.vertices, body, around), 48.0 * self.dictionaries.largest * _columns(body)
-
-    def _work(self, body: GopBody) -> float:
-        """Work of the levels, loops and fields of a GOP, and of its frames, for the user's vertices."""
-        frames, sites = body.frames, self.sites
-        more = body.method is GopMethod.LEARNT_NEXT
-        loop, around = (LOOP + INHERITED_LOOP, AROUND + INHERITED_AROUND) if more else (LOOP, AROUND)
-        others = sum(not body.method.has_basis or field.components > 0 for field in body.fields[1:])
-        fields = sum(_part_work(site, _columns(body), loop, around) for site in sites)
-        work = (
-            GOP + FIELD * others + (PART + ANOTHER * others) * len(sites) + fields + frames * FRAME * len(body.fields)
-        )
-        if not body.method.has_basis:
-            rows = sum(site.width + len(site.around) for site in sites)
-            work += REFERRED * rows * sum(count**2 for count in self._references(body))
-        for field in body.fields:
-            width, columns = field.width, field.components
-            basis = frames * width * columns * (10.0 + 2.0 * columns) if body.method.has_basis else 0.0
-            work += basis + frames * width * (self.given * SHOWN + self.vertices * columns / 15.0)
-        return work
-
-    def _references(self, body: GopBody) -> Iterator[int]:
-        """Columns that are known of the frames that low-delay ones refer to, of each field."""
-        for track, field in zip(self.tracks, body.fields, strict=True):
-            yield field.width * (2 + len(lags(track.kept)) + (field.back > 0))
 
     def empty_levels(self, columns: int) -> list[Levels]:
         """Levels of all parts, each of shape (c_i, columns), to be read."""
@@ -153,7 +119,6 @@ def make_setting(
     faces: Faces,
     first_frame: Matrix,
     *,
-    given: int,
     width: int,
     threads: int | None,
     allowance: Allowance,
@@ -184,7 +149,7 @@ def make_setting(
         start = [np.zeros_like(part) for part in first] if track else first
         kept = LEAST_KEPT if track else frames_kept(len(first_frame))
         tracks.append(Track(width, kept, first, known_of, around_of, start))
-    return Setting(len(first_frame), given, dictionaries, tuple(tracks))
+    return Setting(len(first_frame), dictionaries, tuple(tracks))
 
 
 def split_columns(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:
@@ -211,9 +176,3 @@ def _columns(body: GopBody) -> int:
     if body.method.has_basis:
         return sum(field.components for field in body.fields)
     return sum(field.width * body.frames for field in body.fields)
-
-
-def _part_work(site: Site, columns: int, loop: float, around: float) -> float:
-    rows, width = len(site.vertices), site.width
-    loops = columns * (width * (LEVEL + loop) + len(site.around) * around)
-    return loops + solve_cost(site.fronts, columns) + rows * (width * (1.0 + 0.1 * columns) + 20.0 * columns)

@@ -14,6 +14,7 @@ does.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -24,20 +25,21 @@ from bsm.codec.arrays import Basis, Matrix
 from bsm.codec.basis.laplacian import (
     Factor,
     Laplacian,
-    Steps,
     check_rows,
+    dictionary_cost,
     factor_room,
     factorize,
     laplacian_of,
     solving_room,
-    unpaid,
 )
 from bsm.codec.basis.orthogonal_iteration import (
-    completed_steps,
-    exact_steps,
+    EXACT_ITERATIONS,
+    EXACT_POWER,
+    completed,
+    exact_basis,
     first_columns,
     follow_columns,
-    iteration_steps,
+    orthogonal_iteration,
 )
 from bsm.codec.blocks.overlap import Blend, Block, degree_weights
 from bsm.codec.geometry.graph import Graph, is_connected
@@ -178,16 +180,14 @@ def even_interval(interval: int, blocks: int) -> int:
     return -(-blocks // -(-blocks // interval)) if interval else 0
 
 
-def key_steps(rules: ChainRules, around: Suspended, width: int) -> Steps:
-    """U of a block that follows no other, with `width` columns, and the price of each step."""
+def key_dictionary(rules: ChainRules, around: Suspended, width: int) -> Basis:
+    """U of a block that follows no other, with `width` columns."""
     block = around.laplacian.block
-    most = rules.iterated(block.size)
-    start = first_columns(block.size, min(width, most), rules.exact or in_pieces(block))
+    start = first_columns(block.size, min(width, rules.iterated(block.size)), rules.exact or in_pieces(block))
     if rules.exact:
-        steps = exact_steps(around.laplacian, start, around.springs)
-    else:
-        steps = iteration_steps(around.factor, start, power=rules.power, iterations=rules.key_iterations)
-    return completed_steps(steps, block.size, most, width)
+        return completed(exact_basis(around.laplacian, start, around.springs), width)
+    first = orthogonal_iteration(around.factor, start, power=rules.power, iterations=rules.key_iterations)
+    return completed(first, width)
 
 
 def in_pieces(block: Block) -> bool:
@@ -210,33 +210,40 @@ class Chain:
 
     def dictionary(self, around: Surroundings, width: int) -> Basis:
         """U of a block of n_i rows, shape (n_i, width), a function of connectivity and earlier widths only."""
-        return unpaid(self.steps(around, width))
-
-    def steps(self, around: Surroundings, width: int) -> Steps:
-        """`dictionary`, with the price of each step."""
         width, own = min(width, around.laplacian.block.size), self._rules.overrides.dictionary
-        return self._specified(around, width) if own is None else self._tried(own, around, width)
+        if own is None:
+            return self._specified(around, width)
+        return np.ascontiguousarray(own(around, width, partial(self._specified, around)), np.float32)
+
+    def work(self, around: Surroundings, width: int) -> float:
+        """Work of `dictionary`, nanoseconds; what somebody's own takes nobody knows."""
+        rules = self._rules
+        if rules.overrides.dictionary is not None:
+            return 0.0
+        solutions = rules.power * rules.iterations
+        if not self._follows(around.laplacian.block):
+            exact = EXACT_POWER * EXACT_ITERATIONS
+            solutions = exact if rules.exact else rules.power * rules.key_iterations
+        return dictionary_cost(around.laplacian.fronts, width, solutions)
 
     def continuation(self, around: Surroundings) -> Matrix:
         """What a block is predicted to be, shape (n_i, 3)."""
         own = self._rules.overrides.predictor
         return around.continuation if own is None else np.ascontiguousarray(own(around), np.float64)
 
-    def _specified(self, around: Surroundings, width: int) -> Steps:
-        rules, block, previous = self._rules, around.laplacian.block, self._subspace
-        if previous is None or len(previous) != block.size:
-            return key_steps(rules, around, width)
-        most = rules.iterated(block.size)
-        first = min(width, most)
-        start = follow_columns(previous, first, in_pieces(block))
-        steps = iteration_steps(around.factor, start, power=rules.power, iterations=rules.iterations, width=first)
-        return completed_steps(steps, block.size, most, width)
+    def _follows(self, block: Block) -> bool:
+        return self._subspace is not None and len(self._subspace) == block.size
 
-    def _tried(self, own: Dictionary, around: Surroundings, width: int) -> Steps:
-        """A dictionary of somebody's own, whose price nobody knows."""
-        yield from ()
-        columns = own(around, width, lambda width: unpaid(self._specified(around, width)))
-        return np.ascontiguousarray(columns, np.float32)
+    def _specified(self, around: Surroundings, width: int) -> Basis:
+        rules, block, previous = self._rules, around.laplacian.block, self._subspace
+        if previous is None or not self._follows(block):
+            return key_dictionary(rules, around, width)
+        first = min(width, rules.iterated(block.size))
+        start = follow_columns(previous, first, in_pieces(block))
+        subspace = orthogonal_iteration(
+            around.factor, start, power=rules.power, iterations=rules.iterations, width=first
+        )
+        return completed(subspace, width)
 
     def commit(self, block: Block, subspace: Basis, positions: Matrix) -> None:
         """Make a block, its subspace and its decoded positions, shape (n_i, 3), the predecessor's."""

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Indices, Levels, Matrix, Order, Positions
+from bsm.codec.arrays import Faces, Levels, Matrix, Positions
 from bsm.codec.geometry.graph import Graph
 
 DEGREE = 5
@@ -77,51 +77,6 @@ def smoothing_spectrum(graph: Graph, positions: Matrix) -> Spectrum:
     powers[: positions.size] = positions.reshape(-1)
     _kernels.apply_powers(graph.offsets, graph.neighbours, powers, DEGREE)
     return Spectrum(np.ascontiguousarray(positions), powers[2 * positions.size : -1].reshape(DEGREE - 1, -1, 3))
-
-
-LOOK, CALL = 18.0, 2e4  # nanoseconds for looking at an edge while rings are found, and for finding them at all
-
-
-@dataclass(frozen=True, eq=False)
-class Rings:
-    """Vertices and the rings around them."""
-
-    inner: int
-    rows: Indices
-    starts: Order
-    work: float
-
-
-class LocalFilter:
-    """`smooth` for some vertices at a time, from positions that need to be known only `DEGREE` rings around them."""
-
-    def __init__(self, graph: Graph, amount: float) -> None:
-        self._graph = graph
-        self._amount = amount
-        # Number of each vertex among those at hand; -1 between calls.
-        self._number = np.full(graph.size, -1, np.int32)
-        self._rows = np.empty(graph.size, np.int32)
-
-    def around(self, vertices: Indices, rings: int) -> Rings:
-        """`vertices`, shape (k,), all different, and all others at most `rings` edges away."""
-        starts = np.empty(rings + 1, np.int64)
-        graph = self._graph
-        count = _kernels.find_rings(graph.offsets, graph.neighbours, self._number, vertices, self._rows, starts)
-        rows = self._rows[:count].copy()
-        self._number[rows] = -1
-        edges = int((graph.offsets[rows + 1] - graph.offsets[rows]).sum())
-        return Rings(len(vertices), rows, starts, CALL + LOOK * edges)
-
-    def smoothed(self, positions: Matrix, rings: Rings) -> Matrix:
-        """Rows of `smooth` of `positions`, shape (n, 3): the vertices that have `DEGREE` rings around them."""
-        rows, starts = rings.rows, rings.starts
-        self._number[rows] = np.arange(len(rows), dtype=np.int32)
-        smoothed = np.empty((rings.inner, 3))
-        given = self._graph.offsets, self._graph.neighbours, self._number, positions, filter_polynomial(self._amount)
-        scratch = np.empty((len(rows), 3)), np.empty((int(starts[DEGREE - 1]), 3))
-        _kernels.filter_rows(*given, rows, starts, *scratch, smoothed)
-        self._number[rows] = -1
-        return smoothed
 
 
 def local_frames(positions: Positions, faces: Faces) -> Matrix:

@@ -88,13 +88,6 @@ def levels_to_unsigned(levels: Integers, bits: int, coarser: int) -> npt.NDArray
     return np.clip(stored + half, 0, 2 * half - 1).astype(np.uint32)
 
 
-def unsigned_to_levels(values: npt.NDArray[np.uint32], bits: int, coarser: int) -> Integers:
-    """Twin of `levels_to_unsigned`, shape (c, 3); magnitudes up to 2^61."""
-    levels = (values.astype(np.int64) - (1 << (bits - 1))).reshape(-1, 3)
-    levels[0] <<= coarser
-    return levels
-
-
 def targets(coefficients: Matrix, step: float, unit: int, largest: int) -> npt.NDArray[np.int64]:
     """Coefficients, shape (c, 3), in whole multiples of `step` / `unit`, cut to `largest` steps."""
     scaled = np.rint(coefficients * (unit / step))

@@ -1,4 +1,4 @@
-"""Ways of coding what the prediction of a block leaves: `choose`, `write`, `positions`, or `read`, block by block."""
+"""Ways of coding what the prediction of a block leaves: `choose`, `write` and `positions`, block by block."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 
 from bsm.bitstream.coefficients import adaptive
-from bsm.bitstream.coefficients.packed import pack_coefficients, unpack_coefficients
-from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, Paper
+from bsm.bitstream.coefficients.packed import pack_coefficients
+from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Paper
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Basis, Integers, Matrix
 from bsm.codec.basis.orthogonal_iteration import DynamicSize
 from bsm.codec.blocks.overlap import Block, Blocks
 from bsm.codec.signal import transform
-from bsm.codec.signal.chain import AS_SPECIFIED, ChainRules, Overrides
+from bsm.codec.signal.chain import ChainRules
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,9 +63,6 @@ class Coding(Protocol):
     def write(self, levels: Integers) -> bytes:
         """The payload of the chain's next block."""
 
-    def read(self, payload: bytes, count: int) -> Integers:
-        """Twin of `write`, for `count` coefficients a coordinate."""
-
     def positions(self, ground: Ground, levels: Integers) -> Matrix:
         """What levels make of a block, shape (n, 3)."""
 
@@ -87,9 +84,6 @@ class Packed:
 
     def write(self, levels: Integers) -> bytes:
         return pack_coefficients(transform.levels_to_unsigned(levels, self.bits, self.coarser), self.bits)
-
-    def read(self, payload: bytes, count: int) -> Integers:
-        return transform.unsigned_to_levels(unpack_coefficients(payload, 3 * count, self.bits), self.bits, self.coarser)
 
     def positions(self, ground: Ground, levels: Integers) -> Matrix:
         return ground.add(transform.dequantize(levels, self.step))
@@ -124,19 +118,8 @@ class Adaptive:
     def write(self, levels: Integers) -> bytes:
         return adaptive.encode_coefficients(self.model, np.asarray(levels, np.int32))
 
-    def read(self, payload: bytes, count: int) -> Integers:
-        return adaptive.decode_coefficients(self.model, payload, count)
-
     def positions(self, ground: Ground, levels: Integers) -> Matrix:
         return transform.placed(ground.prediction, ground.dictionary, np.asarray(levels, np.int32), self.step)
-
-
-def coding_of(header: Header) -> Coding:
-    """The way in which a stream's blocks are coded."""
-    paper = header.constants
-    if paper.bits:
-        return Packed(header.coefficients, paper.bits, header.step, paper.coarser)
-    return Adaptive(header.coefficients, header.step)
 
 
 def _offered(ground: Ground, wanted: Matrix, width: int, sizes: DynamicSize | None) -> Matrix:
@@ -162,11 +145,8 @@ class Scheme:
     def chains(self) -> list[range]:
         return self.rules.chains(self.blocks.count)
 
-    def chain_of(self, index: int) -> int:
-        return index // self.rules.chain_length(self.blocks.count)
-
     def fields(self) -> dict[str, Any]:
-        """Twin of `scheme_of`: what the header has to say."""
+        """What the header has to say."""
         rules, coding = self.rules, self.coding
         paper = Paper(
             bits=coding.bits,
@@ -184,16 +164,6 @@ class Scheme:
             "key_interval": rules.key_interval,
             "paper": paper.entry(LAW_OF_SEQUENCES if rules.whole else LAW),
         }
-
-
-def scheme_of(header: Header, blocks: Blocks, overrides: Overrides = AS_SPECIFIED) -> Scheme:
-    return Scheme(blocks, replace(chain_rules(header), overrides=overrides), coding_of(header))
-
-
-def chain_rules(header: Header) -> ChainRules:
-    """What a header says about chains and dictionaries."""
-    whole = header.coefficients if header.gop_frames else 0
-    return rules_of(header.constants, header.key_interval, whole)
 
 
 def rules_of(paper: Paper, key_interval: int = 0, whole: int = 0) -> ChainRules:

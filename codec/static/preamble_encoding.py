@@ -119,7 +119,6 @@ class Prepared:
     vertex_order: Order
     face_order: Order
     coding_faces: Order
-    given: int
     notes: tuple[str, ...]
     joined_faces: Faces
     light: bool
@@ -227,7 +226,6 @@ def prepare(
         vertex_order=kept if keep_order else coding_order,
         face_order=np.arange(len(used.faces)) if keep_order else connectivity.face_order.astype(np.int64),
         coding_faces=connectivity.face_order.astype(np.int64),
-        given=vertices if splits is None else len(splits.source),
         notes=(f"left out {counted(vertices=dropped)} that no face uses",) if dropped else (),
         joined_faces=mesh.faces,
         light=light,

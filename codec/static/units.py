@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bsm.bitstream.errors import CorruptError, NumericError
+from bsm.bitstream.errors import NumericError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Matrix, Positions
 from bsm.codec.geometry.mesh import TriangleMesh, box_around
@@ -33,10 +33,6 @@ class Units:
 def checksum_of(positions: Positions, before: int = 0) -> int:
     """CRC-32 of decoded positions, shape (n, 3), in the mesh's unit, behind those with the CRC-32 `before` (F 5.10)."""
     return zlib.crc32(np.ascontiguousarray(positions + 0.0, "<f8").data, before)
-
-
-def unlike_the_encoders() -> CorruptError:
-    return CorruptError("the checksum of decoded positions is wrong: they are not those that the encoder saw")
 
 
 def units_of(mesh: TriangleMesh) -> Units:

@@ -16,8 +16,7 @@ from bsm.bitstream.container.packets import (
     Partition,
     Refinement,
 )
-from bsm.bitstream.container.scanner import scan
-from bsm.bitstream.container.writer import write_stream
+from tools.surgery import scan, write_stream
 
 SMALL_HEADER = Header(vertices=100, faces=190, blocks=3, block_size=60, coefficients=10)
 

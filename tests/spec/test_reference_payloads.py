@@ -16,16 +16,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream._kernels import code_uniform
-from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.entropy.range_coder import code_unsigned, finish_writing, make_bank, start_writing, unsigned_span
 from bsm.bitstream.errors import BsmError
-from bsm.bitstream.fields.corners import MOST_LARGEST, FieldDecoder
+from bsm.bitstream.fields.corners import MOST_LARGEST
 from bsm.bitstream.fields.grid import MOST_LEVEL, grid_field, levels_field, spread
 from bsm.codec.geometry.graph import graph_of_faces
 from spec import reference_integers as reference
 from tests.bitstream.connectivity.test_faces import compact
 from tests.bitstream.fields.fields import KINDS, SOUPS, encode, values
 from tools import field_tables
+from tools.payloads import FieldDecoder, decode_connectivity
 
 SPEC = Path(__file__).parents[2] / "spec"
 CONNECTIVITY, FIELDS = ((SPEC / f"core-{name}.md").read_text() for name in ("2-connectivity", "4-fields"))

@@ -5,13 +5,12 @@ from collections import Counter
 
 import pytest
 
-from bsm.bitstream.container.scanner import scan
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError
 from bsm.decoding import Decoder
 from bsm.events import END_OF_STREAM
 from bsm.files.mesh import format_mesh, read_mesh
 from tools.attack.mutate import mutate_stream
-from tools.surgery import frames_of, stream_of, with_header
+from tools.surgery import frames_of, scan, stream_of, with_header
 from tools.vectors.meshes import patch
 from tools.vectors.store import FOLDER
 

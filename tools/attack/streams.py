@@ -19,12 +19,12 @@ from bsm.bitstream.connectivity.faces import (
     _number_by_appearance,
     close_surface,
     code_rare,
-    code_seams,
     conquer,
     encode_connectivity,
     make_conquest,
     make_guide,
     make_models,
+    write_seams,
 )
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container import packets
@@ -74,7 +74,7 @@ def _glued(rows: int, columns: int) -> EncodedConnectivity:
     colours = ((place // columns + place % columns) % 3).astype(np.int32)
     _, number = _number_by_appearance(colours, 3)
     vertices = number[colours]
-    code_seams(coder, conquest.faces, vertices)
+    write_seams(coder, conquest.faces, vertices)
     return EncodedConnectivity(
         finish_writing(coder), np.arange(3, dtype=np.int32), np.arange(faces, dtype=np.int32), vertices[conquest.faces]
     )

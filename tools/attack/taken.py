@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from bsm.bitstream.container.gop import METHODS, parse_gop_body
+from bsm.bitstream.container.gop import METHODS, WITH_ATTRIBUTES, method_of
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import Cursor, FrameType
 from bsm.bitstream.errors import BsmError
@@ -25,6 +25,7 @@ from bsm.codec.static.encoder import encode
 from bsm.decoding import Decoder, SequenceDecoder
 from bsm.events import END_OF_STREAM, NEED_DATA, FrameEvent, HeaderEvent, LossEvent
 from bsm.files.stream import peek_header
+from tools.payloads import parse_stretches
 from tools.surgery import frames_of, header_entries
 from tools.vectors.meshes import torus
 
@@ -90,13 +91,24 @@ def sequence_memory(stream: bytes, vertices: int) -> float:
             if kind == FrameType.HEADER and (entries := header_entries(payload)).get(HEADER_FIELDS["sequence"].key):
                 columns = max(columns, entries.get(HEADER_FIELDS["coefficients"].key, 0))
             elif kind == FrameType.GOP and cursor.varint() >= 0:
-                data = cursor.rest()
-                body = parse_gop_body(data, Limits().gop_frames, data[0] // METHODS, tolerant=True)
-                components = body.fields[0].components if body.method.has_basis else 0
-                gop = max(gop, components * (16 * vertices + 120 * body.frames + 24 * components))
+                frames, components = beginning_of_gop(cursor.take(1)[0] % METHODS, cursor)
+                gop = max(gop, components * (16 * vertices + 120 * frames + 24 * components))
     except (BsmError, IndexError, ValueError, TypeError):
         pass  # behind that nothing is decoded
     return min(8.0 * vertices * columns, SEQUENCE_BYTES) + min(gop, SEQUENCE_BYTES)
+
+
+def beginning_of_gop(kind: int, cursor: Cursor) -> tuple[int, int]:
+    """Return the frames of a GOP of a kind, and the components of its positions."""
+    frames = cursor.varint()
+    if not method_of(kind).has_basis:
+        return frames, 0
+    parse_stretches(cursor, frames)
+    for _ in range(cursor.varint() if kind >= WITH_ATTRIBUTES else 0):
+        cursor.varint()
+        cursor.take(cursor.varint())
+    cursor.take(4)  # the step
+    return frames, cursor.varint()
 
 
 def decode_all(data: bytes, how: str, limits: Limits) -> Taken:

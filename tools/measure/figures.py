@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.errors import CorruptError, OptionError
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
@@ -35,6 +35,7 @@ from bsm.evaluation.curve import (
 )
 from bsm.files.mesh import read_mesh
 from tools.command import run_command
+from tools.payloads import decode_connectivity
 
 Result = TypeVar("Result")
 

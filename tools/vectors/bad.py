@@ -11,13 +11,13 @@ import msgpack
 import numpy as np
 import zstandard
 
-from bsm.bitstream.connectivity.faces import decode_connectivity
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container.header import HEADER_FIELDS, LAW
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import changed
+from bsm.decoding import decode
 from tools.attack.streams import one_block
 from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.good import BASE
@@ -66,7 +66,7 @@ def _small_component() -> bytes:
 def _lopsided() -> bytes:
     """Parts of 40 and 16 vertices, blocks of 32."""
     frames, labels = frames_of(_base()), np.repeat(np.array([0, 1], np.int32), [40, 16])
-    graph = graph_of_faces(decode_connectivity(frames[1][1], 56, 84), 56)
+    graph = graph_of_faces(decode(_base()).faces, 56)
     payload = b"\0" + encode_labels(graph.offsets, graph.neighbours, labels, 2)
     return stream_of([*frames[:2], (PARTITION, payload), *frames[2:]])
 

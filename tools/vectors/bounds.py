@@ -13,7 +13,6 @@ from bsm.bitstream.coefficients.adaptive import CoefficientModel, encode_coeffic
 from bsm.bitstream.connectivity.faces import RARE_HEADER, code_rare, encode_connectivity, make_models
 from bsm.bitstream.container.packets import Refinement
 from bsm.bitstream.container.wire import MAGIC, VERSION, FrameType, write_frame, write_map
-from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.entropy import range_coder as entropy
 from bsm.bitstream.fields.corners import FieldEncoder
 from bsm.bitstream.fields.grid import levels_field
@@ -21,7 +20,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import changed
 from tools.gridded import gridded
-from tools.surgery import frames_of, header_frame, stream_of, with_header
+from tools.surgery import frames_of, header_frame, stream_of, with_header, write_stream
 from tools.vectors.bad import Bad
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import base

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.coefficients.adaptive import CoefficientModel, decode_coefficients, points_of_levels
+from bsm.bitstream.coefficients.adaptive import CoefficientModel, points_of_levels
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.packets import Header
 from bsm.bitstream.container.scanner import Scanner
@@ -15,8 +15,9 @@ from bsm.bitstream.container.wire import FrameType, write_frame, write_map, writ
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain
-from bsm.codec.static.coding import chain_rules
+from bsm.codec.static.coding import rules_of
 from bsm.decoding import decode
+from tools.payloads import decode_coefficients
 from tools.surgery import frames_of, header_entries
 from tools.vectors.store import FOLDER
 
@@ -76,7 +77,7 @@ def _numbers(stream: bytes) -> list[str]:
     block = grow_blocks(graph, derive_partition(graph, header.blocks), header.block_size).block(0)
     payload = frames_of(stream)[2][1]
     levels = decode_coefficients(CoefficientModel(header.coefficients), payload[2:], payload[1])
-    chain = Chain(chain_rules(header), graph)
+    chain = Chain(rules_of(header.constants, header.key_interval), graph)
     subspace = chain.dictionary(chain.around(block), payload[1])
     coefficients = points_of_levels(levels) * (header.step / 2)
     return [

@@ -9,7 +9,6 @@ import numpy as np
 
 from bsm.bitstream.container.packets import Attribute as Declared
 from bsm.bitstream.container.packets import Packet, Refinement, Values
-from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.fields.corners import FieldEncoder
 from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.geometry.attributes import Attribute, Domain
@@ -21,6 +20,7 @@ from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
+from tools.surgery import write_stream
 from tools.vectors.good import BASE, Good
 from tools.vectors.good_fields import LAYER, soup
 from tools.vectors.good_sequences import BASE as MOVING

@@ -10,7 +10,6 @@ from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.container.packets import Grid, Packet, Refinement
 from bsm.bitstream.container.scanner import Scanner
-from bsm.bitstream.container.writer import write_stream
 from bsm.bitstream.fields.corners import FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, levels_field
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -18,7 +17,7 @@ from bsm.codec.static.choice.blocks import Base, Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from tools.gridded import gridded
-from tools.surgery import stream_of, with_header
+from tools.surgery import stream_of, with_header, write_stream
 from tools.vectors.good import BASE, Good
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 

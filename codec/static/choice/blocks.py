@@ -9,10 +9,8 @@ import numpy as np
 
 from bsm.bitstream.container.header import Header, Layer
 from bsm.bitstream.errors import OptionError
-from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix
-from bsm.codec.basis.laplacian import settle
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
@@ -27,7 +25,6 @@ from bsm.codec.static.targets import ANY_ANGLE, secant
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import Progress, admit, blended, encode_blocks, patience
 from bsm.codec.static.ways.refinement import encode_layer
-from bsm.codec.static.work import Allowance
 from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
@@ -101,8 +98,9 @@ class Planner:
             chain, found = Chain(rules, blocks.graph), np.zeros(2)
             for index in indices:
                 block = blocks.block(index)
-                steps = chain.steps(chain.around(block), width)
-                dictionary = settle(steps, lambda price: spend(price(width)))
+                around = chain.around(block)
+                spend(chain.work(around, width))
+                dictionary = chain.dictionary(around, width)
                 coefficients = np.abs(project(dictionary, positions[block.vertices], dictionary.shape[1]))
                 chain.commit(block, dictionary, positions[block.vertices])
                 found = np.maximum(found, [coefficients[:1].max(), coefficients[1:].max(initial=0.0)])
@@ -243,7 +241,7 @@ class Spectral:
             progress=progress,
             spend=patience(options.limits, prepared.graph.size),
         )
-        admit(Allowance(NAMED_LIMITS[options.limits]()), prepared, blocks)
+        admit(options.limits, prepared, blocks)
         positions = blended(prepared.graph.size, (block.decoded for block in blocks))
         smoothing = options.fixed_smoothing
         header = Header(

@@ -8,7 +8,6 @@ from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.arrays import Indices, Levels
 
 CHUNK = 1 << 15  # vertices of a frame
-BENT_BY = 2  # how many rings of vertices a step along the surface follows from
 
 
 def encode_layer(faces: Indices, levels: Levels) -> list[packets.Refinement]:

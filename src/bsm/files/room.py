@@ -9,7 +9,7 @@ import zipfile
 import zlib
 from collections.abc import Sequence
 from itertools import chain
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -121,13 +121,6 @@ _COUNTED = {b"vertex": "vertices", b"face": "faces"}
 _PLY_COUNTS = re.compile(rb"[\r\n][ \t]*element[ \t]+(vertex|face)[ \t]+(\d{1,18})\b")
 _OFF_COUNTS = re.compile(rb"\s*[A-Zn4]{3,9}\s+(\d{1,18})\s+(\d{1,18})\b")
 _KEYWORDS = {"v": "vertices", "f": "faces"}
-
-
-class Readable(Protocol):
-    """What is read piece by piece."""
-
-    def read(self, size: int, /) -> bytes:
-        """The next bytes; none at the end."""
 
 
 def require_count(name: str, count: int, limits: Limits) -> None:

@@ -5,9 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, SEAM, Joins, decode_seams, encode_seams, find_seams
+from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, SEAM, Joins, encode_seams, find_seams
 from bsm.bitstream.errors import CorruptError, TruncatedError
 from bsm.bitstream.fields.corners import corners_of
+from tools.payloads import decode_seams
 
 SQUARE = np.array([[0, 1, 2], [0, 2, 3]])
 FAN = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])

@@ -13,11 +13,11 @@ from bsm.bitstream.coefficients.adaptive import (
     MAX_LEVEL,
     CoefficientModel,
     Experience,
-    decode_coefficients,
     encode_coefficients,
     shipped_experience,
 )
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
+from tools.payloads import decode_coefficients
 
 HASH = "2a093067f31fc03a6ec865ebc6193347d2b21ff18e6f4903e80cfc3af97c39d0"
 

@@ -11,11 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.connectivity.faces import EncodedConnectivity, decode_connectivity, encode_connectivity
+from bsm.bitstream.connectivity.faces import EncodedConnectivity, encode_connectivity
 from bsm.bitstream.errors import BsmError, CorruptError, LimitError, MeshError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.files.mesh import read_mesh
 from tests.shapes import Faces, grid_faces
+from tools.payloads import decode_connectivity
 
 quick = settings(max_examples=200)
 

@@ -4,8 +4,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.bitstream.connectivity.partition import decode_labels, encode_labels
+from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.errors import BsmError
+from tools.payloads import decode_labels
 
 
 def grid(rows, columns):

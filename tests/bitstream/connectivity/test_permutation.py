@@ -9,60 +9,70 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bsm.bitstream.connectivity.faces import decode_connectivity, encode_connectivity
-from bsm.bitstream.connectivity.order import code_permutation, code_rotations
-from bsm.bitstream.container.splits import decode_order, encode_order
+from bsm.bitstream import _kernels
+from bsm.bitstream.connectivity.order import permutation_bank, rotation_bank, write_permutation, write_rotations
 from bsm.bitstream.entropy.range_coder import finish_reading, finish_writing, start_reading, start_writing
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
-from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.static.encoder import encode as encode_mesh
+from bsm.codec.static.options import EncodeOptions
+from bsm.decoding import decode as decode_mesh
 from tests.shapes import Faces, grid_faces
 
 quick = settings(max_examples=100)
 
 
-def encode(code, values) -> bytes:
-    return finish_writing(code(start_writing(0), np.array(values, np.int32)))
+def encode(write, values) -> bytes:
+    return finish_writing(write(start_writing(0), np.array(values, np.int32)))
 
 
-def decode(code, payload: bytes, size: int) -> np.ndarray:
-    values = np.zeros(size, np.int32)
-    finish_reading(code(start_reading(payload), values))
+def decode(write, payload: bytes, size: int) -> np.ndarray:
+    values, coder = np.zeros(size, np.int32), start_reading(payload)
+    if write is write_permutation:
+        legal = _kernels.code_steps(coder, permutation_bank(), values, np.empty(size + 1, np.int32))
+    else:
+        legal = _kernels.code_turns(coder, rotation_bank(), values)
+    finish_reading(coder)
+    if not legal:
+        raise CorruptError("not a permutation")
     return values
 
 
 @quick
 @given(st.integers(0, 300).flatmap(lambda n: st.permutations(range(n))))
 def test_permutations_round_trip(order: list[int]) -> None:
-    np.testing.assert_array_equal(decode(code_permutation, encode(code_permutation, order), len(order)), order)
+    np.testing.assert_array_equal(decode(write_permutation, encode(write_permutation, order), len(order)), order)
 
 
 @quick
 @given(st.lists(st.integers(0, 2), max_size=300))
 def test_rotations_round_trip(rotations: list[int]) -> None:
-    np.testing.assert_array_equal(decode(code_rotations, encode(code_rotations, rotations), len(rotations)), rotations)
+    np.testing.assert_array_equal(
+        decode(write_rotations, encode(write_rotations, rotations), len(rotations)), rotations
+    )
 
 
 def test_random_order_costs_about_its_entropy_and_runs_cost_little() -> None:
     size = 5000
     order = np.random.default_rng(0).permutation(size)
-    assert 8 * len(encode(code_permutation, order)) < 1.1 * lgamma(size + 1) / log(2)
-    assert len(encode(code_permutation, np.arange(size))) < 40
-    assert len(encode(code_permutation, np.arange(size)[::-1])) < 60
-    assert len(encode(code_permutation, np.roll(np.arange(size), 1234))) < 50
-    assert len(encode(code_permutation, np.arange(size).reshape(50, 100).T.ravel())) < 0.2 * size
+    assert 8 * len(encode(write_permutation, order)) < 1.1 * lgamma(size + 1) / log(2)
+    assert len(encode(write_permutation, np.arange(size))) < 40
+    assert len(encode(write_permutation, np.arange(size)[::-1])) < 60
+    assert len(encode(write_permutation, np.roll(np.arange(size), 1234))) < 50
+    assert len(encode(write_permutation, np.arange(size).reshape(50, 100).T.ravel())) < 0.2 * size
 
 
 @pytest.mark.parametrize("order", [[0, 0], [1, 2], [-1, 0], [[0, 1]]])
 def test_what_is_no_permutation_is_refused(order: list[int]) -> None:
     with pytest.raises(OptionError):
-        encode(code_permutation, order)
+        encode(write_permutation, order)
     with pytest.raises(OptionError):
-        encode(code_rotations, [0, 1, 3])
+        encode(write_rotations, [0, 1, 3])
 
 
 def test_damage_to_a_permutation_is_noticed_or_gives_another() -> None:
     rng = np.random.default_rng(1)
-    payload = encode(code_permutation, rng.permutation(300))
+    payload = encode(write_permutation, rng.permutation(300))
     damaged = [payload[:size] for size in range(len(payload) - 4)]
     for _ in range(500):
         data = bytearray(payload)
@@ -71,7 +81,7 @@ def test_damage_to_a_permutation_is_noticed_or_gives_another() -> None:
     noticed = 0
     for data in damaged:
         try:
-            order = decode(code_permutation, data, 300)
+            order = decode(write_permutation, data, 300)
         except (CorruptError, TruncatedError):
             noticed += 1
             continue
@@ -98,20 +108,8 @@ def shuffled(faces: Faces, seed: int) -> Faces:
     ids=["grid", "shuffled", "repeats", "soup"],
 )
 def test_original_faces_are_restored_exactly(faces: Faces) -> None:
-    count = int(faces.max()) + 1
-    encoded = encode_connectivity(faces, count)
-    payload = encode_order(faces, encoded)
-    decoded = decode_connectivity(encoded.payload, count, len(faces))
-    restored, _ = decode_order(payload, decoded, count, DEFAULT_LIMITS)
-    np.testing.assert_array_equal(restored.faces, faces)
-    np.testing.assert_array_equal(restored.vertex_order, encoded.vertex_order)
-    np.testing.assert_array_equal(restored.face_order, encoded.face_order)
-    with pytest.raises((CorruptError, TruncatedError)):
-        decode_order(payload[: len(payload) // 2], encoded.faces, count, DEFAULT_LIMITS)
-
-
-def test_arrangement_of_another_mesh_is_refused() -> None:
-    faces = grid_faces(9, 13)
-    encoded = encode_connectivity(faces, 117)
-    with pytest.raises(CorruptError, match="116 vertices"):
-        decode_order(encode_order(faces, encoded), encoded.faces, 116, DEFAULT_LIMITS)
+    positions = np.random.default_rng(0).normal(size=(int(faces.max()) + 1, 3))
+    stream = encode_mesh(TriangleMesh(positions, faces), EncodeOptions(grid=9, keep_order=True, threads=1))
+    decoded = decode_mesh(stream, threads=1)
+    np.testing.assert_array_equal(decoded.faces, faces)
+    assert np.abs(decoded.positions - positions).max() < 0.02

@@ -7,9 +7,10 @@ import numpy.typing as npt
 from hypothesis import strategies as st
 
 from bsm.bitstream.attributes.values import _folded, canonical_levels, face_values_field, values_field
-from bsm.bitstream.fields.corners import Field, FieldDecoder, FieldEncoder
+from bsm.bitstream.fields.corners import Field, FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, levels_field, light_field
 from tests.shapes import Faces, grid_faces
+from tools.payloads import FieldDecoder
 
 Ints = npt.NDArray[np.int32]
 Chunks = list[tuple[bytes, int]]

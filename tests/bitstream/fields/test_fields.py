@@ -3,8 +3,6 @@ damage."""
 
 from __future__ import annotations
 
-import tracemalloc
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +12,9 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.attributes.values import face_values_field, values_field
 from bsm.bitstream.connectivity.faces import encode_connectivity
-from bsm.bitstream.errors import CorruptError, LimitError, MeshError, OptionError, TruncatedError
-from bsm.bitstream.fields.corners import MOST_LARGEST, Field, FieldDecoder, FieldEncoder, corners_of, traverse
+from bsm.bitstream.errors import CorruptError, MeshError, OptionError, TruncatedError
+from bsm.bitstream.fields.corners import MOST_LARGEST, Field, FieldEncoder, corners_of, traverse
 from bsm.bitstream.fields.grid import MOST_LEVEL, find_lattice, grid_field, levels_field, light_field, spread
-from bsm.bitstream.limits import DEFAULT_LIMITS
 from tests.bitstream.fields.fields import (
     COLUMNS,
     KINDS,
@@ -35,6 +32,7 @@ from tests.shapes import grid_faces
 from tools import field_tables
 from tools.measure.grids import encode as encode_stream
 from tools.measure.grids import rounded, welded
+from tools.payloads import FieldDecoder
 
 SEEDS = st.integers(0, 2**32 - 1)
 TORUS = grid_faces(12, 9, close_rows=True, close_columns=True)
@@ -146,23 +144,6 @@ def test_bytes_missing_or_left_over(name):
         decoder.chunk(payload, rows)
     with pytest.raises(CorruptError):
         FieldDecoder(field).chunk(b"\xff" * 8, rows)
-
-
-@named
-@pytest.mark.parametrize("rows", [3, 200])
-def test_charges_hold_and_come_before_allocation(name, rows):
-    faces, vertices = grid_faces(rows, 200), 200 * rows
-    at, places = np.zeros((vertices, 3), np.int32), np.arange(vertices, dtype=np.int32)
-    largest = [254, 254] if name == "normal" else [MOST_LARGEST] * COLUMNS.get(name, 4)
-    field = field_of(name, faces, vertices, largest, at, places)
-    tracemalloc.start()
-    with pytest.raises(LimitError):
-        FieldDecoder(field, replace(DEFAULT_LIMITS, field_bytes=field.charge - 1))
-    assert tracemalloc.get_traced_memory()[1] < 1 << 14
-    FieldDecoder(field)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert (0 if name == "light" else 0.4) * field.charge < peak <= field.charge
 
 
 @pytest.mark.parametrize(

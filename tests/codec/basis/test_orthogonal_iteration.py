@@ -3,15 +3,13 @@ import pytest
 import scipy.linalg
 
 from bsm.bitstream.errors import NumericError
-from bsm.codec.basis.laplacian import completion_cost, dense_laplacian, factorize, laplacian_of, settle
+from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import (
     completed,
-    completed_steps,
     cosine_columns,
     exact_basis,
     first_columns,
     hash_columns,
-    iteration_steps,
     orthogonal_iteration,
     resized,
 )
@@ -116,18 +114,3 @@ def test_columns_are_completed_by_what_is_at_right_angles_to_them(rows, first, w
 def test_what_cannot_be_completed_is_an_error():
     with pytest.raises(NumericError, match="completed"):
         completed(-np.eye(6, 2, dtype=np.float32), 5)
-
-
-def test_iterations_are_paid_for_the_columns_that_they_make_and_others_by_themselves():
-    block = whole(patch(15, 15).faces, 225)
-    factor = factorize(laplacian_of(block), 0.125)
-
-    def steps():
-        return iteration_steps(factor, first_columns(225, 75, noisy=False), power=2, iterations=1)
-
-    own, told = [], []
-    first = settle(steps(), lambda price: own.append(price(75)))
-    found = settle(completed_steps(steps(), 225, 75, 225), lambda price: told.append(price(225)))
-    assert np.array_equal(found, completed(first, 225))
-    assert told[:-1] == own
-    assert told[-1] == completion_cost(225, 75, 225)

@@ -14,7 +14,6 @@ from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
 from bsm.codec.sequence.step_search import Measured, Shading, StepSearch
-from bsm.codec.sequence.targets import flicker_of
 from bsm.decoding import decode_sequence
 from tests.motion import bending
 
@@ -179,14 +178,3 @@ def test_errors_of_normals_are_angles() -> None:
     assert shading.error(normals, positions[0]) == pytest.approx(0.0, abs=1e-7)
     assert 0.3 * angle < shading.error(normals, turned) < angle
     assert shading.error(shading.normals(np.zeros_like(turned)), turned) == 0.0  # no area is no error
-
-
-def test_flicker_is_what_changes_from_frame_to_frame() -> None:
-    positions, _ = bending(9)
-    still = positions + 0.01
-    assert flicker_of(positions, positions) == 0.0
-    assert flicker_of(positions, still) == pytest.approx(0.0, abs=1e-9)
-    shaking = positions + 0.01 * (-1.0) ** np.arange(9)[:, None, None]
-    own = np.linalg.norm(np.diff(positions, 2, axis=0))
-    assert flicker_of(positions, shaking) == pytest.approx(100 * 0.04 * np.sqrt(7 * positions[0].size) / own)
-    assert flicker_of(np.repeat(positions[:1], 9, axis=0), shaking) == np.inf

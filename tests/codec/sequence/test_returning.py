@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.container.gop import parse_gop_body
 from bsm.bitstream.container.packets import Gop
-from bsm.bitstream.container.scanner import scan
+from bsm.bitstream.container.wire import Cursor
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -17,6 +16,8 @@ from bsm.codec.sequence.frames import SAME, distinct_frames, same_frames
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.decoding import decode_sequence
 from tests.motion import bending
+from tools.payloads import parse_stretches
+from tools.surgery import scan
 
 STEP = 0.002
 TURNS: dict[str, list[int]] = {
@@ -39,10 +40,10 @@ def coded(positions: Positions, faces: Faces, **changes: object) -> tuple[bytes,
     return data, decode_sequence(data, threads=1)[0], positions[:, encoder.vertex_order]
 
 
-def places(data: bytes, *widths: int) -> list[list[int]]:
-    """Of every GOP, which frame each one is of those that are told of; `widths` are of attributes that move."""
+def places(data: bytes) -> list[list[int]]:
+    """The coded frame that each frame of every GOP with a basis shows."""
     gops = (packet for packet, _ in scan([data]) if isinstance(packet, Gop))
-    return [parse_gop_body(gop.data, 1024, widths=dict(enumerate(widths))).places.tolist() for gop in gops]
+    return [parse_stretches(Cursor(gop.data[2:]), gop.data[1]) for gop in gops]
 
 
 @pytest.mark.parametrize("turns", TURNS.values(), ids=list(TURNS))
@@ -92,7 +93,7 @@ def test_frames_whose_attributes_differ_are_not_the_same() -> None:
         for turn, factor in zip(turns, warm, strict=True)
     ]
     data = b"".join(SequenceEncoder(faces, options(keep_order=True, attributes={"heat": 0.5}), 8).chunks(frames))
-    assert places(data, 1) == [[0, 1, 2, 3, 0, 4, 2, 5]]
+    assert places(data) == [[0, 1, 2, 3, 0, 4, 2, 5]]
     for frame, found in zip(frames, bsm.decode_frames(data), strict=True):
         assert np.abs(found.attributes[0].values - frame.attributes[0].values).max() <= 0.5
 

@@ -7,7 +7,6 @@ import pytest
 
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.packets import Connectivity, Gop
-from bsm.bitstream.container.scanner import scan
 from bsm.bitstream.container.wire import FrameType, write_preamble
 from bsm.bitstream.errors import CorruptError, MeshError, OptionError
 from bsm.codec.geometry.attributes import Attribute
@@ -19,7 +18,7 @@ from bsm.codec.sequence.targets import SequenceTarget
 from bsm.decoding import SequenceDecoder
 from bsm.events import ConnectivityEvent, FrameEvent, HeaderEvent, LossEvent, Signal
 from tests.streams import frames_in, moving_events_of, packets_of
-from tools.surgery import frames_of
+from tools.surgery import frames_of, scan
 from tools.vectors.meshes import torus
 
 WAYS = [{"gop": 4}, {"low_delay": 1, "gop": 3}]

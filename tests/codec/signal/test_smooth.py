@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.signal.smooth import DEGREE, NODES, LocalFilter, filter_polynomial, smooth, smoothing_spectrum
-from tests.shapes import patch, torus
+from bsm.codec.signal.smooth import NODES, filter_polynomial, smooth, smoothing_spectrum
+from tests.shapes import torus
 
 
 def random_walk_laplacian(graph):
@@ -40,25 +40,3 @@ def test_smoothing_leaves_isolated_vertices_and_constants_alone():
     positions[4:] = [[7.0, 8.0, 9.0], [0.1, 0.2, 0.3]]
     assert np.allclose(smooth(graph, positions, 8.0), positions, atol=1e-14)
     assert np.array_equal(smooth(graph, positions, 0.0), positions)
-
-
-@given(st.sets(st.integers(0, 360), max_size=40), st.floats(0.5, 32.0))
-def test_some_vertices_are_smoothed_as_all_are_and_look_no_farther_than_the_rings(chosen, amount):
-    mesh = patch(19, 19)
-    graph = graph_of_faces(mesh.faces, 361)
-    vertices = np.array(sorted(chosen), np.int32)
-    local = LocalFilter(graph, amount)
-    unknown = np.full_like(mesh.positions, np.nan)
-    near = local.around(vertices, DEGREE)
-    unknown[near.rows] = mesh.positions[near.rows]
-    for _ in range(2):
-        assert np.array_equal(local.smoothed(unknown, near), smooth(graph, mesh.positions, amount)[vertices])
-
-
-def test_rings_are_breadth_first():
-    graph = graph_of_faces(patch(9, 9).faces, 81)
-    local = LocalFilter(graph, 1.0)
-    adjacency = np.asarray((sp.eye(81) + abs(random_walk_laplacian(graph))).todense() != 0)
-    for rings in range(4):
-        reached = np.linalg.matrix_power(adjacency.astype(int), rings)[40] > 0
-        assert sorted(local.around(np.array([40], np.int32), rings).rows) == np.flatnonzero(reached).tolist()

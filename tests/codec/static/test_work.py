@@ -7,12 +7,11 @@ import pytest
 
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.basis.laplacian import careful_cost, dictionary_cost, factorize, laplacian_of, settle, solve_cost
-from bsm.codec.basis.orthogonal_iteration import first_columns, iteration_steps
+from bsm.codec.basis.laplacian import dictionary_cost, laplacian_of, solve_cost
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.work import Allowance
 from bsm.decoding import Decoder, decode
@@ -33,23 +32,6 @@ def block_of(mesh):
     """The whole of a mesh as one block."""
     graph = graph_of_faces(mesh.faces, len(mesh.positions))
     return grow_blocks(graph, derive_partition(graph, 1), graph.size).block(0)
-
-
-@pytest.fixture
-def spent(monkeypatch):
-    """What is spent of the allowance that was begun last."""
-    amounts, latest = [], []
-    real = Allowance.spend
-
-    def spy(self, work, received=0):
-        if latest != [self]:
-            latest[:] = [self]
-            amounts.clear()
-        amounts.append(work)
-        real(self, work, received)
-
-    monkeypatch.setattr(Allowance, "spend", spy)
-    return amounts
 
 
 def work_of(stream, limits=DEFAULT_LIMITS):
@@ -82,45 +64,6 @@ def test_every_solution_counts():
     fronts = laplacian_of(block_of(torus(20, 20))).fronts
     once, often = dictionary_cost(fronts, 1, 1), dictionary_cost(fronts, 1, 64 * 1024)
     assert often > 60_000 * solve_cost(fronts, 1) > 5_000 * once
-
-
-def test_columns_that_need_care_are_paid_for_before_they_are_made():
-    laplacian, told = laplacian_of(block_of(torus(20, 20))), []
-    start = first_columns(400, 200, noisy=False)
-    settle(
-        iteration_steps(factorize(laplacian, 2.0**-30), start, power=4, iterations=1),
-        lambda price: told.append(price(200)),
-    )
-    fronts = laplacian.fronts
-    assert told == [dictionary_cost(fronts, 200, 4)] + [
-        careful_cost(fronts, 200, 4, 16 * 4**k) for k in range(len(told) - 1)
-    ]
-    assert len(told) > 1
-
-
-def test_an_allowance_is_spent_by_and_by():
-    allowance = Allowance(Limits(work=10.0))
-    allowance.spend(6.0)
-    allowance.spend(4.0)
-    with pytest.raises(LimitError, match="11"):
-        allowance.spend(1.0)
-
-
-def test_vertices_bytes_and_frames_grant_work():
-    allowance = Allowance(Limits(work=10.0, work_per_vertex=3.0, work_per_byte=2.0))
-    allowance.grant(4)
-    allowance.spend(22.0)
-    allowance.show(2)
-    allowance.spend(20.0, received=7)
-    with pytest.raises(LimitError, match="29"):
-        allowance.spend(1.0)
-
-
-def test_whatever_grants_work_there_is_an_end():
-    allowance = Allowance(Limits(work_per_byte=1e9, most_work=10.0))
-    allowance.spend(10.0, received=100)
-    with pytest.raises(LimitError, match="most_work"):
-        allowance.spend(1.0, received=100)
 
 
 def test_memory_is_kept_or_given_back():
@@ -159,17 +102,6 @@ def test_who_finds_no_room_waits_for_it():
 @pytest.mark.parametrize("preset", sorted({*PRESETS} - {"none"}))
 def test_every_preset_is_within_the_limits_of_a_service(preset):
     assert work_of(encode(torus(60, 50), PRESETS[preset]), Limits.service()) < 1e4 * 3000
-
-
-@pytest.mark.parametrize(
-    "options",
-    [{"bits": 12}, {"bits": 12, "key_interval": 1, "key_seed": "cosines"}, {"step": 0.002}, {"doi": (1e-4, 1e-2)}],
-)
-def test_an_encoder_does_the_sums_of_the_decoder(options, spent):
-    encoder = Encoder(torus(60, 50), changed(EncodeOptions(), **{"block_size": 300, "key_interval": 3, **options}))
-    stream = encoder.encode()
-    before = sum(spent)
-    assert 0.5 * before < work_of(stream) <= before * (1 + 1e-9)
 
 
 def test_an_encoder_makes_nothing_that_decoders_refuse():

@@ -1,0 +1,65 @@
+"""The public names: type checkers read them here, and so does `__init__.py`."""
+
+from bsm.api import compare as compare
+from bsm.api import decode as decode
+from bsm.api import decode_frames as decode_frames
+from bsm.api import decode_sequence as decode_sequence
+from bsm.api import denoise as denoise
+from bsm.api import encode as encode
+from bsm.api import encode_frames as encode_frames
+from bsm.api import encode_many as encode_many
+from bsm.api import encode_sequence as encode_sequence
+from bsm.api import load as load
+from bsm.api import look as look
+from bsm.api import save as save
+from bsm.bitstream.errors import ArgumentError as ArgumentError
+from bsm.bitstream.errors import BsmError as BsmError
+from bsm.bitstream.errors import CorruptError as CorruptError
+from bsm.bitstream.errors import DependencyError as DependencyError
+from bsm.bitstream.errors import FormatError as FormatError
+from bsm.bitstream.errors import HarmError as HarmError
+from bsm.bitstream.errors import LimitError as LimitError
+from bsm.bitstream.errors import MeshError as MeshError
+from bsm.bitstream.errors import NumericError as NumericError
+from bsm.bitstream.errors import OptionError as OptionError
+from bsm.bitstream.errors import TargetError as TargetError
+from bsm.bitstream.errors import TruncatedError as TruncatedError
+from bsm.bitstream.errors import UnsupportedError as UnsupportedError
+from bsm.bitstream.errors import VerificationError as VerificationError
+from bsm.bitstream.limits import Limits as Limits
+from bsm.codec.denoise import DenoiseOptions as DenoiseOptions
+from bsm.codec.geometry.attributes import Attribute as Attribute
+from bsm.codec.geometry.mesh import TriangleMesh as TriangleMesh
+from bsm.codec.geometry.metrics import Comparison as Comparison
+from bsm.codec.look.measure import Look as Look
+from bsm.codec.sequence.encoder import SequenceEncoder as SequenceEncoder
+from bsm.codec.sequence.options import SequenceOptions as SequenceOptions
+from bsm.codec.sequence.targets import SequenceTarget as SequenceTarget
+from bsm.codec.static.encoder import Encoder as Encoder
+from bsm.codec.static.options import PRESETS as PRESETS
+from bsm.codec.static.options import EncodeOptions as EncodeOptions
+from bsm.codec.static.options import Paper as Paper
+from bsm.codec.static.targets import Contract as Contract
+from bsm.codec.static.targets import Target as Target
+from bsm.comparison import MeshComparison as MeshComparison
+from bsm.decoding import Decoder as Decoder
+from bsm.decoding import SequenceDecoder as SequenceDecoder
+from bsm.events import END_OF_STREAM as END_OF_STREAM
+from bsm.events import NEED_DATA as NEED_DATA
+from bsm.events import AttributeEvent as AttributeEvent
+from bsm.events import BlockEvent as BlockEvent
+from bsm.events import ConnectivityEvent as ConnectivityEvent
+from bsm.events import EndEvent as EndEvent
+from bsm.events import FrameEvent as FrameEvent
+from bsm.events import HeaderEvent as HeaderEvent
+from bsm.events import LossEvent as LossEvent
+from bsm.events import RefinementEvent as RefinementEvent
+from bsm.events import Signal as Signal
+from bsm.files.formats.polygons import MeshFile as MeshFile
+from bsm.files.mesh import read_mesh as read_mesh
+from bsm.tiles.shards import Tiles as Tiles
+from bsm.tiles.shards import open_tiles as open_tiles
+from bsm.viewer.notebook import show as show
+
+__version__: str
+__all__: list[str]

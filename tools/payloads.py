@@ -1,0 +1,106 @@
+"""Payloads to numbers, by the kernels that the decoder reads them with: for tests and vectors."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from bsm._engine import Decoder
+from bsm.bitstream.attributes.seams import Flags, code_edges
+from bsm.bitstream.coefficients.adaptive import CoefficientModel, code_block
+from bsm.bitstream.connectivity.partition import code_labels
+from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
+from bsm.bitstream.container.wire import Cursor
+from bsm.bitstream.container.writer import Writer
+from bsm.bitstream.entropy import range_coder as entropy
+from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
+from bsm.bitstream.fields.corners import Corners, Field
+from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.decoded import CONNECTIVITY, NEED_DATA
+
+Ints = npt.NDArray[np.int32]
+
+
+def decode_connectivity(payload: bytes, vertices: int, faces: int, limits: Limits = DEFAULT_LIMITS) -> Ints:
+    """Return the faces, shape (m, 3), that the decoder makes of a connectivity payload."""
+    decoder, writer = Decoder(limits, 1), Writer()
+    header = Header(vertices=vertices, faces=faces, grid=(1, 1, 1))
+    # What follows tells the decoder that no order comes, which would change the faces.
+    packets: list[Packet] = [header, Connectivity(payload), Grid(0, vertices, b"")]
+    stream = b"".join([writer.start(), *map(writer.write, packets)])
+    decoder.push(np.frombuffer(stream, np.uint8))
+    decoder.next(1 << NEED_DATA | 1 << CONNECTIVITY)
+    return decoder.faces(faces)
+
+
+class FieldDecoder:
+    """Reads the values of a field, chunk after chunk."""
+
+    def __init__(self, field: Field) -> None:
+        self._state, self._next = field.start(), 0
+
+    @property
+    def order(self) -> Ints:
+        return self._state.order
+
+    def chunk(self, payload: bytes, count: int) -> tuple[Ints, Ints]:
+        """Return the next `count` of `order`, and their values."""
+        first = self._next
+        if not 0 < count <= len(self.order) - first:
+            raise OptionError(f"a chunk of {count} where {len(self.order) - first} are left")
+        self._next = len(self.order)  # nothing can be read behind an error
+        coder = entropy.start_reading(payload)
+        done = self._state.code(coder, first, count)
+        if entropy.overran(coder):
+            raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {count} values")
+        if done < count:
+            raise CorruptError(f"number {done} of a payload of {count} has a value out of range")
+        entropy.finish_reading(coder)
+        self._next = first + count
+        which = self.order[first : first + count].copy()
+        return which, self._state.values[which]
+
+
+def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> Ints:
+    """Return the levels of a block, shape (count, 3)."""
+    if count > model.width:
+        raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
+    levels, coder = np.zeros((count, 3), np.int32), entropy.start_reading(payload)
+    code_block(coder, model, levels)
+    entropy.finish_reading(coder)
+    return levels
+
+
+def decode_labels(payload: bytes, offsets: Ints, neighbours: Ints, parts: int) -> Ints:
+    """Return the part of each vertex of a graph, shape (n,)."""
+    labels, coder = np.zeros(len(offsets) - 1, np.int32), entropy.start_reading(payload)
+    if code_labels(coder, offsets, neighbours, labels, parts) != parts:
+        raise CorruptError(f"the partition has not {parts} parts")
+    entropy.finish_reading(coder)
+    return labels
+
+
+def decode_seams(payload: bytes, corners: Corners, earlier: tuple[Flags, ...] = ()) -> Flags:
+    """Return the seams, shape (3 m,)."""
+    seams, coder = np.zeros(len(corners.opposite), np.uint8), entropy.start_reading(payload)
+    code_edges(coder, corners, seams, earlier)
+    entropy.finish_reading(coder)
+    return seams
+
+
+def parse_stretches(cursor: Cursor, frames: int) -> list[int]:
+    """Return the coded frame that each of a GOP's frames shows."""
+    shown: list[int] = []
+    due = 0
+    count = cursor.varint()
+    for _ in range(count):
+        beyond, way = divmod(cursor.varint(), 3)
+        due += beyond // 2 if beyond % 2 == 0 else -(beyond + 1) // 2
+        length = cursor.varint()
+        if length > frames - len(shown):
+            raise CorruptError(f"stretches of more than {frames} frames")
+        for _ in range(length):
+            shown.append(due)
+            due += (1, 0, -1)[way]
+        due = shown[-1] + 1
+    return shown if count else list(range(frames))
