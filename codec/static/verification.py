@@ -58,15 +58,18 @@ class Original:
 
     def _require_order(self, faces: Faces) -> None:
         """Require that each face lies where the given one lies; turned, unless the order is kept."""
-        places = self.joined.mesh.positions if self.joined.splits is None else self.given.positions
-        numbers = self.prepared.vertex_order if self.joined.splits is None else self.vertex_order
-        given = self.joined.mesh.faces if self.joined.splits is None else self.given.faces[self.joined.kept]
-        wanted, found = places[given[self.prepared.face_order]], places[numbers[faces]]
-        turns = 1 if self.prepared.order else 3
-        equal = np.zeros(len(faces), np.bool_)
-        for turn in range(turns):
-            equal |= (np.roll(found, turn, axis=1) == wanted).all(axis=(1, 2))
-        require(bool(equal.all()), "the order of vertices or faces that came back is another")
+        wanted: npt.NDArray[Any]
+        found: npt.NDArray[Any]
+        if self.joined.splits is None:
+            wanted = self.joined.mesh.faces[self.prepared.face_order]
+            found = self.prepared.vertex_order[faces]
+        else:  # copies of a vertex lie at its place
+            given = self.given.faces[self.joined.kept][self.prepared.face_order]
+            wanted, found = self.given.positions[given], self.given.positions[self.vertex_order[faces]]
+        for turn in range(1 if self.prepared.order else 3):
+            other = (np.roll(found, turn, axis=1) != wanted).reshape(len(found), -1).any(axis=1)
+            wanted, found = wanted[other], found[other]
+        require(not len(wanted), "the order of vertices or faces that came back is another")
 
 
 def verify(

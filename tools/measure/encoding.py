@@ -4,7 +4,8 @@
     python -m tools.measure targets MESH... [--targets max_error=0.2% theta=4 ...]
 
 `encoding`: bytes, CPU time of one thread over Draco's (level 10, 11 bits; frame by frame for npz sequences), measured
-by turns, and the ratio of bytes to another run. To compare with another checkout, run this file there, keep its JSON:
+by turns, the share of it that decoding and comparing take, and the ratio of bytes to another run. To compare with
+another checkout, run this file there, keep its JSON:
 
     PYTHONPATH=../old ../old/.venv/bin/python tools/measure/encoding.py encoding MESH... --json old.json
 
@@ -22,11 +23,14 @@ from collections.abc import Callable
 from pathlib import Path
 from statistics import fmean
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
 import bsm
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.verification import SequenceVerifier
+from bsm.codec.static.verification import verify
 from bsm.evaluation.curve import encode_draco
 from bsm.files.mesh import read_mesh
 
@@ -50,14 +54,35 @@ def seconds(work: Callable[[], Any]) -> float:
     return time.thread_time() - begin
 
 
+def share_of_checks(encode: Callable[[], Any]) -> float:
+    """The share of an encoding's CPU time that decoding and comparing what was written take."""
+    checking = 0.0
+
+    def timed(check: Callable[..., Any]) -> Callable[..., Any]:
+        def call(*arguments: Any, **named: Any) -> Any:
+            nonlocal checking
+            begin = time.thread_time()
+            try:
+                return check(*arguments, **named)
+            finally:
+                checking += time.thread_time() - begin
+
+        return call
+
+    take = timed(SequenceVerifier.take)
+    with patch("bsm.codec.static.encoder.verify", timed(verify)), patch.object(SequenceVerifier, "take", take):
+        whole = seconds(encode)
+    return checking / whole
+
+
 def by_turns(ours: Callable[[], Any], theirs: Callable[[], Any], repeat: int) -> tuple[float, float]:
     """The least times of two works."""
     turns = [(seconds(ours), seconds(theirs)) for _ in range(repeat)]
     return min(one for one, _ in turns), min(other for _, other in turns)
 
 
-def measured(path: Path, options: dict[str, Any], repeat: int) -> tuple[int, float, float]:
-    """Our bytes and CPU time and Draco's time, of a mesh or a sequence."""
+def measured(path: Path, options: dict[str, Any], repeat: int) -> tuple[int, float, float, float]:
+    """Our bytes and CPU time, Draco's time, and the share of checks in ours, of a mesh or a sequence."""
     data: list[bytes] = []
     if path.suffix == ".npz":
         arrays = np.load(path)
@@ -65,27 +90,28 @@ def measured(path: Path, options: dict[str, Any], repeat: int) -> tuple[int, flo
         meshes = [TriangleMesh(frame, faces) for frame in frames[:: max(1, len(frames) // 16)]]
         ours = lambda: data.append(bsm.encode_sequence(frames, faces, threads=1, **options))  # noqa: E731
         times = by_turns(ours, lambda: [encode_draco(mesh, BITS, LEVEL) for mesh in meshes], repeat)
-        return len(data[-1]), times[0], times[1] * len(frames) / len(meshes)
+        return len(data[-1]), times[0], times[1] * len(frames) / len(meshes), share_of_checks(ours)
     mesh = read_mesh(str(path)).mesh
     ours = lambda: data.append(bsm.encode(mesh, threads=1, **options))  # noqa: E731
     try:
         times = by_turns(ours, lambda: encode_draco(mesh.bare, BITS, LEVEL), repeat)
     except bsm.MeshError:  # Draco does not take it
         times = seconds(ours), math.nan
-    return len(data[-1]), *times
+    return len(data[-1]), *times, share_of_checks(ours)
 
 
 def encoding(args: argparse.Namespace) -> None:
     """Print a row for each file, and means."""
     before = json.loads(args.over.read_text()) if args.over else {}
-    found: dict[str, tuple[int, float, float]] = {}
+    found: dict[str, tuple[int, float, float, float]] = {}
     for path in args.meshes:
         try:
-            found[path.stem] = size, ours, theirs = measured(path, dict(args.options), args.repeat)
+            found[path.stem] = size, ours, theirs, checks = measured(path, dict(args.options), args.repeat)
         except bsm.BsmError as error:
             print(f"{path.stem[:28]:28} {type(error).__name__}: {error}", flush=True)
             continue
         text = f"{path.stem[:28]:28} {size:8d} bytes {1e3 * ours:8.0f} ms, over Draco {ours / theirs:6.1f}"
+        text += f", checks {checks:.1%}"
         if path.stem in before:
             old = before[path.stem]
             text += f"; over before: bytes {size / old[0]:.3f}, time over Draco's {ours / theirs / old[1] * old[2]:.2f}"
