@@ -144,19 +144,19 @@ class Limits:
             )
 
     def check_work(self, value: float, vertices: int, received: int = 0) -> None:
-        """Raise `LimitError` if a stream of so many vertices, and bytes received, takes more work."""
+        """Raise `LimitError` if a stream of these vertices and received bytes takes more work."""
         self._check_sum("work", value, lambda limits: limits.work_for(vertices, received))
 
     def work_for(self, vertices: int, received: int) -> float:
-        """Nanoseconds of work that a stream of so many vertices, and bytes received, may take."""
+        """Return the nanoseconds of work that a stream of these vertices and received bytes may take."""
         return min(self.work + self.work_per_vertex * vertices + self.work_per_byte * received, self.most_work)
 
     def check_memory(self, value: float, vertices: int, received: int = 0) -> None:
-        """Raise `LimitError` if a stream of so many vertices, and bytes received, needs more memory."""
+        """Raise `LimitError` if a stream of these vertices and received bytes needs more memory."""
         self._check_sum("memory", value, lambda limits: limits.memory_for(vertices, received))
 
     def memory_for(self, vertices: int, received: int) -> float:
-        """Bytes that a stream of so many vertices, and bytes received, may take."""
+        """Return the bytes of memory that a stream of these vertices and received bytes may take."""
         granted = self.memory + self.memory_per_vertex * vertices + self.memory_per_byte * received
         return min(granted, self.most_memory)
 

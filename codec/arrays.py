@@ -1,4 +1,4 @@
-"""The kinds of arrays that the mathematics is about, by name; what shape they have is said where they are used."""
+"""Names for the kinds of arrays; functions that take them document the shapes."""
 
 import numpy as np
 import numpy.typing as npt

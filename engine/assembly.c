@@ -60,7 +60,7 @@ bool blend_all(const Assembly *assembly, const Header *header, const Graph *grap
     return done;
 }
 
-/* Mark what has a neighbour with a mark, so many times. */
+/* Mark the neighbors of marked vertices, a number of times. */
 static bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scratch) {
     Bytes before;
     if (!take_bytes(scratch, marks.size, &before)) return false;

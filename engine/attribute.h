@@ -32,7 +32,7 @@ typedef struct {
     ConstInts2 faces;      /* the row of each coded corner */
     Ints vertices;         /* the vertex of each row, -1 for loose ones; none for faces */
     void *values;          /* rows times components, of the kind */
-    void *moved;           /* the same in the frame told last, of one that moves; NULL: in the first one */
+    void *moved;           /* the same in the frame reported last, if it moves; NULL: in the first one */
     double coding;         /* bytes that are kept while values come */
     int64_t coded;
     bool begun;

@@ -253,7 +253,7 @@ static bool find_geometry(Attributes *attributes, const Attribute *one, ConstInt
     return true;
 }
 
-/* The state of an attribute takes the place of that of the one before. */
+/* The state of an attribute replaces the state of the one before. */
 static bool begin_one(Attributes *attributes, Attribute *one, ConstInts2 places, Arena *scratch) {
     Context *context = attributes->context;
     const Declaration *d = &one->declaration;

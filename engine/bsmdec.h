@@ -116,7 +116,7 @@ typedef struct {
 } bsmdec_allocator;
 
 /* Where bsmdec_decode puts one thing into each vertex. `semantic` is BSMDEC_POSITION or a meaning of attributes, such
- * as BSMDEC_NORMAL. The field takes the first attribute of that meaning and, if `name` is not NULL, of that name.
+ * as BSMDEC_NORMAL. The field takes the first attribute with this meaning and, if `name` is not NULL, this name.
  * `kind` and `components` are those to write (see bsmdec_split_values), `offset` counts bytes from the start of the
  * vertex. */
 typedef struct {
@@ -320,7 +320,7 @@ BSMDEC_API bsmdec_status bsmdec_metadata_find(bsmdec *decoder, const char *name,
 enum { BSMDEC_POSITION = -1, BSMDEC_ABSENT = -2, BSMDEC_ALL = -1 };
 
 /* Split the vertices of the mesh where `count` attributes of vertices or corners differ, and write their number to
- * `vertices`. BSMDEC_ALL as `count` stands for all that are available. Available from CONNECTIVITY on, with attributes
+ * `vertices`. BSMDEC_ALL as `count` means all available ones. Available from CONNECTIVITY on, with attributes
  * from their ATTRIBUTE on. It holds until the next call, or until the next HEADER. */
 BSMDEC_API bsmdec_status bsmdec_split(bsmdec *decoder, const int *attributes, int count, int64_t *vertices);
 

@@ -41,7 +41,7 @@ typedef struct {
 
 /* Copy a block into `arena`; without memory the arena's context has failed. */
 bool copy_block(const DecodedBlock *block, Arena *arena, DecodedBlock *copy);
-/* A block that was decoded ahead: what its packet said, where that ended, and the charges to make in its turn. */
+/* A block that was decoded ahead: the contents of its packet, where it ended, and the charges to make in its turn. */
 typedef struct {
     int64_t index, coefficients, end;
     Span data;

@@ -76,7 +76,7 @@ bsmdec_error take_error(Context *context) {
     return error;
 }
 
-/* Whether so many things of a size can be in memory at all. */
+/* Whether `count` elements of a size can be in memory at all. */
 static bool is_possible(Context *context, int64_t count, size_t size) {
     const size_t most = SIZE_MAX / 4;
     if (failed(context)) return false;
@@ -208,7 +208,7 @@ bool charge_ledger(Context *context, const Ledger *ledger, int first, int end) {
     return true;
 }
 
-/* Memory that is kept to the end, and bytes that stand for it. */
+/* Memory that is reserved to the end, and the bytes that pay for it. */
 bool keep(Context *context, double memory, double received) {
     context->spent.kept += memory;
     context->spent.received += received;

@@ -34,7 +34,7 @@ typedef struct {
     Ledger *ledger; /* where charges are noted as well, or NULL */
 } Context;
 
-/* What an error says: `#` in the text stands for a number, `$` for a name. */
+/* What an error says: `#` in the text is replaced by a number, `$` by a name. */
 typedef struct {
     const char *text;
     int64_t a, b, c;

@@ -67,7 +67,7 @@ static bool agrees_with_itself(const Record *record, const Declaration *d) {
 
 static bool is_whole(double x) { return x >= -0x1p53 && x <= 0x1p53 && x == (double)(int64_t)x; }
 
-/* Whether the values that levels stand for are of the kind. */
+/* Whether the values of the levels fit the kind. */
 static bool in_kind(const Declaration *d) {
     static const double LOW[] = {0, -128, 0, -32768, 0, -2147483648.0}, HIGH[] = {255, 127, 65535, 32767, MOST_LEVEL, 2147483647.0};
     for (int i = 0; i < d->words; i++) {

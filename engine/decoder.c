@@ -320,7 +320,7 @@ const Attribute *begun_attribute(bsmdec *decoder, int index) {
     return attribute;
 }
 
-/* An attribute that is available; NULL, and the reason is noted, if there is none of that number. */
+/* An attribute that is available; NULL, and the reason is noted, if there is none with this number. */
 static const Attribute *attribute_of(bsmdec *decoder, int index) {
     const Attribute *attribute = begun_attribute(decoder, index);
     if (attribute != NULL && !attribute->whole)

@@ -70,7 +70,7 @@ static bool iterate_columns(Context *context, const Patch *patch, const Factor *
     return found != LOST || FAIL(context, NUMERIC, "the columns of a dictionary cannot be made orthonormal");
 }
 
-/* `width` columns of U: those that iterations give, and where these are fewer, any at right angles to them (M 8.7). */
+/* `width` columns of U: those that iterations give, and where these are fewer, any that are orthogonal to them (M 8.7). */
 static bool iterate_and_complete(Context *context, const Patch *patch, const Factor *factor, Singles2 start, Schedule plan,
     int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
     int64_t first = least(width, plan.most), rows = patch->size;

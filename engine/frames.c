@@ -249,7 +249,7 @@ static bool join_columns(Doubles2 one, Doubles2 other, Arena *scratch, Doubles2 
     return true;
 }
 
-/* What is told of each part, in turn. */
+/* The coded values of each part, in turn. */
 typedef struct {
     const Gop *gop;
     Ints *levels;        /* of each track */
@@ -334,7 +334,7 @@ static bool decode_next_part(Gops *gops, const Telling *telling, int k, const Si
     return true;
 }
 
-/* Fill a part of the field from what is told of it. */
+/* Fill a part of the field from its coded values. */
 static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_t *begin, Arena *scratch) {
     const Site *part = gops->parts.part + index;
     int64_t n = part->patch.size, m = part->around.size, c = part->width, total = gops->field.columns, place = 0;

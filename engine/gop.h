@@ -8,7 +8,7 @@
 enum { LEARNT, KEY_FRAMES, NEXT_FRAMES, LEARNT_NEXT };
 enum { BENDING = 19, INHERITED = 24, MOST_KEPT = 64, BATCH = 8 };
 
-/* A field of a GOP: positions, or an attribute that moves; nothing is told of it if `step` is 0. */
+/* A field of a GOP: positions, or an attribute that moves; it is not coded if `step` is 0. */
 typedef struct {
     int64_t width, components, back;
     double step;
@@ -19,7 +19,7 @@ typedef struct {
 typedef struct {
     int method;
     int64_t frames, told; /* T and Q */
-    Longs shown;          /* which of those told each frame is */
+    Longs shown;          /* the coded frame of each frame */
     int count;
     GopField *field;
 } Gop;
@@ -35,7 +35,7 @@ typedef struct {
 /* What a GOP says, whose bytes have to stay; attributes that do not move are passed over if that is `tolerant`. */
 bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const Mover *movers, int count, bool tolerant, Arena *arena, Gop *gop);
 double gop_memory(int64_t vertices, const Gop *gop, double around);
-/* How many changes between frames before help to predict those of a GOP, where so many are kept (S 7.2). */
+/* The number of earlier changes between frames that predict those of a GOP, if `kept` are available (S 7.2). */
 enum { LAGS = 8 };
 static const int LAG[LAGS] = {1, 2, 3, 5, 8, 13, 21, 34};
 INLINE int64_t lags_of(int64_t kept) {
@@ -54,7 +54,7 @@ typedef struct {
     Doubles2 inherited;      /* first components of the GOP before */
     Bank bank;
     Ints levels;             /* of the low-delay frames before, one part after the other */
-    int64_t latest, count;   /* place of the latest of so many frames in the ring */
+    int64_t latest, count;   /* index of the latest frame in the ring, and number of frames */
     Doubles ring[MOST_KEPT];
 } Track;
 

@@ -155,7 +155,7 @@ static const Field *field_of(const Field *fields, int count, uint64_t key) {
     return NULL;
 }
 
-/* What is of a later version is told as that, whatever else may seem to be wrong with it. */
+/* Report a later version first, whatever else may seem wrong. */
 static bool refuse_unknown(Context *context, const Map *map, const Field *fields, int count) {
     for (int i = 0; i < map->count; i++) {
         const Value *value = &map->value[i];

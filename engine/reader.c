@@ -365,7 +365,7 @@ static Arrival recover(Reader *reader) {
 
 Arrival next_packet(Reader *reader, Packet *packet) {
     if (failed(reader->context)) return NOTHING_BUT_AN_ERROR;
-    if (reader->behind_damage && reader->grammar.last == END_FRAME) { /* bytes behind END were told of */
+    if (reader->behind_damage && reader->grammar.last == END_FRAME) { /* bytes after END were reported */
         drop(reader, waiting(reader).size);
         return reader->finished ? NO_MORE : NO_MORE_YET;
     }

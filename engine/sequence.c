@@ -25,7 +25,7 @@ static void forget(bsmdec *decoder) {
     if (decoder->mesh.gops.begun) forget_frames(&decoder->mesh.gops);
 }
 
-/* Say that so many frames are lost, or fail with that. */
+/* Report `count` frames as lost, or fail. */
 static bool report_loss(bsmdec *decoder, int64_t frames) {
     Sequence *sequence = &decoder->sequence;
     Context *context = &decoder->context;

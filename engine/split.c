@@ -139,7 +139,7 @@ bsmdec_status bsmdec_split_indices(bsmdec *decoder, size_t index_size, void *ind
     return BSMDEC_OK;
 }
 
-/* How numbers are converted. Colors and normals are fractions: integers stand for parts of their largest. */
+/* How numbers are converted. Colors and normals are fractions: integers are fractions of their largest value. */
 typedef struct {
     int from, to, have, want; /* kinds, components */
     bool of_fractions;

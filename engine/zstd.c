@@ -4,7 +4,7 @@
 enum { MOST_WINDOW = 1 << 23, MOST_BLOCK = 1 << 17, MOST_BITS = 11, MOST_LOG = 9, MOST_SYMBOLS = 256 };
 enum { RAW, RLE, PACKED, AGAIN };
 
-/* A table of finite state entropy: what a state says, and the next one, of so many bits more. */
+/* A table of finite state entropy: the symbol of a state, and the base and number of bits of the next state. */
 typedef struct {
     uint8_t symbol[1 << MOST_LOG], bits[1 << MOST_LOG];
     uint16_t base[1 << MOST_LOG];

@@ -7,7 +7,7 @@
 /* Values of attributes on vertices. See values.py, values.c, and for each kind scalars.c, texcoords.c, normals.c. */
 enum {
     MOST_COMPONENTS = 4,
-    BASES = 4, /* numbers of known edges that are told apart: 0 to 3 or more */
+    BASES = 4, /* classes by number of known edges: 0 to 3 or more */
 };
 
 /* As Python keeps it; n vertices of c components. */

@@ -8,7 +8,7 @@ enum {
     OTHER_ONE,
     MORE, /* whether a row of those that follow has levels */
     SPAN,
-    TOGETHER = 8, /* rows that are told of together */
+    TOGETHER = 8, /* rows that share a flag */
     INPUTS = 6,
     CLASSES = 12,
     PLACES = 40,

@@ -15,7 +15,7 @@ Kind: TypeAlias = type[Any]
 Record = TypeVar("Record")
 MOST_GRID = 2**20 - 1
 MOST_COPIES, FREE_COPIES = 16, 1 << 16
-"""Rows of all blocks together, at most: so many for each vertex, and so many more."""
+"""Rows of all blocks together, at most: a factor of the vertices, and a constant."""
 MOST_ATTRIBUTES = 255
 
 
@@ -140,7 +140,7 @@ class Header:
     block_size: int = integer(4, 0, COUNT, default=0)  # vertices of the largest block, n_d
     coefficients: int = integer(5, 0, COUNT, default=0)  # columns of the largest dictionary: the largest c_i
     key_interval: int = integer(6, 0, COUNT, default=0)
-    """Every so many blocks one does not depend on others; 0: only the first."""
+    """One block of every `key_interval` depends on no other; 0: only the first."""
     step: float = real(7, 2.0**-40, 2.0**20, default=2.0**-8)  # quantisation step of a coefficient, in BSM units
     center: tuple[float, ...] = reals(8, -1e300, 1e300, (3, 3), default=(0.0, 0.0, 0.0))
     """The origin of BSM units, in the mesh's unit."""
@@ -153,7 +153,7 @@ class Header:
     grid: tuple[int, ...] = integers(13, 0, MOST_GRID, (0, 3), default=())
     """Largest coded value of each axis of a grid; empty: there is none."""
     lattice: tuple[int, ...] = integers(14, 1, 2**31 - 1, (0, 2), default=())
-    """(cells, points): the coded value k stands for k * cells / points, rounded; empty: for itself."""
+    """(cells, points): the coded value k means k * cells / points, rounded; empty: k itself."""
     corner: tuple[int, ...] = integers(15, -(2**31), COUNT, (0, 3), default=())
     """First cell of a grid on each axis, counted from the origin of the mesh's unit; empty: `center` says it."""
     light: int = method(16, known=3)
@@ -382,7 +382,7 @@ class Declaration:
     largest: tuple[int, ...] = integers(9, 0, MOST_LEVEL, (0, MOST_WORDS), default=())
     """Largest level of each coded number."""
     offset: tuple[float, ...] = reals(10, -1e300, 1e300, (0, MOST_WORDS), default=())
-    """What level 0 stands for, of each coded number; empty: 0."""
+    """The value of level 0 of each coded number; empty: 0."""
     step: tuple[float, ...] = reals(11, 1e-300, 1e300, (0, MOST_COMPONENTS), default=())
     """One level, of all components or of each; empty: 1."""
     leans: int = method(12, known=2)  # 1: the values are predicted from positions on a grid
@@ -409,7 +409,7 @@ class Declaration:
 
     @property
     def offsets(self) -> tuple[float, ...]:
-        """What level 0 stands for, of each coded number."""
+        """The value of level 0 of each coded number."""
         return self.offset or (0.0,) * self.words
 
     @property
@@ -444,7 +444,7 @@ def _rules(d: Declaration) -> dict[str, bool]:
 
 
 def _range_problem(d: Declaration) -> str | None:
-    """Why the values that levels stand for are none of the kind."""
+    """Return why the values of the levels do not fit the kind."""
     for largest, offset, step in zip(d.largest, d.offsets, d.steps, strict=True):
         last = offset + step * largest
         if d.coding == BITS and not (offset >= 0 and offset.is_integer() and last <= MOST_LEVEL):

@@ -54,7 +54,7 @@ def traverse(corners: Corners) -> Ints:
 
 
 Kernel = Callable[[entropy.Coder, int, int], int]
-"""Codes rows from a number in their order on, so many, as far as it can; returns how many."""
+"""Codes up to a number of rows from one on, in their order; returns how many."""
 MOST_LARGEST = (1 << 20) - 1  # values from 0 on are at most this
 _ROOM = 1024
 
@@ -108,7 +108,7 @@ class FieldEncoder:
 
 
 def write_rows(code: Kernel, first: int, count: int, row_bytes: int = 4) -> bytes:
-    """Code rows of usually so many bytes."""
+    """Code rows; `row_bytes` is the usual size of one."""
     coder, end = entropy.start_writing(_ROOM + row_bytes * count), first + count
     while first < end:
         coder = entropy.make_room(coder, _ROOM + row_bytes * (end - first))
@@ -117,7 +117,7 @@ def write_rows(code: Kernel, first: int, count: int, row_bytes: int = 4) -> byte
 
 
 def checked_largest(largest: npt.ArrayLike, columns: range) -> Ints:
-    """The largest value of each of so many columns, as int32; raises `OptionError`."""
+    """Return the largest value of each column as int32, or raise `OptionError`."""
     top = np.array(largest, np.int64)
     if top.ndim != 1 or len(top) not in columns or top.min() < 0 or top.max() > MOST_LARGEST:
         some = f"{columns[0]} to {columns[-1]}" if len(columns) > 1 else f"{columns[0]}"

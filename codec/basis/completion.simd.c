@@ -1,7 +1,7 @@
 /* Columns that complete others to a square matrix with columns at right angles (specification, M 8.7).
  *
  * With U the h columns that are there, E the first h columns of I, and A = I + E^T U, the matrix I - (U + E) A^-T (U + E)^T
- * is orthogonal and takes E to -U; so its columns from h on are at right angles to U. A has a symmetric part that is not
+ * is orthogonal and takes E to -U; so its columns from h on are orthogonal to U. A has a symmetric part that is not
  * indefinite, which is why it is factorised without exchanges.
  */
 #include "codec/basis/vectors.h"

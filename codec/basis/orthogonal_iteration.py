@@ -26,7 +26,7 @@ FIRST_CARE = 16
 LEAST_PIVOT = 2.0**-20  # from which columns are completed with the accuracy that is asked for
 
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
-"""What makes a basis exact: the sum of the Rayleigh quotients of any first columns is then within a thousandth of that
+"""What makes a basis exact: the sum of the Rayleigh quotients of any first columns is within a thousandth of the sum
 of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues nobody needs to tell apart."""
 START_NOISE = 0.25
 FOLLOWING_NOISE = 2.0**-8
@@ -59,7 +59,7 @@ def orthogonal_iteration(
 
 
 def completed(first: Basis, width: int) -> Basis:
-    """Orthonormal columns, shape (n, width): those of `first`, shape (n, h), and any that are at right angles to them.
+    """Orthonormal columns, shape (n, width): those of `first`, shape (n, h), and any that are orthogonal to them.
 
     R. Schreiber, B. Parlett, "Block reflectors: theory and computation", 1988; this is one that is not symmetric.
     """

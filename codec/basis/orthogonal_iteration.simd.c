@@ -44,7 +44,7 @@ static void unpack(Panels panels, const uint32_t *order, Singles2 columns) {
  */
 
 #define LITTLE 0x1p-14f /* of a column's squared length: if less is left of it, this is too much */
-#define MUCH 0.25f      /* of one that had length 1: it is at right angles to those before it */
+#define MUCH 0.25f      /* of one that had length 1: it is orthogonal to those before it */
 #define TIMES 4         /* that a column is taken before it is replaced */
 
 /* `rows` rows and some vectors side by side of X^T Y. */
@@ -238,7 +238,7 @@ static void clear_infinite(Panel panel, int64_t rows, int64_t j) {
     for (int64_t r = 0; r < rows; r++) panel.data[r * panel.apart + j] = 0.0f;
 }
 
-/* Make column j of length one and at right angles to those before it; `scratch` has room for n numbers, and for all
+/* Make column j of length one and orthogonal to those before it; `scratch` has room for n numbers, and for all
  * columns. Whether that could be done. */
 static bool clean_column(Panels *panels, int64_t n, int64_t j, const uint32_t *order, float *scratch) {
     Panel panel = panel_at(panels, j / LANES);
@@ -301,7 +301,7 @@ int64_t LEVEL(iteration_space)(int64_t n, int64_t c) {
     return panels_size(&panels) + 2 * LANES * LANES + n + 2 * panels.columns + LINE - 1;
 }
 
-/* So many solutions with a factor of `factorize_fronts`, Onorm after each and once more, of as many of the columns of
+/* A number of solutions with a factor of `factorize_fronts`, Onorm after each and once more, of as many of the columns of
  * `start` as `subspace` has; at most `care` columns are made orthonormal one by one. */
 int64_t LEVEL(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions,
                        int64_t care, Singles scratch, Singles2 subspace) {

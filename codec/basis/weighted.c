@@ -13,7 +13,7 @@ static int64_t lower_bound(const int32_t *list, int64_t low, int64_t high, int32
     return low;
 }
 
-/* A cotangent is the product of two sides over the doubled area. To the square of that is added `flatness` times that of
+/* A cotangent is the product of two sides over the doubled area. To its square is added `flatness` times the square of
  * the sum of the squared sides, and `smallness`: so that neither a triangle without area nor one without size makes
  * rounding errors large. */
 INLINE double soft_cotangent(const double *p, const double *q, const double *s, double flatness, double smallness) {

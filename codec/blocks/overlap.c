@@ -45,7 +45,7 @@ INLINE uint64_t slot_of(const uint32_t *table, uint64_t mask, uint32_t key) {
     return slot;
 }
 
-/* Words of scratch for `order_block` with so many rows and ends of edges. */
+/* Words of scratch for `order_block`, by rows and ends of edges. */
 int64_t order_scratch(int64_t rows, int64_t edges) {
     return 2 * (int64_t)table_size(rows) + edges + 1 + 4 * rows + 2 + bisection_scratch(rows);
 }

@@ -81,11 +81,11 @@ SLIDING = 0.6  # noise across the normals, over noise along them, from which on 
 DROWNED = 0.42
 """Level of noise, in mean edges, from which on they may slide: the noisy faces tell nothing there, and the coarse mesh
 alone is up to an eighth better, for normals and vertices."""
-LARGE, MOST_LARGE_MEMBERS = 100_000, 2  # from so many vertices on a blend has fewer members, for the sake of time
+LARGE, MOST_LARGE_MEMBERS = 100_000, 2  # from LARGE vertices on a blend has fewer members, to save time
 WORTH = 0.9  # the rehearsal has to promise an error below this multiple of what doing nothing leaves
 HARMFUL = 0.95
 """Where the error that is expected of the result exceeds this multiple of what it changes, nothing is handed out:
-normals turned by less than they are said to be off are no nearer to the clean ones. Noise reads 0.15 to 0.7, the clean
+normals turned by less than their estimated error are no closer to the clean ones. Noise reads 0.15 to 0.7, the clean
 meshes that were taken for noisy 1.1 and 2.1."""
 
 
@@ -231,7 +231,7 @@ def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: 
 
 
 def _judged(result: Positions, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
-    """The result where there is noise, as far as it may go, and what is to be said of it."""
+    """Return the result for a noisy mesh, moved as far as allowed, and its notes."""
     result = keep_good(noisy, result, finding.levels > 0.0)
     if finding.grid is not None:
         result = finding.grid.within_cells(noisy, result)

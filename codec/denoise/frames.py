@@ -65,7 +65,7 @@ class FrameDenoiser:
         self.choice: AutomaticChoice | None = None
 
     def __call__(self, frames: Iterable[Positions]) -> Iterator[Positions]:
-        """Denoise frame after frame, holding only so many of them at any time."""
+        """Denoise frame after frame, with a few of them in memory at any time."""
         checked = map(self._checked, frames)
         results = self._automatic(checked) if self._options is None else self._by_options(checked, self._options)
         for given, result in results:

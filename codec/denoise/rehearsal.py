@@ -126,7 +126,7 @@ class Rehearsal:
         return self._goal(Reference(self._given, self._topology.faces), self.perform(steps, share))
 
     def weigh(self, winner: Outcome) -> tuple[float, float]:
-        """The share of the learnt normals in the mean with the winner's, and the error of that over the winner's."""
+        """The share of the learnt normals in the mean with the winner's, and the mean's error over the winner's."""
         learnt = self._treatments.learnt
         means = (joined(winner.result, learnt, share, self._topology) for share in LEARNT_SHARES)
         errors = np.array([self._goal(self.truth, self._within(mean, self.noisy)) for mean in means])

@@ -98,7 +98,7 @@ class Attribute:
         return int(self.values.shape[1])
 
     def check(self, vertices: int, faces: int) -> None:
-        """Raise `MeshError` if it is not of a mesh of so many vertices and faces."""
+        """Raise `MeshError` if its length does not match the vertices or faces of the mesh."""
         rows = len(self.values) if self.indices is None else len(self.indices)
         expected = vertices if self.domain == "vertex" else faces
         if rows != expected:

@@ -103,7 +103,7 @@ class TriangleMesh:
         return math.hypot(*extent_of(self.positions))
 
     def require_sizes(self, smallest: float, largest: float) -> None:
-        """Raise `MeshError` where it is smaller, or goes farther from the origin, than what is to be done can bear."""
+        """Raise `MeshError` where it is smaller, or goes farther from the origin, than the caller can process."""
         farthest = float(np.abs(self.positions).max(initial=0.0))
         with np.errstate(over="ignore"):
             extent = float(extent_of(self.positions).max()) if len(self.positions) else 0.0
@@ -151,6 +151,6 @@ def box_around(points: Positions) -> tuple[Matrix, Matrix]:
 
 
 def extent_of(points: Positions) -> Matrix:
-    """Lengths of the sides of that box, shape (d,)."""
+    """Lengths of the sides of the bounding box, shape (d,)."""
     low, high = box_around(points)
     return np.asarray(high - low)

@@ -26,7 +26,7 @@ AIM, RANGE = 0.93, (0.3, 3.0)
 FIRST_STEP, FIRST_STEP_RMS = 0.7, 2.0  # that of the first attempt, in bounds of every value and on average
 OUTLIER = 10.0  # how many times as far as all are on average a single value may be off
 MARGIN = 1e-6  # by which integers keep away from halves, which processors may round either way
-FIRST_FRAME = 0.5  # bound of the first frame, as a part of that of the others
+FIRST_FRAME = 0.5  # bound of the first frame, as a fraction of the bound of the others
 LARGEST = 1e100
 
 

@@ -118,7 +118,7 @@ class Dictionaries:
         self._kept = 0
 
     def fits(self, memory: float, use: float, received: int = 0) -> bool:
-        """Whether `reserve` finds room when so many more bytes have come."""
+        """Return whether `reserve` fits when this many more bytes have arrived."""
         room = self._room(memory, use, received)
         return self._making_beside(room) <= room
 

@@ -62,7 +62,7 @@ class FrameHistory:
         self._kept = [track.start]  # the latest frame first
 
     def expect(self, frames: int, back: int = 0) -> None:
-        """Get ready for so many frames, which start from those so far back, or with 0 all from the latest."""
+        """Prepare for `frames` frames that start from the one `back` before them, or with 0 all from the latest."""
         if back > len(self._kept):
             raise CorruptError(f"a frame refers to one {back} before it, where {len(self._kept)} are kept")
         self._back = back
@@ -130,7 +130,7 @@ def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
 
 
 def decode_basis(field: GopField, frames: int) -> Matrix:
-    """Temporal basis of a field of a GOP that tells of so many frames, shape (dT, r)."""
+    """Temporal basis of a field of a GOP with T coded frames, shape (dT, r)."""
     levels = np.zeros((field.width, frames, field.components), np.int32)
     references = level_references(list(levels), field.components)
     decode_levels(make_level_bank(), field.basis, list(levels), references, temporal.basis_leads(field.width))
@@ -182,7 +182,7 @@ class GopEncoder:
         return twin
 
     def stay(self, frames: int, method: GopMethod) -> None:
-        """Take note that so many frames are not coded, and so the first one, or that before."""
+        """Skip frames that are not coded; they repeat the previous frame, or the first one."""
         if method.has_basis:
             self.inherited = Inherited(self._before(method))
             for known, around in zip(self._track.known, self._track.around, strict=True):
@@ -198,7 +198,7 @@ class GopEncoder:
         self._kept = []
 
     def method_with_basis(self, together: int) -> GopMethod:
-        """The method of the next GOP with a basis, where so many may hang together."""
+        """Return the method of the next GOP with a basis, given the longest chain of GOPs."""
         following = self.inherited is not None and self.inherited.depth < together - 1
         return GopMethod.LEARNT_NEXT if following else GopMethod.LEARNT
 

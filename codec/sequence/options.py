@@ -14,7 +14,7 @@ from bsm.codec.static.attributes.quality import checked_qualities
 
 CHOICES = {"limits": tuple(NAMED_LIMITS)}
 SIZES, SPANS = (5_000, 10_000), (512, 256)
-"""Frames of a GOP by default, up to so many vertices and from so many on, and in between evenly; that takes much the
+"""Frames of a GOP by default, for small and for large meshes, and interpolated in between; that takes much the
 same memory."""
 RANGES: dict[str, tuple[float, float]] = {
     "step": (1e-7, 1.0),
@@ -73,7 +73,7 @@ class SequenceOptions:
     Parameters
     ----------
     low_delay : int
-        Send so many frames at a time as soon as they are there: 1 is every frame as it comes, 8 take a fifth fewer
+        Send this many frames at a time, as soon as they arrive: 1 is every frame by itself, 8 take a fifth fewer
         bytes. 0: long groups of frames, each by a temporal transform.
     step : float
         Quantization step, relative to the bounding box's diagonal of the first frame.
@@ -141,7 +141,7 @@ class SequenceOptions:
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
 
     def longest(self, vertices: int) -> int:
-        """What `gop` is for a mesh of so many vertices."""
+        """Return `gop` for a mesh with this many vertices."""
         if self.gop is not None:
             return self.gop
         return int(np.interp(vertices, SIZES, SPANS)) if not self.low_delay else SPANS[-1]

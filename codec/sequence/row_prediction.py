@@ -62,7 +62,7 @@ class Loop:
         return levels, decoded
 
     def decode(self, known: Matrix, levels: Levels, step: float) -> Matrix:
-        """What the levels, shape (c, r), stand for."""
+        """Return the values of the levels, shape (c, r)."""
         self._check(known, levels)
         given, decoded = (np.ascontiguousarray(known), np.ascontiguousarray(levels)), np.empty(levels.shape)
         _kernels.follow_rows(*given, decoded, self._moments, step, RULES, np.zeros(self._moments.shape), *self._rows())

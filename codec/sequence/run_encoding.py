@@ -31,16 +31,16 @@ FIRST_STEP = 0.3
 FIRST_FRAME = rules_of(LAW_OF_SEQUENCES)
 """The first frame is one chain; the dictionaries of its key block and those of all parts start from cosines alike."""
 
-HARDLY_CUT = 256  # so many frames are one GOP: in no sequence seen did two cost less
+HARDLY_CUT = 256  # this many frames are one GOP: in no sequence seen did two cost less
 
 TOGETHER = 4
-"""GOPs with a basis of which each but the first refers to the one before; who comes late waits no longer than that."""
+"""GOPs with a basis in a chain, where each refers to the one before. A viewer that joins late waits for its end."""
 
 FINEST_STEP = 2e-5  # below, a search does not look
 
 PASS, PARTS = 0.4, 1000  # of what is left of a search, the share of the next pass, as far as anybody knows; of a search
 
-NEAR = 0.8, 1.15  # a first frame will do for steps so many times that for which it was coded
+NEAR = 0.8, 1.15  # a first frame is reused for steps within these factors of its own
 
 
 @dataclass(frozen=True, eq=False)

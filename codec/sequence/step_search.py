@@ -26,7 +26,7 @@ SMALL = 256  # pixels of the side of these
 COARSENESS = 0.03  # how far what is seen in them is off at least, in logarithms, scaled by what is seen in large ones
 MORE = 1  # frames that seem the worst, drawn large at every attempt
 DEVIATIONS = 4.0
-"""An attempt is taken once all frames are drawn that may look worse than the bound, by so many standard deviations."""
+"""Standard deviations: an attempt is accepted once all frames that may exceed the bound within them are drawn."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
 SLACK, SLACK_OF_ONE = 0.04, 0.15
 """Part of a bound that may be left, in a GOP and in a frame by itself, which must be quick."""
@@ -37,8 +37,8 @@ POWERS, PRIOR = (0.7, 2.0), 0.01
 SLOPE, SLOPES = 0.7, (0.4, 2.5)
 """What is seen grows with about this power of the step; and the range of what two attempts may say about it."""
 EVENING, SMOOTHNESS = 1.2, 2.0
-"""Frames are weighed by this power of what would make all look alike if errors were as weights ask, smoothly over so
-many frames: weights that change quickly are dear in the temporal basis."""
+"""Frames are weighed by this power of what would make all look alike if errors were as weights ask, smoothed over
+several frames: weights that change quickly are dear in the temporal basis."""
 AGAIN, ALONE, YIELD = 0.5, 6.0, 0.15
 """Powers of weights from a second look, and for single frames at the end, and that by which errors follow weights."""
 LEAST = 1e-3  # excess that is left of one, whatever other weights let expect
@@ -264,7 +264,7 @@ class Measured:
         return int(most.argmax()) if most.any() else None
 
     def _expected(self, deviations: float) -> Matrix:
-        """Looks, so many standard deviations above what is expected."""
+        """Return the expected looks plus a number of standard deviations."""
         shares = self.errors.copy()
         known = self.glimpsed | self.drawn
         seen = np.array(sorted(index for index, share in known.items() if share > 0.0), np.int64)

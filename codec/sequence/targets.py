@@ -80,7 +80,7 @@ class SequenceTarget(Target):
     Parameters
     ----------
     kind : str
-        "kg" (percent), "theta_deg", "nmsve_db" (at most so much error), or "bpvf" (at most so many bits per vertex and
+        "kg" (percent), "theta_deg", "nmsve_db" (at most this error), or "bpvf" (at most this many bits per vertex and
         frame of the whole file).
     value : float
 

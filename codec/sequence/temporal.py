@@ -1,6 +1,6 @@
 """The temporal transform: a basis over time for the frames of a GOP, as it is learnt and coded, and frames of it.
 
-Columns of a basis are at right angles to each other, and coded as what is free in them: the vectors of reflections.
+Columns of a basis are orthogonal, and coded by their degrees of freedom: the vectors of reflections.
 
 References
 ----------
@@ -57,7 +57,7 @@ def projection(basis: Matrix) -> Matrix:
 
 
 def basis_leads(width: int) -> list[Lead]:
-    """Leads of the levels of a basis, one for each of so many numbers: column i has i levels that are not free."""
+    """Return the number of fixed levels of each column of a basis: column i has i levels that are not free."""
     return [(coordinate + 1, width) for coordinate in range(width)]
 
 
@@ -90,7 +90,7 @@ def spectrum_of(basis: Matrix, exponents: npt.NDArray[np.int32], width: int) -> 
 
 
 def basis_of(levels: Levels, exponents: npt.NDArray[np.int32]) -> Matrix:
-    """The basis, shape (dT, r), that levels, shape (d, T, r), stand for; its columns are at right angles."""
+    """The basis, shape (dT, r), of levels, shape (d, T, r); its columns are orthogonal."""
     width, frames, components = levels.shape
     points = np.array([points_of_levels(np.ascontiguousarray(matrix)) for matrix in levels])
     free = (0.5 * points * basis_steps(exponents)).transpose(1, 0, 2).reshape(width * frames, components)

@@ -27,12 +27,12 @@ TRACK_MEMORY = 40.0  # bytes of a number of a vertex in the first frame of an at
 
 
 def frames_kept(vertices: int) -> int:
-    """How many decoded frames of so many vertices those of low delay may refer to."""
+    """Return how many decoded frames low-delay frames may refer to, by the number of vertices."""
     return min(MOST_KEPT, max(LEAST_KEPT, KEPT // vertices))
 
 
 def lags(kept: int) -> tuple[int, ...]:
-    """`LAGS`, where so many frames are kept."""
+    """Return the `LAGS` that fit into the kept frames."""
     return tuple(lag for lag in LAGS if lag < kept)
 
 

@@ -3,7 +3,7 @@
 Encoder and decoder step through the same chain with the same calls: `around`, `dictionary`, `commit`. Different chains
 know nothing of each other, which bounds what a lost block costs and lets chains run in parallel.
 
-Not in the paper: a block is predicted from what is known around it, and its dictionary knows of that. Every edge that
+Not in the paper: a block is predicted from the known vertices around it, and its dictionary uses these. Every edge that
 leaves the block to a known vertex is a spring of stiffness 1 to where that vertex is, as every edge is in the quadratic
 form of L; a known vertex inside the block hangs on a spring to its own place. With S the stiffnesses at each row and y
 their pulls, the surface that continues what is known is the equilibrium (L + S)^-1 y: the harmonic extension. Only the
@@ -158,7 +158,7 @@ class ChainRules:
         return self.key_interval == 1
 
     def iterated(self, rows: int) -> int:
-        """Columns of a dictionary of so many rows, at most, that follow from its Laplacian."""
+        """Return the largest number of columns of a dictionary that follow from its Laplacian."""
         return -(-rows // 2) if rows <= self.whole else rows
 
     def chain_starts(self, blocks: int) -> range:

@@ -69,7 +69,7 @@ class Coding(Protocol):
 
 @dataclass(frozen=True)
 class Packed:
-    """Every coefficient in so many bits, zstd behind: the paper's."""
+    """The paper's coding: every coefficient in a fixed number of bits, then zstd."""
 
     width: int
     bits: int

@@ -76,7 +76,7 @@ class Encoder:
     ----------
     mesh : TriangleMesh
         Vertices at one position are made one, and what no face uses is left out, with notes; where the options keep
-        the order, the stream gives all of that back.
+        the order, the stream returns all of it.
     options : EncodeOptions
 
     Examples
@@ -238,7 +238,7 @@ class Encoder:
         self._carried = carry(place_of(self._given, self._joined, self._prepared), self._wanted)
 
     def _worn(self, look: float) -> list[tuple[int, Worn]]:
-        """Which attributes are colours or texture coordinates nothing is said of, now as rough as looks right."""
+        """Quantize colors and texture coordinates as coarsely as the look allows, unless a quality was requested."""
         found = []
         for at, (one, quality) in enumerate(self._wanted):
             told = {"*", one.name} & {*dict(self.options.attributes)} or quality.way not in ("bits", "exact")
@@ -263,7 +263,7 @@ class Encoder:
         return found
 
     def _shaded(self, search: Search, contract: Contract, progress: Progress | None) -> Draft:
-        """The smallest stream that keeps a contract; of normals that nothing is said of, what the look needs."""
+        """The smallest stream that keeps a contract; normals without a requested quality get what the look needs."""
         bare, metric, free = search.smallest(contract), search.metric, self._free
         if free is None or metric is None or contract.look == math.inf:
             return self._dressed(bare)
@@ -388,7 +388,7 @@ class Encoder:
 
     @cached_property
     def _free(self) -> int | None:
-        """Which attribute are normals of which nothing is said, so that they may be what the look needs."""
+        """Return the attribute with normals whose quality was not requested, so that the look decides."""
         options = self.options
         if options.normals != "look" or "*" in dict(options.attributes) or self._normals is None:
             return None

@@ -49,7 +49,7 @@ class Paper:
     Parameters
     ----------
     bits : int, optional
-        q_c: store every coefficient in so many bits, as in the paper, without prediction and smoothing. None: adaptive.
+        q_c: bits of every coefficient, as in the paper, without prediction and smoothing. None: adaptive.
     partition : str
         "derived": both sides compute it; "metis": the paper's, its labels are sent.
     key_seed : str, optional
@@ -117,11 +117,11 @@ class EncodeOptions:
     coefficients : int, optional
         c itself; overrides `keep`.
     block_size : int
-        Vertices of a part before overlap, about. Smaller ones decode faster: 1 % of bytes is worth 8 % of that time.
+        Approximate vertices of a block before overlap. Smaller ones decode faster: 1 % of bytes is worth 8 % of time.
     overlap : float
         n_d as a multiple of the largest part.
     key_interval : int
-        Every so many blocks, at most, one depends on nothing before it; 0: only the first; 1: every block is on its
+        One of this many blocks, at least, depends on nothing before it; 0: only the first; 1: every block is on its
         own, with exact bases throughout if `paper.key_seed` is "svd".
     step : float, optional
         Finest quantization step of the adaptive coder, relative to the bounding box's diagonal; None: what the contract
@@ -147,7 +147,7 @@ class EncodeOptions:
     exact : bool
         Keep every position as single precision has it, to the bit.
     grid : int, optional
-        Keep every position exactly as a grid of so many bits along the longest side rounds it.
+        Round every position to a grid with this many bits along the longest side.
     attributes : mapping of str to str, or pairs
         How well attributes are kept, by their names; "*" is any other: "exact"; "12bits" of each number, of normals on
         an octahedron; "0.01", a bound, or "1%" of the range; "2deg" for normals; "recompute" for normals; "none". Where
@@ -241,7 +241,7 @@ class EncodeOptions:
 
     @property
     def grade(self) -> Grade:
-        """How well attributes are kept that nothing is said of."""
+        """Default attribute quality."""
         if self.is_grid:
             return "fine"
         farthest = (

@@ -98,7 +98,7 @@ class Contract:
         return text
 
     def worded(self, farther: float, angle: float, look: float, visual: float) -> str:
-        """The bounds that are broken, in words: a vertex so many times as far as it may be; degrees; looks; error."""
+        """Describe the bounds that are broken: how many times too far a vertex is, degrees, looks, error."""
         broken = []
         if farther > 1.0:
             broken.append(f"no vertex farther than {self.farthest * farther:.4g}")
@@ -126,7 +126,7 @@ UNITS = {
     "kg": "a KG error of {:.6g} %",
     "bpvf": "{:.6g} bits per vertex and frame",
 }
-"""What is said of a value, of a mesh's targets and of a sequence's."""
+"""Describe a value of a target of a mesh or a sequence."""
 COARSEST_STEP = 0.1
 SLACK, TRIES = 0.03, 7
 """How far below a bound, in logarithms, the search for a step may stay, and how many steps it tries."""
@@ -152,7 +152,7 @@ class Target:
     Parameters
     ----------
     kind : str
-        "nmsve_db", "theta_deg" (at most so much error), "bpv" or "size" (at most so many bits per vertex, or bytes, of
+        "nmsve_db", "theta_deg" (at most this error), "bpv" or "size" (at most this many bits per vertex, or bytes, of
         the whole file).
     value : float
 
@@ -192,7 +192,7 @@ class Target:
         return math.log(max(value, sys.float_info.min) / self.value)
 
     def bytes_of(self, vertices: int) -> float:
-        """The size that is asked for, of a mesh of so many vertices."""
+        """Return the requested size in bytes of a mesh with this many vertices."""
         return self.value if self.kind == "size" else self.value * vertices / 8.0
 
     def worded(self, value: float) -> str:

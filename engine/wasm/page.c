@@ -116,7 +116,7 @@ EXPORT bool page_add(int index) {
     return true;
 }
 
-/* A block that a helper could not decode: whether that is borne. */
+/* A block that a helper could not decode: whether the decoder continues. */
 EXPORT bool page_lose(int index) {
     lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, index);
     return decoder->tolerant && decoder->mesh.header.gop_frames == 0;
@@ -126,7 +126,7 @@ static const Rows *row_of_changes(bsmdec_status status, const bsmdec_changes *ch
     return status == BSMDEC_OK ? row_of(changes->count, changes->vertices, changes->positions, changes->final) : NULL;
 }
 
-/* What has changed since the last call; NULL, and there is an error, where that cannot be told. */
+/* Changes since the last call; NULL with an error if they are unknown. */
 EXPORT const Rows *page_changes(void) {
     bsmdec_changes changes;
     return row_of_changes(bsmdec_read_changes(decoder, &changes), &changes);

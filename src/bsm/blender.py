@@ -196,7 +196,7 @@ def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
 
 
 STREAM = "bsm_stream"  # of an object, what it plays, or the object that has it: a project keeps it, packed or moved
-RUN = "bsm_run"  # which of the runs of that it plays
+RUN = "bsm_run"  # the run that it plays
 MOST_STREAM_BYTES = 1 << 28
 _MODIFIER = "BSM"
 Progress = Callable[[int, int], None]
@@ -223,7 +223,7 @@ def import_file(
 
 
 def _placed(name: str, mesh: TriangleMesh, up: str) -> Any:
-    """An object, which is stood up if its y axis points up, and keeps what is said of it."""
+    """Return an object with its metadata, turned upright if its y axis points up."""
     made = bpy.data.objects.new(name, data_of(mesh, name))
     if str(mesh.metadata.get("up", up)).lower() == "y":
         made.rotation_euler = (math.pi / 2, 0.0, 0.0)

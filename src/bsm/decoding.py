@@ -75,7 +75,7 @@ class StreamDecoder:
         self._entries = 0
         self._state = [0.0] * 7
         self.metadata: Mapping[str, MetadataValue] = {}
-        """What the author has said of the mesh, as far as it has come."""
+        """Metadata of the mesh, as far as it has arrived."""
 
     def __enter__(self: Self) -> Self:
         return self
@@ -120,7 +120,7 @@ class StreamDecoder:
         self._open.finish()
 
     def events(self, chunks: Iterable[Buffer]) -> Iterator[Any]:
-        """What comes of a stream that comes in chunks: each event as soon as its bytes are there, to the end."""
+        """Decode a stream that arrives in chunks; yield each event as soon as its bytes are available."""
         given = iter(chunks)
         while (event := self.next_event()) is not END_OF_STREAM:
             if event is not NEED_DATA:

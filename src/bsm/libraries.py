@@ -132,7 +132,7 @@ def _split(flat: Ints) -> tuple[Ints, Ints]:
     starts = np.unique(np.append(starts, jump[starts]))[:-1]
     sizes = flat[starts]
     if (sizes < 0).any() or starts[-1] + 1 + sizes[-1] != len(flat):
-        raise MeshError("flat faces must be made of a count and so many vertices, again and again")
+        raise MeshError("flat faces must be a count followed by as many vertices, for each face")
     return sizes, flat[ranges(starts + 1, sizes)]
 
 

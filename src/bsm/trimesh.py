@@ -71,7 +71,7 @@ def arguments_of(mesh: TriangleMesh) -> dict[str, Any]:
         numbers = formats.face_numbers(mesh, "material")
         place = {number: place for place, number in enumerate(known)}
         if not materials or (numbers is not None and not np.isin(numbers.values, list(known)).all()):
-            # Of faces of whose material nothing is said: trimesh would give them a grey one, and an image.
+            # For faces without a material: trimesh would give them a grey one, and an image.
             materials.append(_library.visual.material.PBRMaterial())
         several = numbers is not None and len(materials) > 1
         material = _library.visual.material.MultiMaterial(materials) if several else materials[0]

@@ -1,4 +1,4 @@
-"""What a small network is told of a face: how the surface goes about it, in a frame of the face's own."""
+"""The inputs of a small network for a face: the surface around it, in the frame of the face."""
 
 from collections.abc import Iterator
 
@@ -21,7 +21,7 @@ REPEATED = ((0.3, 3), (0.3, 10), (0.5, 3), (0.5, 10))  # sigma_r and iterations 
 NUMBERS = OWN + 3 * len(REPEATED) + 1
 """The last one is the same for the whole mesh: how much its normals differ from the smoothed ones."""
 BASE = slice(45, 48)  # the filtered normal to which a network adds: guided by patches, both kernels wide
-BATCH = 1024  # faces whose numbers pass the layers together: what a layer makes of so many stays in the cache
+BATCH = 1024  # faces whose numbers pass the layers together: the output of a layer for a batch stays in the cache
 
 
 def descriptions(positions: Positions, topology: Topology, batch: int = BATCH) -> Iterator[tuple[Singles, Floats]]:

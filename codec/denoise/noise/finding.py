@@ -12,14 +12,14 @@ from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.surface import Floats
 
-FEWEST_VALUES = 16  # different values of a coordinate without which a grid is not told from a few planes
+FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
 NEAR = 0.02  # distance from a multiple, in steps, that the precision of files explains
 SAME = 1e-6  # values closer together, as a share of the extent, are one value
 
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Cells between which positions cannot be told apart."""
+    """Cells within which positions are indistinguishable."""
 
     steps: Floats
 
@@ -33,7 +33,7 @@ class Grid:
         return np.asarray(np.sqrt(np.square(normals * self.steps).sum(axis=1) / 12.0))
 
     def within_cells(self, rounded: Positions, moved: Positions) -> Positions:
-        """Moved positions, shape (n, 3), brought back into the cells that the rounded ones stand for."""
+        """Moved positions, shape (n, 3), brought back into the cells of the rounded ones."""
         half = np.where(self.steps > 0.0, 0.5 * self.steps, np.inf)
         return np.clip(moved, rounded - half, rounded + half)
 

@@ -153,7 +153,7 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
             rest -= operator @ step
     vertices = np.flatnonzero(amounts)
     if len(vertices) > MOST_SHARE * len(positions):
-        # So many are no exceptions: what is all over the mesh is for the filters.
+        # This many are no exceptions: the filters remove noise that is everywhere.
         return Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
     # The first ones were measured beside neighbours that were off as well: all of them again, together.
     change = linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]

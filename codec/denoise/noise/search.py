@@ -17,7 +17,7 @@ from bsm.codec.denoise.noise.view import find_view, pixel
 from bsm.codec.denoise.surface import Floats, Mask
 from bsm.codec.geometry.metrics import mean_edge_length
 
-FEWEST_WINDOWS, FEWEST_INNER = 5, 3  # windows without which nothing is said; and those wholly inside a noisy part
+FEWEST_WINDOWS, FEWEST_INNER = 5, 3  # fewest windows for an estimate, and fewest wholly inside a noisy part
 FAINTEST = 0.05  # levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong
 MANY_WINDOWS = 20
 FAINTEST_OF_FEW = {"white": 0.085, "correlated": 0.1, "impulses": 0.14, "local": 0.14}
@@ -39,7 +39,7 @@ LOCAL_LEVEL, LOCAL_STEP, LOCAL_SHARE = 0.12, 1.5, 0.1
 SEEN_FAINT, SEEN_SURE, EVEN_SEEN = 0.12, 0.3, (0.24, 0.5)
 """Levels of noise in a picture, in pixels' widths, and how uneven they may be there: slanted surfaces are seen with
 more of it. Clean surfaces read 0 to 0.2, and 0.3 and more of spread; cameras 0.35 to 0.7 and 0.1 to 0.4."""
-TERRACED = 0.05  # depths, over vertices, below which a camera tells only so many apart
+TERRACED = 0.05  # fewer depths per vertex mean a camera with few depth levels
 FUSED, EVEN_FUSED, NOT_BROADER = (0.065, 0.08), (0.15, 0.225), 1.04
 """Levels of the noise of views fused on a lattice, in mean edges, how uneven they may be there, and how much of it
 broader filters may see. They read .07 to .11, .06 to .21 and .93 to 1.01; fields without noise .01 to .07, .23 and more
@@ -239,7 +239,7 @@ def _otsu(ordered: Floats) -> float:
     return float(0.5 * (ordered[place] + ordered[place + 1]))
 
 
-AXIS_WINDOWS = 5  # in which the direction shows, without which nothing is said
+AXIS_WINDOWS = 5  # fewest windows that show a direction
 LEAST_REACHED = 0.1  # share of the mesh that it has to reach
 AXIS_LEVEL, AXIS_RANK, AXIS_REACH, AXIS_CALM, AXIS_FEWEST = 0.1, 0.3, 0.4, 0.6, 40
 """Noise along an axis: how strong at least, how much weaker in the second direction, where it shows and where not."""

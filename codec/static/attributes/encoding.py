@@ -73,7 +73,7 @@ class PreparedAttribute:
 
     @property
     def at_corners(self) -> Matrix:
-        """What `Worn` is told that a decoder will have at corners, shape (m, 3 c)."""
+        """What `Worn` is given: the values of a decoder at corners, shape (m, 3 c)."""
         values, one = restored(self.declaration, self.levels), self.declaration
         corners = values[:, None].repeat(3, axis=1) if one.domain == FACE else values[self.surface.faces]
         return painted(SEMANTICS[one.semantic], corners)
@@ -206,5 +206,5 @@ def cheaper(one: PreparedAttribute, places: Levels | None) -> tuple[Declaration,
 
 
 def ranges(rows: int, size: int) -> list[tuple[int, int]]:
-    """First and number of each of so many rows' chunks."""
+    """Return the first row and the length of each chunk of rows."""
     return [(first, min(size, rows - first)) for first in range(0, rows, size)]

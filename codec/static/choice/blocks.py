@@ -136,7 +136,7 @@ class Planner:
 
 
 def _spread(faces: Faces, most: int) -> Faces:
-    """All faces if they are at most `most`; otherwise so many, in sixteen runs of successive ones."""
+    """Return all faces if they are at most `most`; otherwise `most` of them, in sixteen runs of successive faces."""
     if len(faces) <= most:
         return faces
     starts = np.linspace(0, len(faces) - most // 16, 16).astype(np.int64)
@@ -146,7 +146,7 @@ def _spread(faces: Faces, most: int) -> Faces:
 WIDEST = 0.14
 """Columns of a dictionary over the rows of a block: wider ones cost every decoder more time than their bytes
 are worth."""
-BASE = 0.36  # the step of blocks below a layer, over the square root of that of the layer
+BASE = 0.36  # the step of blocks below a layer, over the square root of the layer's step
 ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units
 UNSEEN_RATIO = 2.0
@@ -288,7 +288,7 @@ class Plain:
 
 
 class Refined:
-    """Blocks and a layer of refinement, by the step of that."""
+    """Blocks and a layer of refinement, by the step of the refinement."""
 
     def __init__(
         self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, progress: Progress | None, look: float

@@ -137,7 +137,7 @@ class Bounds:
 
     @cached_property
     def first_step(self) -> float:
-        """A step at which what comes of rounding is about as bad as it may be, in BSM units."""
+        """Return a step at which rounding uses up about the whole bound, in BSM units."""
         if self.contract.look == math.inf:
             return self.even_step
         step, positions = self.rough_step, self.measures.prepared.positions

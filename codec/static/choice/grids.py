@@ -35,7 +35,7 @@ def grid_draft(prepared: Prepared, grid: Grid, places: Levels) -> Draft:
 
 
 def rounded(prepared: Prepared, bits: int) -> Draft:
-    """Every position at the nearest place of a grid of so many bits along the longest side of the bounding box."""
+    """Round every position to a grid with `bits` bits along the longest side of the bounding box."""
     positions = prepared.mesh.positions
     cells = (1 << bits) - 1
     largest, extent = np.abs(positions).max(), np.ptp(positions, axis=0).max()
@@ -97,7 +97,7 @@ def rounded_to_cells(prepared: Prepared, cell: float, origin: tuple[float, float
         raise TargetError(f"cells of {cell:g} are too small to count from {origin} to this mesh")
     everywhere = np.full(3, -float(MOST_LARGEST // 2 + 1))
     wanted = (places - everywhere) * cell + (everywhere * cell + corner)
-    # Counted from the mesh on, or from the origin, if the same positions come of that: smaller numbers.
+    # Counted from the mesh, or from the origin if that gives the same positions: smaller numbers.
     for least in (places.min(axis=0), np.zeros(3), everywhere):
         coded, low = places - least, least * cell + corner
         if coded.min() >= 0.0 and coded.max() <= MOST_LARGEST and (coded * cell + low == wanted).all():

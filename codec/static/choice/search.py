@@ -25,7 +25,7 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import SLACK, STEEPEST, TRIES, Contract, secant
 from bsm.codec.static.ways.block_coder import Progress
 
-DEARER = 1.08  # a way is left alone whose first step takes so many times the bytes of what was found
+DEARER = 1.08  # give up a way whose first step takes this many times the bytes of the best result
 GUESSED = 1.25  # and a grid that is guessed to: of smooth surfaces it takes less than that
 
 
@@ -118,7 +118,7 @@ class Search:
             on_grid = any(one.draft.places is not None for one in (*kept, *made))
             if isinstance(way, Gridded) and not on_grid and way.guess() > GUESSED * least:
                 continue
-            # Where a step of blocks alone should begin cannot be told, and so not what they take from their first one.
+            # A good first step of blocks alone is unknown, so their first result says little about their bytes.
             patient = self._options.effort == "best"
             found = widest(way, bounds, math.inf if isinstance(way, Plain) else least, patient=patient)
             if found is not None:
@@ -187,7 +187,7 @@ class Search:
         raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best that can be had is {bounds.had}")
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
-        """The best stream of at most so many bytes that keeps a contract; None: there is none."""
+        """Return the best stream of at most `most_bytes` that keeps a contract, or None."""
         bounds = Bounds(self._measures, contract)
         found = list(Gridded(self._prepared, bounds, 0.0).made())
         for way in self._ways(bounds, min(contract.look, 1.0)):
@@ -253,7 +253,7 @@ def unfolded(found: Candidate, way: Way, bounds: Bounds) -> Candidate:
 def widest(
     way: Way, bounds: Bounds, most_bytes: float = math.inf, first: float | None = None, patient: bool = False
 ) -> Candidate | None:
-    """The smallest candidate that is found to keep bounds, unless it would not be smaller than so many bytes."""
+    """Return the smallest candidate found that keeps the bounds; None if it would not be smaller than `most_bytes`."""
     kept, excess = list[tuple[Candidate, float | None]](), bounds.excess()
     begin = min(max(first or way.first, way.least), way.most)
     tried = way.at(begin) if most_bytes < math.inf else None

@@ -49,7 +49,7 @@ class Creases(NamedTuple):
     cosine: float
 
     def priced(self, price: float) -> Creases:
-        """These creases at costs so many times as high."""
+        """Return these creases with their costs multiplied by a factor."""
         return self._replace(costs=self.costs * price)
 
 

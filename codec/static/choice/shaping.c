@@ -98,7 +98,7 @@ INLINE double bent(const Fan *fan) {
     return sum;
 }
 
-/* The same with the vertex so many steps from where it is, in one direction. */
+/* The same with the vertex moved by a number of steps in one direction. */
 INLINE double bent_by(const Fan *fan, int a, float by) {
     float chords[FAN];
     double sum = 0.0;
@@ -281,7 +281,7 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
 /* Whether a normal with these coordinates is more than 60 degrees off: two faces that are may be folded onto each other. */
 INLINE bool is_over(float along, float across, float aside) { return along < 0.0f || across * across + aside * aside > 3.0f * along * along; }
 
-/* How bent the faces are with the vertex so many levels from where it is, and what it costs that some are turned over. */
+/* How bent the faces are with the vertex moved by a number of levels, and the cost of faces that turn over. */
 INLINE double folded_by(const Fan *fan, const float *by, double over) {
     double sum = 0.0;
     for (int k = 0; k < fan->count; k++) {

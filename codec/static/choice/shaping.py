@@ -22,7 +22,7 @@ EXTRA = np.concatenate([np.zeros(16), 2.0 + np.arange(64) // 4])
 """Bits that tell second differences apart which are counted together (see `bucket` in shaping.c)."""
 SHARP = 0.4  # of the mean angle between faces beside each other: with a median below it, a surface has sharp edges
 UNEVEN = 0.33
-"""Of that mean, a third quartile below which nearly all of it is flat; of the mean area of a face, a median below which
+"""Of this mean, a third quartile below which nearly all of it is flat; of the mean area of a face, a median below which
 a few faces are most of the surface."""
 RATES = np.log1p(np.arange(4096.0))
 """Bits, but for a factor, of a place on a grid that is so far from where a parallelogram would have it."""

@@ -121,7 +121,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     """Decode one sequence; every frame is written as soon as it is known."""
     if args.blocks is not None:
         raise OptionError("--blocks is for meshes, and this is a sequence")
-    # Where it goes: an npz, or a folder for frames of a format of meshes, if nothing else was said.
+    # The output by default: an npz, or a folder if the format is one of meshes.
     suffix = f".{args.format or 'npz'}" if args.format in (None, *ONE_FILE) else ""
     output = default_output(args.input, suffix) if args.given is None else str(args.output)
     if args.given is not None and args.many:

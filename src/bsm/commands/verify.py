@@ -50,7 +50,7 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
 
 
 def _verify_tiles(args: VerifyJob, console: Console) -> Facts:
-    """Every tile of every shard; all that is wrong is said, and the first of it is the error."""
+    """Check every tile of every shard; report all faults, and raise the first."""
     tiles = open_tiles(args.input, limits_of(args.limits))
     with console.progress("decoding"):
         faults = list(tiles.faults(not args.quick))

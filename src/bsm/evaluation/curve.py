@@ -228,7 +228,7 @@ def draco_curve() -> Curve:
 
 
 def measure(codec: Codec, mesh: TriangleMesh, reference: Reference, repeats: int = 1) -> Result:
-    """Encode and decode once or more, and say everything that is to be said about it."""
+    """Encode and decode once or more, and return all measurements."""
     encode_seconds, (data, align) = _timed(lambda: codec.encode(mesh), repeats)
     decode_seconds, decoded = _timed(lambda: codec.decode(data), repeats)
     comparison = reference.compare(align(decoded))
@@ -607,7 +607,7 @@ def draw_all(results: Iterable[Result]) -> Iterator[Picture]:
         if paper:
             slowest_first = sorted(paper, key=lambda r: -max(float(p["decode_seconds"]) for p in r["points"]))
             yield draw_paper_figure(slowest_first, f"{mesh}.paper")
-        if rest:  # SVD in the paper's mode stands for the paper among whole files.
+        if rest:  # SVD in the paper's mode represents the paper among whole files.
             shown[mesh] = [*rest, *(r for r in paper if r["codec"] in ("svd", "oi-r2"))]
     stem = next(iter(shown)) if len(shown) == 1 else "meshes"
     for measure, label in MEASURES.items() if shown else ():

@@ -399,7 +399,7 @@ def files_behind(path: str) -> Iterator[str]:
 
 
 def state_of(path: str) -> State | None:
-    """Sizes and times of the files behind an input or output; None where that cannot be told."""
+    """Sizes and times of the files behind an input or output; None if unknown."""
     found: State = []
     for file in files_behind(path):
         if is_url(file):

@@ -144,7 +144,7 @@ def require_counts_of_head(kind: str | None, head: bytes, limits: Limits) -> Non
 
 
 def require_inflated(size: int, compressed: int, limits: Limits, vertices: int = 0) -> None:
-    """Raise `LimitError` where so many compressed bytes become too many."""
+    """Raise `LimitError` if the compressed bytes inflate to too many."""
     most = int(min(limits.memory_for(vertices, compressed), 1 << 62))
     if size > most:
         raise LimitError(

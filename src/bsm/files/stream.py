@@ -224,7 +224,7 @@ def decode_blocks(
 def decode_what_is_left(
     chunks: Iterator[bytes], report: Callable[[str], None], limits: Limits = DEFAULT_LIMITS
 ) -> TriangleMesh:
-    """Decode every block of a damaged stream that does not depend on what is lost; `report` is told what is."""
+    """Decode every block of a damaged stream that does not depend on lost data; call `report` for each loss."""
     from bsm.decoding import Decoder
     from bsm.events import EndEvent, LossEvent
 
@@ -298,7 +298,7 @@ class _Part:
 
 
 _POINTS = 64
-MOST_FRAMES = 4096  # beyond, nothing is said: each frame is compared with each
+MOST_FRAMES = 4096  # not for longer sequences: each frame is compared with each
 
 
 class Loops:

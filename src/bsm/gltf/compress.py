@@ -135,7 +135,7 @@ def _is_normalized(document: gltf.Document, index: int) -> bool:
 
 
 def _floats(array: npt.NDArray[Any], normalized: bool) -> npt.NDArray[Any]:
-    """Short integers as what they stand for; any shape, float32 for these."""
+    """Return the values of normalized integers as float32, of any shape."""
     if array.dtype.itemsize > 2 or array.dtype.kind not in "iu":
         return array
     values = array.astype(np.float32)
@@ -223,7 +223,7 @@ Bundle = list[list[gltf.Tree]]
 
 @dataclass(frozen=True, eq=False)
 class BundleStream:
-    """The stream of a bundle, what is drawn of it, and the accessors of that: component type, normalized or not."""
+    """The stream of a bundle, what is drawn of it, and the accessors: component type, normalized or not."""
 
     stream: bytes
     shape: Drawn
@@ -384,7 +384,7 @@ class _Scene:
         self.plain: list[bytes] = []
 
     def would_shrink(self, found: list[BundleStream], freed: list[int]) -> bool:
-        """Whether streams and what is said of them are smaller than the accessors that nothing needs any more."""
+        """Return whether streams and their JSON are smaller than the accessors that they replace."""
         before = 0
         for index in freed:
             accessor = self._document.tree["accessors"][index]

@@ -142,7 +142,7 @@ class _Still(_Scene):
     def _material(
         self, number: int, words: formats.Material, images: Mapping[int, tuple[str, bytes]], said: set[str]
     ) -> int | None:
-        """Add a material; None if nothing of it can be said in glTF. Names of metadata that are said go to `said`."""
+        """Add a material; None if glTF can express nothing of it. Names of metadata that it expresses go to `said`."""
         found: Tree = {}
         surface: Tree = {}
         for name, value in formats.gltf_values(words).items():

@@ -181,7 +181,7 @@ def _staged(
 
 def kept(positions: Positions) -> Callable[[np.ndarray], Positions]:
     """What gives some rows of positions again, kept in half their memory: in single precision within their box, which
-    is finer than any error that is told; of such as are not finite anything, since the encoder refuses them."""
+    is finer than any reported error. Positions that are not finite may be anything: the encoder refuses them."""
     with np.errstate(all="ignore"):
         low, high = positions.min(axis=0), positions.max(axis=0)
         middle, size = low / 2 + high / 2, float((high / 2 - low / 2).max()) or 1.0

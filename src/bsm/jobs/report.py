@@ -118,7 +118,7 @@ def recorded(work: Work, task: Task, console: Console) -> Facts:
 
 
 def _compared(work: Work, task: Task, console: Console) -> Facts:
-    """Work whose output is there already: it may be what a run wrote that was killed before it said so."""
+    """The output exists: recompute and compare, in case a killed run wrote it."""
     path = Path(task.output)
     refuse = FileExistsError(
         errno.EEXIST, "the output is not what the report says was written; -f overwrites it", task.output

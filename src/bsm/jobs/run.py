@@ -74,7 +74,7 @@ def run_many(
     jobs: Sequence[Job],
     ended: Callable[[Job, Outcome], None] = lambda job, outcome: None,
 ) -> list[Facts]:
-    """Do all jobs; one that fails stops those alone that need it. They are told of in their order."""
+    """Do all jobs, and report them in order. A failed job stops only those that need it."""
     if run.dask is not None:
         if any("-" in (job.input, job.output) for job in jobs):
             raise OptionError("a pipe does not reach a cluster: name files")

@@ -21,7 +21,7 @@ from bsm.files.output import Terminated, termination_as_exception
 from bsm.jobs.task import Numbered, Outcome, Outcomes, Task, Tasks, Work, far_outcome
 
 AHEAD = 2  # jobs handed out for each process, and for each thread of a cluster
-GRACE = 3.0  # seconds that a process has to clear away, once its parent is gone, and once it was told to end
+GRACE = 3.0  # seconds that a process has to clear away, once its parent is gone, and once it was asked to end
 
 Handed = dict[int, Task]
 
@@ -80,7 +80,7 @@ def _end_with_parent() -> None:
 
     def watch() -> None:
         multiprocessing.connection.wait([sentinel])
-        # It may have told this process to end, which is then clearing away what it has begun.
+        # It may have asked this process to end, which is then clearing away what it has begun.
         time.sleep(GRACE)
         os.kill(os.getpid(), signal.SIGTERM)
         time.sleep(GRACE)
@@ -112,7 +112,7 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
     run = uuid.uuid4().hex
     handed: dict[str, Numbered] = {}
     suspects: list[Numbered] = []
-    # A scheduler that goes away is told of here, and not by the library.
+    # Report a scheduler that disconnects here; the library would not.
     logger = logging.getLogger("distributed.client")
     level = logger.level
     logger.setLevel(logging.CRITICAL + 1)

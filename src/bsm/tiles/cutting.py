@@ -63,7 +63,7 @@ class Lattice:
 
 
 def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | None, threads: int) -> Lattice:
-    """The lattice that is asked for, or one by the look of a sample, in cells that every place is told exactly in."""
+    """Return the requested lattice, or one by the look of a sample; its cells represent every position exactly."""
     lattice = Lattice(_cell_by_look(raw, threads) if cell is None else cell, origin or (0.0, 0.0, 0.0))
     reach = (abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
     farthest = max(reach) / lattice.cell

@@ -25,7 +25,7 @@ from bsm.tiles.cutting import COARSEST, Ints, Places, Plan, along_curve, load_pl
 from bsm.tiles.reading import mapped
 
 Faces: TypeAlias = npt.NDArray[np.int32]
-_KEPT = 4  # of so many triangles one stays from level to level
+_KEPT = 4  # one of this many triangles stays from level to level
 _TERMS, _BUCKETS = 10, 1 << 15  # of what simplifying takes for scratch
 
 
@@ -150,7 +150,7 @@ def solid(faces: Faces) -> Faces:
 def simplified(
     places: Places, faces: Faces, locked: npt.NDArray[np.bool_], target: int
 ) -> tuple[Places, Faces, npt.NDArray[np.int32]]:
-    """Fewer triangles, about so many, and what vertices have become; those that are locked, and open borders, stay."""
+    """Simplify to about `target` triangles; locked and border vertices stay. Also return new indices of vertices."""
     count, low = len(places), places.min(axis=0).astype(np.float64)
     positions, left, sides = places - low, faces.copy(), 3 * len(faces)
     starts, ends, marks, owners = (np.empty(count + more, np.int32) for more in (1, 0, 0, 0))

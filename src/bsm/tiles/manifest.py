@@ -82,7 +82,7 @@ def read_manifest(path: str, limits: Limits) -> Manifest:
             raise KeyError("format")
         if given["version"] != 1:
             raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
-        require_major(f"{name}: these tiles are", given.get("stream", 0))  # version 0 said nothing
+        require_major(f"{name}: these tiles are", given.get("stream", 0))  # version 0 had no such entry
         if given.get("complete") is False:
             levels = [tuple(whole(one[key]) for key in ("whole", "tiles", "level")) for one in given["levels"]]
             counts = ", ".join("{} of {} tiles of level {}".format(*level) for level in levels) or "nothing"

@@ -37,7 +37,7 @@ _ENCODING = 0.7  # of the time that a mesh takes
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """A mesh that the page shows: its stream, the size of the file it stands for, and how far each vertex is off."""
+    """A mesh that the page shows: its stream, the size of the file, and the error of each vertex."""
 
     title: str
     detail: str

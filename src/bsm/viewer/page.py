@@ -187,7 +187,7 @@ def embedded(_: str, data: bytes) -> dict[str, str]:
 
 
 def script(place: Place, *more: str) -> str:
-    """The page's module, told where the kernels of everything are, and `more` that are for less."""
+    """Return the module of the page with the addresses of the full kernels, and of `more` for smaller decoders."""
     kernels = {name: place(f"/{name}.wasm", _built(f"{name}.wasm")) for name in ("kernels", "kernels-scalar", *more)}
     return f"const KERNELS={json.dumps(kernels)};{_built('viewer.js').decode()}"
 
@@ -245,7 +245,7 @@ class PageServer(ThreadingHTTPServer):
         return {"url": path}
 
     def dropped(self, content: Content) -> dict[str, Any]:
-        """Have the page fetch what was made of an upload, in place of that before."""
+        """Have the page fetch the result of an upload, in place of the previous one."""
         for path in [path for path in self.content if path.startswith(UPLOAD)]:
             del self.content[path]
         return listed(content, f"{UPLOAD}/{time.monotonic_ns()}", self.place)
@@ -320,7 +320,7 @@ class _Handler(BaseHTTPRequestHandler):
                 yield json.dumps(line).encode() + b"\n"
 
     def _answer(self, data: bytes | Growing | Iterator[bytes], kind: str, status: HTTPStatus = HTTPStatus.OK) -> None:
-        """Send bytes, or what comes of them until the page is gone."""
+        """Send bytes, or chunks of them until the page is gone."""
         self.send_response(status)
         if isinstance(data, bytes) and kind != _BYTES and _GZIP.search(self.headers.get("Accept-Encoding", "")):
             data = _gzipped(data)

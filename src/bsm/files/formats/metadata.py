@@ -247,7 +247,7 @@ def fetched(metadata: Metadata, folder: Path | None, most: int) -> tuple[dict[st
 
 
 def _add_library(found: dict[str, Value], text: str) -> None:
-    """Add the materials of a library: what is said of those that are named already, and the others behind them."""
+    """Add the materials of a library: definitions of those that are named already, then the others."""
     library, images = parse_mtl(text)
     numbers = {material.get("name", ""): number for number, material in materials_in(found).items()}
     free = max(numbers.values(), default=-1) + 1
@@ -316,7 +316,7 @@ def parse_remarks(lines: Iterable[str]) -> dict[str, Value]:
 
 
 def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, str | int | float | bytes], dict[str, str]]:
-    """The metadata without the largest entries, so that it fits into so many bytes; and why those are left out."""
+    """Drop the largest entries until the metadata fits into `limit` bytes; return the rest, and why each is left out."""
     sizes = {name: _size(name, value) for name, value in metadata.items()}
     total = sum(sizes.values())
     refused: dict[str, str] = {}

@@ -163,7 +163,7 @@ class NpzArray:
             yield piece[0]
 
     def pieces(self, rows: int) -> Iterator[Array]:
-        """Up to so many of the first index' parts at a time."""
+        """Yield pieces of the array of up to `rows` entries of the first index."""
         if self._fortran:
             raise MeshError(f"the array {self._name} is in Fortran's order; save it with numpy.ascontiguousarray")
         size = size_of(self.shape[1:], self._kind)
@@ -234,7 +234,7 @@ class _Beside:
     def of(
         archive: zipfile.ZipFile, mesh: TriangleMesh, compressed: int, limits: Limits, inflated: int, frames: int = 0
     ) -> _Beside:
-        """Look at shapes before numbers are read; of a sequence of so many frames, if it is one."""
+        """Check shapes before numbers are read; for a sequence, with its number of frames."""
         found, frame, vertices = _Beside(), 0, len(mesh.positions)
         names = dict.fromkeys(name.removesuffix(".npy") for name in archive.namelist())
         others = [name for name in names if name not in ("positions", "faces")]

@@ -201,7 +201,7 @@ class _TextTable:
 
 
 def _typed(values: Array, kind: str) -> Array:
-    """Numbers of a text in the type that the header declares, where they are of that type."""
+    """Numbers of a text in the type that the header declares, if they fit into it."""
     with np.errstate(all="ignore"):
         converted = values.astype(kind)
         same = np.dtype(kind).kind == "f" or np.array_equal(converted, values)

@@ -173,7 +173,7 @@ class _Numbers:
         return np.frombuffer(self._taken(given, 0, 0, count * self._head.itemsize, raw), self._head)
 
     def _taken(self, given: bytes, header: int, skipped: int, size: int, raw: bool) -> bytes:
-        """So many bytes behind a header that is coded by itself, and others; `TruncatedError` if they are not there."""
+        """Read a number of bytes after a separately coded header; raise `TruncatedError` if they are missing."""
         if not raw:
             begin = 4 * -(-header // 3)
             try:

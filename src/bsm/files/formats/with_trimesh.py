@@ -105,7 +105,7 @@ def _unread(tree: dict[str, Any]) -> list[str]:
 
 
 def joined(scene: Any, limits: Limits, received: int = 1 << 62) -> Polygons:
-    """The surfaces of a scene, which came in so many bytes, as one: each as often and where the scene has it."""
+    """Join the surfaces of a scene, each as often and where the scene places it; `received` is the size of the file."""
     order = {name: place for place, name in enumerate(scene.geometry)}  # that of the file; the graph has none
     places = sorted((scene.graph[node] for node in scene.graph.nodes_geometry), key=lambda place: order[place[1]])
     surfaces = [(matrix, scene.geometry[name], name) for matrix, name in places]
@@ -278,4 +278,4 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
             kept = numbers[:3] if name.startswith("K") else numbers
             found[name] = " ".join(f"{number:.6g}" for number in kept)
     said = {name: value for name, value in found.items() if not isinstance(value, float) or np.isfinite(value)}
-    return {} if said == {"doubleSided": 0} else said  # that is what holds where nothing is said
+    return {} if said == {"doubleSided": 0} else said  # the default

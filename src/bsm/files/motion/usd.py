@@ -45,7 +45,7 @@ class Materials:
         self._images: dict[str, int] = {}
 
     def of_faces(self, prim: Any, faces: int, time: Any) -> Ints:
-        """The number of each face's material; all faces of whose material nothing is said have one number."""
+        """Return the number of each face's material; all faces without a material have one number."""
         numbers = np.full(faces, -1, np.int64)
         for subset in self._geom.Subset.GetAllGeomSubsets(self._geom.Imageable(prim)):
             if subset.GetElementTypeAttr().Get() == self._geom.Tokens.face and self._bound(subset.GetPrim()):
@@ -56,7 +56,7 @@ class Materials:
         return numbers
 
     def metadata(self, most: int) -> tuple[dict[str, formats.Value], list[str]]:
-        """What is said of all that were met, with images of at most so many bytes, and notes on those not there."""
+        """Return the metadata of all materials found, with images of limited size, and notes on missing images."""
         said = formats.described({number: dict(words) for words, number in self._known.items()})
         names = {f"image.{number}.name": name for name, number in self._images.items()}
         if not zipfile.is_zipfile(self._path):
@@ -129,7 +129,7 @@ def _text(numbers: Iterable[float]) -> str:
 
 
 def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | None) -> tuple[dict[int, Any], set[str]]:
-    """Write the materials of a mesh beneath it; returns them by their numbers, and the metadata that are said so."""
+    """Write the materials of a mesh beneath it; return them by their numbers, and the metadata that they express."""
     stage, shade = mesh.GetPrim().GetStage(), pxr.UsdShade
     words, images = formats.materials_in(shown.metadata), formats.images_in(shown.metadata)
     files: dict[int, str] = {}
