@@ -104,7 +104,7 @@ class Worker:
         self.begin()
 
     def do(self, request: tuple[str, bytes, str], seconds: float) -> Answer:
-        """What comes of a request; one whose process dies is tried once more, since others may have killed that."""
+        """Answer a request; retry it once if its process dies, since other requests may have killed it."""
         for _ in range(2):
             try:
                 self.wait()

@@ -169,7 +169,7 @@ def test_blocks(name, block, folder):
         if re.search(r"^bsm encode bunny\.ply(?! +-f)", block, flags=re.MULTILINE):
             (folder / "bunny.bsm").unlink()
         try:
-            # A server goes on until it is told to stop; tests/bsm/test_view.py talks to it.
+            # A server runs until it is stopped; tests/bsm/test_view.py talks to it.
             passed(run(folder, re.sub(r"^bsm view .*\n", "", block, flags=re.MULTILINE)))
         finally:
             (folder / "bunny.bsm").write_bytes(stream)
@@ -224,7 +224,7 @@ def test_something_is_found():
     assert any("tools.attack fuzz" in command for command in COMMANDS)
 
 
-# ------------------------------------------------------------------------------------------------- what is said exists
+# ----------------------------------------------------------------------------------------------- names in documents
 
 PATH = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.(?:py|c|h|hpp|md|sh|json|bin|toml|png|ts|mjs)|[\w-]+/(?:[\w-]+/)*(?=`)")
 PAPERS = (*DOCUMENTS, "codec/PAPER.md", "tools/web/README.md")
@@ -255,7 +255,7 @@ def test_docstrings_can_be_read_alone(room):
     assert not leaning
 
 
-# ------------------------------------------------------------------------------------- what arrays are, is said
+# ------------------------------------------------------------------------------------------------ shapes of arrays
 
 SHAPE = re.compile(r"\bshapes? (?:of )?[(`]|\b(?:any|same) shape\b", flags=re.IGNORECASE)
 ARRAYS = re.compile(r"NDArray|ArrayLike|Positions|Faces|Matrix|Points")

@@ -98,7 +98,7 @@ def off(mesh):
 
 SECONDS = 10.0
 SOON = 2.0
-"""Seconds, where a request takes a tenth of that when nothing is wrong; as many times longer where it takes longer."""
+"""Return seconds: ten times those of a request when nothing is wrong, and longer on slower machines."""
 
 
 @pytest.fixture(scope="module")

@@ -75,7 +75,7 @@ def survival_table() -> list[int]:
 def odds_tables() -> tuple[list[int], list[int]]:
     """ln(exp(d) - 1) and ln(1 - exp(-d)), in 1/256 nat within -4000 .. 4000, for d that five bits and an exponent tell.
 
-    Entry i stands for d = i below 32 (0 counting as 1/2), then for the middle of the d >> e = 32 + i % 32 with
+    Entry i is for d = i below 32 (0 counting as 1/2), then for the middle of the d >> e = 32 + i % 32 with
     e = i // 32 - 1; d in 2**-16 nat.
     """
     odds, less = [], []

@@ -37,7 +37,7 @@ def gridded(coded: EncodedConnectivity, values: Ints, counts: Iterable[int], **f
 
 
 def grid_frames(faces: Ints, values: Ints, counts: Iterable[int], largest: Sequence[int], light: int) -> Frames:
-    """GRID frames of so many vertices each."""
+    """Return GRID packets of this many vertices each."""
     frames, first = [], 0
     encoder = FieldEncoder((light_field if light else grid_field)(faces, len(values), largest), values)
     for count in counts:
@@ -47,7 +47,7 @@ def grid_frames(faces: Ints, values: Ints, counts: Iterable[int], largest: Seque
 
 
 def lightened(stream: bytes, *counts: int) -> bytes:
-    """A stream on a grid with its values coded by the small model instead, in as many frames, or in ones of so many."""
+    """Recode a stream on a grid by the small model, in as many packets, or in packets of this many vertices."""
     frames = frames_of(stream)
     header = header_entries(frames[0][1])
     vertices, of_faces, largest = (header[HEADER_FIELDS[name].key] for name in ("vertices", "faces", "grid"))

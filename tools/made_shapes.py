@@ -33,7 +33,7 @@ HALVINGS = 16
 
 
 def mesh_of(field: Field, cells: int, size: float = 1.0) -> tuple[Positions, Faces]:
-    """Mesh the zero of a field inside the cube from -size to size, with so many cells a side."""
+    """Mesh the zero of a field inside the cube from -size to size, with `cells` cells a side."""
     step = 2.0 * size / cells
     ticks: Floats = np.asarray(-size + step * np.arange(cells + 1), dtype=np.float64)
     corners = np.stack(np.meshgrid(ticks, ticks, ticks, indexing="ij"), axis=-1)

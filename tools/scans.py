@@ -27,7 +27,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.surface import Floats, Mask, face_geometry
 from bsm.codec.geometry.metrics import distances_to_surface
 
-BASELINE_EIGHTHS = 8.0 * 0.075  # metres between projector and camera, by the eighths of a pixel that are told apart
+BASELINE_EIGHTHS = 8.0 * 0.075  # metres between projector and camera, by the eighths of a pixel that it resolves
 WINDOW_SPREAD, LATERAL, SHAPED = 2.5, 0.5, 0.5  # pixels: of the window that is matched, of places, of flight's filter
 JUMP = 12.0  # pixels' widths between neighbours from which on they are on different surfaces
 
@@ -155,7 +155,7 @@ SAMPLES = 400_000
 
 
 def fused(positions: Positions, faces: Faces, camera: Camera, seed: int, poses: int = 12, cells: int = 90) -> Scan:
-    """What so many views make together: mean distances along their rays on a grid, and the surface where they are 0."""
+    """Fuse views: average the distances along their rays on a grid, and mesh the surface where they are 0."""
     from skimage.measure import marching_cubes
 
     lone = placed(positions, camera, turning(seed)) - [0.0, 0.0, camera.far]

@@ -1,4 +1,4 @@
-"""Many inputs: what is written where, what is said, and what is left of interrupted work."""
+"""Many inputs: outputs, messages, and the files that interrupted work leaves."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""The command line: what a user types, and what comes of it."""
+"""The command line: words that a user types, and their results."""
 
 import json
 import subprocess

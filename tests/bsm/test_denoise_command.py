@@ -1,4 +1,4 @@
-"""bsm denoise: what a user types, and what comes of it."""
+"""bsm denoise: words that a user types, and their results."""
 
 import json
 import shutil

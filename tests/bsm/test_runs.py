@@ -93,7 +93,7 @@ def test_caches_are_a_series(stream, tmp_path, kind):
 
 
 def test_meshes_of_a_glb_take_turns(stream, tmp_path):
-    """What is seen at each frame is the mesh of that frame, as a player of glTF evaluates scales and weights."""
+    """Each frame shows its own mesh, as a player of glTF evaluates scales and weights."""
     assert run("decode", stream, "-o", tmp_path / "a.glb") == 0
     data = (tmp_path / "a.glb").read_bytes()
     tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])

@@ -1,4 +1,4 @@
-"""Wrong words, and what is said about them; completion."""
+"""Errors of usage and their messages; completion."""
 
 import re
 import shutil

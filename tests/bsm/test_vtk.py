@@ -81,7 +81,7 @@ def test_a_reader_for_pyvista(stream):
 
 
 def test_the_plug_in_tells_paraview_what_it_needs(stream, monkeypatch):
-    """Its file is loaded with stand-ins for ParaView's decorators, which note what they are told."""
+    """Its file is loaded with stand-ins for ParaView's decorators, which record their arguments."""
     told = {}
 
     def noting(kind):

@@ -193,7 +193,7 @@ def decode(
     start: int = 0,
     parallel: Parallel | None = None,
 ) -> Decoded:
-    """Decode a stream, given at once or so many bytes at a time."""
+    """Decode a stream, given at once or in pieces of `size` bytes."""
     threads = ctypes.addressof(parallel) if parallel else None
     released = getattr(library, "is_released", False)
     common = (None, None, tolerant, start)

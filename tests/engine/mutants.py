@@ -88,7 +88,7 @@ def compare(
     sequences: bool = False,
     seconds: float = np.inf,
 ) -> tuple[Counter[str], list[str]]:
-    """How so many mutants of a seed went, or as many as can be had in a time, and what went wrong."""
+    """Count the outcomes of a number of mutants of a seed, or of those that fit into a time, and list failures."""
     end = time.monotonic() + seconds
     random, seeds = Random(seed), vector_seeds()
     if sequences:

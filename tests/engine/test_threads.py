@@ -16,7 +16,7 @@ NAMES = ("good-refined-steep", "good-keys", "good-layer-chunks", "good-independe
 
 
 def same(one: Decoded, other: Decoded) -> bool:
-    """Whether two decoders said the same."""
+    """Return whether two decoders reported the same."""
     assert one.arrays.keys() == other.arrays.keys()
     assert all(np.array_equal(one.arrays[key], other.arrays[key], equal_nan=True) for key in one.arrays)
     return (one.status, one.message, one.losses) == (other.status, other.message, other.losses)

@@ -152,7 +152,7 @@ def test_the_seam_of_the_document() -> None:
 
 
 def read(chunk: Callable[[bytes, int], Any], chunks: list[tuple[bytes, int]]) -> list[Any]:
-    """What each payload gives, up to the first error, and the name of that."""
+    """Return the result of each payload up to the first error, and the name of the error."""
     found: list[Any] = []
     for payload, count in chunks:
         found.append(outcome(lambda payload=payload, count=count: chunk(payload, count)))

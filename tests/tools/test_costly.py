@@ -8,7 +8,7 @@ import bsm
 from bsm.codec.look.measure import MOST_WORK, LookMetric
 from tools.attack.costly import Recipe, changed, drawn, encoded, search
 
-FEWER = 3.0  # a search for a stream may draw so many times what it may before it tries nothing more that is optional
+FEWER = 3.0  # a search for a stream may draw this many times its budget before it skips everything optional
 
 
 @pytest.fixture

@@ -43,7 +43,7 @@ RATIO = 1.25
 YARDSTICK = "mesh-blocks"
 """Nearly all dictionaries."""
 LEAST_SECONDS = 0.05
-"""Of less CPU than that, nothing can be said."""
+"""Shorter CPU times are too noisy to judge."""
 
 THINGS = {
     "HEADER": ("runs", "sequence-runs-kept"),

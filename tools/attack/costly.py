@@ -128,7 +128,7 @@ def share(taken: Taken) -> float:
 
 
 def search(seconds: float, seed: str, kept: int = 12) -> list[tuple[float, Recipe, Taken]]:
-    """The worst of what was tried in so many seconds, the worst first."""
+    """Return the worst files found within a time, the worst first."""
     random, worst, end = Random(seed), list[tuple[float, Recipe, Taken]](), time.monotonic() + seconds
     while time.monotonic() < end:
         new = not worst or random.random() < 0.3

@@ -46,7 +46,7 @@ def whole(stream: bytes, limits: Limits = DEFAULT_LIMITS, threads: int = 1) -> O
 def piecewise(
     stream: bytes, random: Random, limits: Limits = DEFAULT_LIMITS, threads: int = 1, tolerant: bool = False
 ) -> tuple[Outcome, int]:
-    """By events, from pieces of random lengths; and how many losses were told."""
+    """Decode by events, from pieces of random lengths; also return the number of losses."""
     try:
         return _by_events(stream, _pieces(stream, random), limits, threads, tolerant)
     except BsmError as error:
@@ -108,7 +108,7 @@ def _of_runs(frames: list[np.ndarray], runs: list[tuple[int, int, np.ndarray]], 
 
 
 def _completed(decoder: Decoder | SequenceDecoder, told: dict[str, Attribute]) -> list[Attribute]:
-    """What events have told of attributes, in the order of the mesh, and recomputed normals, which no event tells."""
+    """Return attributes from events, in the order of the mesh, and recomputed normals, which have no event."""
     mesh = decoder if isinstance(decoder, SequenceDecoder) else decoder.finish()
     return [told.get(one.name, one) for one in mesh.attributes if one.name in told or one.semantic == "normal"]
 

@@ -22,7 +22,7 @@ from tools.copies import refuse_other_kernels
 
 
 def random_streams(seed: str, count: int) -> list[bytes | str]:
-    """Streams of so many seeds; a traceback where the encoder fell, and nothing where it refused."""
+    """Encode a number of seeds: a stream, a traceback if the encoder failed, nothing if it refused."""
     streams: list[bytes | str] = []
     for k in range(count):
         try:

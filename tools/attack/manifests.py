@@ -178,7 +178,7 @@ def _late(*_: object) -> None:
 
 
 def walk(count: int, seed: str) -> Iterator[str]:
-    """What escaped of so many mutants."""
+    """Return what a number of mutants raised that is no expected error."""
     signal.signal(signal.SIGALRM, _late)
     with tempfile.TemporaryDirectory() as place:
         folder = Folder(Path(place, "tiles"))

@@ -1,7 +1,7 @@
 """Where decoders run: processors of other kinds, and environments of every kind.
 
 Of a processor, a copy of the sources has the kernels of one level of x86-64 alone, however much the processor at hand
-has; numpy and the library behind it are told to do with as little.
+has; numpy and the library behind it are configured for the same.
 """
 
 from __future__ import annotations

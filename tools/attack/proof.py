@@ -101,7 +101,7 @@ def plan(args: argparse.Namespace) -> list[Part]:
 
 
 def cuts(count: int, size: int) -> Iterator[tuple[int, int]]:
-    """Numbers and sizes of the shards of so many inputs."""
+    """Return numbers and sizes of the shards of a number of inputs."""
     for number, first in enumerate(range(0, count, size)):
         yield number, min(size, count - first)
 

@@ -215,7 +215,7 @@ def numbers() -> Iterator[Case]:
 
 
 def _numbers_of_tree(kind: str, sample: Sample) -> Iterator[Case]:
-    """Each number in the JSON of a GLB; its length is told anew."""
+    """Change each number in the JSON of a GLB, and update its length."""
     tree, binary = _json_of(sample.data), _binary_of(sample.data)
     text = json.dumps(tree).encode()
     for match in _NUMBER.finditer(text):
@@ -237,7 +237,7 @@ def _remade(text: bytes, binary: bytes) -> Sample:
 
 
 def grown(size: int) -> Iterator[Case]:
-    """Sound files, or nearly so, of about so many bytes, each large in one place."""
+    """Return valid files, or nearly so, of about `size` bytes, each large in one place."""
     for name, make in _grown(size).items():
         yield Case(name, make)
 
@@ -552,7 +552,7 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
 
     def shared(meshes: int, count: int, primitives: int) -> Change:
         def change(t: Tree) -> None:
-            t["accessors"][1]["count"] = 3 + size // 8  # so many indices, in a file of about this size
+            t["accessors"][1]["count"] = 3 + size // 8  # as many indices as a file of this size holds
             t["meshes"] = [{"primitives": t["meshes"][0]["primitives"] * primitives}] * meshes
             nodes(t, [{"mesh": number % meshes} for number in range(count)])
 

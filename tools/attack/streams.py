@@ -262,7 +262,7 @@ def _still(rows: int, columns: int, width: int, components: int, part: int = 400
 
 
 def _learnt_gop(frames: int, components: int, levels: bytes = b"", attributes: int = 0) -> GopBody:
-    """A GOP whose temporal bases are nothing but zeros, which take next to no bytes; of so many attributes, too."""
+    """A GOP whose temporal bases are nothing but zeros, which take next to no bytes; optionally with attributes."""
     exponents = np.zeros(components, np.int32)
     fields = []
     for width in (3, 4)[: 1 + (attributes > 0)]:
@@ -288,7 +288,7 @@ def _next_gops(count: int, levels: bytes) -> list[GopBody]:
 
 
 def _followed(count: int, gop: GopBody) -> list[GopBody]:
-    """A GOP, and so many that refer to the one before."""
+    """Return a GOP, and a number of GOPs that refer to the one before."""
     return [gop, *[replace(gop, method=GopMethod.LEARNT_NEXT)] * count]
 
 
@@ -336,7 +336,7 @@ def _long_metadata(entries: int, length: int) -> bytes:
 
 
 def _valued(rows: int, columns: int, count: int, chunk: int, *, coded: int | None = None, **fields: Any) -> bytes:
-    """A mesh with so many attributes of nothing, all alike."""
+    """Return a mesh with a number of equal, empty attributes."""
     blocks = {"blocks": 1 + rows * columns // 4000, "block_size": min(rows * columns, 8000), "power": 1}
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
     size = rows * columns if coded is None else coded
@@ -345,7 +345,7 @@ def _valued(rows: int, columns: int, count: int, chunk: int, *, coded: int | Non
 
 
 def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fields: Any) -> tuple[Frames, Frames]:
-    """Declarations of so many attributes, and values that are all 0."""
+    """Return declarations of a number of attributes, and values that are all 0."""
     shape = _coded("torus", rows, columns)
     values = {"rows": size, "largest": (1,) * 4, "kind": 7, "components": 4, **fields}
     declared: Frames = []
@@ -364,7 +364,7 @@ def _attributes(rows: int, columns: int, count: int, chunk: int, size: int, **fi
 
 
 def _moving(rows: int, columns: int, count: int, gops: Iterable[GopBody], *, part: int = 400, width: int = 10) -> bytes:
-    """A sequence with so many attributes of four doubles that move; GOPs tell of as many as they have fields."""
+    """Return a sequence with a number of moving attributes of four doubles; GOPs code as many as they have fields."""
     frames = frames_of(_sequence(rows, columns, (), width=width, part=part, power=1, attributes=count))
     declared, chunks = _attributes(rows, columns, count, 1 << 15, rows * columns, moves=1)
     first = 0
@@ -377,7 +377,7 @@ def _moving(rows: int, columns: int, count: int, gops: Iterable[GopBody], *, par
 
 
 def _seamed(rows: int, columns: int, count: int) -> bytes:
-    """So many attributes of corners, each with seams of its own that are nowhere, and no values."""
+    """Return a number of attributes of corners, each with empty seams of its own and no values."""
     size = rows * columns
     blocks = {"blocks": 1 + size // 4000, "block_size": min(size, 8000), "power": 1}
     frames = frames_of(_blocky(("torus", rows, columns), attributes=count, **blocks))
@@ -393,7 +393,7 @@ def _seamed(rows: int, columns: int, count: int) -> bytes:
 
 
 def _nested(kind: FrameType, size: int) -> bytes:
-    """A map of so many bytes, which are arrays in arrays, in place of a header, an attribute or metadata."""
+    """Return a map of `size` bytes, arrays in arrays, in place of a header, an attribute or metadata."""
     inside = b"\x91" * 400 + b"\x01"
     payload = b"\x81\xcc\x80\xdd" + (size // len(inside)).to_bytes(4, "big") + inside * (size // len(inside))
     if kind == FrameType.HEADER:
@@ -551,7 +551,7 @@ BOMBS: dict[str, Callable[[], bytes]] = {
     "gop-next": lambda: _sequence(100, 80, _next_gops(1000, _still(100, 80, 400, 3)), width=400),
     # 60 attributes of four doubles that move
     "moving": lambda: _moving(60, 60, 60, [_learnt_gop(100, 4, _still(60, 60, 10, 4), 60)]),
-    # 255 attributes in parts of eight vertices, told of again and again
+    # 255 attributes in parts of eight vertices, coded in every GOP
     "moving-most": lambda: _moving(
         20, 20, 255, [_learnt_gop(1, 1, _still(20, 20, 8, 1, 8), 255)] * 20, part=8, width=8
     ),

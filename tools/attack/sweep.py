@@ -44,7 +44,7 @@ def main() -> int:
 
 
 def attack(name: str, seconds: float) -> int:
-    """Every seed, and mutations of them for so many seconds; how many inputs there were."""
+    """Try every seed, then mutations of them for some seconds; return the number of inputs."""
     random = Random(name)
     found = seeds(name, VECTORS)
     count = 0

@@ -56,7 +56,7 @@ class Taken:
         return self.outcome.startswith(("died", "escaped"))
 
     def problem(self, memory: float, seconds: float) -> str | None:
-        """What is wrong with that, if it may take so many bytes and seconds."""
+        """Describe how a result exceeds the allowed bytes and seconds."""
         if self.escaped:
             return self.outcome
         if self.memory <= memory and self.seconds <= seconds:
@@ -83,7 +83,7 @@ def browser_bounds(taken: Taken, stream: bytes) -> tuple[float, float]:
 
 
 def sequence_memory(stream: bytes, vertices: int) -> float:
-    """Bytes of all dictionaries of a sequence, for so many vertices, and of positions in its largest GOP."""
+    """Return the bytes of all dictionaries of a sequence, and of positions in its largest GOP."""
     columns, gop = 0, 0
     try:
         for kind, payload in frames_of(stream):

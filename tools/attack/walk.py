@@ -75,7 +75,7 @@ def _counted(base: str, kind: str, which: int, size: int) -> bytes:
 
 
 def _many(base: str, kind: str, size: int) -> bytes:
-    """As many frames of a type as so many bytes are, all alike but for those of the stream."""
+    """Fill a number of bytes with equal packets of a type."""
     frames, place = _framed(base, kind)
     count = max(1, size // (len(frames[place][1]) + 4))
     return stream_of([*frames[:place], *[frames[place]] * count, *frames[place + 1 :]])
@@ -94,7 +94,7 @@ def _largest(declared: Field, size: int) -> list[Any]:
 
 
 def _maps(size: int) -> Iterator[tuple[str, bytes]]:
-    """Maps that are as large as so many bytes allow."""
+    """Return maps that are as large as a number of bytes allows."""
     yield "entries", write_map((64 + i, i) for i in range(MAX_ENTRIES))
     yield "arrays", write_map([(64, [1] * MAX_ENTRIES)])
     yield "binary", write_map([(64, bytes(size))])
@@ -114,7 +114,7 @@ def _of_frames(base: str, kind: str, size: int) -> Iterator[Case]:
 
 
 def cases(size: int) -> Iterator[Case]:
-    """All of them, of about so many bytes each."""
+    """Return all of them, of about this many bytes each."""
     for base, stream in bases().items():
         for name, declared in HEADER_FIELDS.items():
             for number, value in enumerate(_largest(declared, size)):

@@ -57,7 +57,7 @@ def make_zip(output: Path, wheels: Sequence[Path]) -> None:
 
 
 def manifest(wheels: Sequence[str]) -> str:
-    """What Blender is told: the version of this package, and the names of the wheels."""
+    """Return the manifest for Blender: the version of this package, and the names of the wheels."""
     text = (EXTENSION / "blender_manifest.toml").read_text()
     text = text.replace('version = "0.1.0"', f'version = "{_version()}"', 1)
     names = "".join(f'    "./wheels/{name}",\n' for name in wheels)

@@ -2,7 +2,7 @@
 
     python -m tools.measure attributes MESH [MESH ...] [--grid 14] [--normals DEGREES]
 
-Positions are exact on a grid of so many bits in both. What an attribute takes is the file with it less the file
+Both put positions on the same grid. What an attribute takes is the file with it less the file
 without; in Draco's (level 10), vertices are split where the attribute needs it. Texture coordinates have 12 bits,
 normals 8 on an octahedron, colours and whole numbers are exact, and other numbers are kept to 1 % of their range (for
 Draco: rounded so first). Every attribute of ours is decoded and compared before it counts. `--normals` computes normals
@@ -54,7 +54,7 @@ class Row:
 
 
 def quality_of(attribute: Attribute) -> str:
-    """At what an attribute is compared, as our encoder is told."""
+    """Return the quality at which an attribute is compared, as an option of our encoder."""
     if attribute.values.dtype.kind != "f":
         return "exact"
     if attribute.semantic == "texcoord":
@@ -143,7 +143,7 @@ def _levels(attribute: Attribute) -> Array:
 
 
 def with_normals(mesh: TriangleMesh, sharp: float) -> TriangleMesh:
-    """The mesh with normals at corners: of the faces around, by angle, up to edges sharper than so many degrees."""
+    """The mesh with normals at corners: of the faces around, by angle, up to edges sharper than an angle in degrees."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 

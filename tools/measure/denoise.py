@@ -89,7 +89,7 @@ NAMES, LEVELS = ("fandisk_6475", "gargoyle_10002", "trim_star"), (0.05, 0.2)
 
 def clean_trials(folder: Path) -> dict[str, float]:
     """Meshes without noise that was put there: how far their normals are turned, and how many come back untouched."""
-    print("clean inputs                     vertices   turned by   untouched        s   said")
+    print("clean inputs                     vertices   turned by   untouched        s   note")
     turned, untouched = [], 0
     for name, positions, faces in clean_meshes(folder):
         start = time.perf_counter()

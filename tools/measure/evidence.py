@@ -10,8 +10,8 @@ logarithms.
 
     python -m tools.measure evidence HEAD.ply --head 250
 
-A head of so many millimetres instead, with noise along its normals of the wavelengths and sizes at which people saw a
-loss of 1 JOD in a study of heads: a measure that sees as they do says the same of each.
+--head measures a head of this many millimeters, with noise along its normals. The wavelengths and sizes are those at
+which people saw a loss of 1 JOD in a study of heads. A measure that sees as people do gives the same value for each.
 """
 
 from __future__ import annotations

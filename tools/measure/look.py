@@ -83,7 +83,7 @@ def measure(path: str, wishes: dict[str, dict[str, Any]]) -> list[dict[str, Any]
 
 
 def row(path: str, what: str, size: int, look: Look, ratio: float, seconds: float = 0.0) -> dict[str, Any]:
-    """What is said of a file."""
+    """Describe a file."""
     return {
         "mesh": Path(path).stem, "what": what, "bytes": size, "distance": look.distance,
         "dissimilarity": look.dissimilarity, "visible": look.visible, "over_draco": finite(ratio), "encode_s": seconds,

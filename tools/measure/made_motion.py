@@ -9,7 +9,7 @@ import numpy as np
 from bsm.codec.arrays import Faces, Matrix, Positions
 
 SPRINGS = ((0, 1), (1, 0), (1, 1), (1, -1), (0, 2), (2, 0))
-"""Between vertices of a grid that are so many rows and columns apart."""
+"""Return the edges between vertices of a grid that are some rows and columns apart."""
 TIMES, RELAXATIONS = 12, 8
 """Steps of time in a frame, and rounds over all springs in each."""
 

@@ -66,7 +66,7 @@ Item = TypeVar("Item")
 EXACT = replace(RULES, exact=True, key_interval=1)
 """The exact basis, which the paper computes by SVD where it does not say otherwise."""
 
-# ------------------------------------------------------------------------------------- what is said, and what by whom
+# ------------------------------------------------------------------------------------------------- published numbers
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class Table:
         return sum(agree), len(agree)
 
     def text(self) -> str:
-        """The table in Markdown, and what is said of it."""
+        """Return the table in Markdown, and the text below it."""
         lines = [f"### {self.title}\n", "| | " + " | ".join(self.columns) + " |", "|---|" + "---:|" * len(self.columns)]
         for row in self.rows:
             cells = (
@@ -218,7 +218,7 @@ ROLES = {
     "sphere": ("sharpsphere", "sharpsphere_noisy", 0.3, 0),
     "star": ("trim_star", "trim_star_noisy", 0.5, 0),
 }
-"""Of each model of the paper: our file, a noisy one or how strong the noise is, and the paper's vertices where told.
+"""Of each model of the paper: our file, a noisy one or how strong the noise is, and the paper's vertices where known.
 
 The authors' Armadillo is not published: another reduction of the same scan to as many vertices. Nor is the Hand: the
 largest mesh of the folder takes its place, in blocks of the size that the Hand's had.

@@ -2,7 +2,7 @@
 
 Rates are those of whole files, connectivity and first frame included. Draco is asked for every `every`-th frame, which
 is exact for codecs that know of one frame only; its files are compared with ours at its own KG error. `--made` adds
-sequences that no choice was made on, `--default` says what comes of no option at all: bytes, processor seconds, and
+sequences that no choice was made on, `--default` measures the encoder without options: bytes, processor seconds, and
 1 - SSIM and flicker of all frames.
 """
 
@@ -111,7 +111,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="of npz sequences")
     parser.add_argument("names", nargs="*", help="of files without suffix (default: all)")
     parser.add_argument("-o", "--output", metavar="FILE.json", required=True)
-    parser.add_argument("--every", type=int, default=8, help="frames of Draco: one in so many (default 8)")
+    parser.add_argument("--every", type=int, default=8, help="measure every N-th frame with Draco (default 8)")
     parser.add_argument("--made", action="store_true", help="also sequences made by formulas")
     parser.add_argument("--default", action="store_true", help="only what is made without any option")
     args = parser.parse_args()

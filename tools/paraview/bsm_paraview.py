@@ -13,7 +13,7 @@ from bsm.vtk import StreamSource
 
 @smproxy.reader(name="BSMReader", label="BSM", extensions="bsm", file_description="BSM meshes and sequences")
 class BSMReader(StreamSource):
-    """The source, told to ParaView."""
+    """The source, registered with ParaView."""
 
     @smproperty.stringvector(name="FileName")  # type: ignore[untyped-decorator]
     @smdomain.filelist()  # type: ignore[untyped-decorator]

@@ -100,7 +100,7 @@ def _builder(folder: Path, python: Path) -> Path:
 
 
 def _old_glibc(folder: Path) -> dict[str, str]:
-    """What makes GCC's code run with glibc 2.17: the C++ library inside, an object that stands for newer parts."""
+    """What makes GCC's code run with glibc 2.17: the C++ library inside, an object that replaces newer parts."""
     made = folder / "old_glibc.o"
     source = Path(__file__).with_name("old_glibc.c")
     subprocess.run(["gcc", "-O2", "-fPIC", "-fno-builtin", "-c", source, "-o", made], check=True)

@@ -13,7 +13,7 @@ from tools.vectors.good_sequences import SEQUENCES
 
 Edit = Callable[[bytes], bytes]
 
-_STEP = slice(3, 7)  # of the data of a GOP with a basis, of fewer than 128 frames, each of which is told of
+_STEP = slice(3, 7)  # of the data of a GOP with a basis, of fewer than 128 frames, all of them coded
 
 
 @cache
@@ -134,7 +134,7 @@ def _told(*fields: tuple[int, bytes]) -> Edit:
 
 
 def _positions_of(data: bytes) -> bytes:
-    """The field of positions of a GOP of fewer than 128 frames, each of which is told of."""
+    """The field of positions of a GOP of fewer than 128 frames, all of them coded."""
     return _fields_of(data)[1]
 
 

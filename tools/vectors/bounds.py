@@ -124,7 +124,7 @@ def _tilted() -> bytes:
 
 
 def _grown(growth: int) -> bytes:
-    """Triangles on their own, whose second levels are so many times the first."""
+    """Return separate triangles whose second levels are a multiple of the first."""
     made = base(together(*[triangle()] * 24))
     levels = np.tile([[300] * 3, [300 * growth] * 3, [150 * growth * (1 + growth)] * 3], (24, 1)).astype(np.int32)
     data = FieldEncoder(levels_field(made.prepared.mesh.faces, 72), levels).chunk(72)

@@ -117,13 +117,13 @@ def worn(mesh: TriangleMesh, *make: Callable[[TriangleMesh], Attribute]) -> Tria
 
 
 def in_chunks(mesh: TriangleMesh, options: EncodeOptions, size: int) -> bytes:
-    """Values in chunks of so many."""
+    """Return values in chunks of this many."""
     encoder = Encoder(mesh, options)
     return with_values(encoder, encoder._bare(None), size)
 
 
 def on_layers(mesh: TriangleMesh, count: int) -> bytes:
-    """Behind a layer of refinement that ends after so many vertices."""
+    """After a layer of refinement that ends early, after this many vertices."""
     encoder = Encoder(mesh, BASE)
     made = Spectral(encoder._prepared, BASE).base(BASE.first_step)
     levels = made.wanted(made.expected_steps(LAYER))[0]
@@ -135,7 +135,7 @@ def on_layers(mesh: TriangleMesh, count: int) -> bytes:
 
 
 def with_values(encoder: Encoder, draft: Draft, size: int) -> bytes:
-    """A draft with the attributes of its mesh, in chunks of so many values."""
+    """Return a draft with the attributes of its mesh, in chunks of this many values."""
     prepared, carried = encoder._prepared, encoder._carried
     declared: list[Packet] = []
     values: list[Packet] = []

@@ -42,7 +42,7 @@ def seamed() -> TriangleMesh:
 
 
 def on_grid(mesh: TriangleMesh, *, counts: tuple[int, ...], cells: int = 255) -> bytes:
-    """Positions on a grid, in chunks of so many vertices."""
+    """Return positions on a grid, in chunks of this many vertices."""
     draft = Encoder(mesh, EncodeOptions(grid=8)).draft()
     header = draft.header
     places = np.rint((draft.decoded - np.array(header.center)) / header.scale).astype(np.int32)
@@ -65,7 +65,7 @@ def base(mesh: TriangleMesh) -> Base:
 
 
 def refined(mesh: TriangleMesh, layer: Layer, counts: tuple[int, ...]) -> bytes:
-    """Blocks with a layer of the nearest levels, in chunks of so many vertices; it may end early."""
+    """Blocks with a layer of the nearest levels, in chunks of this many vertices; it may end early."""
     made = base(mesh)
     header = replace(made.draft.header, refinement=(layer.step, layer.ratio))
     packets: list[Packet] = [header, *made.draft.body]

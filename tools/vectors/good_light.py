@@ -23,7 +23,7 @@ Faces = npt.NDArray[np.int32]
 
 
 def light(mesh: TriangleMesh, *counts: int, bits: int = 11, keep_order: bool = False) -> bytes:
-    """Rounded positions, in frames of so many vertices."""
+    """Return rounded positions, in packets of this many vertices."""
     return lightened(encode(mesh, EncodeOptions(grid=bits, keep_order=keep_order)), *counts)
 
 

@@ -55,7 +55,7 @@ def _parting(probes: str) -> Good:
 
 
 def _runs(probes: str, *pieces: tuple[int, int], **options: object) -> Good:
-    """A sequence in runs: of a torus of so many times 4 vertices, so many frames."""
+    """Return a sequence in runs; each is (n, frames): a torus of 4 n vertices, and its number of frames."""
 
     def make() -> bytes:
         kinds = [kind for kind, count in pieces for _ in range(count)]
@@ -68,7 +68,7 @@ def _runs(probes: str, *pieces: tuple[int, int], **options: object) -> Good:
 
 
 def _moving(probes: str, *kinds: int, **options: object) -> Good:
-    """Frames of tori of so many times 4 vertices, with a colour, a velocity, and what stands still at times."""
+    """Return frames of tori of 4 n vertices, with a color, a velocity, and an attribute that pauses."""
 
     def make() -> bytes:
         frames = []

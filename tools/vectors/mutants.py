@@ -1,6 +1,6 @@
 """Clauses and constants of the core that no vector notices.
 
-    python -m tools.vectors.mutants 60 --seed 1    change so many places of the reference decoder, one by one; 0: all
+    python -m tools.vectors.mutants 60 --seed 1    change 60 places of the reference decoder, one by one; 0: all
 
 A mutant has one number that is larger by one, or by a fiftieth, one comparison that takes equals otherwise, or one sum
 that is a difference, and must treat some vector otherwise than the decoder that it came from does. The command ends
@@ -43,7 +43,7 @@ SAME = {
         node + unary «+» 24|unary + «24»|«4» + x, given|«3» + s if x >= 0|«49» * c3|node «+» unary
         0, «28», 56|28, «56», 84|84, «85», 112|85, «112», 140|112, «140»|else valence «-» 2
         2 * best «+» (1|clamp(value - c, -3, 3) «+» 3""",
-    "equals come to the same": """
+    "equals have the same effect": """
         x «>» high|if offset «<» len(stream)|corners «>» 0|(level «+» sum
         h «>» 0:  # V 5.8|size «>» 1|rest «<» 0 else|3 «-» w if rest|ratio «<=» 1|d.bit_length() - 6
         x «<» 4|return x if x < «4»|// n if a «>=» 0|count «<=» 65536|len(flaps) «>» 1 else shape
@@ -167,7 +167,7 @@ def outcome(decoder: Any, stream: bytes) -> str:
 
 @dataclass(frozen=True)
 class Known:
-    """A stream, what comes of it, and the functions that are called for it."""
+    """A stream, its result, and the functions that are called for it."""
 
     stream: bytes
     right: str

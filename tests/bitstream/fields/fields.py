@@ -17,11 +17,11 @@ Chunks = list[tuple[bytes, int]]
 
 NAMES = ("grid", "light", "levels", "plain", "color", "texcoord", "normal", "faces")
 COLUMNS = {"grid": 3, "light": 3, "levels": 3, "texcoord": 2, "normal": 2}
-"""Of kinds that have always so many."""
+"""Columns of kinds with a fixed number."""
 
 
 def field_of(name: str, faces: Faces, vertices: int, largest, at=None, places=None) -> Field:
-    """The field of that name."""
+    """The field with this name."""
     if name == "levels":
         return levels_field(faces, vertices)
     if name == "faces":
@@ -50,7 +50,7 @@ def octahedral_levels(normals: npt.ArrayLike, size: int) -> Ints:
 
 
 def offered(name: str, rows: int, largest, kind: str, seed: int) -> Ints:
-    """Values for the field of that name."""
+    """Values for the field with this name."""
     drawn = values(rows, [-most * (name == "levels") for most in largest], largest, kind, seed)
     return canonical_levels(drawn, largest[0] // 2) if name == "normal" else drawn
 

@@ -44,7 +44,7 @@ named = pytest.mark.parametrize("name", NAMES)
 
 
 def largest_of(name: str, draw) -> list[int]:
-    """Largest values that the field of that name may have."""
+    """Largest values that the field with this name may have."""
     most = st.sampled_from([0, 1, 2, 63, 64, 1000, MOST_LARGEST])
     if name == "normal":
         return [2 * draw(st.sampled_from([1, 2, 127, MOST_LARGEST // 2]))] * 2

@@ -27,7 +27,7 @@ def of_faces(source, name):
 
 
 def materials_of(source):
-    """What is said of each material, by its name, with its image's bytes; and of how many faces."""
+    """Return the entries of each material by name, with the bytes of its image and its number of faces."""
     found = {}
     for number, count in zip(*np.unique(of_faces(source, "material"), return_counts=True), strict=True):
         begin = f"material.{number}."

@@ -1,4 +1,4 @@
-"""The learnt candidate: what it is told does not depend on where a mesh is, and what it says is worth something."""
+"""The learnt candidate: its inputs do not depend on the position of a mesh, and its output improves the result."""
 
 from pathlib import Path
 
@@ -22,7 +22,7 @@ TURN *= np.sign(np.linalg.det(TURN))
 
 
 def zeros(size: int) -> Network:
-    """A network for so many numbers that adds nothing."""
+    """A network for this many inputs that adds nothing."""
     layer = (np.zeros((size, 3), np.float32), np.zeros(3, np.float32))
     return Network(np.zeros(size, np.float32), np.ones(size, np.float32), (layer,))
 

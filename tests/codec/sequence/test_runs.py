@@ -26,7 +26,7 @@ PIECES = ((10, 5), (7, 3), (10, 4), (5, 1), (7, 2))
 
 
 def meshes(*pieces):
-    """Frames of tori of several sizes, so many of each, that move."""
+    """Return frames of moving tori of several sizes, a number of each."""
     sizes = [size for size, count in pieces for _ in range(count)]
     found = []
     for t, size in enumerate(sizes):

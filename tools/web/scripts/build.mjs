@@ -70,7 +70,7 @@ function plain(entry, plugins) {
     return bundle(join(SOURCES, entry), { plugins, mangleProps: new RegExp(`^(${privateNames().join("|")})$`) });
 }
 
-/** The whole decoder inside of one function, `bsm`, whose text threads are made of that need no file. */
+/** The whole decoder inside of one function, `bsm`, whose text makes threads without a file. */
 async function inlined() {
     const text = await plain("index.ts", []);
     const [exports, list] = /export\{([^}]*)\};\s*$/.exec(text);
@@ -86,7 +86,7 @@ async function inlined() {
     };
 }
 
-/** A thread: the decoder, told to be one. */
+/** A thread: the decoder, started as one. */
 const thread = (decoder) => `import{serve}from"./${decoder}";serve();\n`;
 
 function licences(packages) {

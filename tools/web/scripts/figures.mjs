@@ -373,7 +373,7 @@ async function measure(meshes, folder) {
     try {
         for (const preset of PRESETS) {
             const { first, bytes, work } = await beginInPage(address, `bunny-${preset}.bsm`);
-            console.log(`bunny, ${preset}: the first block is there after ${first} of ${bytes} bytes (${((100 * first) / bytes).toFixed(0)} %) and ${milliseconds(work)} of work`);
+            console.log(`bunny, ${preset}: the first block is decoded after ${first} of ${bytes} bytes (${((100 * first) / bytes).toFixed(0)} %) and ${milliseconds(work)} of work`);
         }
         const balanced = join(folder, "bunny-balanced.bsm");
         const [before, inPage, after] = [python(DECODE, balanced, String(ROUNDS)), await decodeInPage(address), python(DECODE, balanced, String(ROUNDS))];

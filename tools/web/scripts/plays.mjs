@@ -32,7 +32,7 @@ const longest = () => {
     return found;
 };
 const picture = () => new Promise(requestAnimationFrame);
-/** Load a stream, and play it from its first frame on, so many frames a second. */
+/** Load a stream, and play it from its first frame on, at a number of frames a second. */
 window.play = async (url, rate) => {
     for (let k = 0; k < 120; k++) await picture(); // while the browser starts
     longest();

@@ -24,7 +24,7 @@ export class Decoder {
     private error?: BsmError;
     private header?: Header;
     private metadata = 0;
-    /** Frames of a run that has the mesh of another come behind attributes that were told of that one. */
+    /** Frames of a run that has the mesh of another follow the attributes that were reported for it. */
     private again = false;
     private readonly kept: { attributes: Attribute[]; first?: Mesh; faces: Int32Array } = { attributes: [], faces: new Int32Array(0) };
     /** What helpers have sent before it was its turn; the block that is awaited. */
@@ -116,7 +116,7 @@ export class Decoder {
         }
     }
 
-    /** What an event of the decoder in C is here; nothing if nobody is told of it. */
+    /** Convert an event of the decoder in C; nothing if it is not reported. */
     private heard(told: Told, growing: boolean): Event | Signal | undefined {
         const { engine, wishes } = this;
         const { type, index, count, vertices } = told;

@@ -25,7 +25,7 @@ interface Kind<View> {
 
 type Call = (...args: number[]) => number;
 
-/** An event as it is told: how many vertices and faces the user has, once that is known. */
+/** An event as it is reported, with the numbers of vertices and faces once they are known. */
 export interface Told {
     type: number;
     index: number;
@@ -82,7 +82,7 @@ export class Engine {
         return { type: view.getInt32(0, true), index, count, vertices, faces };
     }
 
-    /** The first error of the stream; the loss that was told last. */
+    /** The first error of the stream; the loss that was reported last. */
     error(isLoss = false): BsmError {
         const at = this.call("page_error", isLoss ? 1 : 0);
         const view = new DataView(this.buffer, at);
@@ -234,7 +234,7 @@ export class Engine {
         return TEXTS.decode(bytes.slice(0, bytes.indexOf(0)));
     }
 
-    /** What `work` returns with so many bytes of memory for a while. */
+    /** Run `work` with temporary memory of this many bytes, and return its result. */
     private lent<Result>(size: number, work: (at: number) => Result): Result {
         const at = this.call("page_take", size);
         if (at === 0) throw new LimitError(`this machine has no ${size} bytes of memory for the decoder`);

@@ -106,7 +106,7 @@ export class Decoder {
         }
     }
 
-    /** Compare the checksum of positions, if the stream has told it (F 5.10). */
+    /** Compare the checksum of positions, if the stream has one (F 5.10). */
     private check(told?: number): void {
         if (told === undefined) return;
         const places = begun(this.grid).positions.map((place) => place + 0); // -0 counts as 0

@@ -40,7 +40,7 @@ export function checkLimit(limits: Limits, name: keyof Limits, value: number): v
     }
 }
 
-/** Throw `LimitError` if a stream of so many vertices, and bytes received, needs more memory (M 14.8). */
+/** Throw `LimitError` if a stream of these vertices and received bytes needs more memory (M 14.8). */
 export function checkMemory(limits: Limits, value: number, vertices: number, received: number): void {
     const blockMemory = limits.blockMemory + limits.blockMemoryPerVertex * vertices + limits.memoryPerByte * received;
     checkLimit({ ...limits, blockMemory }, "blockMemory", value);

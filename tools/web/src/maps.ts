@@ -39,7 +39,7 @@ function compareKeys(a: Key, b: Key): number {
     return left.length - right.length;
 }
 
-/** Values of one, two or four bytes, or with so many for their length: the tag of the first, and the least that is not told shorter. */
+/** Values, or lengths, of one, two or four bytes: the tag of the first, and the least value without a shorter form. */
 const LONG = [["int", 0xcc, 128], ["string", 0xd9, 32], ["binary", 0xc4, 0]] as const;
 
 class MapReader {

@@ -32,7 +32,7 @@ export class BSMPlayer extends Base {
     private watch?: ResizeObserver;
     /** What is loading, or wrong. */
     private readonly note = globalThis.document?.createElement("p");
-    /** Counts what was asked for: what comes late of another stream is not shown. */
+    /** Counts requests: late parts of an earlier stream are not shown. */
     private asked = 0;
 
     get src(): string {

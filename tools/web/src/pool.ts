@@ -18,7 +18,7 @@ export interface Listener {
     onEnd?: () => void;
     /** Nothing follows it. */
     onError: (error: BsmError | Error) => void;
-    /** All of the first so many bytes are decoded. */
+    /** The first `bytes` bytes are decoded. */
     onTaken?: (bytes: number) => void;
 }
 
@@ -45,7 +45,7 @@ interface Hand {
 }
 
 /**
- * At most so many threads, started when they are needed. Where a page may have none, the decoder runs in the one
+ * At most `limit` threads, started when they are needed. Where a page may have none, the decoder runs in the one
  * that there is, a piece at a time.
  */
 export class Pool {
@@ -60,7 +60,7 @@ export class Pool {
         private limit = LIMIT,
     ) {}
 
-    /** Have at most so many threads. */
+    /** Use at most this many threads. */
     setLimit(limit: number): void {
         this.limit = Math.max(1, limit);
     }
@@ -255,7 +255,7 @@ class PooledStream implements StreamDecoding {
         [this.kernels, this.need] = [kernels, need];
     }
 
-    /** Be decoded by who hears what is said. */
+    /** Have a thread decode the stream. */
     work(say: (message: Message, moved: Transferable[]) => void, helpers: MessagePort[]): void {
         const { tolerant, drawing, worthwhile, limits = {} } = this.wishes;
         if (!this.kernels) return;

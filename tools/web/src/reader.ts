@@ -11,7 +11,7 @@ import { parseVarint } from "./varint";
 /** Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes (M 14.3). */
 const [FRAME, BYTE, TELLING, ENTRY] = [8e3, 8, 2e4, 8e3];
 
-/** Is told of work, and of the bytes that ask for it, and may refuse it. */
+/** Takes work, and the bytes that ask for it, and may refuse it. */
 export type Spend = (work: number, received: number) => void;
 
 const MAGIC_SIZE = 4;

@@ -39,7 +39,7 @@ export function parseFields<Names extends string>(payload: Uint8Array, fields: F
     return found as Record<Names, Content>;
 }
 
-/** What is of a later version is told as that, whatever else may seem to be wrong with it (F 4.8). */
+/** Report a later version first, whatever else may seem wrong (F 4.8). */
 function refuseUnknown<Names extends string>(key: Value, value: Value, names: Map<number, Names>, fields: Fields<Names>, what: string): void {
     if (key.type !== "int") throw new CorruptError(`a ${what} key is not an integer`);
     const name = names.get(Number(key.value));

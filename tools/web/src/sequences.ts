@@ -14,7 +14,7 @@ export interface SequenceEvents {
     ended: object;
     /** Frames come more slowly than they are shown. */
     waiting: object;
-    /** What comes of the stream cannot be decoded; the frames before are there. */
+    /** The rest of the stream cannot be decoded; the frames before it are available. */
     error: { error: unknown };
 }
 
@@ -89,7 +89,7 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
         return this;
     }
 
-    /** Go on by so many seconds. */
+    /** Advance by a number of seconds. */
     update(seconds: number): void {
         const { playback, geometry } = this;
         const [before, wasPlaying] = [playback.frame, playback.playing];

@@ -31,7 +31,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return this;
     }
 
-    /** Have at most so many threads. */
+    /** Use at most this many threads. */
     setWorkerLimit(limit: number): this {
         this.pool.setLimit(limit);
         return this;

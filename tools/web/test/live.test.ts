@@ -1,4 +1,4 @@
-/** The page of a stream that is still being written, in headless Chromium: it plays what has come, who comes late enters at the newest GOP. */
+/** The page of a stream that is still being written, in headless Chromium: it plays what has arrived; a page opened later starts at the newest GOP. */
 import { test } from "node:test";
 import assert from "node:assert/strict";
 import { appendFileSync, existsSync, readFileSync } from "node:fs";

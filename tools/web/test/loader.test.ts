@@ -55,7 +55,7 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         return told;
     }
 
-    /** Scenes of one stream: as it is, said to have another size, and cut off. */
+    /** Scenes of one stream: as it is, with a wrong size, and cut off. */
     async function serveScenes(): Promise<void> {
         const kernels = await compile(BUILDS[0]);
         const stream = readFileSync(join(VECTORS, "good-attribute-textured.bsm"));
@@ -136,7 +136,7 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual([seen.after, seen.cut, seen.stray, seen.more], [true, "TruncatedError", "FormatError", 0]);
     });
 
-    test("stops when it is told to", async () => {
+    test("stops on request", async () => {
         const seen = await found(`
             const problem = (load) => load.then(() => "none", ({ name, message }) => name + " " + message);
             const loader = new BSMLoader();

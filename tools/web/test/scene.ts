@@ -1,4 +1,4 @@
-/** A scene of one stream, by EXT_bsm_compression; it is said to have so many vertices and corners. */
+/** A scene of one stream, by EXT_bsm_compression; with these numbers of vertices and corners. */
 export function sceneOf(stream: Uint8Array, vertices: number, corners: number, moves = false): Uint8Array {
     const name = "EXT_bsm_compression";
     const sizes = ([["POSITION", "VEC3", 12, vertices], ["NORMAL", "VEC3", 12, vertices], ["TEXCOORD_0", "VEC2", 8, vertices], ["indices", "SCALAR", 4, corners]] as const).filter(([attribute]) => !moves || attribute !== "TEXCOORD_0");

@@ -316,7 +316,7 @@ def parse_remarks(lines: Iterable[str]) -> dict[str, Value]:
 
 
 def fitting(metadata: Metadata, limit: int) -> tuple[dict[str, str | int | float | bytes], dict[str, str]]:
-    """Drop the largest entries until the metadata fits into `limit` bytes; return the rest, and why each is left out."""
+    """Drop the largest entries until metadata fits into `limit` bytes; return the rest, and why each is left out."""
     sizes = {name: _size(name, value) for name, value in metadata.items()}
     total = sum(sizes.values())
     refused: dict[str, str] = {}

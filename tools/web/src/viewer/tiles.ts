@@ -48,7 +48,7 @@ class Tile {
         this.radius = low.distanceTo(high) / 2;
     }
 
-    /** How many pixels it is off, seen from a place, where a unit at distance 1 is so many. */
+    /** The error in pixels, seen from a place, if a unit at distance 1 has `pixels` pixels. */
     off(eye: Vector3, pixels: number): number {
         return this.below.length === 0 ? 0 : (pixels * this.told.error) / Math.max(eye.distanceTo(this.center) - this.radius, 1e-3 * this.radius);
     }

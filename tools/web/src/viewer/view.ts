@@ -11,7 +11,7 @@ import { Stage, type Mode, type Shading } from "./stage";
 import { TileSet, wholeOf } from "./tiles";
 import template from "./view.html";
 
-/** A mesh: its stream, the size of the file that it stands for, and how far each vertex is off, if that is known. */
+/** A mesh: its stream, the size of the file, and the error of each vertex, if it is known. */
 export interface Layer extends Place {
     title: string;
     detail: string;
