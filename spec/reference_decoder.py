@@ -67,7 +67,7 @@ def varint(data, start):  # F 1.2: value and offset behind it, None if the data 
     raise CorruptError("varint is longer than five bytes")
 
 
-def varints(data, count):  # So many at the beginning of a payload, and what is behind them
+def varints(data, count):  # `count` of them at the beginning of a payload, and what is behind them
     values, at = [], 0
     for _ in range(count):
         found = varint(data, at)

@@ -83,7 +83,7 @@ def _numbers(stream: bytes) -> list[str]:
     return [
         "The faces are " + ", ".join(f"({a} {b} {c})" for a, b, c in mesh.faces.tolist()) + ".",
         "The rows of the only block are the vertices " + " ".join(map(str, block.vertices.tolist())) + ".",
-        "Its levels, and the coefficients that they stand for:",
+        "Its levels, and their coefficients:",
         "",
         *(f"    {_row(a, '4d')}    {_row(b, '9.6f')}" for a, b in zip(levels, coefficients)),
         "",
