@@ -149,7 +149,7 @@ int64_t code_block(Coder coder, Bank bank, Past past, ConstInts2 expectations, I
 void points_of_levels(ConstInts2 levels, Ints2 points);
 
 /* Entropy coding of a sequence's levels. See matrices.py. */
-enum { PRICED = 6 }; /* magnitudes with a price of their own */
+enum { PRICED = 6 }; /* magnitudes whose prices are computed */
 
 int64_t code_matrix(
     Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, int64_t stair, int64_t turn,

@@ -34,7 +34,7 @@ def write_stretches(shown: npt.NDArray[np.int64] | None) -> bytes:
 
 
 MAX_EXPONENT = 400
-METHODS, RUNS = 8, 32  # the first byte is the method, and so many times the number of the run, counted modulo `RUNS`
+METHODS, RUNS = 8, 32  # the first byte is the method plus METHODS times the number of the run modulo RUNS
 WITH_ATTRIBUTES = 4  # added to the method where there are attributes
 
 
@@ -92,7 +92,7 @@ class GopBody:
 
 
 def still(width: int) -> GopField:
-    """A field of so many columns that is not coded."""
+    """Return a field with this many columns that is not coded."""
     return GopField(width, 0.0, 0, np.empty(0, np.int32), b"", b"")
 
 

@@ -28,7 +28,7 @@ from bsm.codec.arrays import Basis, Faces, Indices, Matrix, Positions
 from bsm.codec.blocks.overlap import Block
 from bsm.codec.geometry.graph import Graph
 
-LEAF = 8  # halves of at most so many rows are not cut further
+LEAF = 8  # halves of at most this many rows are not cut further
 
 WORK = 1 << 16
 """Operations of a factorisation, per row, that are too many; surfaces in blocks of 8,000 take an eighth of them."""
@@ -136,7 +136,7 @@ def solving_room(rows: int, columns: int) -> Basis:
 
 
 def check_rows(factor: Factor, rows: int) -> None:
-    """Raise ValueError unless a factor is that of a matrix of so many rows."""
+    """Raise ValueError unless the factor belongs to a matrix with this many rows."""
     if len(factor.inverse) != rows:
         raise ValueError(f"{rows} rows for a factor of {len(factor.inverse)}")
 
@@ -157,7 +157,7 @@ def factor_cost(fronts: Fronts) -> float:
 
 
 def solve_cost(fronts: Fronts, columns: int) -> float:
-    """Work of one solution for so many columns, which are solved in panels of 64, a panel in vectors of 16."""
+    """Return the work of one solution; columns are solved in panels of 64, a panel in vectors of 16."""
     return 50.0 + float(fronts.sums[0]) * (0.3 * -(-columns // 64) + 0.02 * _whole(columns))
 
 

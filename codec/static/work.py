@@ -48,7 +48,7 @@ class Allowance:
             self.vertices, self._received, self.kept = other.vertices, other._received, other.kept
 
     def room(self, received: int = 0) -> float:
-        """Bytes for which there is room besides those that are kept, with so many more received."""
+        """Return the bytes that are free besides the kept ones, after this many more are received."""
         with self._change:
             return self.limits.memory_for(self.vertices, self._received + received) - self.kept
 
@@ -64,7 +64,7 @@ class Allowance:
             self.vertices -= vertices
 
     def keep(self, memory: float, received: int = 0) -> None:
-        """Take note of memory that is kept to the end, and of bytes that stand for it."""
+        """Reserve memory to the end, and the bytes that pay for it."""
         with self._change:
             self.kept += memory
             self._received += received
