@@ -14,9 +14,9 @@ class BsmError(Exception):
     Parameters
     ----------
     message : str
-        What is wrong and what to do about it.
+        The fault and its remedy.
     offset : int, optional
-        Byte offset in the stream (or file) where it was noticed.
+        Byte offset of the fault in the stream or file.
     frame : int, optional
         Number of the stream frame, counted from 0.
     block : int, optional
@@ -52,7 +52,7 @@ class BsmError(Exception):
 
 
 class FormatError(BsmError, ValueError):
-    """The data is not a BSM stream at all (or not the kind of file its name promises).
+    """The data is not a BSM stream, or the file is not of the kind that its name promises.
 
     Examples
     --------
@@ -64,7 +64,7 @@ class FormatError(BsmError, ValueError):
 
 
 class UnsupportedError(BsmError, NotImplementedError):
-    """Well formed as far as it can be read, but of a version or method that this decoder does not know.
+    """The stream uses a version or method that this decoder does not know.
 
     Examples
     --------
@@ -113,7 +113,7 @@ class LimitError(BsmError, OverflowError):
 
 
 class NumericError(BsmError, ArithmeticError):
-    """The mathematics broke down: a singular system or a value that is not finite.
+    """A computation failed numerically: a singular system, or a value that is not finite.
 
     Examples
     --------
@@ -124,7 +124,7 @@ class NumericError(BsmError, ArithmeticError):
 
 
 class MeshError(BsmError, ValueError):
-    """Positions and faces that do not make a triangle mesh.
+    """The positions and faces are not a triangle mesh.
 
     Examples
     --------
@@ -136,7 +136,7 @@ class MeshError(BsmError, ValueError):
 
 
 class OptionError(BsmError, ValueError):
-    """An option outside its legal range, or options that exclude each other.
+    """An option is outside its legal range, or options exclude each other.
 
     Examples
     --------
@@ -148,7 +148,7 @@ class OptionError(BsmError, ValueError):
 
 
 class HarmError(BsmError, ValueError):
-    """A result that would be worse than what it was made from; it is handed out only if that is forced.
+    """The result would be worse than the input. `force` returns it anyway.
 
     Examples
     --------
@@ -161,7 +161,7 @@ class HarmError(BsmError, ValueError):
 
 
 class ArgumentError(BsmError, TypeError):
-    """An argument of a type that is not understood, or a keyword that does not exist.
+    """An argument has a wrong type, or a keyword does not exist.
 
     Examples
     --------
@@ -173,12 +173,12 @@ class ArgumentError(BsmError, TypeError):
 
 
 class TargetError(BsmError, ValueError):
-    """A quality or a size that cannot be reached; the message says the best that can be had.
+    """A quality or size cannot be reached. The message names the best that can.
 
     Attributes
     ----------
     best : float
-        The same as a number, in the unit of the target; infinity where nothing can be had.
+        The best value as a number, in the unit of the target; infinity if there is none.
 
     Examples
     --------
@@ -194,7 +194,7 @@ class TargetError(BsmError, ValueError):
 
 
 class VerificationError(BsmError, RuntimeError):
-    """A stream that does not decode to what the encoder promised: a fault of this program, and nothing was written.
+    """The stream does not decode to what the encoder promised. This is a fault of the program; it writes nothing.
 
     Examples
     --------
@@ -207,7 +207,7 @@ class VerificationError(BsmError, RuntimeError):
 
 
 class DependencyError(BsmError, ImportError):
-    """An optional package is needed for this and is not installed.
+    """An optional package is missing.
 
     Examples
     --------

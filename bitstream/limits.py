@@ -24,10 +24,10 @@ from bsm.bitstream.errors import (
 @public
 @dataclass(frozen=True)
 class Limits:
-    """Upper bounds that a decoder checks before it allocates or works; raise them with `dataclasses.replace`.
+    """Upper bounds that a decoder checks before it allocates or computes. Change them with `dataclasses.replace`.
 
-    The defaults admit a mesh of sixteen million vertices and refuse a stream that only claims to hold one: memory and
-    work follow the vertices that its faces really have, and the bytes received.
+    The defaults allow a mesh of sixteen million vertices, but refuse a stream that only claims to contain one: memory
+    and work are bounded by the vertices that its faces really use, and by the bytes received.
 
     Parameters
     ----------
@@ -46,12 +46,12 @@ class Limits:
     metadata_bytes : int
         Of names and values that belong to the whole mesh.
     work, work_per_vertex, work_per_byte : float
-        Nanoseconds of a processor core, by the estimates of the specification: granted at once, and for each vertex
-        and each byte that have come.
+        Nanoseconds of a processor core, by the estimates of the specification: a constant, and more for each vertex
+        and each byte that have arrived.
     most_work : float
         Of a whole stream, whatever it holds.
     memory, memory_per_vertex, memory_per_byte : float
-        Bytes, granted in the same way.
+        Bytes, in the same way.
     most_memory : float
         Of a whole stream, whatever it holds.
     sequence_bytes : float

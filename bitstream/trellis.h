@@ -14,7 +14,7 @@ INLINE int trellis_following(int state, int32_t level) {
     return ((state << 1) & (TRELLIS_STATES - 1)) | ((state ^ (state >> 1) ^ (state >> 2) ^ level) & 1);
 }
 
-/* Point, in half steps, that `level` stands for. */
+/* The value of `level`, in half steps. */
 INLINE int32_t trellis_point(int state, int32_t level) {
     if (level > 0) return 2 * level - trellis_grid(state);
     return level < 0 ? 2 * level + trellis_grid(state) : level;

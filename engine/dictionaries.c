@@ -13,7 +13,7 @@ typedef struct {
     int64_t power, iterations, most;
 } Schedule;
 
-/* Columns that follow from L, of a block of so many rows (M 8.7). */
+/* Columns that follow from L, by the rows of a block (M 8.7). */
 static int64_t iterated_columns(const Header *header, int64_t rows) {
     return header->gop_frames > 0 && rows <= header->coefficients ? (rows + 1) / 2 : rows;
 }

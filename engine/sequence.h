@@ -9,7 +9,7 @@ bool accept_in_sequence(bsmdec *decoder, const Packet *packet);
 bool accept_damage_in_sequence(bsmdec *decoder);
 /* Nothing follows. */
 bool end_sequence(bsmdec *decoder);
-/* Make a frame that was told the one that is asked for. */
+/* Make a reported frame the current one. */
 bool show(bsmdec *decoder, int64_t index);
 void close_sequence(bsmdec *decoder);
 

@@ -4,7 +4,7 @@
 
 #include "engine/state.h"
 
-/* Take a packet in; what follows from it is told. */
+/* Accept a packet, and queue its events. */
 bool take_in(bsmdec *decoder, const Packet *packet);
 /* The error is the context's. */
 bool accept_damage_in_mesh(bsmdec *decoder);
@@ -15,7 +15,7 @@ void end_mesh(Mesh *mesh);
 bool build(bsmdec *decoder);
 /* Positions of a mesh that is not whole yet, as far as they are known. */
 bool look_at_positions(bsmdec *decoder);
-/* Whether the checksum of all positions is the one that was told; a tolerant decoder tells of another as a loss. */
+/* Whether the checksum of all positions is the stream's; a tolerant decoder reports a difference as a loss. */
 bool check_sum(bsmdec *decoder, uint32_t found);
 
 #endif

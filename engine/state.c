@@ -1,4 +1,4 @@
-/* What is told, and what is forgotten when a mesh begins. */
+/* Events and losses, and the state that a new mesh resets. */
 #include "engine/state.h"
 
 void forget_changes(Changes *changes) {

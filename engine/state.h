@@ -115,15 +115,15 @@ struct bsmdec {
     Mesh mesh;
     Sequence sequence;
     Changes changes;
-    /* Events that wait to be told, a ring. */
+    /* The queue of events, a ring. */
     bsmdec_event *queue;
     int64_t first, waiting, room;
     /* What positions are asked of: those of the mesh, or of a frame; in the unit of the mesh, as coded. */
     bool has_positions;
     ConstDoubles2 positions;
     Arena shown;
-    bool has_checksum;    /* whether the stream has told that of all positions: */
-    uint32_t told, shown_sum; /* the one told, and that of all frames so far */
+    bool has_checksum;    /* whether the stream has a checksum of all positions: */
+    uint32_t told, shown_sum; /* the stream's, and that of all frames so far */
     Split split;
     char misuse[128];     /* why the last call was refused */
     bsmdec_error loss;
@@ -140,11 +140,11 @@ INLINE void forget_split(bsmdec *decoder) {
 void begin_mesh(bsmdec *decoder, const Header *header);
 /* An event of the present mesh: what its header claims, and what it is once the faces are known. */
 bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
-/* Have an event wait to be told. */
+/* Queue an event. */
 bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
-/* Have an error be told as a loss: of so many frames of a sequence from `index` on, or of a block. */
+/* Report an error as a loss: of `count` frames of a sequence from `index` on, or of a block. */
 bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
-/* Bear an error as a loss of `block`, or of something else if that is -1: false where it is not to be borne. */
+/* Record the error as a loss of `block`, or with -1 of something else, and continue; false if it is fatal. */
 bool bear(bsmdec *decoder, int64_t block, bool anywhere);
 
 #endif

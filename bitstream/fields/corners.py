@@ -137,7 +137,7 @@ _SCALE_CONTEXTS = 512
 
 
 class ValueModel(NamedTuple):
-    """What is learnt about integers (V 3); the struct of that name in `fields.h`."""
+    """What is learnt about integers (V 3); the struct with this name in `fields.h`."""
 
     slots: npt.NDArray[np.uint32]
     hits: npt.NDArray[np.uint32]

@@ -54,7 +54,7 @@ AXES = 3
 
 
 class _Grid(NamedTuple):
-    """State of a grid; the struct of that name in `fields.h`, and so are those below."""
+    """State of a grid; the struct with this name in `fields.h`, and so are those below."""
 
     largest: Ints
     order: Ints

@@ -54,7 +54,7 @@ def hand_over(name: str) -> HandOver:
 @public
 @dataclass(frozen=True, kw_only=True)
 class DenoiseOptions:
-    """How to denoise; the defaults are the paper's coarse-to-fine scheme.
+    """Options of denoising. The defaults are the paper's coarse-to-fine scheme.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ class DenoiseOptions:
     keep : float
         Fraction of each block's frequencies that the coarse step keeps.
     block_size : int
-        Vertices of a block before overlap, about.
+        Approximate vertices of a block before overlap.
 
     Raises
     ------

@@ -28,17 +28,17 @@ class Attribute:
     Parameters
     ----------
     name : str
-        Not empty; a mesh has at most one attribute of a name. The field's usual names are "color", "normal" and
-        "texcoord", with a number behind for a second one.
+        Not empty, and unique in a mesh. Usual names are "color", "normal" and "texcoord", with a number appended for a
+        second one.
     values : array_like, shape (k, c) or (k,), 1 <= c <= 4
-        Integers of at most 32 bits, or floats of 32 or 64, which are finite; (k,) is stored as (k, 1). Wider integers
-        that fit into 32 bits are stored so, truth values as uint8. Colours are uint8 or uint16, or floats from 0 to 1.
+        Integers of at most 32 bits, or finite floats of 32 or 64 bits. Shape (k,) is stored as (k, 1), wider integers
+        that fit as 32 bits, booleans as uint8. Colors are uint8 or uint16, or floats from 0 to 1.
     domain : {"vertex", "corner", "face"}
-        What has a value: each vertex (k = n), each face (k = m), or each corner of each face.
+        Whether each vertex (k = n), each face (k = m), or each corner of each face has a value.
     semantic : {"generic", "color", "normal", "texcoord"}
-        What the values mean; it tells how they are best coded.
+        Meaning of the values; it decides how they are coded.
     indices : array_like, shape (m, 3), optional
-        For corners: which of the values each corner of each face has; None: corner i of face f has value 3 f + i.
+        For corners: the index of the value of each corner. None: corner i of face f has value 3 f + i.
 
     Raises
     ------

@@ -31,15 +31,15 @@ class TriangleMesh:
         Indices into `positions`, counter-clockwise seen from outside; stored as int32. Any set of triangles is
         allowed: degenerate, repeated, non-manifold and inconsistently oriented ones too.
     attributes : sequence of Attribute
-        Of its vertices, corners and faces; names differ.
+        Attributes of vertices, corners and faces, with different names.
     metadata : mapping from str to str, int, float or bytes
-        What belongs to the whole mesh: a name, a unit, an author, ...
+        Entries for the whole mesh: a name, a unit, an author, ...
 
     Raises
     ------
     MeshError
-        If a shape is wrong, a coordinate is not finite, an index is out of range, there is no face, or an attribute is
-        not of this mesh.
+        If a shape is wrong, a coordinate is not finite, an index is out of range, there is no face, or an attribute
+        does not fit the mesh.
 
     Examples
     --------

@@ -25,18 +25,18 @@ Floats = Matrix
 @public
 @dataclass(frozen=True)
 class Comparison:
-    """What the encoder's closed loops and the evaluation look at.
+    """Errors of positions, for the encoder's closed loops and for evaluation.
 
     Attributes
     ----------
     nmsve : float
-        Normalised mean square visual error, see `Reference.nmsve`.
+        Normalized mean square visual error, see `Reference.nmsve`.
     nmsve_db : float
         ``10 * log10(nmsve)``; minus infinity where the meshes are equal.
     theta_deg : float
         Mean angle between corresponding face normals, degrees, see `theta`.
     angle_deg : float
-        The same with every face counted by its area, as contracts do: what a viewer sees.
+        The same with faces weighted by area, as contracts use it.
     rms, max_error : float
         Root mean square and largest distance between corresponding vertices, in the mesh's own unit.
     rms_relative, max_error_relative : float

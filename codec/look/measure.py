@@ -54,19 +54,19 @@ Shading = Callable[[Positions], Normals]  # normals of corners, where vertices a
 @public
 @dataclass(frozen=True)
 class Look:
-    """How much a mesh differs in pictures from an original.
+    """The difference of a mesh from an original in pictures.
 
     Attributes
     ----------
     distance : float
-        0: the pictures are the same; up to 1: it looks the same; about twice as much for steps twice as wide.
+        0: the pictures are equal; up to 1: the meshes look the same. Steps twice as wide about double it.
     dissimilarity : float
         1 - SSIM, mean over the covered pixels of all pictures.
     visible : float
         Share of covered pixels whose shade differs by more than 12 of 255 after a slight blur.
     gone : float
-        Share of pixels that differ by more than 48 of 255, in the square of 8 by 8 where that is largest: half of it
-        where an edge moves by some pixels, all where a part is not there any more.
+        Share of pixels that differ by more than 48 of 255, in the square of 8 by 8 pixels where it is largest: half if
+        an edge moves by some pixels, all if a part is missing.
 
     Examples
     --------

@@ -60,27 +60,27 @@ class SequenceEncoder:
     Parameters
     ----------
     faces : array_like of int, shape (m, 3)
-        Vertices that no face uses are left out, and those that are at one position in all frames made one, with notes;
-        where the options keep the order, the stream gives these back.
+        The encoder leaves out vertices that no face uses, and merges vertices at one position in all frames, with
+        notes. If the options keep the order, the stream returns them.
     options : SequenceOptions
     frames : int
         Number of frames, 0 if it is not known.
     metadata : mapping from str to str, int, float or bytes
         What belongs to the whole sequence.
     attributes : sequence of Attribute
-        Of the mesh, at the qualities that the options say; frames that are meshes have their own, none given or these
-        only. Numbers of vertices may change from frame to frame; of others, and of each later run, those of the first
-        frame are taken. Normals are left out of meshes, since they follow from positions.
+        Attributes of the mesh, at the qualities of the options. Frames that are meshes bring their own: give none, or
+        the same. Numbers of vertices may change from frame to frame; other attributes are those of the first frame of
+        each run. Normals are left out, because they follow from positions.
 
     Attributes
     ----------
     vertex_order : int64 array, shape (n,)
-        The decoder's vertex j is vertex `vertex_order[j]` of the frames of the present run; known once `chunks` has
-        given its first bytes.
+        The decoder's vertex j is vertex `vertex_order[j]` of the frames of the present run; available once `chunks`
+        has returned its first bytes.
     face_order : int64 array, shape (m,)
         The decoder's face i is face `face_order[i]`.
     notes : tuple of str
-        What was changed on the way in.
+        Changes that the encoder made to its input.
     run_starts : list of int
         The numbers of the first frames of all runs so far.
     samples : int

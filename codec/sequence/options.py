@@ -68,7 +68,7 @@ PROMISES = {
 @public
 @dataclass(frozen=True, kw_only=True)
 class SequenceOptions:
-    """How to encode a sequence.
+    """Options of encoding a sequence.
 
     Parameters
     ----------
@@ -78,31 +78,30 @@ class SequenceOptions:
     step : float
         Quantization step, relative to the bounding box's diagonal of the first frame.
     first_step : float, optional
-        That of the first frame, which all others are predicted from; None: 0.3 of `step`.
+        Step of the first frame, from which all others are predicted; None: 0.3 of `step`.
     gop : int, optional
-        Frames of a GOP at most, or between key frames: what a loss costs at most, and what the encoder holds. None:
-        between key frames 256; of a GOP 512 up to 5,000 vertices, 256 from 10,000 on, and in between evenly.
+        Largest number of frames of a GOP, or between key frames: it bounds the cost of a loss and the frames in memory.
+        None: 256 between key frames; for a GOP 512 up to 5,000 vertices, 256 from 10,000 on, interpolated between.
     keep : float
         Columns of the dictionary as a fraction of the block size; below 1, fine detail is lost.
     block_size, overlap
-        Vertices of a part, about, and size of a block as a multiple of the largest part.
+        Approximate vertices of a part, and size of a block as a multiple of the largest part.
     frame_rate : float
         Frames per second, written to the metadata as `frame_rate`; 0: unknown.
     keep_order : bool
-        Store the order of vertices and faces, the first corner of each face, and which vertices were several at one
-        position.
+        Store the order of vertices and faces, the first corner of each face, and which vertices were merged.
     attributes : mapping of str to str, or pairs
-        How well attributes that are the same in all frames are kept, as of a mesh.
+        Quality of attributes that do not change, as for a mesh.
     limits : str
         Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
     threads : int, optional
         None: one per core.
     runs : bool
-        Let the faces change from frame to frame, as in volumetric capture; where they do, a run begins.
+        Let the faces change from frame to frame, as in volumetric capture; each change begins a run.
     target : SequenceTarget, optional
-        Look for the one step for all frames that reaches it; this needs all frames in memory.
+        Search for one step for all frames that reaches it. All frames must fit into memory.
     promise : Promise, optional
-        Look for the step of each GOP, or with low delay of each frame, that keeps it; not beside a target.
+        Search for the step of each GOP, or with low delay of each frame, that keeps it. It excludes a target.
 
     Raises
     ------

@@ -75,8 +75,8 @@ class Encoder:
     Parameters
     ----------
     mesh : TriangleMesh
-        Vertices at one position are made one, and what no face uses is left out, with notes; where the options keep
-        the order, the stream returns all of it.
+        The encoder merges vertices at one position and leaves out those that no face uses, with notes. If the options
+        keep the order, the stream returns them.
     options : EncodeOptions
 
     Examples

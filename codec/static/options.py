@@ -44,7 +44,7 @@ BALANCED = Contract(0.01, look=1.0, by_part=0.01)  # what is promised unless som
 @public
 @dataclass(frozen=True, kw_only=True)
 class Paper:
-    """How blocks are coded, for those who study the paper; the defaults are the product.
+    """Options of blocks for readers of the paper. The defaults are those of the product.
 
     Parameters
     ----------
@@ -53,8 +53,8 @@ class Paper:
     partition : str
         "derived": both sides compute it; "metis": the paper's, its labels are sent.
     key_seed : str, optional
-        Where a block that follows none begins: "cosines", or "svd", the exact lowest subspace, as the paper seeds its
-        first block. None: "svd" with `bits`, and cosines otherwise.
+        Initial dictionary of a block that starts a chain: "cosines", or "svd", the exact lowest subspace, as in the
+        paper. None: "svd" with `bits`, otherwise "cosines".
     power, iterations, key_iterations : int
         z, t_max and t_max of a key block.
     shift : float, optional
@@ -107,7 +107,7 @@ class Paper:
 @public
 @dataclass(frozen=True, kw_only=True)
 class EncodeOptions:
-    """How to encode a static mesh.
+    """Options of encoding a static mesh.
 
     Parameters
     ----------
@@ -124,43 +124,41 @@ class EncodeOptions:
         One of this many blocks, at least, depends on nothing before it; 0: only the first; 1: every block is on its
         own, with exact bases throughout if `paper.key_seed` is "svd".
     step : float, optional
-        Finest quantization step of the adaptive coder, relative to the bounding box's diagonal; None: what the contract
-        or the target begins with.
+        Finest quantization step of the adaptive coder, relative to the diagonal of the bounding box. None: the contract
+        or the target chooses it.
     smoothing : float, optional
         Amount alpha of smoothing in the decoder; None: chosen by trying.
     keep_order : bool
         Store the order of vertices and faces, and the first corner of each face.
     paper : Paper, optional
-        How blocks are coded beyond that; as keywords its fields stand beside the others: ``bsm.encode(mesh, bits=12)``.
+        Further options of blocks. As keywords, write its fields beside the others: ``bsm.encode(mesh, bits=12)``.
     target : Target, optional
         Quality or size to reach.
     contract : Contract, optional
-        What is promised, beside the target if there is one; the encoder finds the cheapest way to keep it. None:
-        nothing but the target. It says nothing where `grid`, `grid_cell` or any of `CODING` is given:
-        who says how to code gets that.
+        The promise, in addition to the target if there is one; the encoder finds the cheapest way to keep it. None:
+        the target only. It has no effect with `grid`, `grid_cell` or any of `CODING`.
     effort : str
-        "quick": only what is quick to decode, which is positions on a grid, without dictionaries, coded
-        by a small model, with `grid` and `grid_cell` as well; "normal"; "best": blocks of several sizes and more
-        steps, for the smallest file. It takes several times as long, and larger blocks are slower to decode.
+        "quick": only positions on a grid, coded by a small model, which decode fast; also with `grid` and
+        `grid_cell`. "normal". "best": also blocks of several sizes and more steps, for the smallest file. It takes
+        several times as long, and larger blocks are slower to decode.
     quick : bool
         Another name of ``effort="quick"``.
     exact : bool
-        Keep every position as single precision has it, to the bit.
+        Keep every position exactly in single precision.
     grid : int, optional
         Round every position to a grid with this many bits along the longest side.
     attributes : mapping of str to str, or pairs
-        How well attributes are kept, by their names; "*" is any other: "exact"; "12bits" of each number, of normals on
-        an octahedron; "0.01", a bound, or "1%" of the range; "2deg" for normals; "recompute" for normals; "none". Where
-        nothing is said, whole numbers are exact, and floats in as many bits as their kind and the promise of positions
-        suggest; the encoder's notes say so.
+        Quality of attributes by name; "*" is any other: "exact"; "12bits" of each number, of normals on an octahedron;
+        "0.01", a bound, or "1%" of the range; "2deg" or "recompute" for normals; "none". By default integers are
+        exact, and floats get the bits that their kind and the promise of positions need; notes report them.
     normals : str
-        Of those that nothing is said of: "look", as little as the promised look needs; "keep", as many bits as the
-        promise of positions suggests; "recompute", nothing: they are made from the decoded mesh.
+        Default quality of normals. "look": as few bits as the promised look needs. "keep": as many as the promise of
+        positions needs. "recompute": the decoder computes them.
     grid_cell : float, optional
-        Keep every position exactly as a grid of cells of this length, in the mesh's unit, rounds it: parts that are
-        encoded apart on the same grid fit bit for bit.
+        Round every position to a grid with cells of this length, in the unit of the mesh. Parts that are encoded
+        separately on the same grid fit bit for bit.
     grid_origin : (float, float, float), optional
-        Where that grid has a place; None: where the mesh's unit has its zero.
+        A point of that grid; None: the origin.
     limits : str
         Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
     threads : int, optional

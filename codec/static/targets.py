@@ -17,12 +17,12 @@ WIDEST = 0.1  # of the diagonal: who asks for a wider bound took one unit for an
 @public
 @dataclass(frozen=True)
 class Contract:
-    """Bounds that a decoded mesh keeps.
+    """Bounds on a decoded mesh.
 
     Parameters
     ----------
     farthest : float
-        How far any vertex may come to lie from its place. The Hausdorff distance of the surfaces is no larger.
+        Largest distance of any vertex from its original. The Hausdorff distance of the surfaces is no larger.
     angle : float
         Mean angle between corresponding normals, degrees, faces counted by their area; 180: any.
     absolute : bool
@@ -34,8 +34,8 @@ class Contract:
     visual : float
         Normalised mean visual error (`codec.geometry.metrics.Reference.nmsve`); infinite: any.
     by_part : float
-        The same as `farthest`, always over diagonals, and each connected part by its own: down to a tenth of what it is
-        for the whole; parts near each other keep their order in depth. Infinite: no such bound.
+        The same as `farthest`, but relative to the diagonal of each connected part, down to a tenth of the whole's.
+        Parts near each other keep their order in depth. Infinite: no such bound.
 
     Raises
     ------

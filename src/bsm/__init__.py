@@ -1,7 +1,6 @@
 """BSM: a streaming spectral codec and denoiser for triangle meshes, static and animated.
 
-A mesh is compressed to bytes and restored from them; what it takes and what it may cost is said by keyword, as on the
-command line:
+`encode` compresses a mesh to bytes, and `decode` restores it. Options are keywords, named as on the command line:
 
 >>> import bsm
 >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
@@ -12,16 +11,15 @@ command line:
 >>> bsm.compare(mesh, data).theta_deg < 5
 True
 
-Instead of a `TriangleMesh` there may be a mesh of trimesh, pyvista, Open3D or meshio, a pair (positions, faces), or the
-name of a file; instead of bytes any buffer, the name of a file, or a binary file. `load` and `save` know every format
-by its suffix, .bsm included. A stream that is still arriving is decoded block by block:
+Functions that take a `TriangleMesh` also take a mesh of trimesh, pyvista, Open3D or meshio, a pair (positions, faces),
+or the name of a file. Functions that take bytes also take any buffer, the name of a file, or a binary file. `load` and
+`save` choose the format by its suffix, including .bsm. A `Decoder` decodes a stream block by block while it arrives:
 
 >>> with bsm.Decoder() as decoder:
 ...     [len(event.vertices) for event in decoder.events([data]) if isinstance(event, bsm.BlockEvent)]
 [4]
 
-Every error is a `BsmError`. Only what is listed here is promised to stay; the packages `bsm.codec` and
-`bsm.bitstream` are where it lives.
+Every error is a `BsmError`. Only the names listed here are stable; `bsm.codec` and `bsm.bitstream` are internal.
 """
 
 from __future__ import annotations

@@ -47,7 +47,7 @@ def encode(
     options : EncodeOptions, optional
         Instead of keywords.
     metadata : mapping from str to str, int, float or bytes, optional
-        Added to what the mesh says of itself.
+        Added to the metadata of the mesh.
     **keywords
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none"),
         one target (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`,
@@ -56,13 +56,13 @@ def encode(
     Returns
     -------
     bytes
-        A stream. Vertices and faces are in the coder's order in it unless `keep_order` is true; `Encoder.vertex_order`
-        tells that order.
+        A stream. Unless `keep_order` is true, vertices and faces have the coder's order, which `Encoder.vertex_order`
+        returns.
 
     Raises
     ------
     BsmError
-        `ArgumentError` if this is no mesh or there is no such keyword; `MeshError`, `OptionError`, ...
+        `ArgumentError` if `mesh` is not a mesh or a keyword does not exist; `MeshError`, `OptionError`, ...
 
     Examples
     --------
@@ -99,40 +99,40 @@ def encode_many(
     metadata: Mapping[str, str] | None = None,
     **keywords: Any,
 ) -> list[dict[str, Any]]:
-    """Compress mesh files, as ``bsm encode`` does; one that fails stops no other.
+    """Compress mesh files, as ``bsm encode`` does. A file that fails does not stop the others.
 
     Parameters
     ----------
     sources : iterable of paths
-        Or URLs, where fsspec is installed.
+        Paths, or URLs if fsspec is installed.
     target : path, optional
         A folder, or a URL that ends in a slash; None: beside each source.
     jobs : int
-        Files to work on at a time, each in a process, which imports the main module of the program again: let that work
-        under ``if __name__ == "__main__"``; 0: one per core.
+        Number of processes; 0: one per core. Each imports the main module of your program again, so guard its work by
+        ``if __name__ == "__main__"``.
     dask : str, optional
-        The scheduler of a Dask cluster, to work there instead.
+        Address of the scheduler of a Dask cluster to use instead of processes.
     report : path, optional
-        A JSON file to write what came of each file to, while the work goes on.
+        A JSON file for the result of each file, updated during the work.
     resume : bool
-        Go on from the report: leave what is whole and as it would be made.
+        Continue from the report: skip files whose output is complete and up to date.
     overwrite : bool
-        Whether files that are there already are replaced.
+        Whether to replace existing files.
     metadata : mapping from str to str, optional
-        Added to what each mesh says of itself.
+        Added to the metadata of each mesh.
     **keywords
-        As `encode` takes them.
+        As in `encode`.
 
     Returns
     -------
     list of dict
-        What came of each file, in their order, as ``bsm encode --json`` says it; where it failed, "error" and "exit",
-        the exit code that it would have had.
+        The result of each file in order, as ``bsm encode --json`` prints it; for a failed file, "error" and "exit", its
+        exit code.
 
     Raises
     ------
     BsmError, OSError
-        If nothing can be begun: wrong options, outputs that would replace each other, no cluster, ...
+        If the work cannot start: wrong options, outputs that would replace each other, no cluster, ...
 
     Examples
     --------
@@ -167,7 +167,7 @@ def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | No
     Parameters
     ----------
     stream : bytes, any buffer, path or binary file
-        A file need not be seekable; it is read to its end.
+        The function reads a file to its end; it need not be seekable.
     limits : Limits
         What the stream may ask for.
     threads : int, optional
@@ -176,13 +176,13 @@ def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | No
     Returns
     -------
     TriangleMesh
-        With the attributes and the metadata that were encoded.
+        The mesh with its attributes and metadata.
 
     Raises
     ------
     BsmError
         `FormatError`, `UnsupportedError`, `CorruptError`, `TruncatedError`, `LimitError` or `NumericError`, with the
-        place in the stream; `ArgumentError` if this is none.
+        offset in the stream; `ArgumentError` if `stream` is of a wrong type.
 
     Examples
     --------
@@ -209,16 +209,16 @@ def encode_sequence(
     Parameters
     ----------
     positions : array_like, shape (T, n, 3)
-        Of every frame, in the mesh's unit.
+        Positions of every frame, in the unit of the mesh.
     faces : array_like of int, shape (m, 3)
-        The same in all of them.
+        The faces of all frames.
     options : SequenceOptions, optional
         Instead of keywords.
     metadata : mapping from str to str, int, float or bytes, optional
         What belongs to the whole sequence.
     mesh_attributes : sequence of Attribute
-        What is the same in all frames; `SequenceDecoder.attributes` gives it back. How well each is kept, the option
-        `attributes` says, as of a mesh.
+        Attributes that do not change; `SequenceDecoder.attributes` returns them. The option `attributes` sets their
+        quality, as for a mesh.
     **keywords
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless": promises for every frame),
         `low_delay`, bounds (`look`, `max_error`), one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
@@ -227,13 +227,13 @@ def encode_sequence(
     Returns
     -------
     bytes
-        A stream; vertices are in the coder's order in it unless `keep_order` is true.
+        A stream. Vertices have the coder's order unless `keep_order` is true.
 
     Raises
     ------
     BsmError
-        `ArgumentError` if there is no such keyword, `MeshError` if this is no sequence of meshes, `TargetError` if no
-        step keeps what is promised.
+        `ArgumentError` if a keyword does not exist, `MeshError` if the arrays are not a sequence of meshes,
+        `TargetError` if no step keeps the promise.
 
     Examples
     --------
@@ -267,14 +267,14 @@ def encode_frames(
     Parameters
     ----------
     meshes : iterable of meshes, pairs of arrays, or paths
-        A frame each, as `encode` takes a mesh. Colours and numbers of vertices may change from frame to frame; other
-        attributes are those of the first frame with other faces than before.
+        The frames, each a mesh as in `encode`. Colors and other numbers of vertices may change from frame to frame.
+        Other attributes are taken from the first frame of each run of frames with equal faces.
     options : SequenceOptions, optional
-        As `encode_sequence` takes them; faces may change unless `runs` is false.
+        As in `encode_sequence`. Faces may change unless `runs` is false.
     metadata : mapping of str, optional
         What belongs to the whole sequence.
     **keywords
-        Fields of the options. Targets are for frames that share them.
+        Fields of the options. Targets need frames that share their faces.
 
     Returns
     -------
@@ -284,7 +284,7 @@ def encode_frames(
     Raises
     ------
     MeshError
-        If there is no frame, or the faces of one are others than those before and `runs` is false.
+        If there is no frame, or if the faces change and `runs` is false.
 
     Examples
     --------
@@ -323,7 +323,7 @@ def decode_frames(
     Parameters
     ----------
     stream, limits, threads
-        As `decode` takes them; the stream is read as the frames are taken.
+        As in `decode`. The iterator reads the stream as you take frames.
 
     Returns
     -------
@@ -333,7 +333,7 @@ def decode_frames(
     Raises
     ------
     BsmError
-        As `decode_sequence`, where it is met, while the frames are taken.
+        As in `decode_sequence`, when the iterator reaches the error.
 
     Examples
     --------
@@ -358,7 +358,7 @@ def decode_sequence(
     Parameters
     ----------
     stream, limits, threads
-        As `decode` takes them; the stream is read to its end first, a `SequenceDecoder` gives frames while bytes come.
+        As in `decode`. The function reads the whole stream; a `SequenceDecoder` returns frames while bytes arrive.
 
     Returns
     -------
@@ -368,8 +368,8 @@ def decode_sequence(
     Raises
     ------
     BsmError
-        As `decode`; `UnsupportedError` also for the stream of a single mesh, `MeshError` if the faces change:
-        `decode_frames` takes these, too.
+        As in `decode`. Also `UnsupportedError` for the stream of a single mesh, and `MeshError` if the faces change;
+        `decode_frames` accepts both.
 
     Examples
     --------
@@ -384,9 +384,9 @@ def decode_sequence(
 
 
 def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None = None) -> TriangleMesh:
-    """Read a mesh, from a mesh file or a stream, whatever it is.
+    """Read a mesh from a mesh file or a stream.
 
-    `read_mesh` also tells what was changed and left out on reading.
+    `read_mesh` also returns what it changed or left out.
 
     Parameters
     ----------
@@ -396,7 +396,7 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
     limits : Limits
         What the file may ask for.
     reader : str, optional
-        "openmesh" or "trimesh": read with that library, instead of ourselves where we know the format.
+        "openmesh" or "trimesh": use this library. None: trimesh only for formats that bsm does not know.
 
     Returns
     -------
@@ -405,7 +405,7 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
     Raises
     ------
     BsmError, OSError
-        If this holds no mesh: `FormatError`, `MeshError`, ...; `DependencyError` where a library is missing.
+        If the file is not a mesh: `FormatError`, `MeshError`, ...; `DependencyError` if a library is missing.
 
     Examples
     --------
@@ -418,30 +418,30 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
 
 
 def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **keywords: Any) -> tuple[str, ...]:
-    """Write a mesh to a file, as a whole or not at all, in the format of its name.
+    """Write a mesh to a file in the format of its name. If it fails, no partial file remains.
 
-    Images and, for OBJ, the library of materials are written beside it; their names begin like its own.
+    Images and, for OBJ, the material library are written beside it, under names that begin with its own.
 
     Parameters
     ----------
     mesh : mesh, pair of arrays, or path
         As `encode` takes it.
     path : path
-        With the suffix .bsm, .glb (with trimesh), .npz, .obj, .off, .ply, .stl or .vtp.
+        A path that ends in .bsm, .glb (with trimesh), .npz, .obj, .off, .ply, .stl or .vtp.
     overwrite : bool
-        Whether a file of this name is replaced.
+        Whether to replace an existing file.
     **keywords
-        Of `encode`, for .bsm only.
+        As in `encode`, for .bsm only.
 
     Returns
     -------
     tuple of str
-        The names of attributes and metadata that the format cannot hold.
+        The names of attributes and metadata that the format cannot store.
 
     Raises
     ------
     OptionError, FileExistsError
-        If the name tells no format, or one that has no options; if the file exists and `overwrite` is false.
+        If the suffix is unknown, or its format has no options; if the file exists and `overwrite` is false.
 
     Examples
     --------
@@ -485,18 +485,18 @@ def denoise(
     options : DenoiseOptions, optional
         Instead of keywords.
     **keywords
-        Fields of `DenoiseOptions`; without any of them everything is chosen from the noise of the mesh.
+        Fields of `DenoiseOptions`. Without any, the function chooses everything by the noise of the mesh.
     goal : str
-        What that strives for: "shading" (normals near the clean ones) or "shape" (vertices).
+        Aim of this choice: "shading" (normals close to the true ones) or "shape" (vertices).
     strength : float
-        How much of every movement is made, from 0 to 1.
+        Fraction of every movement, from 0 to 1.
     force : bool
-        Let the options have their way even where they do harm.
+        Return the result even if it removes more than noise.
 
     Returns
     -------
     TriangleMesh
-        The same object's faces, attributes and metadata; where nothing is found to remove, the same positions, too.
+        The same faces, attributes and metadata; also the same positions if there is no noise to remove.
 
     Raises
     ------
@@ -518,21 +518,21 @@ def denoise(
 
 
 def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:
-    """How far a mesh is from another of the same faces.
+    """Measure the errors of a mesh against an original with the same faces.
 
     Parameters
     ----------
     original, decoded : mesh, pair of arrays, path, or stream
-        As `encode` takes a mesh, or `decode` a stream. Vertices that no face uses are left out; where only that makes
-        the meshes comparable, vertices at one position are one.
+        A mesh as in `encode`, or a stream as in `decode`. Vertices that no face uses are left out. If the meshes only
+        match after merging, vertices at one position are merged.
     order : int array, shape (n,), optional
-        Vertex j of `decoded` is vertex order[j] of `original`: `Encoder.vertex_order`. Without it the order may be the
-        same, or the decoder's.
+        Vertex j of `decoded` is vertex order[j] of `original`, as in `Encoder.vertex_order`. None: the same order, or
+        the decoder's.
 
     Returns
     -------
     MeshComparison
-        Errors of positions, and in `attributes` those of each attribute of `original` by its name.
+        Errors of positions; `attributes` has the errors of each attribute of `original` by name.
 
     Raises
     ------
@@ -558,7 +558,7 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
 
 
 def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
-    """How much alike two meshes look in pictures, of whatever vertices and faces; up to 1 they look the same.
+    """Compare two meshes in pictures; up to a distance of 1 they look the same. Their faces may differ.
 
     Parameters
     ----------
@@ -570,12 +570,12 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
     Returns
     -------
     Look
-        `distance`, and what it is made of: `dissimilarity` (1 - SSIM) and `visible` (share of pixels).
+        `distance` and its parts: `dissimilarity` (1 - SSIM) and `visible` (share of pixels).
 
     Raises
     ------
     MeshError
-        If nothing of the original can be seen, since it has no area.
+        If the original is invisible because it has no area.
 
     Examples
     --------

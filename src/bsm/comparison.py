@@ -118,7 +118,7 @@ class MeshComparison(Comparison):
     Attributes
     ----------
     attributes : mapping of str to AttributeComparison or None
-        The errors of the original's attributes by their names, at the corners of faces; None: it is not there any more.
+        Errors of the original's attributes by name, at the corners of faces; None: the attribute is missing.
 
     Examples
     --------

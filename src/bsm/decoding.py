@@ -208,23 +208,23 @@ class StreamDecoder:
 
 @public
 class Decoder(StreamDecoder):
-    """Takes the bytes of a stream as they come, and gives events as soon as they can be known.
+    """Decode a stream while its bytes arrive: push bytes, and take events.
 
-    The events do not depend on how the bytes are cut up. An error is raised by `next_event` after the events before
-    it, and by every later call.
+    The events do not depend on how you split the bytes. `next_event` raises an error after the events before it, and
+    again at every later call.
 
     Parameters
     ----------
     limits : Limits
         What the stream may ask for.
     threads : int, optional
-        For decoding chains whose bytes are there at the same time; None: one per core.
+        Threads for chains whose bytes are available at the same time; None: one per core.
     tolerant : bool
-        Report damage to blocks as `LossEvent` and go on with every block that does not depend on what is lost.
-        Damage before the first block is raised all the same.
+        Report damage to blocks as `LossEvent` and continue with every block that does not depend on the lost data.
+        Damage before the first block is still raised.
     layers : int, optional
-        How many to decode: 1 is the base alone, 2 or None the layer of refinement, too. What comes behind them is not
-        waited for.
+        Number of layers to decode: 1 is the base, 2 or None also the layer of refinement. The decoder does not wait
+        for later data.
 
     Examples
     --------
@@ -291,9 +291,9 @@ class Decoder(StreamDecoder):
 
 @public
 class SequenceDecoder(StreamDecoder):
-    """Takes the bytes of a sequence's stream as they come, and gives events as soon as they can be known.
+    """Decode a sequence while its bytes arrive: push bytes, and take events.
 
-    Memory is bounded by one GOP. An error is raised by `next_event` after the events before it, and by every later
+    Memory is bounded by one GOP. `next_event` raises an error after the events before it, and again at every later
     call.
 
     Parameters
@@ -303,10 +303,10 @@ class SequenceDecoder(StreamDecoder):
     threads : int, optional
         None: one per core.
     tolerant : bool
-        Report a GOP that is lost or broken as `LossEvent`, and go on behind it, or behind a run where what comes before
-        its GOPs is not whole; the stream may begin with any run.
+        Report a lost or damaged GOP as `LossEvent`, and continue after it, or after the run if the data before its GOPs
+        is incomplete. The stream may begin with any run.
     start : int
-        Give no frame before this one; GOPs that it does not need are not decoded.
+        Index of the first frame to return; GOPs that it does not need are skipped.
 
     Examples
     --------

@@ -15,7 +15,7 @@ from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 
 @public
 class Signal(Enum):
-    """What `next_event` returns where there is no event.
+    """The result of `next_event` when there is no event.
 
     Examples
     --------
@@ -41,7 +41,7 @@ class HeaderEvent:
     Parameters
     ----------
     header : Header
-        `vertices`, `scale`, and all that the specification says of headers, by the names it has there.
+        `vertices`, `scale` and all other fields of the specification, under the same names.
 
     Examples
     --------
@@ -71,15 +71,15 @@ class Changes:
 class ConnectivityEvent:
     """The faces have arrived, with all that is needed to decode positions.
 
-    Where the stream stores the order that the mesh had, faces and all vertex numbers are in that order.
+    If the stream stores the order of the mesh, faces and all vertex indices are in this order.
 
     Parameters
     ----------
     faces : int32 array, shape (m, 3)
     vertices : int
-        How many there are: where the stream stores the vertices as they were given, more than were coded.
+        Number of vertices; if the stream stores the vertices of the input, more than were coded.
     loose : Changes
-        Those that no face uses, which are final.
+        Vertices that no face uses; they are final.
 
     Examples
     --------
@@ -102,7 +102,7 @@ class ConnectivityEvent:
 @public
 @dataclass(frozen=True, eq=False)
 class BlockEvent:
-    """A block, or of a mesh on a grid a chunk, has been decoded: layer 0.
+    """A block, or a chunk of a mesh on a grid, has been decoded: layer 0.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ class BlockEvent:
 @public
 @dataclass(frozen=True, eq=False)
 class RefinementEvent:
-    """Levels of the layer of refinement have been decoded; they come when all blocks have.
+    """Levels of the refinement layer have been decoded. They follow all blocks.
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ class AttributeEvent:
     indices : int32 array, shape (m, 3), optional
         For corners: which of all values of the attribute each corner has.
     rows : int32 array, shape (r,)
-        Numbers of values that are known from now on: of vertices or faces, or what `indices` refer to.
+        Indices of the values that are now available: of vertices or faces, or those that `indices` refer to.
     values : array, shape (r, c)
 
     Examples
@@ -216,9 +216,9 @@ class FrameEvent:
     positions : float64 array, shape (n, 3)
         In the mesh's unit.
     faces : int32 array, shape (m, 3)
-        Its faces; another array only where they may have changed.
+        Its faces; a new array only if they may have changed.
     attributes : tuple of Attribute
-        Its attributes, as far as they have come: those that move with the values of this frame.
+        Its attributes, as far as they have arrived; moving ones have the values of this frame.
 
     Examples
     --------
@@ -240,16 +240,16 @@ class FrameEvent:
 @public
 @dataclass(frozen=True)
 class LossEvent:
-    """A tolerant decoder could not decode something, and goes on.
+    """A tolerant decoder could not decode some data, and continues.
 
     Parameters
     ----------
     block : int, optional
-        The block of a static mesh that is lost; None for bytes that belong to no block that is known.
+        The lost block of a static mesh; None for bytes that belong to no known block.
     error : BsmError
-        Why, and where in the stream.
+        The reason, and the offset in the stream.
     frames : range
-        The frames of a sequence that are lost; empty, but with a start, where their number is not known.
+        The lost frames of a sequence; an empty range with a start if their number is unknown.
 
     Examples
     --------
@@ -285,13 +285,12 @@ class Losses:
 @public
 @dataclass(frozen=True, eq=False)
 class EndEvent:
-    """The stream has come to its end.
+    """The stream has ended.
 
     Parameters
     ----------
     losses : Losses
-        Vertices that are missing or less good; none, and the checksum of the stream right, unless the decoder is
-        tolerant.
+        Vertices that are missing or degraded. Only a tolerant decoder reports any; otherwise the checksum is verified.
 
     Examples
     --------

@@ -38,7 +38,7 @@ WITHIN = 8.0  # degrees, on both sides of the angle that makes a crease, in whic
 
 
 class Creases(NamedTuple):
-    """Bends near the angle from which on faces are shaded each by itself; the struct of that name in `choice.h`."""
+    """Bends near the angle from which on faces are shaded each by itself; the struct with this name in `choice.h`."""
 
     faces: Faces
     pairs: Indices

@@ -22,7 +22,7 @@ from bsm.codec.threads import ordered_map
 FRAME = 5  # bytes of a block's frame besides its levels, at least
 Progress = Callable[[int, int], None]
 Spend = Callable[[float], None]
-"""Is told of work, in nanoseconds, before it is done; may refuse it by raising `LimitError`."""
+"""Takes the work in nanoseconds before it is done, and may refuse it by raising `LimitError`."""
 
 
 @dataclass(frozen=True, eq=False)

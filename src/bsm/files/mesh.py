@@ -53,14 +53,14 @@ def read_mesh(
     Parameters
     ----------
     source : path, buffer or binary file
-        "-" reads standard input. Pipes will do, and a file may be compressed by gzip. Materials and images that a file
-        names are read as well where they lie in its folder or below; a buffer has nothing beside it.
+        "-" reads standard input. Pipes and files compressed by gzip are accepted. Materials and images that a file
+        names are read if they are in its folder or below.
     file_format : str, optional
-        One of `MESH_FORMATS`, or a suffix that trimesh knows; guessed from the name, or else from the first bytes.
+        One of `MESH_FORMATS`, or a suffix that trimesh knows. None: by the name, or else by the first bytes.
     limits : Limits
         `vertices` and `faces` bound the mesh.
     reader : str, optional
-        One of `READERS`; None: ourselves, where we know the format, else trimesh.
+        One of `READERS`. None: trimesh only for formats that bsm does not know.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def read_mesh(
     Raises
     ------
     FormatError, TruncatedError, CorruptError, MeshError, LimitError
-        If the file holds no mesh of triangles or polygons over finite points.
+        If the file is not a mesh of triangles or polygons with finite points.
     DependencyError
         If a library is needed and missing.
     OSError

@@ -131,7 +131,7 @@ def is_tiles(path: str) -> bool:
 
 
 def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
-    """Open a folder of tiles, as `bsm tile` writes it; only its manifest is read.
+    """Open a folder of tiles that `bsm tile` wrote. Only its manifest is read.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
     Raises
     ------
     FormatError, UnsupportedError, TruncatedError
-        If there is no manifest of tiles, one of another version, or one of a run that was not at its end.
+        If there is no manifest of tiles, its version is unknown, or the run that wrote it is unfinished.
     OSError
         If it cannot be read.
 
@@ -170,7 +170,7 @@ class Tiles:
     path : str
         The folder or URL.
     manifest : mapping
-        What its manifest says: the grid's `cell` and `origin`, `levels`, `shards`.
+        Contents of its manifest: `cell` and `origin` of the grid, `levels`, `shards`.
     lattice : Lattice
         Where places are.
     root : Root
@@ -178,12 +178,12 @@ class Tiles:
     limits : Limits
         Of each tile.
     kinds : mapping
-        What vertices have beside their places: the type of its numbers, and how many a vertex has.
+        Attributes of vertices by name: the type of the numbers, and how many a vertex has.
 
     Raises
     ------
     CorruptError
-        By what reads tiles, where a shard is missing bytes or has others than were written.
+        By methods that read tiles, if bytes of a shard are missing or changed.
 
     Examples
     --------
@@ -204,8 +204,9 @@ class Tiles:
     def region(
         self, low: Sequence[float], high: Sequence[float], error: float = 0.0, *, level: int | None = None
     ) -> TriangleMesh:
-        """Triangles that reach into a box, from the coarsest tiles whose error is at most `error`, or from those of a
-        level, 0 the coarsest, and of the finest where that has none, as one mesh."""
+        """Join triangles that reach into a box into one mesh, from the coarsest tiles within `error`, or from a `level`.
+
+        Level 0 is the coarsest; where a level has no tile, the finest is used."""
         ends = np.array([low, high], np.float64)
         if ends.shape != (2, 3) or not np.isfinite(ends).all():
             raise ArgumentError("a box has a low and a high corner of three numbers each")

@@ -18,24 +18,24 @@ from bsm.viewer.page import embedded, listed, script
 
 
 def show(source: Any, *, original: Any = None, height: int = 480, **keywords: Any) -> Any:
-    """Show a mesh, a sequence or a stream in a notebook, as it arrives and block by block.
+    """Show a mesh, a sequence or a stream in a notebook, block by block as it is decoded.
 
     Parameters
     ----------
     source : stream, mesh, or pair of arrays
         Bytes, a file or the path of a stream; a mesh as `encode` takes it; or (positions, faces) of a sequence, with
-        positions of shape (T, n, 3). What is no stream is encoded first.
+        positions of shape (T, n, 3). Meshes and sequences are encoded first.
     original : mesh, optional
-        What a stream is compared with; a mesh that is encoded here is its own.
+        The original to compare a stream with. A mesh that `show` encodes is its own original.
     height : int
         Of the widget, in pixels.
     **keywords
-        How a mesh or a sequence is encoded: those of `encode` or `encode_sequence`.
+        Options for encoding, as in `encode` or `encode_sequence`.
 
     Returns
     -------
     anywidget.AnyWidget
-        A notebook draws it where it is the last value of a cell.
+        A notebook draws it if it is the last value of a cell.
 
     Raises
     ------

@@ -147,15 +147,15 @@ PER_TRIANGLE, PER_CUT, PER_CORNER = 80, 300, 24  # bytes of a triangle, of one t
 @public
 @dataclass(frozen=True)
 class MeshFile:
-    """A mesh as its file has it, and what was changed on the way.
+    """A mesh from a file, and the reader's changes to it.
 
     Parameters
     ----------
     mesh : TriangleMesh
     notes : tuple of str
-        One sentence for each thing the reader did to the file's content.
+        One sentence for each change that the reader made.
     dropped : tuple of str
-        What else the file holds and `mesh` does not: "lines", "parameter space", "animations", ...
+        Contents of the file that `mesh` does not have: "lines", "parameter space", "animations", ...
 
     Examples
     --------
