@@ -204,9 +204,10 @@ class Tiles:
     def region(
         self, low: Sequence[float], high: Sequence[float], error: float = 0.0, *, level: int | None = None
     ) -> TriangleMesh:
-        """Join triangles that reach into a box into one mesh, from the coarsest tiles within `error`, or from a `level`.
+        """Join triangles that reach into a box into one mesh: of the coarsest tiles within `error`, or of a `level`.
 
-        Level 0 is the coarsest; where a level has no tile, the finest is used."""
+        Level 0 is the coarsest; where a level has no tile, the finest is used.
+        """
         ends = np.array([low, high], np.float64)
         if ends.shape != (2, 3) or not np.isfinite(ends).all():
             raise ArgumentError("a box has a low and a high corner of three numbers each")
