@@ -1,11 +1,6 @@
 """Every measurement of the repository: `python -m tools.measure WHAT ...`, and `WHAT --help` for what it asks.
 
 look        bytes, distance and visible share of presets and options, against Draco at the same look
-evidence    bytes over Draco's by other people's measures, and in other light
-theta       bytes at a mean angle of normals, against Draco's
-nmsve       bytes at a visual error (NMSVE), against Draco's
-contract    what presets give, checked by themselves and by surfaces, against Draco's bytes
-grids       whole files with exact positions on a grid, against Draco's
 attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
 targets     bytes with a target beside the preset, over the larger of what either takes alone
@@ -24,11 +19,6 @@ from tools.command import dispatch
 
 COMMANDS = {
     "look": "look:main",
-    "evidence": "evidence:main",
-    "theta": "presets:theta_command",
-    "nmsve": "presets:nmsve_command",
-    "contract": "presets:contract_command",
-    "grids": "grids:main",
     "attributes": "attributes:main",
     "sequences": "sequences:main",
     "fields": "fields:main",

@@ -1,14 +1,7 @@
-"""Compare whole files with positions on a grid, exact, with Draco's at the same grid.
-
-    python -m tools.measure grids MESH [MESH ...] [--bits 11 12 14]
-
-Vertices at one position are merged first, and faces that have become degenerate are left out, for both. Every file is
-decoded again and compared. Draco's is its smallest (level 10). Needs DracoPy.
-"""
+"""Meshes without two vertices at one position, and exact positions on Draco's grid."""
 
 from __future__ import annotations
 
-import argparse
 import time
 
 import numpy as np
@@ -52,31 +45,3 @@ def encode(positions: Positions, faces: Faces, bits: int) -> tuple[bytes, float]
     off = np.abs(decode(data).positions - positions[encoder.vertex_order]) / cell
     assert off.max() < 0.51, "a vertex is not at the nearest place"
     return data, spent
-
-
-def draco_bytes(positions: Positions, faces: Faces, bits: int) -> int:
-    """The size of Draco's file."""
-    import DracoPy
-
-    return len(DracoPy.encode(positions, faces.astype(np.uint32), quantization_bits=bits, compression_level=10))
-
-
-def main() -> None:
-    """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("meshes", nargs="+", metavar="MESH")
-    parser.add_argument("--bits", nargs="+", type=int, default=[11, 12, 14])
-    options = parser.parse_args()
-    table = []
-    print("| mesh | vertices | " + " | ".join(f"{bits} bits" for bits in options.bits) + " | µs per vertex |")
-    print("|---|---|" + "---|" * (len(options.bits) + 1))
-    for path in options.meshes:
-        positions, faces = welded(path)
-        streams = [encode(positions, faces, bits) for bits in options.bits]
-        sizes = [draco_bytes(positions, faces, bits) for bits in options.bits]
-        row = [len(stream) / size for (stream, _), size in zip(streams, sizes, strict=True)]
-        table.append(row)
-        cells = " | ".join(f"{ratio:.3f}" for ratio in row)
-        name = path.rsplit("/", 1)[-1]
-        print(f"| {name} | {len(positions)} | {cells} | {max(spent for _, spent in streams):.1f} |", flush=True)
-    print("| mean | | " + " | ".join(f"{ratio:.3f}" for ratio in np.mean(table, axis=0)) + " | |")

@@ -1,0 +1,200 @@
+"""What `python -m tools.replicate` measures with, against known answers; nothing is fetched."""
+
+import hashlib
+import json
+import math
+
+import numpy as np
+import pytest
+
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.sequence.targets import compare_sequences
+from bsm.files.mesh import write_mesh
+from bsm.options import encode_options
+from tests.shapes import torus
+from tools.replicate import ablation, fetch, rates, report, stages
+from tools.replicate.fetch import Source, fetch_meshes, listed
+from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
+from tools.replicate.motion import bent, half_floats
+
+
+def flat(count=8):
+    """A square in the plane z = 0."""
+    y, x = np.mgrid[0:count, 0:count]
+    corner = (count * y + x)[:-1, :-1].reshape(-1)
+    faces = [np.column_stack([corner, corner + 1, corner + count])]
+    faces += [np.column_stack([corner + 1, corner + count + 1, corner + count])]
+    positions = np.stack([x, y, np.zeros_like(x)], axis=-1).reshape(-1, 3) / (count - 1)
+    return TriangleMesh(positions.astype(np.float64), np.concatenate(faces).astype(np.int32))
+
+
+def hinge(angle):
+    """Two triangles that share an edge along x, the second turned about it."""
+    turned = (0.5, -math.cos(angle), math.sin(angle))
+    return np.array([(0, 0, 0), (1, 0, 0), (0.5, 1, 0), turned]), np.array([(0, 1, 2), (1, 0, 3)], np.int32)
+
+
+class TestMeasures:
+    def test_a_surface_that_is_shifted_along_its_normal(self):
+        pytest.importorskip("pymeshlab", reason="needs pymeshlab (extra replicate)")
+        mesh = flat()
+        farthest, rms = surface_distance(mesh, TriangleMesh(mesh.positions + np.array([0, 0, 0.1]), mesh.faces), 2000)
+        assert farthest == pytest.approx(0.1, abs=1e-6) and rms == pytest.approx(0.1, abs=1e-6)
+
+    def test_the_larger_of_both_directions_counts(self):
+        pytest.importorskip("pymeshlab", reason="needs pymeshlab (extra replicate)")
+        mesh = flat()
+        longer = TriangleMesh(mesh.positions * (1.5, 1.0, 1.0), mesh.faces)
+        assert surface_distance(mesh, longer, 2000)[0] == pytest.approx(0.5, abs=1e-6)
+
+    def test_angles_between_faces_have_a_sign(self):
+        for angle in (0.3, -0.3, 1.2):
+            assert dihedral_angles(*hinge(angle))[0] == pytest.approx([angle])
+
+    def test_dame_is_the_change_of_angles_and_less_at_creases(self):
+        pytest.importorskip("pymeshlab", reason="needs pymeshlab (extra replicate)")
+        level, crease = Judge(TriangleMesh(*hinge(0.0))), Judge(TriangleMesh(*hinge(math.pi / 2)))
+        assert level.dame(hinge(0.2)[0]) == pytest.approx(0.2)
+        masked = 0.2 * math.exp(-FOLDED / 4)
+        assert crease.dame(hinge(math.pi / 2 + 0.2)[0]) == pytest.approx(masked)
+
+    def test_nothing_is_lost_of_the_same_mesh(self):
+        pytest.importorskip("pymeshlab", reason="needs pymeshlab (extra replicate)")
+        mesh = torus(12, 12)
+        assert max(Judge(mesh).measures(mesh.positions, flip=False).values()) < 1e-6
+
+    def test_kg_error_of_frames_that_are_a_tenth_too_large(self):
+        frames = bent(torus(12, 12), 8)
+        middle = frames.mean(axis=1, keepdims=True)
+        assert compare_sequences(frames, middle + 1.1 * (frames - middle), torus(12, 12).faces).kg == pytest.approx(
+            10.0
+        )
+
+    def test_sted_sees_edges_and_speeds_that_change_and_no_size(self):
+        mesh = torus(12, 12)
+        still = np.tile(mesh.positions, (4, 1, 1))
+        assert sted(still, 1.1 * still, mesh.faces) == pytest.approx(0.0, abs=1e-9)
+        away = np.arange(4)[:, None, None] * (0.1, 0.0, 0.0)
+        moving = still + away
+        diagonal = np.linalg.norm(np.ptp(moving.reshape(-1, 3), axis=0))
+        own = math.hypot(0.1 / diagonal, STED_TIME)
+        assert sted(moving, still, mesh.faces) == pytest.approx((own - STED_TIME) / own)
+        shaken = still + 0.01 * np.random.default_rng(1).normal(size=still.shape)
+        assert sted(still, shaken, mesh.faces) > 0.01
+
+    def test_half_floats_are_as_exact_as_they_can_be(self):
+        frames = bent(torus(12, 12), 8)
+        size, decoded = half_floats(frames, torus(12, 12).faces)
+        assert np.abs(decoded - frames).max() < 2.0**-11 * np.ptp(frames) and 0 < size < frames.size * 2 + 4000
+
+
+def row(name="m", scale=0.5, group="unseen"):
+    """A mesh on which ours takes `scale` of Draco's bytes by every measure."""
+    points = {
+        f"Draco {bits}": {"bytes": 1000.0 * bits, **dict.fromkeys(report.MEASURES, 2.0**-bits)}
+        for bits in rates.DRACO_BITS
+    }
+    for preset, bits in zip(rates.CURVE, (8, 9, 10, 12), strict=True):
+        points[preset] = {"bytes": scale * 1000.0 * bits, **dict.fromkeys(report.MEASURES, 2.0**-bits)}
+    return {"mesh": name, "group": group, "vertices": 500, "points": points, "failed": {}}
+
+
+class TestTables:
+    def test_half_of_the_bytes_at_equal_quality(self):
+        found = rates.ratios(row(), "FLIP")
+        assert found["default"] == pytest.approx(0.5) and found["fine"] == pytest.approx(0.5)
+        assert found["BD-rate"] == pytest.approx(0.5, abs=0.01) and "quick" not in found
+
+    def test_quality_beyond_dracos_is_not_compared(self):
+        beyond = row()
+        beyond["points"]["fine"]["FLIP"] = 2.0**-15
+        assert "fine" not in rates.ratios(beyond, "FLIP")
+
+    def test_the_worst_mesh_is_named(self):
+        line = rates.spread("default", "FLIP", [(0.4, "a"), (0.9, "b"), (0.5, "c"), (0.6, "d"), (0.7, "e")])
+        assert line == ("default", "FLIP", "5", "0.620", "0.500", "0.600", "0.700", "0.900", "b")
+
+    def test_tables_and_figures_of_every_stage(self, tmp_path):
+        pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
+        works = [f"{name}, {work}" for name in (*rates.TIMED, "Draco 11") for work in ("encode", "decode")]
+        timed = {"mesh": "m", "group": "unseen", "vertices": 500, "seconds": dict.fromkeys(works, 0.5)}
+        tools = {"mesh": "m", "tools": {name: {"bytes": 1.1, "decode": 0.9} for name in ablation.TOOLS}}
+        codecs = ("default", "fine", "zstd of float16", *(f"Draco {bits}" for bits in report.motion.DRACO_BITS))
+        points = {name: {"bytes": 9000 - 99 * k, "kg": 0.1 * k, "sted": 0.01 * k} for k, name in enumerate(codecs, 1)}
+        moving = {"sequence": "s", "frames": 4, "vertices": 500, "points": points}
+        moving["tools"] = dict.fromkeys(ablation.MOVING_TOOLS, 1.2)
+        results = {"rates": [row("a", 0.5), row("b", 0.7), row("c", 0.6, "tuned")], "times": [timed]}
+        results |= {"ablation": [tools], "motion": [moving]}
+        report.write(results, tmp_path, lambda _: None)
+        names = {path.name for path in tmp_path.iterdir()}
+        for stem in ("rates-unseen", "rates-tuned", "spread-unseen", "times-unseen", "ablation", "motion"):
+            assert {f"{stem}.md", f"{stem}.tex"} <= names
+        for stem in ("rates", "times", "ablation", "motion"):
+            assert {f"{stem}.pdf", f"{stem}.png"} <= names
+        assert "0.60 (0.55-0.65)" in (tmp_path / "rates-unseen.md").read_text()
+
+    def test_tables_are_put_into_the_page(self, tmp_path, monkeypatch):
+        page = tmp_path / "measured.md"
+        page.write_text(f"before\n{report.BEGIN}\nold\n{report.END}\nbehind\n")
+        monkeypatch.setattr(report, "PAGE", page)
+        report.write_page({"rates": [row()]}, {"commit": "c", "processor": "p", "date": "d"})
+        text = page.read_text()
+        assert text.startswith("before\n") and text.endswith("\nbehind\n") and "old" not in text
+        assert "commit c, p, d" in text and "| default" in text
+
+
+def test_enough_meshes_are_listed_each_with_what_tells_it():
+    rows = list(listed())
+    assert sum(one["group"] == "unseen" for one in rows) >= 100 and any(one["group"] == "tuned" for one in rows)
+    assert len({one["name"] for one in rows}) == len({one["sha256"] for one in rows}) == len(rows)
+    assert all(len(one["sha256"]) == 64 and one["licence"] and one["package"] for one in rows)
+
+
+def test_only_the_file_of_the_list_is_taken_and_what_is_missing_is_named(tmp_path, monkeypatch):
+    root = tmp_path / "meshes" / "made"
+    root.mkdir(parents=True)
+    for name in ("a", "b"):
+        write_mesh(root / f"{name}.ply", torus(8, 8))
+    digest = hashlib.sha256((root / "a.ply").read_bytes()).hexdigest()
+    common = {"group": "unseen", "vertices": 64}
+    meshes = [
+        {"name": name, "path": f"{name}.ply", "sha256": told, **common}
+        for name, told in (("a", digest), ("b", "0" * 64), ("c", digest))
+    ]
+    monkeypatch.setattr(fetch, "LIST", tmp_path / "list.json")
+    gone = {"package": "no-such-package", "registry": "none", "version": "1", "archive": "", "meshes": meshes[:1]}
+    packages = [{"package": "made", "registry": "pypi", "version": "1", "meshes": meshes}, gone]
+    fetch.LIST.write_text(json.dumps({"packages": packages}))
+    monkeypatch.setattr(fetch, "_run", lambda *_, **__: (_ for _ in ()).throw(FileNotFoundError("no apt-get")))
+    notes = []
+    (found,) = fetch_meshes(tmp_path / "meshes", notes.append)
+    assert found.name == "a" and len(found.mesh().positions) == 64
+    assert len(notes) == 3 and "b.ply" in notes[0] and "c.ply" in notes[1] and "no-such-package" in notes[2]
+
+
+def test_a_stage_goes_on_and_names_what_it_has_no_time_for(tmp_path):
+    sources = [Source(name, tmp_path / name, "unseen", 1) for name in ("a", "b")]
+    (tmp_path / "stage").mkdir()
+    (tmp_path / "stage" / "a.json").write_text('{"mesh": "a"}')
+    notes = []
+    assert stages.run_stage(print, sources, tmp_path / "stage", -1.0, notes.append) == [{"mesh": "a"}]
+    assert notes == ["stage: no time was left for 1: b"]
+
+
+def test_what_ablation_replaces_is_there_and_comes_back():
+    for tool in (*ablation.TOOLS.values(), *ablation.MOVING_TOOLS.values()):
+        before = [getattr(owner, name) for owner, name, _ in tool.patches]
+        with tool.left_out():
+            now = [getattr(owner, name) for owner, name, _ in tool.patches]
+        assert all(one is not other for one, other in zip(before, now, strict=True))
+        assert [getattr(owner, name) for owner, name, _ in tool.patches] == before
+
+
+def test_streams_without_a_tool_are_larger_or_equal_in_what_they_promise():
+    mesh, options = torus(24, 24), encode_options(threads=1)
+    whole = ablation._encoded(mesh, None, options)[0]
+    without = {
+        name: ablation._encoded(mesh, ablation.TOOLS[name], options)[0] for name in ("smoothing", "z = 3 (z = 1)")
+    }
+    assert min(without.values()) > 0.9 * whole
+    assert ablation._encoded(mesh, ablation.TOOLS["frames along normals"], options)[1] is None

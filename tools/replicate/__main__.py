@@ -1,0 +1,59 @@
+"""Measures everything that docs/measured.md says, from nothing: `python -m tools.replicate`.
+
+Makes an environment where packages are missing, fetches the meshes of meshes.json, measures and writes one folder:
+tables in Markdown and LaTeX, figures in PDF and PNG, and results.json with every number, the commit, the processor and
+the time. About an hour on two cores; a run that was cut goes on where it was.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+NEEDED = ("bsm._kernels", "scipy", "matplotlib", "DracoPy", "zstandard", "pymetis", "flip_evaluator", "pymeshlab")
+STAGES = ("rates", "ablation", "times", "motion", "paper")
+MINUTES = {"rates": 30.0, "ablation": 12.0, "times": 4.0, "motion": 5.0, "paper": 5.0}
+QUICK = {"rates": 4.0, "ablation": 2.0, "times": 0.7, "motion": 1.0, "paper": 1.0}
+
+
+def environment(folder: Path) -> None:
+    """Go on in an environment of this folder, if packages are missing here."""
+    try:
+        missing = [name for name in NEEDED if importlib.util.find_spec(name) is None]
+    except ModuleNotFoundError:  # not even bsm
+        missing = ["bsm"]
+    if not missing:
+        return
+    python = folder / "environment" / "bin" / "python"
+    if Path(sys.executable).absolute() == python.absolute():
+        raise SystemExit(f"{', '.join(missing)} cannot be installed here")
+    print(f"missing here: {', '.join(missing)}; makes an environment in {python.parents[1]}", flush=True)
+    if not python.exists():
+        subprocess.run([sys.executable, "-m", "venv", str(python.parents[1])], check=True)
+    subprocess.run([str(python), "-m", "pip", "install", "-q", "-e", f"{ROOT}[eval,replicate]"], check=True)
+    os.execv(python, [str(python), "-m", "tools.replicate", *sys.argv[1:]])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--output", metavar="FOLDER", type=Path, default=Path("replicate"))
+    parser.add_argument("--quick", action="store_true", help="ten minutes: as many meshes as fit, of all sizes")
+    parser.add_argument("--figure", choices=STAGES, help="only this table and figure")
+    parser.add_argument("--docs", action="store_true", help="put the tables into docs/measured.md, too")
+    args = parser.parse_args()
+    args.output.mkdir(parents=True, exist_ok=True)
+    environment(args.output)
+    from tools.replicate.run import measure_all
+
+    chosen = (args.figure,) if args.figure else STAGES
+    minutes = QUICK if args.quick else MINUTES
+    measure_all(args.output, {stage: minutes[stage] for stage in chosen}, quick=args.quick, docs=args.docs)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,205 @@
+"""What each tool of the codec is worth: bytes and decoding time without it, over those with it, for the same promise.
+
+A tool is left out by an option that exists, or by replacing what the encoder calls. What decoders cannot follow is not
+decoded, only counted: its decoding time is not known.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+
+from bsm.bitstream.coefficients import adaptive
+from bsm.bitstream.container.gop import GopMethod
+from bsm.bitstream.errors import BsmError
+from bsm.codec.sequence import gop, step_search
+from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.signal import transform
+from bsm.codec.static.choice import blocks, search
+from bsm.codec.static.choice.grids import Gridded
+from bsm.codec.static.encoder import Encoder
+from bsm.codec.static.options import EncodeOptions, changed
+from bsm.decoding import decode
+from bsm.options import encode_options, sequence_options
+from tools.replicate.fetch import Source
+from tools.replicate.rates import Row, spread
+
+Patches = Sequence[tuple[Any, str, Any]]
+
+
+@dataclass(frozen=True)
+class Tool:
+    """A tool of the codec, and how to do without it: other options of coding, and patches of the encoder."""
+
+    coded: dict[str, Any]
+    patches: Patches = ()
+    decodes: bool = True
+    options: dict[str, Any] | None = None
+    against: dict[str, Any] | None = None
+
+    @contextmanager
+    def left_out(self) -> Iterator[None]:
+        with ExitStack() as stack:
+            for owner, name, value in self.patches:
+                stack.enter_context(patch.object(owner, name, value))
+            if not self.decodes:
+                stack.enter_context(patch.object(Encoder, "_verified", lambda _, draft: draft))
+            yield
+
+
+def _ways(keep: Callable[[Any], bool], plain: bool = False) -> Any:
+    """`Search._ways` with some of its ways, and blocks without refinement instead of those with it."""
+    original = search.Search._ways
+
+    def ways(self: Any, bounds: Any, look: float) -> Iterator[Any]:
+        for way in original(self, bounds, look):
+            if plain and isinstance(way, blocks.Refined):
+                yield blocks.Plain(self._prepared, self._options, bounds, self._progress)
+            elif keep(way):
+                yield way
+
+    return ways
+
+
+def _unlearnt(self: Any, begin: Any = adaptive.CoefficientModel.__post_init__) -> None:
+    """Every probability a half, every context of the same weight, as before anything was learnt."""
+    shipped = self.experience
+    slots = np.full_like(shipped.slots, 1 << 15)
+    even = np.full_like(shipped.mixing, (1 << 12) // adaptive.EXPECTATIONS)
+    expected = np.full_like(shipped.expectations, int(np.median(shipped.expectations)))
+    self.experience = adaptive.Experience(expected, even, slots)
+    begin(self)
+
+
+def _upright(positions: Any, faces: Any) -> Any:
+    """Frames along the axes of space instead of along normals."""
+    return np.tile(np.eye(3).reshape(-1), (len(positions), 1))
+
+
+def _as_found(found: Any, *_: Any) -> Any:
+    return found
+
+
+TOOLS: dict[str, Tool] = {
+    "blocks (grids alone)": Tool({}, [(search.Search, "_ways", _ways(lambda way: isinstance(way, Gridded)))]),
+    "refinement (blocks alone)": Tool({}, [(search.Search, "_ways", _ways(lambda _: True, plain=True))]),
+    "grids (blocks with refinement alone)": Tool(
+        {},
+        [
+            (search.Search, "_ways", _ways(lambda way: not isinstance(way, Gridded))),
+            (search.Search, "_made_on", lambda *_: iter(())),
+            (Gridded, "made", lambda _: iter(())),
+        ],
+    ),
+    "grids that models were made on": Tool(
+        {}, [(search.Search, "_made_on", lambda *_: iter(())), (Gridded, "made", lambda _: iter(()))]
+    ),
+    "choice of grid places by rate": Tool(
+        {}, [(search.Search, "_ways", _ways(lambda way: not (isinstance(way, Gridded) and way._worth > 0)))]
+    ),
+    "choice of coefficients by rate": Tool({}, [(transform, "BIT_WORTH", 1e-9)]),
+    "choice of refinement by rate": Tool({}, [(blocks, "PULLED", 1e-9)]),
+    "weights of what is seen": Tool({}, [(blocks.Refined, "_sensitivity", None)]),
+    "frames along normals": Tool({}, [(blocks, "local_frames", _upright)], decodes=False),
+    "unfolding of faces": Tool({}, [(search, "unfolded", _as_found)]),
+    "overlap and blending": Tool({"overlap": 1.0}),
+    "warm start": Tool({"key_interval": 1}),
+    "springs and prediction": Tool({"predict": False}),
+    "smoothing": Tool({}, [(blocks, "SMOOTHING_STEPS", ())]),
+    "z = 3 (z = 1)": Tool({"power": 1}),
+    "second iteration of key blocks": Tool({"key_iterations": 1}),
+    "parts that both sides derive (METIS, sent)": Tool({"partition": "metis"}),
+    "blocks of 550 (of 275)": Tool({"block_size": 275}),
+    "learnt priors": Tool({}, [(adaptive.CoefficientModel, "__post_init__", _unlearnt)], decodes=False),
+    "mixing of contexts (grid14, fast profile)": Tool(
+        {}, options={"grid": 14, "quick": True}, against={"preset": "grid14"}
+    ),
+    "best effort (not in the default)": Tool({}, options={"effort": "best"}),
+}
+
+
+def _encoded(mesh: Any, tool: Tool | None, options: EncodeOptions) -> tuple[int, bytes | None]:
+    """Bytes of a stream without a tool, and the stream where it can be decoded."""
+    encoder = Encoder(mesh, options)
+    if tool is None:
+        data = encoder.encode()
+        return len(data), data
+    encoder._coded = changed(options, **tool.coded)
+    with tool.left_out():
+        data = encoder.encode()
+    return len(data), data if tool.decodes else None
+
+
+def ablate_mesh(source: Source) -> Row:
+    """Bytes and decoding seconds with everything, and without each tool."""
+    mesh, usual = source.mesh(), encode_options(threads=1)
+    found: dict[str, Any] = {}
+    for name, tool in TOOLS.items():
+        options = encode_options(threads=1, **tool.options) if tool.options else usual
+        try:
+            whole = encode_options(threads=1, **tool.against) if tool.against else usual
+            size, data = _encoded(mesh, None, whole)
+            without, other = _encoded(mesh, tool, options)
+        except BsmError as error:
+            found[name] = {"failed": str(error)}
+            continue
+        found[name] = {"bytes": without / size}
+        if data is not None and other is not None:
+            found[name]["decode"] = _decode_ratio(other, data)
+    return {"mesh": source.name, "group": source.group, "vertices": len(mesh.positions), "tools": found}
+
+
+def _decode_ratio(first: bytes, second: bytes) -> float:
+    """Seconds to decode one over those for another, the least of three by turns."""
+    least = [math.inf, math.inf]
+    for _ in range(3):
+        for k, data in enumerate((first, second)):
+            begin, runs = time.process_time(), 0
+            while runs == 0 or time.process_time() - begin < 0.01:
+                decode(data, threads=1)
+                runs += 1
+            least[k] = min(least[k], (time.process_time() - begin) / runs)
+    return least[0] / least[1]
+
+
+MOVING_TOOLS: dict[str, Tool] = {
+    "prediction of groups of 16 frames": Tool(
+        {"gop": 16}, [(gop.GopEncoder, "method_with_basis", lambda *_: GopMethod.LEARNT)], against={"gop": 16}
+    ),
+    "temporal basis of whole groups (8 frames at a time)": Tool({"low_delay": 8}),
+    "frames evened by what is seen": Tool({}, [(step_search, "_evening", np.ones_like)]),
+    "groups of 512 (of 16)": Tool({"gop": 16}),
+}
+
+
+def ablate_motion(frames: Any, faces: Any) -> dict[str, float]:
+    """Bytes without each tool over those with it, for a look of 1 in each frame."""
+
+    def size(**changes: Any) -> int:
+        options = sequence_options(threads=1, look=1.0, **changes)
+        return len(b"".join(SequenceEncoder(faces, replace(options, frame_rate=25.0), len(frames)).chunks(frames)))
+
+    found, whole = {}, size()
+    for name, tool in MOVING_TOOLS.items():
+        with tool.left_out():
+            without = size(**tool.coded)
+        found[name] = without / (size(**tool.against) if tool.against else whole)
+    return found
+
+
+def ablation_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
+    """A line for each tool: bytes over those of everything, and decoding time."""
+    found = []
+    for name in TOOLS:
+        for what in ("bytes", "decode"):
+            values = [(row["tools"][name][what], row["mesh"]) for row in rows if what in row["tools"].get(name, {})]
+            if values:
+                found.append(spread(name, what, values))
+    return found

@@ -1,0 +1,52 @@
+"""Runs a stage: a JSON file for each of its meshes, so that a run that was cut goes on."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import Any
+
+from tools.replicate.fetch import Source
+
+Row = dict[str, Any]
+
+
+def run_stage(
+    work: Callable[..., Row],
+    sources: Iterable[Source],
+    folder: Path,
+    minutes: float,
+    note: Callable[[str], None],
+    *more: Any,
+    workers: int = 2,
+) -> list[Row]:
+    """Rows of the meshes that fit into the time, in their order; what is left out is named."""
+    folder.mkdir(parents=True, exist_ok=True)
+    deadline, found, sources = time.monotonic() + 60 * minutes, {}, list(sources)
+    left = []
+    for source in sources:
+        path = folder / f"{source.name}.json"
+        if path.exists():
+            found[source.name] = json.loads(path.read_text())
+    with ProcessPoolExecutor(workers) as pool:
+        waiting: dict[Future[Row], Source] = {}
+        todo = iter([source for source in sources if source.name not in found])
+        while True:
+            while len(waiting) < workers and (one := next(todo, None)) is not None:
+                if time.monotonic() > deadline:
+                    left.append(one.name)
+                else:
+                    waiting[pool.submit(work, one, *more)] = one
+            if not waiting:
+                break
+            done = next(as_completed(waiting))
+            source = waiting.pop(done)
+            found[source.name] = done.result()
+            (folder / f"{source.name}.json").write_text(json.dumps(found[source.name]))
+            note(f"{folder.name}: {source.name}, {len(found)} of {len(sources)}")
+    if left:
+        note(f"{folder.name}: no time was left for {len(left)}: {', '.join(left)}")
+    return [found[source.name] for source in sources if source.name in found]
