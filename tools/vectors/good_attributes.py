@@ -125,7 +125,7 @@ def in_chunks(mesh: TriangleMesh, options: EncodeOptions, size: int) -> bytes:
 def on_layers(mesh: TriangleMesh, count: int) -> bytes:
     """After a layer of refinement that ends early, after this many vertices."""
     encoder = Encoder(mesh, BASE)
-    made = Spectral(encoder._prepared, BASE).base(BASE.first_step)
+    made = Spectral(encoder._input.prepared, BASE).base(BASE.first_step)
     levels = made.wanted(made.expected_steps(LAYER))[0]
     levels[count:], levels[:, 1:] = 0, 0  # of a layer that ends early, heights alone count
     draft = made.refined(LAYER, levels)
@@ -136,7 +136,7 @@ def on_layers(mesh: TriangleMesh, count: int) -> bytes:
 
 def with_values(encoder: Encoder, draft: Draft, size: int) -> bytes:
     """Return a draft with the attributes of its mesh, in chunks of this many values."""
-    prepared, carried = encoder._prepared, encoder._carried
+    prepared, carried = encoder._input.prepared, encoder._input.carried
     declared: list[Packet] = []
     values: list[Packet] = []
     for index, one in enumerate(carried):

@@ -61,7 +61,7 @@ def on_grid(mesh: TriangleMesh, *, counts: tuple[int, ...], cells: int = 255) ->
 def base(mesh: TriangleMesh) -> Base:
     """Blocks to be refined."""
     encoder = Encoder(mesh, BASE)
-    return Spectral(encoder._prepared, BASE).base(BASE.first_step)
+    return Spectral(encoder._input.prepared, BASE).base(BASE.first_step)
 
 
 def refined(mesh: TriangleMesh, layer: Layer, counts: tuple[int, ...]) -> bytes:

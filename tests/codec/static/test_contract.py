@@ -173,7 +173,7 @@ def test_who_says_how_to_code_gets_that() -> None:
 def test_a_rough_mesh_is_refined_and_every_way_decodes_to_what_was_checked() -> None:
     mesh = noisy(torus(80, 40), 0.003)
     encoder = Encoder(mesh, EncodeOptions(block_size=300, contract=Contract(0.004, 4.0)))
-    measures = Measures(encoder._prepared, 1)
+    measures = Measures(encoder._input.prepared, 1)
     bounds = Bounds(measures, Contract(0.004, 4.0))
     drafts = [way.at(way.first).draft for way in Search(measures, encoder.options)._ways(bounds, math.inf)]
     assert any(draft.header.refinement for draft in drafts)

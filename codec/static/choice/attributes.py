@@ -1,0 +1,208 @@
+"""Attributes beside the shape: what is sent of them, as coarsely as the look that is promised lets them be."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from operator import itemgetter
+
+import numpy as np
+
+from bsm.bitstream.errors import TargetError
+from bsm.bitstream.once import cached_property
+from bsm.codec.arrays import Positions
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.welding import row_numbers
+from bsm.codec.look.measure import Worn, is_worn, own_normals
+from bsm.codec.look.pictures import FEW, Normals
+from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
+from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, Quality, qualities
+from bsm.codec.static.choice.bounds import Measures
+from bsm.codec.static.choice.search import Search
+from bsm.codec.static.options import LARGE_BLOCKS, EncodeOptions
+from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
+from bsm.codec.static.targets import SLACK, TRIES, Contract
+from bsm.codec.static.ways.block_coder import Progress
+
+OF_PAINT = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
+
+
+class Input:
+    """A mesh on its way into a stream: joined, prepared, and its attributes as they are sent."""
+
+    def __init__(self, given: TriangleMesh, options: EncodeOptions) -> None:
+        self.given, self.options = given, options
+        self.coded = options  # how the shape is coded, which the best effort chooses
+
+    @cached_property
+    def joined(self) -> JoinedMesh:
+        return join(self.given, keep=self.options.keep_order, exact=self.options.exact)
+
+    @cached_property
+    def prepared(self) -> Prepared:
+        options = self.coded
+        parts = Parts(options.block_size, options.overlap, options.paper.partition == "metis")
+        return prepare(
+            self.joined.mesh, parts, keep_order=options.keep_order, splits=self.joined.splits, light=options.quick
+        )
+
+    @cached_property
+    def wanted(self) -> list[tuple[Attribute, Quality]]:
+        options = self.options
+        return qualities(self.given.attributes, dict(options.attributes), options.grade, options.normals)
+
+    @cached_property
+    def carried(self) -> tuple[PreparedAttribute, ...]:
+        return self.carry(self.wanted)
+
+    def carry(self, wanted: Sequence[tuple[Attribute, Quality]]) -> tuple[PreparedAttribute, ...]:
+        return carry(place_of(self.given, self.joined, self.prepared), wanted) if wanted else ()
+
+    def carry_with(self, index: int, quality: Quality) -> tuple[PreparedAttribute, ...]:
+        """All attributes, one of them with another quality."""
+        return self.carry([(one, quality if at == index else asked) for at, (one, asked) in enumerate(self.wanted)])
+
+    @cached_property
+    def normals(self) -> Normals | None:
+        """Normals that the mesh is sent with, of its corners in the order of coding, shape (m, 9)."""
+        sent = any(one.semantic == "normal" for one, _ in self.wanted)
+        own = own_normals(self.given) if sent else None
+        if own is None:
+            return None
+        corners = place_of(self.given, self.joined, self.prepared).of_corners(
+            np.arange(3 * len(own), dtype=np.int32).reshape(-1, 3)
+        )
+        return own.reshape(-1, 3)[corners].reshape(-1, 9)
+
+    def dressed(self, draft: Draft) -> Draft:
+        """The draft with attributes and metadata."""
+        if not self.carried and not self.given.metadata:
+            return draft
+        return with_attributes(draft, self.carried, self.given.metadata)
+
+    def search(self, contract: Contract, progress: Progress | None) -> Search:
+        measures = Measures(self.prepared, self.options.threads, self.normals, alike=contract.alike)
+        # About as long as blocks take, drawing and weighing take behind them.
+        half = None if progress is None else lambda done, blocks: progress(done, 2 * blocks)
+        return Search(measures, self.coded, half, lambda draft: self.dressed(draft).size)
+
+
+def smallest(given: Input, contract: Contract, progress: Progress | None) -> Draft:
+    """The smallest stream that keeps a contract, in colours and under a checker where it has them, too."""
+    if given.options.effort == "best":
+        _choose_blocks(given, contract)
+    search = given.search(contract, progress)
+    worn = _roughened(given, contract.look) if search.metric is not None and contract.look < math.inf else []
+    asked = contract
+    for _ in range(TRIES):
+        if worn:
+            given.carried = given.carry(given.wanted)
+        kept = _shaded(given, search, asked)
+        positions = given.prepared.units.into(kept.decoded)
+        seen = max((one.distance(positions, given.carried[at].at_corners) for at, one in worn), default=0.0)
+        if seen <= contract.look:
+            break
+        asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
+    return kept
+
+
+def _choose_blocks(given: Input, contract: Contract) -> None:
+    """Go on with the size of blocks with which the shape alone takes fewest bytes."""
+    found: list[tuple[int, EncodeOptions, Prepared]] = []
+    for coded in (given.options, replace(given.options, **LARGE_BLOCKS)):
+        given.coded = coded
+        given.__dict__.pop("prepared", None)
+        draft = given.search(contract, None).smallest(contract)
+        found.append((draft.size, given.coded, given.prepared))
+        if draft.places is not None:
+            break  # a grid has no blocks
+    _, given.coded, given.prepared = min(found, key=itemgetter(0))
+    given.carried = given.carry(given.wanted)
+
+
+def _roughened(given: Input, look: float) -> list[tuple[int, Worn]]:
+    """Make colors and texture coordinates without a requested quality as coarse as the look allows; return these."""
+    found = []
+    for at, (one, quality) in enumerate(given.wanted):
+        asked = {"*", one.name} & {*dict(given.options.attributes)}
+        if not asked and quality.way in ("bits", "exact") and is_worn(one):
+            found.append((at, _roughen(given, at, one, OF_PAINT[one.semantic] * look)))
+    return found
+
+
+def _roughen(given: Input, at: int, one: Attribute, most: float) -> Worn:
+    """Make an attribute as coarse as takes at most some of the look."""
+    steps = [Quality("bits", bits) for bits in range(1, MOST_BITS + 1)]
+    if one.semantic == "color":
+        rough = range(0 if kept_whole(one) else 15)
+        steps = [*(Quality("share", 25.0 * 0.5 ** (k / 2)) for k in rough), Quality("exact")]
+    mesh = TriangleMesh(given.prepared.positions, given.prepared.mesh.faces)
+    worn = Worn(mesh, one.semantic, given.carry_with(at, steps[-1])[at].at_corners, threads=given.options.threads)
+
+    def near(step: int) -> bool:
+        return worn.distance(mesh.positions, given.carry_with(at, steps[step])[at].at_corners, FEW) <= most
+
+    step = steps[_first(near, 0, len(steps) - 1)]
+    if one.semantic == "texcoord" or given.carry_with(at, step)[at].size < given.carried[at].size:
+        given.wanted[at] = one, step
+    return worn
+
+
+def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
+    """The smallest stream that keeps a contract; normals without a requested quality are what the look needs."""
+    bare, metric, free = search.smallest(contract), search.metric, _free_normals(given)
+    if free is None or metric is None or contract.look == math.inf:
+        return given.dressed(bare)
+    again, decoded = given.carry_with(free, Quality("recompute")), given.prepared.units.into(bare.decoded)
+
+    def looks(carried: tuple[PreparedAttribute, ...], positions: Positions) -> bool:
+        return metric.shaded(positions, carried[free].normals(positions)) <= contract.look
+
+    def enough(bits: int) -> bool:
+        carried = given.carry_with(free, Quality("bits", bits))
+        if looks(carried, decoded):
+            given.carried = carried
+            return True
+        return False
+
+    may = not metric.against_faces
+    if may and looks(again, decoded):
+        given.carried = again
+        return given.dressed(bare)
+    _first(enough, LEAST_NORMAL_BITS, int(given.wanted[free][1].amount))
+    kept = given.dressed(bare)
+    if may and not metric.is_spent and looks(again, given.prepared.positions):  # finer ones are, too, perhaps
+        with suppress(TargetError):
+            finer = search.shaded_by(again[free].normals).smallest(contract)
+            other = with_attributes(finer, again, given.given.metadata)
+            if other.size < kept.size and looks(again, given.prepared.units.into(finer.decoded)):
+                given.carried, kept = again, other
+    return kept
+
+
+def _first(holds: Callable[[int], bool], low: int, high: int) -> int:
+    """The first number from `low` on for which something holds, if it holds for all behind it; at most `high`."""
+    while low < high:
+        middle = (low + high) // 2
+        low, high = (low, middle) if holds(middle) else (middle + 1, high)
+    return low
+
+
+def _free_normals(given: Input) -> int | None:
+    """Which attribute are normals without a requested quality, so that they may be what the look needs."""
+    options = given.options
+    if options.normals != "look" or "*" in dict(options.attributes) or given.normals is None:
+        return None
+    first = next(at for at, (one, _) in enumerate(given.wanted) if one.semantic == "normal")
+    one, quality = given.wanted[first]
+    asked = one.name in dict(options.attributes) or not np.isfinite(given.normals).all()
+    return None if asked or one.domain == "face" or quality.way != "bits" else first
+
+
+def kept_whole(colours: Attribute) -> bool:
+    """Whether colours are few, and tell parts apart, or let shine through what no picture shows."""
+    see_through = colours.components in (2, 4) and np.ptp(colours.values[:, -1]) > 0
+    return bool(see_through or row_numbers(colours.values).max(initial=0) < 1 << 8)
