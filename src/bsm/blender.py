@@ -26,10 +26,11 @@ from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import gltf_values, images_in, kind_of_image, materials_in
 from bsm.files.formats.polygons import Array, unused_name
+from bsm.files.inspection import inspect_stream
 from bsm.files.motion.caches import write_cache
 from bsm.files.output import open_output
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import SequenceStream, decode_whole, inspect_stream, peek_header
+from bsm.files.stream import SequenceStream, decode_whole, peek_header
 
 _DOMAINS = {"vertex": "POINT", "corner": "CORNER", "face": "FACE"}
 _TYPES = {1: ("FLOAT", "value"), 2: ("FLOAT2", "vector"), 3: ("FLOAT_VECTOR", "vector"), 4: ("FLOAT_COLOR", "color")}

@@ -15,7 +15,7 @@ import pytest
 
 import bsm
 from bsm.cli import main
-from bsm.files.stream import inspect_stream
+from bsm.files.inspection import inspect_stream
 from bsm.gltf.compress import ImageRule, compress, count_primitives, drawn, smaller
 from bsm.gltf.document import EXTENSION, glb, read_document
 from tests.shapes import torus

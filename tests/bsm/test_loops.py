@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bsm.cli import main
-from bsm.files.stream import Loops
+from bsm.files.motion.frames import Loops
 from tests.motion import bending
 
 

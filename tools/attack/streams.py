@@ -39,8 +39,7 @@ from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.sequence.gop import level_references
-from bsm.codec.static.attributes.levels import PieceEncoder
-from bsm.codec.static.attributes.surface import surface_of
+from bsm.codec.static.attributes.levels import PieceEncoder, surface_of
 from tools.gridded import gridded
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
 from tools.vectors.meshes import torus

@@ -56,8 +56,8 @@ from bsm.decoding import decode
 from bsm.evaluation.curve import PAPER_KEEPS, Curve, Spectral, paper_curves, paper_options, run_curve
 from bsm.evaluation.sample import knot
 from bsm.files.formats.npz import read_arrays
+from bsm.files.inspection import StreamInfo, inspect_stream
 from bsm.files.mesh import format_of_name, read_mesh
-from bsm.files.stream import StreamInfo, inspect_stream
 from tools.command import run_command
 from tools.noise import gaussian_along_normals
 

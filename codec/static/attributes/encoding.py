@@ -27,9 +27,19 @@ from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import painted
 from bsm.codec.look.pictures import Normals
-from bsm.codec.static.attributes.levels import KINDS, PieceEncoder, Words, leans, quantized, restored, to_pieces
+from bsm.codec.static.attributes.levels import (
+    KINDS,
+    PieceEncoder,
+    Surface,
+    Words,
+    leans,
+    quantized,
+    recomputed,
+    restored,
+    surface_of,
+    to_pieces,
+)
 from bsm.codec.static.attributes.quality import Quality
-from bsm.codec.static.attributes.surface import Surface, recomputed, surface_of
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Prepared
 
 CHUNK = 1 << 15  # values of a frame

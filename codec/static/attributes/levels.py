@@ -1,4 +1,4 @@
-"""An attribute's values as levels, as floats allow, and levels as the numbers that are coded, in one piece or two."""
+"""An attribute's values: where they are, their levels, and the numbers that are coded, in one piece or two."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -7,13 +7,13 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.attributes import values as coders
+from bsm.bitstream.attributes.seams import Joins
 from bsm.bitstream.container.header import BITS, COLOR, FACE, LEVELS, OCTAHEDRAL, RECOMPUTED, TEXCOORD, Declaration
 from bsm.bitstream.container.wire import write_varint
 from bsm.bitstream.errors import OptionError, TargetError
 from bsm.bitstream.fields.corners import Field, FieldEncoder
-from bsm.codec.arrays import Levels
+from bsm.codec.arrays import Faces, Indices, Levels, Matrix
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality
-from bsm.codec.static.attributes.surface import Surface
 
 Values = npt.NDArray[Any]
 Words = npt.NDArray[np.int64]
@@ -24,6 +24,46 @@ MOST_LEVEL = 2**32 - 1
 _NEAR_ZERO = 1 << 20  # what is below costs less than an offset
 _SLACK = 1.0 - 2.0**-20
 _USUAL_STEPS = (1.0, 1.0 / 255.0, 1.0 / 65535.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """The values of an attribute as vertices of a mesh of their own."""
+
+    faces: Faces
+    vertices: Indices
+
+    @property
+    def places(self) -> Indices:
+        """Equal numbers for values at the same vertex, shape (k,)."""
+        apart = np.iinfo(np.int32).max - np.arange(len(self.vertices), dtype=np.int32)
+        return np.where(self.vertices < 0, apart, self.vertices).astype(np.int32)
+
+    def geometry(self, places: Levels) -> Levels:
+        """Where values are, given where vertices are, shape (n, 3); those of no vertex at the origin."""
+        return np.where(self.vertices[:, None] < 0, 0, places[self.vertices]).astype(np.int32)
+
+
+def surface_of(domain: int, faces: Faces, vertices: int, loose: int, joins: Joins | None) -> Surface:
+    """The surface on which values of a domain lie."""
+    if domain == FACE:
+        return Surface(faces, np.zeros(0, np.int32))
+    at = np.arange(vertices, dtype=np.int32) if joins is None else joins.vertices
+    corners = faces if joins is None else joins.faces
+    return Surface(corners, np.concatenate([at, np.full(loose, -1, np.int32)]).astype(np.int32))
+
+
+def recomputed(surface: Surface, positions: Matrix) -> Matrix:
+    """Normals of the values of a surface: those of the faces around, by area (A 7); shape (k, 3)."""
+    places = positions[surface.vertices] if len(surface.vertices) else positions
+    a, b, c = (places[surface.faces[:, corner]] for corner in range(3))
+    across = np.cross(b - a, c - a)
+    normals = np.zeros((len(surface.vertices), 3))
+    for corner in range(3):
+        for axis in range(3):
+            normals[:, axis] += np.bincount(surface.faces[:, corner], weights=across[:, axis], minlength=len(normals))
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.where(lengths > 0.0, normals / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)

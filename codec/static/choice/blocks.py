@@ -24,7 +24,7 @@ from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import ANY_ANGLE, secant
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import Progress, admit, blended, encode_blocks, patience
-from bsm.codec.static.ways.refinement import encode_layer
+from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits

@@ -1,4 +1,4 @@
-"""Positions on a grid instead of blocks: their packets."""
+"""Packets of positions on a grid instead of blocks, and of the layer of refinement on blocks."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -10,7 +10,7 @@ from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import EXACT
 from bsm.bitstream.container.wire import write_varint
 from bsm.bitstream.fields.corners import FieldEncoder
-from bsm.bitstream.fields.grid import Cells, Floats, Numbers, cells_of, grid_field, light_field, spread
+from bsm.bitstream.fields.grid import Cells, Floats, Numbers, cells_of, grid_field, levels_field, light_field, spread
 from bsm.codec.arrays import Indices, Levels, Positions
 
 FIRST, CHUNK = 1 << 12, 1 << 13
@@ -65,3 +65,13 @@ def encode_exact(faces: Indices, grid: Grid, coded: Levels, floats: Numbers) -> 
         behind = model.encode(coded[rows], grid.cells(coded[rows]), floats[rows])
         result.append(packets.Grid(packet.first, packet.count, write_varint(len(packet.data)) + packet.data + behind))
     return result
+
+
+LAYER_CHUNK = 1 << 15  # vertices of a frame of refinement
+
+
+def encode_layer(faces: Indices, levels: Levels) -> list[packets.Refinement]:
+    """The packets of the layer of refinement, of levels, shape (n, 3)."""
+    encoder, size = FieldEncoder(levels_field(faces, len(levels)), levels), len(levels)
+    chunks = [(start, min(LAYER_CHUNK, size - start)) for start in range(0, size, LAYER_CHUNK)]
+    return [packets.Refinement(start, count, encoder.chunk(count)) for start, count in chunks]

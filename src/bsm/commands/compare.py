@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, OptionError
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
@@ -21,13 +21,13 @@ from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
 from bsm.comparison import compare_meshes, in_order_of, pair, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
-from bsm.files import stream as streams
 from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
-from bsm.files.motion.frames import Wanted
+from bsm.files.motion.frames import Loops, Wanted
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.files.pipes import about, read_chunks
 from bsm.files.sequence import open_sequence
+from bsm.files.stream import SequenceStream, decode_whole, is_stream, numbered, numbers_of, peek_header
 from bsm.lengths import length, unit_of
 from bsm.pictures import DEFAULT_VIEW, colors_of, png, render, side_by_side
 
@@ -153,8 +153,8 @@ def sentence(compared: dict[str, Any], unit: str) -> str:
 def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:
     """A mesh file or a stream, without the vertices that no face uses."""
     with about(path):
-        if streams.is_stream(path):
-            return streams.decode_whole(read_chunks(path), limits_of(args.limits))
+        if is_stream(path):
+            return decode_whole(read_chunks(path), limits_of(args.limits))
         source = read_mesh(path, reader=args.reader)
     for note in source.notes:
         console.note(f"{path}: {note}")
@@ -181,25 +181,38 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
     return True
 
 
-def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> streams.Pieces | None:
+Pieces = list[tuple[Positions, Faces]]
+"""Frames, shape (T, n, 3), and their faces, shape (m, 3), of one run after the other."""
+
+
+def _pieces_of(frames: Iterable[tuple[Positions, Faces]]) -> Pieces:
+    found: list[tuple[list[Positions], Faces]] = []
+    for positions, faces in frames:
+        same = found and len(found[-1][0][0]) == len(positions) and np.array_equal(found[-1][1], faces)
+        if not same:
+            found.append(([], faces))
+        found[-1][0].append(positions)
+    return [(np.array(positions), faces) for positions, faces in found]
+
+
+def _load_sequence(path: str, args: argparse.Namespace, wanted: Wanted | None) -> Pieces | None:
     """The frames and faces of a file, folder or stream; None if it is a mesh."""
     with about(path):
-        if Path(path).is_file() and streams.is_stream(path):
-            header, chunks = streams.peek_header(read_chunks(path))
+        if Path(path).is_file() and is_stream(path):
+            header, chunks = peek_header(read_chunks(path))
             if header is None or not header.gop_frames:
                 return None
-            return streams.all_frames(streams.SequenceStream(chunks, limits=limits_of(args.limits)))
+            stream = SequenceStream(chunks, limits=limits_of(args.limits))
+            return _pieces_of((frame, stream.faces) for _, frame in stream.changing_frames())
         source = open_sequence(path, reader=args.reader, wanted=wanted)
         if source is None:
             return None
         if source.meshes is None:
             return [(np.array(list(source.frames)), source.faces)]
-        return streams.pieces_of((mesh.positions, mesh.faces) for mesh in source.meshes)
+        return _pieces_of((mesh.positions, mesh.faces) for mesh in source.meshes)
 
 
-def _compared_sequences(
-    args: argparse.Namespace, original: streams.Pieces, decoded: streams.Pieces, progress: Progress
-) -> str:
+def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pieces, progress: Progress) -> str:
     """How far one sequence is from the other, as it is printed."""
     counts = [[len(frames) for frames, _ in side] for side in (original, decoded)]
     if sum(counts[0]) != sum(counts[1]):
@@ -216,14 +229,14 @@ def _compared_sequences(
     for (first, faces), (second, others) in zip(original, decoded, strict=True):
         mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
         other, other_kept = TriangleMesh(second[0], others).without_isolated_vertices()
-        rows = streams.numbers_of(in_order_of(mesh, streams.numbered(other.faces, len(other_kept)), order))
+        rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
         runs.append((first[:, kept], second[:, other_kept[rows]], mesh.faces))
     result = asdict(compare_runs(runs))
     if args.look:
         progress.stage("looking at all frames")
         result.update(_looks(runs, progress))
         progress.stage("comparing")
-    if Path(args.decoded).is_file() and streams.is_stream(args.decoded):
+    if Path(args.decoded).is_file() and is_stream(args.decoded):
         samples = sum(frames[..., 0].size for frames, _ in decoded)
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
     of_frames = [found for one, two, _ in runs for found in _of_frames(one, two)]
@@ -232,7 +245,7 @@ def _compared_sequences(
 
         refuse_to_overwrite(args.picture, args.force)
         write_output(args.picture, frame_errors(of_frames, Path(args.decoded).name), overwrite=args.force)
-    loops = streams.Loops()
+    loops = Loops()
     for frame in runs[0][0] if len(runs) == 1 else ():
         loops.take(frame)
     repeats = loops.said()

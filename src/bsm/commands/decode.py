@@ -15,12 +15,13 @@ from bsm.bitstream.errors import OptionError, counted
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, refuse_two_on_one_pipe
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
-from bsm.files import stream as streams
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
-from bsm.files.motion.frames import Shared
+from bsm.files.motion.frames import Shared, said_of_runs
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
+from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import read_chunks, size_of
 from bsm.files.sequence import ONE_FILE, SEQUENCE_FORMATS, sequence_kind, sequence_writer
+from bsm.files.stream import SequenceStream, decode_whole, numbered, numbers_of, peek_header
 from bsm.jobs.plan import plan
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Task, anywhere, came_to
@@ -78,7 +79,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def decode_one(args: DecodeJob, console: Console) -> Facts:
-    header, chunks = streams.peek_header(read_chunks(args.input))
+    header, chunks = peek_header(read_chunks(args.input))
     if header is not None and header.gop_frames:
         return _decode_sequence(args, console, chunks)
     if args.frames is not None:
@@ -94,11 +95,11 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     limits = limits_of(args.limits)
     with console.progress("decoding") as progress:
         if args.tolerant:
-            mesh = streams.decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits)
+            mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits)
         elif args.blocks is None:
-            mesh = streams.decode_whole(chunks, limits, layers=args.layers)
+            mesh = decode_whole(chunks, limits, layers=args.layers)
         else:
-            mesh = streams.decode_blocks(chunks, args.blocks, progress, limits)
+            mesh = decode_blocks(chunks, args.blocks, progress, limits)
     seconds = time.perf_counter() - begin
     if args.permutation:
         mesh = reorder(mesh, read_permutation(args.permutation))
@@ -130,7 +131,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
     first, last = _range(args.frames)
-    stream = streams.SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args.limits))
+    stream = SequenceStream(chunks, console.note if args.tolerant else None, first, limits_of(args.limits))
     header, frames = stream.header, stream.changing_frames()
     ahead = list(islice(frames, 1))  # whose faces are those that are written first
     faces = stream.faces
@@ -138,8 +139,8 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     expected = max(last - first, 0) if header.frames and not args.tolerant else 0
     order: npt.NDArray[np.int64] | slice = slice(None)
     if args.permutation:
-        mesh = reorder(streams.numbered(faces, int(faces.max()) + 1), read_permutation(args.permutation))
-        order, faces = streams.numbers_of(mesh.positions), mesh.faces
+        mesh = reorder(numbered(faces, int(faces.max()) + 1), read_permutation(args.permutation))
+        order, faces = numbers_of(mesh.positions), mesh.faces
     shared = Shared() if args.permutation else Shared(lambda: stream.attributes, lambda: stream.metadata)
     count = vertices = 0
     with (
@@ -167,7 +168,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     seconds = time.perf_counter() - begin
     facts = {"frames": count, "vertices": vertices, "faces": header.faces}
     if stream.run_starts:
-        console.note(f"{args.input}: {streams.said_of_runs(stream.run_starts)}")
+        console.note(f"{args.input}: {said_of_runs(stream.run_starts)}")
     counts = f"{counted(frames=count)} of {counted(vertices=vertices, faces=header.faces)}"
     console.note(f"{args.input} -> {output}: {counts}, {seconds:.2f} s")
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}

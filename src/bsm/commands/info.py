@@ -8,8 +8,10 @@ from typing import Any
 
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
+from bsm.files.inspection import StreamInfo, inspect_stream
+from bsm.files.motion.frames import MOST_SAID, Loops, said_of_runs
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import MOST_SAID, Loops, SequenceStream, StreamInfo, inspect_stream, said_of_runs
+from bsm.files.stream import SequenceStream
 from bsm.jobs.plan import input_names
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task

@@ -7,8 +7,9 @@ from bsm.bitstream.errors import counted
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console
 from bsm.exits import worded
+from bsm.files.inspection import inspect_stream
 from bsm.files.pipes import read_chunks
-from bsm.files.stream import decode_through, decode_whole, inspect_stream
+from bsm.files.stream import decode_through, decode_whole
 from bsm.jobs.plan import input_names
 from bsm.jobs.run import Run, run_jobs
 from bsm.jobs.task import Facts, Job, Task

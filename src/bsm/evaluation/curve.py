@@ -28,8 +28,8 @@ from bsm.codec.static.targets import Target
 from bsm.console import finite
 from bsm.decoding import decode
 from bsm.evaluation.sample import knot
+from bsm.files.inspection import inspect_stream
 from bsm.files.output import write_output
-from bsm.files.stream import inspect_stream
 
 
 def encode_draco(mesh: TriangleMesh, position_bits: int, level: int) -> bytes:

@@ -20,11 +20,10 @@ from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
 from bsm.events import Signal
 from bsm.files.mesh import read_mesh
-from bsm.files.motion.frames import Frames, Wanted
+from bsm.files.motion.frames import Frames, Loops, Wanted, said_of_runs
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
-from bsm.files.stream import Loops, said_of_runs
 from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import in_own_unit
 from bsm.libraries import with_metadata
