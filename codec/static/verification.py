@@ -67,7 +67,7 @@ class Original:
             given = self.given.faces[self.joined.kept][self.prepared.face_order]
             wanted, found = self.given.positions[given], self.given.positions[self.vertex_order[faces]]
         for turn in range(1 if self.prepared.order else 3):
-            other = (np.roll(found, turn, axis=1) != wanted).reshape(len(found), -1).any(axis=1)
+            other = (np.roll(found, turn, axis=1) != wanted).any(axis=tuple(range(1, found.ndim)))
             wanted, found = wanted[other], found[other]
         require(not len(wanted), "the order of vertices or faces that came back is another")
 
