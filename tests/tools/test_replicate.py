@@ -155,11 +155,11 @@ def test_only_the_file_of_the_list_is_taken_and_what_is_missing_is_named(tmp_pat
     root.mkdir(parents=True)
     for name in ("a", "b"):
         write_mesh(root / f"{name}.ply", torus(8, 8))
-    digest = hashlib.sha256((root / "a.ply").read_bytes()).hexdigest()
+    right = hashlib.sha256((root / "a.ply").read_bytes()).hexdigest()
     common = {"group": "unseen", "vertices": 64}
     meshes = [
-        {"name": name, "path": f"{name}.ply", "sha256": told, **common}
-        for name, told in (("a", digest), ("b", "0" * 64), ("c", digest))
+        {"name": name, "path": f"{name}.ply", "sha256": digest, **common}
+        for name, digest in (("a", right), ("b", "0" * 64), ("c", right))
     ]
     monkeypatch.setattr(fetch, "LIST", tmp_path / "list.json")
     gone = {"package": "no-such-package", "registry": "none", "version": "1", "archive": "", "meshes": meshes[:1]}

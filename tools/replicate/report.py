@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from textwrap import fill
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -153,7 +154,7 @@ def write_page(results: dict[str, list[Row]], facts: dict[str, Any]) -> None:
     before, _, behind = page.partition(BEGIN)
     made = [f"`python -m tools.replicate`, commit {facts['commit']}, {facts['processor']}, {facts['date']}."]
     for one in tables(results).values():
-        made += [f"### {one.title}", *([one.note] if one.note else []), table(one.columns, one.rows)]
+        made += [f"### {one.title}", *([fill(one.note, 120)] if one.note else []), table(one.columns, one.rows)]
     PAGE.write_text(
         f"{before}{BEGIN}\n\n" + "\n\n".join(made) + f"\n\n{END}{behind.partition(END)[2]}", encoding="utf-8"
     )

@@ -29,7 +29,7 @@ def note(text: str) -> None:
 
 
 def spread_over(sources: list[Source], count: int) -> list[Source]:
-    """So many of them, evenly over their sizes."""
+    """`count` of them, evenly over their sizes."""
     return sources[:: max(1, len(sources) // count)][:count]
 
 
