@@ -37,7 +37,6 @@ struct Ahead {
     int64_t first, count;
     LevelsAhead levels;
     int64_t job, chains, jobs; /* of a run: the next job; the first ones are chains, and one more may read levels */
-    bool (*builder)(bsmdec *decoder);
     bool built, is_built;
 };
 
@@ -167,20 +166,19 @@ static void build_or_read(void *context, int index) {
     Ahead *ahead = context;
     (void)index;
     if (__atomic_fetch_add(&ahead->job, 1, __ATOMIC_RELAXED) == 0) {
-        ahead->built = ahead->builder(ahead->decoder);
+        ahead->built = build(ahead->decoder);
         __atomic_store_n(&ahead->is_built, true, __ATOMIC_RELEASE);
     } else {
         read_levels_ahead(ahead, true);
     }
 }
 
-bool build_beside(bsmdec *decoder, bool (*builder)(bsmdec *decoder)) {
+bool build_beside(bsmdec *decoder) {
     Ahead *ahead = is_parallel(decoder) ? ahead_of(decoder) : NULL;
-    if (ahead == NULL) return builder(decoder);
+    if (ahead == NULL) return build(decoder);
     find_levels(ahead, decoder->mesh.next_block + 1);
-    if (ahead->levels.count == 0 || ahead->levels.progress == GIVEN_UP) return builder(decoder);
+    if (ahead->levels.count == 0 || ahead->levels.progress == GIVEN_UP) return build(decoder);
     ahead->job = 0;
-    ahead->builder = builder;
     run(decoder, 2, build_or_read, ahead);
     return ahead->built;
 }

@@ -177,7 +177,7 @@ static bool accept_packet(bsmdec *decoder, const Packet *packet) {
     bool in_sequence = decoder->sequence.is_one || (packet->type == HEADER_FRAME && packet->header->gop_frames > 0);
     decoder->has_checksum = packet->has_positions && decoder->sequence.start == 0;
     decoder->told = packet->positions;
-    bool done = (in_sequence ? accept_in_sequence : take_in)(decoder, packet);
+    bool done = in_sequence ? accept_in_sequence(decoder, packet) : take_in(decoder, packet);
     release_to(&decoder->scratch, mark);
     return done;
 }
@@ -186,11 +186,11 @@ static bool accept_damage(bsmdec *decoder) {
     decoder->context.error = decoder->reader.damage.why;
     decoder->context.error.status = BSMDEC_CORRUPT;
     locate(&decoder->context.error, decoder->reader.damaged_offset, -1, -1);
-    return (decoder->sequence.is_one ? accept_damage_in_sequence : accept_damage_in_mesh)(decoder);
+    return decoder->sequence.is_one ? accept_damage_in_sequence(decoder) : accept_damage_in_mesh(decoder);
 }
 
 /* Nothing follows. */
-static bool accept_end(bsmdec *decoder) { return (decoder->sequence.is_one ? end_sequence : finish_mesh)(decoder); }
+static bool accept_end(bsmdec *decoder) { return decoder->sequence.is_one ? end_sequence(decoder) : finish_mesh(decoder); }
 
 /* Take in what has come, until there is an event, an error, or nothing more. */
 static bsmdec_event_type advance(bsmdec *decoder) {

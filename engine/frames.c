@@ -101,7 +101,7 @@ static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, cons
 bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, ConstInts2 faces,
     ConstDoubles2 first_frame, int64_t given, const Mover *movers, int count, Arena *scratch) {
     const Arena none = arena_of(context);
-    *gops = (Gops){.context = context, .given = (double)given, .tracks = count + 1, .begun = true, .arena = none, .history = none,
+    *gops = (Gops){.given = (double)given, .tracks = count + 1, .begun = true, .arena = none, .history = none,
         .levels = none, .frames = none};
     gops->parts = (Parts){.context = context, .header = header, .graph = graph, .blocks = blocks, .arena = &gops->arena, .dictionaries = none};
     double work, widths = 0, n = (double)graph->size;
@@ -266,7 +266,7 @@ static bool decode_learnt_part(Gops *gops, const Telling *telling, int k, const 
     Doubles2 known, found = telling->found[k];
     if (!join_columns(rows_from(track->known, part->first, m + c), rows_from(before, part->first, m + c), scratch, &known)) return false;
     if (field->components > 0
-        && !follow_loop(gops->context, const_doubles2(rows_from(known, 0, m)), ends, const_doubles2(rows_from(known, m, c)), levels,
+        && !follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), ends, const_doubles2(rows_from(known, m, c)), levels,
             field->step, scratch, differences))
         return false;
     copy_columns(ends, 0, found.columns, rows_from(found, part->first, m), 0);
@@ -324,7 +324,7 @@ static bool decode_next_part(Gops *gops, const Telling *telling, int k, const Si
         if (!take_doubles2(scratch, m + c, wide, &known) || !take_doubles2(scratch, m, columns, &changes)) return false;
         fill_references(track, field, part->first, known);
         for (int64_t i = 0; i < m * columns; i++) changes.data[i] = ends.data[i] - own.data[i];
-        if (!follow_loop(gops->context, const_doubles2(rows_from(known, 0, m)), const_doubles2(changes), const_doubles2(rows_from(known, m, c)),
+        if (!follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), const_doubles2(changes), const_doubles2(rows_from(known, m, c)),
                 levels, field->step, scratch, differences))
             return false;
         for (int64_t i = 0; i < c * columns; i++) inside.data[i] += differences.data[i];
@@ -397,7 +397,7 @@ static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int3
         matrices[i] = (Matrix){rows, 0, own, before != NULL ? before + begin * columns : own - earlier * columns, before != NULL ? rows : earlier};
         begin += rows;
     }
-    bool done = read_matrices(gops->context, bank, field->levels, matrices, gops->parts.count, columns, 0, scratch);
+    bool done = read_matrices(gops->parts.context, bank, field->levels, matrices, gops->parts.count, columns, 0, scratch);
     release_to(scratch, mark);
     return done;
 }
@@ -414,7 +414,7 @@ static bool begin_field(Gops *gops, const Gop *gop) {
 }
 
 static bool decode_learnt(Gops *gops, const Gop *gop, Arena *scratch) {
-    Context *context = gops->context;
+    Context *context = gops->parts.context;
     bool follows = gop->method == LEARNT_NEXT;
     if (follows && !gops->can_inherit) return FAIL(context, CORRUPT, "a GOP refers to one that is not there");
     forget_frames(gops);
@@ -495,7 +495,7 @@ static bool hold_cosines(int64_t width, ConstDoubles2 time, Arena *arena, Double
 }
 
 static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
-    Context *context = gops->context;
+    Context *context = gops->parts.context;
     if (gop->method == KEY_FRAMES) {
         if (!begin_history(gops)) return false;
     } else if (!gops->can_follow) {

@@ -159,5 +159,5 @@ static double gop_work(const Gops *gops, const Gop *gop) {
 bool reserve_gop(Gops *gops, const Gop *gop, double received) {
     double work, memory = gop_memory(gops->parts.graph->size, gop, gops->parts.around);
     double use = 48 * (double)gops->parts.largest * columns_of_gop(gop);
-    return reserve_dictionaries(&gops->parts, memory, use, &work) && spend(gops->context, work + gop_work(gops, gop), received);
+    return reserve_dictionaries(&gops->parts, memory, use, &work) && spend(gops->parts.context, work + gop_work(gops, gop), received);
 }

@@ -60,7 +60,6 @@ typedef struct {
 
 /* Everything that GOPs of a mesh are decoded with. */
 typedef struct {
-    Context *context;
     double given;            /* vertices that the user has */
     bool begun;
     Arena arena, history, levels, frames; /* what stays; what frames refer to; the present GOP */

@@ -326,7 +326,7 @@ static int64_t step_from(Reader *reader, int64_t place, bool sure) {
 }
 
 /* Bytes up to where reading goes on, or to the end of the data; -1 if more must come first, or work is refused. */
-static int64_t reach(Reader *reader) {
+static int64_t find_end(Reader *reader) {
     Damage *damage = &reader->damage;
     int64_t available = waiting(reader).size;
     bool ended = reader->grammar.last == END_FRAME;
@@ -350,7 +350,7 @@ static int64_t reach(Reader *reader) {
 }
 
 static Arrival recover(Reader *reader) {
-    int64_t length = reach(reader);
+    int64_t length = find_end(reader);
     if (reader->refused) return NOTHING_BUT_AN_ERROR;
     if (length < 0) return NO_MORE_YET;
     if (length == 0) reader->damage.type = END_FRAME;

@@ -33,13 +33,6 @@ static bool accept_connectivity(bsmdec *decoder, Span data) {
     return keep(context, mesh_memory(n, m), bytes) && spend(context, mesh_work(n, m, bytes), bytes);
 }
 
-static bool graph_of(bsmdec *decoder) {
-    Mesh *mesh = &decoder->mesh;
-    if (!mesh->has_graph)
-        mesh->has_graph = make_graph(mesh->faces, mesh->header.vertices, &mesh->arena, &decoder->scratch, &mesh->graph);
-    return mesh->has_graph;
-}
-
 static bool accept_partition(bsmdec *decoder, Span data) {
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
@@ -47,25 +40,6 @@ static bool accept_partition(bsmdec *decoder, Span data) {
     double n = (double)mesh->graph.size, ends = (double)mesh->graph.neighbours.size, bytes = (double)data.size;
     return zero_ints(&mesh->arena, mesh->graph.size, &mesh->labels) && spend(context, labels_work(n, ends, bytes), bytes)
         && decode_labels(context, data, &mesh->graph, mesh->header.blocks, &decoder->scratch, mesh->labels);
-}
-
-static bool announce(bsmdec *decoder) {
-    Mesh *mesh = &decoder->mesh;
-    if (mesh->announced) return true;
-    if (mesh->has_attributes && !decoder->tolerant && !check_rows(&mesh->attributes, &mesh->numbering)) return false;
-    mesh->announced = true;
-    return tell(decoder, BSMDEC_CONNECTIVITY, 0, 0);
-}
-
-bool build(bsmdec *decoder) {
-    Context *context = &decoder->context;
-    Mesh *mesh = &decoder->mesh;
-    if (mesh->has_chains) return true;
-    if (!graph_of(decoder) || !make_blocks(context, &mesh->header, &mesh->graph, mesh->labels, &mesh->arena, &decoder->scratch, &mesh->blocks)
-        || !begin_assembly(&mesh->assembly, mesh->graph.size, mesh->blocks.count, &mesh->arena))
-        return false;
-    mesh->has_chains = begin_chains(&mesh->chains, context, &mesh->header, &mesh->graph, &mesh->blocks, &mesh->arena);
-    return mesh->has_chains && announce(decoder);
 }
 
 /* Give up the blocks before `index` that did not come. */
@@ -107,7 +81,7 @@ static bool end_with_blocks(bsmdec *decoder) {
 static bool accept_block(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     DecodedBlock block;
-    if (!(mesh->has_chains ? build(decoder) : build_beside(decoder, build)) || !skip_to(decoder, packet->index)) return false;
+    if (!(mesh->has_chains ? build(decoder) : build_beside(decoder)) || !skip_to(decoder, packet->index)) return false;
     mesh->next_block++;
     if (!is_own(&decoder->share, &mesh->header, packet->index)) return decoder->share.helps || tell(decoder, (bsmdec_event_type)BLOCK_OF_HELPER, packet->index, 0);
     bool last = ends_with_blocks(decoder) && mesh->next_block == mesh->header.blocks;

@@ -11,8 +11,6 @@ bool accept_damage_in_mesh(bsmdec *decoder);
 /* Nothing follows. */
 bool finish_mesh(bsmdec *decoder);
 void end_mesh(Mesh *mesh);
-/* Blocks, and all that takes them in, when they are first needed. */
-bool build(bsmdec *decoder);
 /* Positions of a mesh that is not whole yet, as far as they are known. */
 bool look_at_positions(bsmdec *decoder);
 /* Whether the checksum of all positions is the stream's; a tolerant decoder reports a difference as a loss. */

@@ -1,4 +1,4 @@
-/* Events and losses, and the state that a new mesh resets. */
+/* Events and losses, the state that a new mesh resets, and the blocks of a mesh. */
 #include "engine/state.h"
 
 void forget_changes(Changes *changes) {
@@ -57,4 +57,30 @@ bool bear(bsmdec *decoder, int64_t block, bool anywhere) {
     locate(&context->error, decoder->reader.last_offset, decoder->reader.last_frame, block);
     if (block >= 0 && decoder->mesh.has_chains) lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, block);
     return tell_loss(decoder, take_error(context), block, 0);
+}
+
+bool graph_of(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (!mesh->has_graph)
+        mesh->has_graph = make_graph(mesh->faces, mesh->header.vertices, &mesh->arena, &decoder->scratch, &mesh->graph);
+    return mesh->has_graph;
+}
+
+bool announce(bsmdec *decoder) {
+    Mesh *mesh = &decoder->mesh;
+    if (mesh->announced) return true;
+    if (mesh->has_attributes && !decoder->tolerant && !check_rows(&mesh->attributes, &mesh->numbering)) return false;
+    mesh->announced = true;
+    return tell(decoder, BSMDEC_CONNECTIVITY, 0, 0);
+}
+
+bool build(bsmdec *decoder) {
+    Context *context = &decoder->context;
+    Mesh *mesh = &decoder->mesh;
+    if (mesh->has_chains) return true;
+    if (!graph_of(decoder) || !make_blocks(context, &mesh->header, &mesh->graph, mesh->labels, &mesh->arena, &decoder->scratch, &mesh->blocks)
+        || !begin_assembly(&mesh->assembly, mesh->graph.size, mesh->blocks.count, &mesh->arena))
+        return false;
+    mesh->has_chains = begin_chains(&mesh->chains, context, &mesh->header, &mesh->graph, &mesh->blocks, &mesh->arena);
+    return mesh->has_chains && announce(decoder);
 }

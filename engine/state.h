@@ -144,6 +144,11 @@ bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t ind
 bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
 /* Report an error as a loss: of `count` frames of a sequence from `index` on, or of a block. */
 bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
+/* Build the graph of the faces, or the blocks with their chains and assembly, unless that was done. */
+bool graph_of(bsmdec *decoder);
+bool build(bsmdec *decoder);
+/* Report once that faces are known. Without tolerance, attributes must have as many rows as the faces ask for. */
+bool announce(bsmdec *decoder);
 /* Record the error as a loss of `block`, or with -1 of something else, and continue; false if it is fatal. */
 bool bear(bsmdec *decoder, int64_t block, bool anywhere);
 

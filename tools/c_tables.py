@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import argparse
 import sys
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
-COLUMNS = 16
+WIDTH = 120
 
 
 def rows(table: Sequence[int]) -> str:
     """The entries of a table, as they stand between the braces of C."""
-    lines = (table[k : k + COLUMNS] for k in range(0, len(table), COLUMNS))
-    return "".join("    " + ", ".join(map(str, line)) + ",\n" for line in lines)
+    return textwrap.indent(textwrap.fill(", ".join(map(str, table)) + ",", WIDTH - 4), "    ") + "\n"
 
 
 def write_or_check(path: Path, source: str, module: str, about: str) -> int:

@@ -77,7 +77,7 @@ typedef struct {
     int32_t error;              /* mean size of the gaps around, or -1 */
 } Place;
 
-void survey(const Work *work, int32_t v, Place *place);
+void survey_values(const Work *work, int32_t v, Place *place);
 int32_t fold_at(const Work *work, int32_t v, const Base *base, int component);
 int32_t gap_classes(const Work *work, const Place *place, int component, int32_t unit);
 int64_t square_root(uint64_t x);

@@ -160,7 +160,7 @@ static void look(const Work *w, int32_t v, int32_t last, Sight *s) {
     const Values *g = &w->values;
     int32_t size = FINE * middle(g);
     int64_t mean[AXES] = {0, 0, 0}, drift[AXES] = {0, 0, 0}, across[AXES] = {0, 0, 0};
-    survey(w, v, &s->place);
+    survey_values(w, v, &s->place);
     const Around *r = &s->place.around;
     for (int i = 0; i < r->neighbours; i++) {
         const Direction *d = directions_of(g, r->neighbour[i]);

@@ -116,7 +116,7 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
 static bool code_vertex(Work *w, int32_t v, int32_t last) {
     Place place;
     Before own = {.hits = 0};
-    survey(w, v, &place);
+    survey_values(w, v, &place);
     for (int j = 0; j < w->values.values.columns; j++)
         if (!code_component(w, &place, v, last, j, &own)) return false;
     return true;

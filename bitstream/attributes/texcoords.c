@@ -186,7 +186,7 @@ static void pass_chart(const Values *g, const Chart *p, int32_t v) {
 static bool code_vertex(Work *w, int32_t v, int32_t last) {
     const Values *g = &w->values;
     Chart p;
-    survey(w, v, &p.place);
+    survey_values(w, v, &p.place);
     for (int i = 0; i < p.place.bases; i++) p.claim[i] = claim_of(g, v, &p.place.base[i]);
     average(g, last, &p);
     int32_t hits = 0, first = 0;

@@ -42,7 +42,7 @@ int64_t square_root(uint64_t x) { /* rounded down */
     return (int64_t)root;
 }
 
-void survey(const Work *w, int32_t v, Place *p) {
+void survey_values(const Work *w, int32_t v, Place *p) {
     const Values *g = &w->values;
     const Corners *c = &w->corners;
     const int32_t *vertex = c->faces.data, *rank = c->rank.data;

@@ -83,7 +83,7 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
     p->busy = r->neighbours > 0 ? mean_of((int64_t)(size[0] + size[1] + size[2]) * FINE, p->near) : 4 * FINE;
 }
 
-INLINE int decide(const Level *w, int node, int bit) {
+INLINE int decide_level(const Level *w, int node, int bit) {
     return code_mixed_bit(w->coder, w->mixer, INPUTS, w->context, node, w->selector, bit);
 }
 
@@ -94,19 +94,19 @@ INLINE int64_t code_distance(const Level *w, int k, bool away, int64_t distance)
     for (;; class++, first = next) {
         size = k + (class < 4 ? 0 : class / 2 - 1);
         next = first + (INT64_C(1) << size);
-        if (next > REACH || !decide(w, CLASS + 2 * (int)least(class, 9) + away, distance >= next)) break;
+        if (next > REACH || !decide_level(w, CLASS + 2 * (int)least(class, 9) + away, distance >= next)) break;
     }
     if (size == 0) return first;
     size--;
-    if (decide(w, PLACE + (int)least(class, 8), (distance - first) >> size & 1)) first += INT64_C(1) << size;
+    if (decide_level(w, PLACE + (int)least(class, 8), (distance - first) >> size & 1)) first += INT64_C(1) << size;
     if (size == 0) return first;
     int64_t rest = INT64_C(1) << size;
     return first + code_uniform(w->coder, (distance - first) & (rest - 1), rest);
 }
 
 INLINE int32_t code_level(const Level *w, int32_t centre, int32_t off, int k, int32_t level) {
-    if (!decide(w, MISS, level != centre)) return centre;
-    int up = decide(w, SIDE, level > centre), direction = up ? 1 : -1;
+    if (!decide_level(w, MISS, level != centre)) return centre;
+    int up = decide_level(w, SIDE, level > centre), direction = up ? 1 : -1;
     int64_t distance = code_distance(w, k, direction * off < 0, (int64_t)direction * (level - centre) - 1);
     return centre + direction * (int32_t)(distance + 1);
 }

@@ -1,5 +1,5 @@
 /* How much two pictures differ: structural dissimilarity, and pixels that differ visibly. */
-#include "codec/look/likeness.h"
+#include "codec/look/look.h"
 
 #define WIDE 5   /* pixels to each side that the wide blur reaches */
 #define NARROW 3 /* those of the narrow one */

@@ -1,5 +1,5 @@
 /* Normals as viewers shade: at each corner of a face those of the faces around its vertex, but not across creases. */
-#include "codec/look/normals.h"
+#include "codec/look/look.h"
 
 INLINE void cross_product(const double *a, const double *b, const double *c, double *n) {
     double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];

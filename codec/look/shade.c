@@ -1,5 +1,5 @@
 /* A picture of a mesh, from one side: a depth buffer, and shades from normals that are interpolated over faces. */
-#include "codec/look/shade.h"
+#include "codec/look/look.h"
 
 #define AMBIENT 0.12f
 #define DIFFUSE 0.78f

@@ -22,7 +22,7 @@ ABSENT void close_sequence(bsmdec *decoder) { (void)decoder; }
 ABSENT void end_gops(Gops *gops) { (void)gops; }
 
 /* A page has no threads: its workers have decoders of their own. */
-ABSENT bool build_beside(bsmdec *decoder, bool (*builder)(bsmdec *decoder)) { return builder(decoder); }
+ABSENT bool build_beside(bsmdec *decoder) { return build(decoder); }
 ABSENT void look_ahead(bsmdec *decoder, const Packet *packet) { (void)decoder, (void)packet; }
 ABSENT const ReadyBlock *find_ready(const bsmdec *decoder, const Packet *packet) {
     (void)decoder, (void)packet;
