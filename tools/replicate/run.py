@@ -22,6 +22,8 @@ from tools.replicate.stages import run_stage
 ABLATED, SIZES = 30, (500, 4000)
 """Meshes of the ablation, and of how many vertices."""
 TIMED = 24
+DRAWN = ("head", "cow", "homer")
+"""Meshes of the paper's figures."""
 
 
 def note(text: str) -> None:
@@ -56,7 +58,7 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
     if "motion" in minutes:
         measure_sequences(sources, folder / "motion", minutes["motion"], quick)
     if "paper" in minutes:
-        paper(folder, minutes["paper"], quick)
+        paper(sources, folder, minutes["paper"], quick)
     results = read(folder)
     facts = describe(time.monotonic() - begin)
     (folder / "results.json").write_text(json.dumps({**facts, **results}, indent=1), encoding="utf-8")
@@ -77,17 +79,20 @@ def measure_sequences(sources: list[Source], folder: Path, minutes: float, quick
             note(f"motion: {name}")
 
 
-def paper(folder: Path, minutes: float, quick: bool) -> None:
-    """The paper's tables beside its numbers, by their own command; with BSM_MESHES on the paper's models."""
+def paper(sources: list[Source], folder: Path, minutes: float, quick: bool) -> None:
+    """The paper's tables beside its numbers and its figures, by their own commands; BSM_MESHES holds its models."""
     meshes = os.environ.get("BSM_MESHES")
-    words = [sys.executable, "-m", "tools.measure", "paper", *(["--meshes", meshes] if meshes else [])]
-    words += ["--quick"] if quick or not meshes else ["--only", "rates,dynamic,powers"]
-    try:
-        done = subprocess.run(words, capture_output=True, text=True, timeout=60 * minutes, check=True)
-    except subprocess.SubprocessError as error:
-        note(f"paper: {error}")
-        return
-    (folder / "paper.md").write_text(done.stdout, encoding="utf-8")
+    tables = [sys.executable, "-m", "tools.measure", "paper", *(["--meshes", meshes] if meshes else [])]
+    tables += ["--quick"] if quick or not meshes else ["--only", "rates,dynamic,powers"]
+    drawn = [str(source.path) for source in sources if source.name in DRAWN[: 1 if quick else None]]
+    curves = [sys.executable, "-m", "bsm", "curve", *drawn, "--codecs", "paper", "-o", str(folder / "paper"), "--pdf"]
+    for words, name in ((tables, "paper.md"), (curves, "paper-curves.md")):
+        try:
+            done = subprocess.run(words, capture_output=True, text=True, timeout=30 * minutes, check=True)
+        except subprocess.SubprocessError as error:
+            note(f"paper: {error}")
+            continue
+        (folder / name).write_text(done.stdout, encoding="utf-8")
 
 
 def read(folder: Path) -> dict[str, list[Row]]:
