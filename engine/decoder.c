@@ -5,8 +5,6 @@
 #include "engine/sequence.h"
 #include "engine/stages.h"
 
-#include <stdlib.h>
-
 /* The smallest sizes of the callers' structures: those of release 1.0. Do not change them. Add new fields at the end,
  * so that no padding follows them. */
 enum {
@@ -48,22 +46,6 @@ bsmdec_status bsmdec_default_limits(bsmdec_limits *limits, size_t size) {
     return BSMDEC_OK;
 }
 
-#if __STDC_HOSTED__
-static void *take_of_library(void *host, size_t size) {
-    (void)host;
-    return malloc(size);
-}
-
-static void give_to_library(void *host, void *memory, size_t size) {
-    (void)host;
-    (void)size;
-    free(memory);
-}
-#else /* there is no malloc: callers bring an allocator */
-static void *take_of_library(void *host, size_t size) { return (void)host, (void)size, NULL; }
-static void give_to_library(void *host, void *memory, size_t size) { (void)host, (void)memory, (void)size; }
-#endif
-
 /* Take over the limits of a caller; the context fails if they are none. */
 static void take_limits(Context *context, const bsmdec_limits *given) {
     bsmdec_limits *limits = &context->limits;
@@ -82,7 +64,7 @@ bool copy_options(const bsmdec_options *given, bsmdec_options *options) {
 
 EXACTLY(bsmdec *, bsmdec_open, (const bsmdec_options *given), (given)) {
     bsmdec_options options = {.size = sizeof options};
-    bsmdec_allocator usual = {sizeof usual, take_of_library, give_to_library, NULL}, host = usual;
+    bsmdec_allocator usual = library_allocator(), host = usual;
     bool known = copy_options(given, &options);
     bool own = known && options.allocator != NULL;
     bool allocates = !own
@@ -99,7 +81,7 @@ EXACTLY(bsmdec *, bsmdec_open, (const bsmdec_options *given), (given)) {
     if (decoder == NULL) return NULL;
     memset(decoder, 0, sizeof *decoder);
     Context *context = &decoder->context;
-    context->host = host;
+    context->host = with_pool(host, &decoder->pool);
     context->heap = sizeof *decoder;
     context->limits = default_limits();
     context->error.offset = context->error.frame = context->error.block = -1;
@@ -138,7 +120,8 @@ void bsmdec_close(bsmdec *decoder) {
     end_reader(&decoder->reader);
     host_give(context, decoder->queue, (size_t)decoder->room * sizeof *decoder->queue);
     host_give(context, decoder->losses, (size_t)decoder->loss_room * sizeof *decoder->losses);
-    context->host.release(context->host.host, decoder, sizeof *decoder);
+    bsmdec_allocator host = without_pool(context->host);
+    host.release(host.host, decoder, sizeof *decoder);
 }
 
 bsmdec_status refuse(bsmdec *decoder, Message message) {

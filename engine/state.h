@@ -8,6 +8,7 @@
 #include "engine/frames.h"
 #include "engine/grid.h"
 #include "engine/layer.h"
+#include "engine/pool.h"
 #include "engine/reader.h"
 
 typedef struct Ahead Ahead;
@@ -129,6 +130,7 @@ struct bsmdec {
     bsmdec_error loss;
     bsmdec_error *losses; /* of the LOSS events that wait, by index */
     int64_t loss_count, loss_room;
+    Pool pool; /* of memory, where the caller brings none */
 };
 
 void forget_changes(Changes *changes);

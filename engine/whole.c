@@ -186,9 +186,10 @@ EXACTLY(bsmdec_status, bsmdec_advance, (bsmdec_mesh *mesh), (mesh)) {
 void bsmdec_release(bsmdec_mesh *mesh) {
     if (mesh == NULL || mesh->decoder == NULL) return;
     Whole *whole = (Whole *)mesh;
-    bsmdec_allocator host = mesh->decoder->context.host;
+    bsmdec *decoder = mesh->decoder;
+    const bsmdec_allocator *host = &decoder->context.host;
     release_all(&whole->fixed);
     release_all(&whole->buffers);
-    bsmdec_close(mesh->decoder);
-    host.release(host.host, whole, sizeof *whole);
+    host->release(host->host, whole, sizeof *whole);
+    bsmdec_close(decoder);
 }

@@ -65,7 +65,7 @@ FLOORS = {
     ),
     "engine": (
         ("bsmdec", "arithmetic", "charges"),
-        ("context",),
+        ("context", "pool"),
         ("wire",),
         ("coding", "maps", "zstd"),
         ("corners", "header", "metadata"),
