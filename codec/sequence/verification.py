@@ -60,20 +60,20 @@ class SequenceVerifier:
         except (LimitError, VerificationError):
             raise
         except BsmError as error:
-            raise VerificationError(f"the encoder wrote a stream that is refused: {error}") from error
+            raise VerificationError(f"the decoder refuses the encoded stream: {error}") from error
         if last:
-            require(self._ended and not self._frames and not self._meshes, "not all frames came back")
-            require(self._decoder.metadata == dict(self._metadata), "the metadata that came back are others")
+            require(self._ended and not self._frames and not self._meshes, "the decoder did not return all frames")
+            require(self._decoder.metadata == dict(self._metadata), "the decoded metadata differ")
         return chunk
 
     def _begin(self, faces: Faces, vertices: int) -> None:
-        require(bool(self._meshes), "a mesh came back that was not sent")
+        require(bool(self._meshes), "the decoder returned a mesh that was not encoded")
         self._original, self._carried = self._meshes.popleft()
         self._matched = self._original.matched(faces, vertices)
         self._checked, self.faces = False, faces
 
     def _compare(self, positions: Positions) -> None:
-        require(bool(self._frames), "a frame came back that was not sent")
+        require(bool(self._frames), "the decoder returned a frame that was not encoded")
         expected = self._frames.popleft()
         require_positions(positions, expected.positions, self._matched, self._original.given.positions)
         attributes = self._decoder.attributes()
@@ -90,4 +90,4 @@ class SequenceVerifier:
 def _require_near(decoded: npt.NDArray[np.generic], moving: Expected, matched: Order) -> None:
     """Require that values in a frame, shape (k, c), are as near as was asked."""
     off = moving.bound.between(np.asarray(decoded, np.float64), moving.values[matched].astype(np.float64))
-    require(off <= 1.0, f"an attribute that moves came back {off:.3g} times as far off as it may be")
+    require(off <= 1.0, f"a decoded attribute that moves is {off:.3g} times as far off as it may be")

@@ -203,7 +203,7 @@ class EncodeOptions:
             raise ArgumentError(f"target must be a Target, not {self.target!r}")
         check_options(self, CHOICES, RANGES)
         if self.quick and self.effort == "best":
-            raise OptionError("quick is another name of one effort, and best is another effort")
+            raise OptionError("quick means effort 'quick', and excludes another effort")
         object.__setattr__(self, "effort", "quick" if self.quick else self.effort)
         object.__setattr__(self, "quick", self.effort == "quick")
         object.__setattr__(self, "attributes", checked_qualities(self.attributes))
@@ -212,18 +212,18 @@ class EncodeOptions:
         if self.paper.bits is not None and self.target is not None:
             raise OptionError("a target is reached by the step; it excludes a fixed number of bits")
         if self.exact and (self.grid is not None or self.grid_cell is not None or self.quick):
-            raise OptionError("positions are exact, or on a grid, or quick to decode; not two of these")
+            raise OptionError("exact, grid and quick exclude each other")
         if self.grid is not None and self.grid_cell is not None:
-            raise OptionError("a grid has a number of bits, or cells of a given length; not both")
+            raise OptionError("give a grid by its bits or by the length of its cells, not both")
         if self.grid_origin is not None and self.grid_cell is None:
             raise OptionError("a grid with a given origin needs the length of its cells, too: grid_cell")
         if self.grid_origin is not None and not all(map(math.isfinite, self.grid_origin)):
             raise OptionError(f"the origin of a grid must be finite, not {self.grid_origin}")
         if self.is_grid and (self.target is not None or self.says_how):
-            raise OptionError("a grid excludes a target, and options that say how blocks are coded")
+            raise OptionError("a grid excludes targets and options of blocks")
 
         if self.quick and self.says_how:
-            raise OptionError("what is quick to decode is on a grid; it excludes options that say how blocks are coded")
+            raise OptionError("quick uses a grid; it excludes options of blocks")
 
     @property
     def promise(self) -> Contract | None:

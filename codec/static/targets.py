@@ -266,7 +266,7 @@ def search_step(
         return max(met, key=itemgetter(0))[1]
     best = min(target.reached(outcome) for _, outcome in seen)
     error = TargetError(
-        f"{target.worded(target.value)} at most cannot be reached; the best that can be had is {target.worded(best)}"
+        f"{target.worded(target.value)} at most cannot be reached; the best possible is {target.worded(best)}"
     )
     error.best = best
     raise error

@@ -52,7 +52,7 @@ class Original:
             ordered = faces
         found = np.full(vertices, -1, np.int64)
         found[ordered] = coded
-        require(bool((found[ordered] == coded).all()), "the faces that came back are others")
+        require(bool((found[ordered] == coded).all()), "the decoded faces differ")
         self._require_order(faces)
         return found
 
@@ -69,7 +69,7 @@ class Original:
         for turn in range(1 if self.prepared.order else 3):
             other = (np.roll(found, turn, axis=1) != wanted).any(axis=tuple(range(1, found.ndim)))
             wanted, found = wanted[other], found[other]
-        require(not len(wanted), "the order of vertices or faces that came back is another")
+        require(not len(wanted), "the decoded order of vertices or faces differs")
 
 
 def verify(
@@ -89,10 +89,10 @@ def verify(
     except LimitError:
         raise
     except BsmError as error:
-        raise VerificationError(f"the encoder wrote a stream that is refused: {error}") from error
+        raise VerificationError(f"the decoder refuses the encoded stream: {error}") from error
     matched = original.matched(decoded.faces, len(decoded.positions))
     require_positions(decoded.positions, draft.decoded, matched, original.given.positions)
-    require(decoded.metadata == dict(metadata), "the metadata that came back are others")
+    require(decoded.metadata == dict(metadata), "the decoded metadata differ")
     require_attributes(decoded.attributes, carried, decoded.faces, original)
 
 
@@ -102,7 +102,7 @@ def require_positions(decoded: Positions, expected: Positions, matched: Order, g
     wanted = expected[matched]
     if loose.any():
         wanted[loose] = given[loose]
-    require(bool((decoded == wanted).all()), "the positions that came back are others")
+    require(bool((decoded == wanted).all()), "the decoded positions differ")
 
 
 def require_attributes(
@@ -115,19 +115,19 @@ def require_attributes(
         declared = wanted.declaration
         name = f"attribute {declared.name!r}"
         same = found.name == declared.name and found.semantic == SEMANTICS[declared.semantic]
-        require(same and found.values.shape[1:] == (declared.components,), f"{name} came back as another")
+        require(same and found.values.shape[1:] == (declared.components,), f"{name} is another after decoding")
         if declared.coding == RECOMPUTED:
-            require(bool(np.isfinite(found.values).all()), f"{name} came back without being finite")
+            require(bool(np.isfinite(found.values).all()), f"{name} is not finite after decoding")
             continue
         values = restored(declared, wanted.levels)
         if declared.domain == FACE:
             at = found.values[prepared.coding_faces] if prepared.order else found.values
-            require(_alike(at, values), f"{name} came back with other values")
+            require(_alike(at, values), f"{name} has other values after decoding")
             continue
         rows = found.indices if found.indices is not None else faces
         if prepared.order:
             rows = np.take_along_axis(rows[prepared.coding_faces], (prepared.turns[:, None] + np.arange(3)) % 3, axis=1)
-        require(_alike(found.values[rows], values[wanted.surface.faces]), f"{name} came back with other values")
+        require(_alike(found.values[rows], values[wanted.surface.faces]), f"{name} has other values after decoding")
 
 
 def _alike(found: npt.NDArray[Any], wanted: npt.NDArray[Any]) -> bool:

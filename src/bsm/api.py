@@ -147,7 +147,7 @@ def encode_many(
 
     keywords_to.encode_options(**keywords)
     if isinstance(sources, (str, bytes)) or not isinstance(sources, Iterable):
-        raise ArgumentError(f"a list of the paths of files is expected, not {sources!r}")
+        raise ArgumentError(f"sources must be a list of paths, not {sources!r}")
     if isinstance(jobs, bool) or not isinstance(jobs, int):
         raise ArgumentError(f"jobs must be a whole number, not {jobs!r}")
     check_mapping("metadata", {} if metadata is None else metadata)
@@ -458,7 +458,9 @@ def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **k
     if suffix == ".bsm":
         written = Written(encode(mesh, **keywords))
     elif kind is None:
-        raise OptionError(f"{path}: the name tells no format; use one of .bsm, .{', .'.join(WRITTEN_FORMATS)}")
+        raise OptionError(
+            f"{path}: the suffix is not that of a known format; use one of .bsm, .{', .'.join(WRITTEN_FORMATS)}"
+        )
     elif keywords:
         raise OptionError(f"{path}: {next(iter(keywords))} is an option of .bsm files only")
     else:
@@ -592,7 +594,7 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
 
 def _name(path: str | os.PathLike[str]) -> str:
     if not isinstance(path, (str, os.PathLike)):
-        raise ArgumentError(f"the path of a file is expected, not {type(path).__name__}")
+        raise ArgumentError(f"a path is expected, not {type(path).__name__}")
     return named(path)
 
 

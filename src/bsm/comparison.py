@@ -44,7 +44,7 @@ def read_permutation(path: str | os.PathLike[str]) -> Order:
 def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
     """Number the vertices as the input of the encoder did, without those that no face used."""
     if len(order) != len(mesh.positions):
-        raise MeshError(f"the permutation is of {len(order)} vertices, the mesh has {len(mesh.positions)}")
+        raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {len(mesh.positions)}")
     places = np.empty(len(order), np.int64)  # the rank of each entry
     places[np.argsort(order)] = np.arange(len(order))
     before, every_face = np.argsort(places), np.arange(len(mesh.faces))

@@ -81,7 +81,7 @@ def _parts(name: str, value: Any) -> tuple[float, str]:
     try:
         return float(found[1]), found[2]
     except ValueError:
-        raise ArgumentError(f"{name}: {found[1]!r} is no number") from None
+        raise ArgumentError(f"{name}: {found[1]!r} is not a number") from None
 
 
 def metres(unit: str) -> float | None:

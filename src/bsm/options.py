@@ -78,7 +78,7 @@ def sequence_options(
     base = SequenceOptions(step=_named("preset", SEQUENCE_STEPS, name), low_delay=together)
     quick = bool(quick) or _named("effort", {"quick": True, "normal": False, "best": False}, effort)
     if quick and (bounds or given.get("target") is not None):
-        raise OptionError("what is quick to encode looks for no step; it excludes bounds and targets")
+        raise OptionError("quick does not search for a step; it excludes bounds and targets")
     if bounds:
         if given.get("target") is not None or given.get("step") is not None:
             raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")
@@ -126,7 +126,7 @@ def _fields(
     if keywords.get("target") is not None:
         wanted.append("target")
     if len(wanted) > 1:
-        raise OptionError(f"one target at a time, not {' and '.join(wanted)}")
+        raise OptionError(f"give one target only, not {' and '.join(wanted)}")
     return given
 
 

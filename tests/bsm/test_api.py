@@ -126,7 +126,7 @@ def test_what_cannot_be_saved(mesh, tmp_path):
         bsm.save(mesh, tmp_path / "a.dae")
     with pytest.raises(bsm.OptionError, match=r"step is an option of \.bsm files"):
         bsm.save(mesh, tmp_path / "a.ply", step=1)
-    with pytest.raises(bsm.ArgumentError, match="the path of a file is expected, not TriangleMesh"):
+    with pytest.raises(bsm.ArgumentError, match="a path is expected, not TriangleMesh"):
         bsm.save(tmp_path / "a.ply", mesh)
     bsm.save(mesh, tmp_path / "a.ply")
     with pytest.raises(FileExistsError):

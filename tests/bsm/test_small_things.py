@@ -80,7 +80,7 @@ def test_compare_says_it_in_a_sentence_with_units(tmp_path, capsys):
     first = capsys.readouterr().out.splitlines()[0]
     assert first.startswith("the farthest vertex is 0.25 mm off, ") and "% of the diagonal" in first
     assert main(["compare", str(tmp_path / "a.ply"), str(tmp_path / "a.ply")]) == 0
-    assert capsys.readouterr().out.startswith("no vertex is off\n")
+    assert capsys.readouterr().out.startswith("all vertices are equal\n")
 
 
 def test_a_map_shows_where_vertices_are_off(tmp_path, capsys):

@@ -87,7 +87,9 @@ def test_a_run_that_died_is_taken_over_when_asked(source, tmp_path):
         other.kill()
         other.communicate()
     refused = tile(source, tmp_path / "out")
-    assert refused.returncode == 9 and "left this folder unfinished; --resume goes on, -f begins anew" in refused.stderr
+    assert (
+        refused.returncode == 9 and "left this folder unfinished; --resume continues, -f starts again" in refused.stderr
+    )
     assert tile(source, tmp_path / "out", "--resume").returncode == 0
 
 
@@ -102,7 +104,7 @@ def test_unfinished_tiles_are_not_begun_anew_without_being_asked(source, tmp_pat
     (tmp_path / "out" / ".work" / "asked").write_text("({'triangles': 300}, None)")
     (tmp_path / "out" / ".work" / "plan.json").write_text("{}")
     refused = tile(source, tmp_path / "out")
-    assert refused.returncode == 9 and "--resume goes on with them, -f begins anew" in refused.stderr
+    assert refused.returncode == 9 and "--resume continues, -f starts again" in refused.stderr
     assert path.read_text() == unfinished
     assert tile(source, tmp_path / "out", "-f").returncode == 0
 
@@ -129,7 +131,7 @@ def test_a_manifest_stays_until_the_input_was_read(source, tmp_path, option):
     for text in ('{"complete": false}', '{"name": "my extension"}', "[]", "no JSON"):
         (output / "manifest.json").write_text(text)
         refused = tile(source, output, *option)
-        assert refused.returncode == 3 and "is no manifest of tiles, and stays" in refused.stderr
+        assert refused.returncode == 3 and "is not a manifest of tiles, and stays" in refused.stderr
         assert tile(tmp_path / "nothere.ply", output, *option).returncode == 9
         assert (output / "manifest.json").read_text() == text
     assert tile(source, tmp_path / "new", "--work", output).returncode == 2

@@ -353,7 +353,7 @@ def test_a_full_disk_is_told(mesh, folder, tmp_path, most):
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
     whole = program("verify", tmp_path / "out", text=True)
     assert (done.returncode == 0) == (whole.returncode == 0)
-    assert done.returncode == 0 or "these tiles are unfinished; whole so far: " in whole.stderr
+    assert done.returncode == 0 or "these tiles are unfinished; complete so far: " in whole.stderr
     assert (back.returncode == 0) == (tmp_path / "back.ply").exists()
     for one in (done, back):
         assert one.returncode == 0 or (one.returncode == 9 and one.stderr.strip().endswith(": File too large"))

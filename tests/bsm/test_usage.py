@@ -66,7 +66,7 @@ def test_compare_says_which_file_is_wrong(tmp_path, capsys):
 
 def test_a_target_out_of_reach_has_its_code(tmp_path, capsys):
     write_mesh(tmp_path / "a.npz", torus(9, 6))
-    theta, size = ("cannot be kept", "the best that can be had is normals"), ("20 bytes at most cannot be", "takes")
+    theta, size = ("cannot be kept", "the best possible is normals"), ("20 bytes at most cannot be", "takes")
     for words, parts in ((["--theta", "1e-9"], theta), (["--size", "20"], size)):
         assert main(["encode", str(tmp_path / "a.npz"), "-o", str(tmp_path / "b.bsm"), *words]) == 10
         error = capsys.readouterr().err

@@ -117,4 +117,4 @@ def test_a_command_writes_nothing_then(tmp_path, capsys, monkeypatch):
     bsm.save(MESH, tmp_path / "mesh.ply")
     monkeypatch.setattr(Writer, "end", lambda writer, positions=None: b"")
     assert main(["encode", str(tmp_path / "mesh.ply"), "-o", str(tmp_path / "mesh.bsm")]) == 10
-    assert "refused" in capsys.readouterr().err and not (tmp_path / "mesh.bsm").exists()
+    assert "refuses the encoded stream" in capsys.readouterr().err and not (tmp_path / "mesh.bsm").exists()

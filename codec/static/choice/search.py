@@ -184,7 +184,7 @@ class Search:
         positions = self._prepared.units.into(finest.decoded)
         if bounds.keeps(positions):
             return [Candidate(0.0, positions, lambda: finest)]
-        raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best that can be had is {bounds.had}")
+        raise TargetError(f"{bounds.contract} cannot be kept on this mesh; the best possible is {bounds.had}")
 
     def best(self, contract: Contract, most_bytes: float) -> Draft | None:
         """Return the best stream of at most `most_bytes` that keeps a contract, or None."""

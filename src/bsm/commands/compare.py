@@ -74,7 +74,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         seen: Look | None = None
         more: dict[str, Any] = {}
         if args.look or args.picture:
-            progress.stage("looking from all sides")
+            progress.stage("comparing from all sides")
             from bsm.codec.look.measure import LookMetric, Worn, worn
 
             if args.picture:
@@ -94,7 +94,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         except MeshError:
             if seen is None:
                 raise
-            console.note("the meshes have different faces, so that only their look is compared")
+            console.note("the meshes have different faces: only their look is compared")
             compared = {}
     attributes = compared.pop("attributes", {})
     if args.json:
@@ -121,7 +121,7 @@ def _compared(
 ) -> dict[str, Any]:
     paired = pair(original, decoded, read_permutation(args.permutation) if args.permutation else None)
     if paired.joined:
-        console.note("vertices at one position are compared as one")
+        console.note("vertices at one position are merged for this comparison")
     if args.map:
         _write_map(args.map, paired.original, paired.positions, overwrite=args.force)
     result = asdict(compare_meshes(original, decoded, paired))
@@ -142,7 +142,7 @@ def _compared(
 def sentence(compared: dict[str, Any], unit: str) -> str:
     share = 100.0 * compared["max_error_relative"]
     if share == 0.0:
-        return "no vertex is off"
+        return "all vertices are equal"
     rms = compared["rms_relative"] / compared["max_error_relative"] * compared["max_error"]
     return (
         f"the farthest vertex is {length(compared['max_error'], unit)} off, {share:.3g} % of the diagonal; root mean "
@@ -233,7 +233,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         runs.append((first[:, kept], second[:, other_kept[rows]], mesh.faces))
     result = asdict(compare_runs(runs))
     if args.look:
-        progress.stage("looking at all frames")
+        progress.stage("comparing all frames")
         result.update(_looks(runs, progress))
         progress.stage("comparing")
     if Path(args.decoded).is_file() and is_stream(args.decoded):

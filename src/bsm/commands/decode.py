@@ -71,7 +71,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.layers is not None and (args.blocks is not None or args.tolerant):
         raise OptionError("--layers is for whole layers; leave out --blocks and --tolerant")
     if args.blocks is not None and args.tolerant:
-        raise OptionError("--blocks stops early and --tolerant goes on: choose one")
+        raise OptionError("--blocks stops early and --tolerant continues: choose one")
     refuse_two_on_one_pipe(args, jobs[0].output)
     given = args.output and (anywhere(args.output) if args.dask else args.output)
     job = asked(DecodeJob, args, output="", given=given, many=len(jobs) > 1)
@@ -89,7 +89,9 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         output = output_inside(output, args.input, f".{args.format or 'ply'}")
     kind = args.format or ("ply" if output == "-" else format_of_name(output))
     if kind not in WRITTEN_FORMATS:
-        raise OptionError(f"{output}: the name tells no mesh format; use --format, one of {', '.join(WRITTEN_FORMATS)}")
+        raise OptionError(
+            f"{output}: the suffix is not that of a mesh format; use --format, one of {', '.join(WRITTEN_FORMATS)}"
+        )
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
     limits = limits_of(args.limits)
@@ -105,7 +107,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
         mesh = reorder(mesh, read_permutation(args.permutation))
     if header is not None and header.attributes > len(mesh.attributes):
         missing = f"{header.attributes - len(mesh.attributes)} of {header.attributes} attributes"
-        console.note(f"{args.input}: left out: {missing}, of which values have not come")
+        console.note(f"{args.input}: left out: {missing}, whose values are missing")
     with console.progress("writing"):
         file = written_mesh(mesh, kind, "mesh" if output == "-" else output)
         left_out = save_written(output, file, overwrite=args.may_replace(output), overwrite_beside=args.force)

@@ -40,7 +40,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
         raise OptionError(f"the output is a .glb, not {args.output}")
     if is_stream(args.input):
         if args.fallback or args.images or args.quick is not None or args.preset != PRESETS[-1]:
-            raise OptionError("a stream becomes a scene as it is: only -o, -f and -q go with it")
+            raise OptionError("a stream is wrapped unchanged: only -o, -f and -q apply")
         stream = read_bytes(args.input)
         scene = moving_scene(stream)
         write_output(args.output, scene, overwrite=args.force)

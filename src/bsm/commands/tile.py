@@ -64,7 +64,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.triangles < 64:
         raise OptionError(f"--triangles {args.triangles}: tiles have 64 triangles or more")
     if args.content != CONTENTS[0] and not args.tileset:
-        raise OptionError("--content says how the tiles of --tileset are coded: ask for that, too")
+        raise OptionError("--content needs --tileset")
     packer(args.content, 1.0)
     if not is_url(args.input) and args.input != "-":
         os.stat(args.input)
@@ -84,7 +84,7 @@ def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
     """Do the work in folders that this process holds."""
     unfinished = is_unfinished(args.output)
     if unfinished and (work / "plan.json").is_file() and not (args.force or args.resume):
-        said = "these tiles are unfinished: --resume goes on with them, -f begins anew"
+        said = "these tiles are unfinished: --resume continues, -f starts again"
         raise FileExistsError(errno.EEXIST, said, args.output)
     refuse_to_overwrite(inside(args.output, MANIFEST), args.force or bool(unfinished))
     over = args.force or args.resume
@@ -116,7 +116,9 @@ def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
     finally:
         state.update(sys.float_info.max)
     if failed := [facts for facts in done if "error" in facts]:
-        console.note(f"{len(failed)} of {len(done)} tiles failed; --resume makes these alone, and those made of them")
+        console.note(
+            f"{len(failed)} of {len(done)} tiles failed; --resume makes these again, and the tiles made of them"
+        )
         return int(failed[0]["exit"])
     done.sort(key=lambda facts: (-len(Path(facts["output"]).stem), facts["output"]))
     state.write()
@@ -141,7 +143,9 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     note = work / NOTE
     if args.resume and (work / "plan.json").is_file():
         if note.read_text() != asked_for:
-            raise FormatError(f"{work} is of another mesh or other options: no --resume, or name another --work")
+            raise FormatError(
+                f"{work} belongs to another mesh or other options: leave out --resume, or name another --work"
+            )
         return load_plan(work / "plan.json")
     remove_made(work)
     work.mkdir(parents=True, exist_ok=True)

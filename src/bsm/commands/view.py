@@ -19,7 +19,7 @@ from bsm.tiles.shards import is_tiles, open_tiles
 from bsm.viewer.contents import PRESETS, Content, alone, compared, made
 from bsm.viewer.page import Growing, PageServer, Ranged, Tiled, page_with, written_to
 
-_NO_STREAM = "what came through the pipe is no BSM stream; encode it on the way: bsm encode - -o - | ..."
+_NO_STREAM = "the pipe does not contain a BSM stream; encode it: bsm encode - -o - | ..."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,9 +43,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     if args.follow and (args.save or args.original):
-        raise OptionError(f"{'--save' if args.save else '--original'} needs streams that are written: no --follow")
+        raise OptionError(f"{'--save' if args.save else '--original'} needs complete streams: no --follow")
     if (args.save or args.original or args.follow) and any(map(is_tiles, args.inputs)):
-        raise OptionError("tiles come by ranges, as they are looked at: no --save, --original or --follow")
+        raise OptionError("tiles are loaded on demand: no --save, --original or --follow")
     if args.original and len(args.inputs) != 1:
         raise OptionError("--original is for one input")
     with console.progress("reading and comparing") as progress:
@@ -100,7 +100,7 @@ def _growing(name: str, path: str) -> Growing:
     chunks = read_chunks(path) if path == "-" else written_to(open(path, "rb"))  # noqa: SIM115
     Thread(target=growing.receive, args=(chunks,), daemon=True).start()
     if not growing.begins():
-        raise FormatError(_NO_STREAM if path == "-" else f"{path} is no BSM stream; only a stream can be followed")
+        raise FormatError(_NO_STREAM if path == "-" else f"{path} is not a BSM stream; only streams can be followed")
     return growing
 
 

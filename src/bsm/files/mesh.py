@@ -140,7 +140,7 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
     """Write a mesh file, as a whole or not at all, in the format of its name, and the files that belong beside it."""
     kind = format_of_name(path)
     if kind not in WRITTEN_FORMATS:
-        raise OptionError(f"{path}: the name tells no mesh format; use one of .{', .'.join(WRITTEN_FORMATS)}")
+        raise OptionError(f"{path}: the suffix is not that of a mesh format; use one of .{', .'.join(WRITTEN_FORMATS)}")
     written = written_mesh(mesh, kind, path)
     return save_written(path, written, overwrite=overwrite)
 

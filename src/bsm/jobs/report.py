@@ -80,7 +80,7 @@ def read_report(path: str, command: str, options: Facts) -> Earlier:
     except FileNotFoundError:
         return NOTHING
     except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
-        raise FormatError(f"{path}: this is no report of ours to go on from; name another with --report") from error
+        raise FormatError(f"{path}: this is not a report of bsm; name another with --report") from error
     return Earlier({name: entry.get("output_sha256") for name, entry in files.items()}, files if same else {})
 
 
@@ -120,9 +120,7 @@ def recorded(work: Work, task: Task, console: Console) -> Facts:
 def _compared(work: Work, task: Task, console: Console) -> Facts:
     """The output exists: recompute and compare, in case a killed run wrote it."""
     path = Path(task.output)
-    refuse = FileExistsError(
-        errno.EEXIST, "the output is not what the report says was written; -f overwrites it", task.output
-    )
+    refuse = FileExistsError(errno.EEXIST, "the output differs from the report; -f overwrites it", task.output)
     if not path.is_file() or path.is_symlink():
         raise refuse
     with tempfile.TemporaryDirectory() as folder:

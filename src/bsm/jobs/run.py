@@ -77,7 +77,7 @@ def run_many(
     """Do all jobs, and report them in order. A failed job stops only those that need it."""
     if run.dask is not None:
         if any("-" in (job.input, job.output) for job in jobs):
-            raise OptionError("a pipe does not reach a cluster: name files")
+            raise OptionError("a cluster cannot read a pipe: name files")
         jobs = [replace(job, input=anywhere(job.input), output=anywhere(job.output)) for job in jobs]
     earlier, report = NOTHING, None
     if run.report is not None:
@@ -88,7 +88,7 @@ def run_many(
         report = Report(run.report, command, options, jobs, earlier.files)
         work = partial(recorded, work)
     elif run.resume:
-        raise OptionError("--resume goes on from what --report FILE.json says: name it")
+        raise OptionError("--resume needs --report FILE.json")
     done: list[Facts] = [{} for _ in jobs]
     waiting: dict[int, Outcome] = {}
     following = 0
@@ -159,7 +159,7 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
 
 def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, count: int) -> Outcomes:
     if run.jobs < 0:
-        raise OptionError(f"-j {run.jobs}: at least one input at a time, or 0")
+        raise OptionError(f"-j {run.jobs}: it must be 0 or more")
     from bsm.codec.threads import available_threads
 
     processes = min(run.jobs or available_threads(), count) or 1

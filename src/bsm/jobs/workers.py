@@ -31,7 +31,7 @@ def in_processes(work: Work, tasks: Tasks, processes: int) -> Outcomes:
         while suspects := (yield from _until_one_dies(work, tasks, processes)):
             for number, task in suspects.items():
                 if (yield from _until_one_dies(work, iter([(number, task.repeated())]), 1)):
-                    yield number, Outcome({}, MemoryError(f"{task.input}: its process died, twice"))
+                    yield number, Outcome({}, MemoryError(f"{task.input}: its process died twice"))
 
 
 def _until_one_dies(work: Work, tasks: Tasks, processes: int) -> Generator[tuple[int, Outcome], None, Handed]:
@@ -136,10 +136,10 @@ def on_cluster(work: Work, tasks: Tasks, address: str) -> Outcomes:
                 for number, args in suspects:
                     keys = (f"bsm-{run}-{number}-{attempt}" for attempt in ("alone", "again"))
                     attempts = (_of_cluster(client.submit(far_outcome, work, args, key=key)) for key in keys)
-                    died = MemoryError(f"{args.input}: its workers died, again and again")
+                    died = MemoryError(f"{args.input}: its workers died repeatedly")
                     yield number, next(filter(None, attempts), Outcome({}, died))
             except distributed.CancelledError as error:
-                raise OSError(errno.ECONNRESET, "the Dask scheduler went away", address) from error
+                raise OSError(errno.ECONNRESET, "the connection to the Dask scheduler was lost", address) from error
             finally:
                 # Whoever stops listening wants no more work done.
                 client.cancel(list(running.futures))

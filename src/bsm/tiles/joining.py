@@ -44,7 +44,7 @@ def write_joined(
     """Write a binary PLY of tiles; vertices that they share are one."""
     chosen = list(chosen)
     if not chosen:
-        raise OptionError("no tile is so near to the mesh: ask for a larger --error, or for a level")
+        raise OptionError("no tile is that close to the mesh: give a larger --error, or a level")
     with by_its_own_name(tempfile.gettempdir()), ExitStack() as opened:
         tables, faces, points, corners = (opened.enter_context(tempfile.TemporaryFile()) for _ in range(4))
         counts: list[tuple[int, int]] = []

@@ -70,7 +70,7 @@ def parsed(data: bytes) -> Any:
 
 
 def _refuse(word: str) -> NoReturn:
-    raise ValueError(f"{word} is no number")
+    raise ValueError(f"{word} is not a number")
 
 
 def read_manifest(path: str, limits: Limits) -> Manifest:
@@ -87,13 +87,13 @@ def read_manifest(path: str, limits: Limits) -> Manifest:
             levels = [tuple(whole(one[key]) for key in ("whole", "tiles", "level")) for one in given["levels"]]
             counts = ", ".join("{} of {} tiles of level {}".format(*level) for level in levels) or "nothing"
             again = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
-            said = f"these tiles are unfinished; whole so far: {counts}; with its other options, {again} goes on"
+            said = f"these tiles are unfinished; complete so far: {counts}; with its other options, {again} goes on"
             raise TruncatedError(f"{name}: {printable(said)}")
         return _checked(given)
     except BsmError:
         raise
     except NO_JSON as error:
-        raise FormatError(f"{name}: this is no manifest of tiles: {error!r:.300}") from error
+        raise FormatError(f"{name}: this is not a manifest of tiles: {error!r:.300}") from error
 
 
 def _checked(given: Facts) -> Manifest:
@@ -137,7 +137,7 @@ def parse_index(name: str, data: bytes, shard: Mapping[str, Any], root: Root) ->
             [whole(count, 1) for count in (tile.vertices, tile.faces)]
             real(tile.error, 0.0)
     except NO_JSON as error:
-        raise CorruptError(f"{name}: the index at the end of this shard makes no sense: {error!r:.300}") from error
+        raise CorruptError(f"{name}: the index at the end of this shard is invalid: {error!r:.300}") from error
     return tiles
 
 
@@ -151,7 +151,7 @@ def whole(value: Any, least: int = 0, most: int = _MOST) -> int:
 def real(value: Any, least: float = -_LARGEST) -> float:
     """Return a finite number."""
     if type(value) not in (int, float) or not least <= value <= _LARGEST:
-        raise ValueError(f"{value!s:.40} is no number from {least} on")
+        raise ValueError(f"{value!s:.40} is not a number from {least} on")
     return float(value)
 
 

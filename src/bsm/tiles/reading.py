@@ -127,7 +127,7 @@ def _checked(what: str, piece: Array, before: int) -> Array:
     if piece.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {piece.dtype}")
     if piece.min() < 0:
-        raise MeshError(f"a face refers to vertex {piece.min()}, which there is not")
+        raise MeshError(f"a face refers to vertex {piece.min()}, which does not exist")
     if piece.max() > _MOST_INDEX:
         raise LimitError(f"a face refers to vertex {piece.max()}; tiles are made of up to {_MOST_INDEX}")
     return piece.astype("<u4")

@@ -72,7 +72,7 @@ def is_unfinished(folder: str) -> bool | None:
     except FileNotFoundError:
         return None
     except NO_JSON as error:
-        raise FormatError(f"{name} is no manifest of tiles, and stays: name another folder, or remove it") from error
+        raise FormatError(f"{name} is not a manifest of tiles, and stays: name another folder, or remove it") from error
 
 
 def write_shards(folder: str, plan: Plan, done: Sequence[Facts], source: str, *, overwrite: bool) -> Facts:
@@ -147,7 +147,7 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
     Raises
     ------
     FormatError, UnsupportedError, TruncatedError
-        If there is no manifest of tiles, its version is unknown, or the run that wrote it is unfinished.
+        If there is not a manifest of tiles, its version is unknown, or the run that wrote it is unfinished.
     OSError
         If it cannot be read.
 
@@ -221,7 +221,7 @@ class Tiles:
             triangles.append(faces + first)
             first += len(table)
         if not sum(map(len, triangles)):
-            raise OptionError("there is nothing of the mesh in this box")
+            raise OptionError("no part of the mesh is in this box")
         used, rows = np.unique(np.concatenate(triangles), return_inverse=True)
         different, numbers = np.unique(np.concatenate(tables)[used], axis=0, return_inverse=True)
         joined = numbers.reshape(-1)[rows].reshape(-1, 3).astype(np.int32)

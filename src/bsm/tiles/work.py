@@ -41,7 +41,7 @@ def held(folder: Path, take_over: bool) -> Iterator[None]:
                 raise _held_by(path, "works in this folder; wait until it has ended, or name another one") from error
     with file:
         if file.seek(0, os.SEEK_END) and not take_over:
-            raise _held_by(path, "left this folder unfinished; --resume goes on, -f begins anew")
+            raise _held_by(path, "left this folder unfinished; --resume continues, -f starts again")
         file.truncate(0)
         file.write(f"{os.getpid()} {socket.gethostname()}\n")
         file.flush()

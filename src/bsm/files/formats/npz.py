@@ -311,7 +311,7 @@ def _parse_metadata(data: bytes) -> Metadata:
                 raise ValueError(f"{name} is neither a text nor a number")
             found[name] = plain
     except (ValueError, AttributeError, KeyError, TypeError, RecursionError, binascii.Error) as error:
-        raise CorruptError(f"the metadata of the npz file make no sense: {error}") from error
+        raise CorruptError(f"the metadata of the npz file are invalid: {error}") from error
     return found
 
 

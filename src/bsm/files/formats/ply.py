@@ -124,7 +124,7 @@ def parse_header(data: bytes) -> Header:
                 case _:
                     raise KeyError
         except (KeyError, IndexError, ValueError):
-            raise FormatError(f"the PLY header has a line that makes no sense: {line[:80]!r}") from None
+            raise FormatError(f"the PLY header has an invalid line: {line[:80]!r}") from None
     if order is None or len(elements) > _MAX_ELEMENTS:
         raise FormatError("the PLY header names no format, or too many elements")
     return Header(order, tuple(elements), end.end(), tuple(comments))

@@ -37,7 +37,7 @@ def _soup_binary(data: bytes) -> Doubles:
     claimed = int.from_bytes(data[80:84], "little")
     if len(data) < 84 + 50 * claimed:
         raise TruncatedError(
-            f"the STL file is cut short (or is none): {claimed} triangles need {84 + 50 * claimed} bytes"
+            f"the STL file is cut short (or is not an STL file): {claimed} triangles need {84 + 50 * claimed} bytes"
         )
     with np.errstate(invalid="ignore"):  # what is not a number is refused later
         return np.frombuffer(data, _RECORD, claimed, 84)["corners"].reshape(-1, 3).astype(np.float64)

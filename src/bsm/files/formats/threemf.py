@@ -39,7 +39,7 @@ class _Model:
                 parser.Parse(piece)
             parser.Parse(b"", True)
         except (expat.ExpatError, LookupError, ValueError) as error:
-            raise FormatError(f"this is no 3MF file: its XML is broken: {error}") from error
+            raise FormatError(f"this is not a 3MF file: its XML is broken: {error}") from error
         return self
 
     def _refuse(self, *_: object) -> None:

@@ -63,7 +63,7 @@ class _Document:
         except BsmError:
             raise
         except (expat.ExpatError, LookupError, ValueError) as error:  # the last two of strange encodings
-            raise FormatError(f"this is no VTP file: its XML is broken: {error}") from error
+            raise FormatError(f"this is not a VTP file: its XML is broken: {error}") from error
 
     def _refuse(self, *_: object) -> None:
         raise FormatError("a VTP file has no DOCTYPE")

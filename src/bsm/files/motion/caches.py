@@ -79,7 +79,7 @@ def read_head(path: str, kind: str) -> Cache:
 def _head_of_pc2(file: BinaryIO) -> Cache:
     head = file.read(_PC2.size)
     if len(head) < _PC2.size or not head.startswith(_SIGNATURE):
-        raise FormatError('this is no PC2 file: it does not begin with "POINTCACHE2"')
+        raise FormatError('this is not a PC2 file: it does not begin with "POINTCACHE2"')
     _, version, points, _, _, frames = _PC2.unpack(head)
     if version != 1:
         raise FormatError(f"PC2 of version {version} is not known; 1 is")

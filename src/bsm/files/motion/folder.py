@@ -133,7 +133,7 @@ def read_files(
                 now = moved_to(one, mesh.attributes) if can_move(one) else one if has(mesh.attributes, one) else None
                 if now is None:
                     raise MeshError(
-                        f"{one.name} is another at {name} (frame {number}), and what it was again in the last frame; "
+                        f"{one.name} is another at {name} (frame {number}), and as before in the last frame; "
                         "only colours and numbers of vertices may change: --runs keeps others as the first "
                         "frame has them"
                     )
