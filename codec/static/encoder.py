@@ -79,7 +79,7 @@ class Encoder:
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions | None = None) -> None:
         self.options = options or EncodeOptions()
         if not (self.options.target or self.options.promise or self.options.is_grid or self.options.says_how):
-            raise OptionError("nothing is asked for: give a bound or a target, or another preset than none")
+            raise OptionError("nothing to reach: give a bound or a target, or a preset other than none")
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._input = Input(mesh, self.options)
         promise, unit = self.options.promise, mesh.metadata.get("unit")
@@ -206,13 +206,13 @@ class Encoder:
         asked, none = f"{target.worded(target.value)} at most cannot be", self._input.search(anything, progress)
         if promise is None:
             least = self._judged(self._input.dressed(none.smallest(anything)))
-            error = TargetError(f"{asked} reached; the least that can be had is {target.worded(target.reached(least))}")
+            error = TargetError(f"{asked} reached; the least possible is {target.worded(target.reached(least))}")
         else:
             least = self._judged(self._input.dressed(self._input.search(promise, progress).smallest(promise)))
             other = none.best(anything, most)
-            advice = "no preset has that" if other is None else f"--preset none gives {none.seen(other)} in it"
+            advice = "no preset reaches it" if other is None else f"--preset none gives {none.seen(other)} in it"
             error = TargetError(
-                f"{asked} had with {promise}: that takes {target.worded(target.reached(least))}; {advice}"
+                f"{asked} reached with {promise}: that takes {target.worded(target.reached(least))}; {advice}"
             )
         error.best = target.reached(least)
         raise error

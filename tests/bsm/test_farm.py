@@ -349,7 +349,7 @@ def test_what_no_report_says_is_refused_in_one_sentence(claim, tmp_path, capsys)
     words = ("encode", tmp_path / "a.ply", "-q", "--report", tmp_path / "r.json", "--resume")
     assert main([str(word) for word in words]) == 3
     (said,) = capsys.readouterr().err.splitlines()
-    assert "no report of ours to go on from" in said and not (tmp_path / "a.bsm").exists()
+    assert "not a report of bsm" in said and not (tmp_path / "a.bsm").exists()
 
 
 def test_what_was_written_and_not_yet_told_of_is_known_again(sources, tmp_path):
@@ -404,7 +404,7 @@ def test_what_is_not_ours_is_not_written_over(sources, tmp_path, capsys):
     with pytest.raises(OptionError, match="--report"):
         bsm.encode_many(sources[:2], tmp_path, resume=True, grid=8)
     (tmp_path / "r.json").write_text('{"files": 3}')
-    with pytest.raises(FormatError, match="no report"):
+    with pytest.raises(FormatError, match="not a report"):
         bsm.encode_many(sources[:2], tmp_path, report=tmp_path / "r.json", resume=True, grid=8)
     with pytest.raises(ArgumentError, match="teta"):
         bsm.encode_many(sources[:2], tmp_path, teta=3)

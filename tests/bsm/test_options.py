@@ -90,8 +90,8 @@ def test_a_value_of_the_wrong_type_is_named(name):
         ({"doi": (1, 2, 3)}, ArgumentError, "doi"),
         ({"step": 2.0}, OptionError, "outside"),
         ({"preset": "best"}, OptionError, "small, balanced, fine"),
-        ({"theta": 5, "size": 100}, OptionError, "one target at a time"),
-        ({"theta": 5, "target": Target("bpv", 2)}, OptionError, "one target at a time"),
+        ({"theta": 5, "size": 100}, OptionError, "give one target only"),
+        ({"theta": 5, "target": Target("bpv", 2)}, OptionError, "give one target only"),
     ],
 )
 def test_what_is_refused(keywords, error, words):
@@ -157,5 +157,5 @@ def test_quick_sequences_search_for_nothing() -> None:
     assert sequence_options().promise is not None and sequence_options(quick=False).promise is not None
     assert sequence_options(quick=True).promise is None and sequence_options(quick=True, preset="fine").step < 0.002
     for keywords in ({"look": 1.0}, {"kg": 0.1}):
-        with pytest.raises(OptionError, match="looks for no step"):
+        with pytest.raises(OptionError, match="does not search for a step"):
             sequence_options(quick=True, **keywords)
