@@ -301,7 +301,7 @@ def test_tiles_are_looked_at_alone(tmp_path, capsys):
     (tmp_path / "manifest.json").write_text("{}")
     for more in (["--save", str(tmp_path / "page.html")], ["--original", "ball.ply"], ["--follow"]):
         assert main(["view", "--no-open", str(tmp_path), *more]) == 2
-        assert "come by ranges" in capsys.readouterr().err
+        assert "loaded on demand" in capsys.readouterr().err
 
 
 def javascript(tests: str, **environment: str) -> None:
