@@ -158,7 +158,7 @@ class EncodeOptions:
         Round every position to a grid with cells of this length, in the unit of the mesh. Parts that are encoded
         separately on the same grid fit bit for bit.
     grid_origin : (float, float, float), optional
-        A point of that grid; None: the origin.
+        A point of this grid; None: the origin.
     limits : str
         Name of the limits of those who will decode: "default", "service" or "wide"; what they would refuse is an error.
     threads : int, optional

@@ -67,7 +67,7 @@ def point(text: str) -> tuple[float, ...]:
 ENCODE_FLAGS = (
     Setting("grid", int, "BITS", "round positions to a grid of BITS bits per axis (1 to 20)"),
     Setting("grid_cell", float, "H", "round positions to a grid with cells of H. Parts on one grid fit exactly"),
-    Setting("grid_origin", point, "X,Y,Z", "a point of that grid (default 0,0,0)"),
+    Setting("grid_origin", point, "X,Y,Z", "a point of the grid (default 0,0,0)"),
     Setting(
         "effort",
         str,

@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="H",
         help="cell of the grid of all tiles (default: a power of two, chosen by the look)",
     )
-    add("--grid-origin", type=point, metavar="X,Y,Z", help="a point of that grid (default 0,0,0)")
+    add("--grid-origin", type=point, metavar="X,Y,Z", help="a point of the grid (default 0,0,0)")
     add("--finest", action="store_true", help="write only the finest level")
     add("--work", metavar="FOLDER", help="folder for temporary files, several times the input (default: OUTPUT/.work)")
     add("-j", "--jobs", type=int, default=1, metavar="N", help="work on N tiles at a time; 0: one per core (default 1)")
