@@ -377,7 +377,7 @@ def own_normals(mesh: TriangleMesh) -> Normals | None:
 
 
 def worn(mesh: TriangleMesh, semantic: Semantic) -> Matrix | None:
-    """The arguments of `Worn` for the first attribute that means colours, or texture coordinates; None: there is none."""
+    """The arguments of `Worn` for the first attribute that means colors, or texture coordinates, or None."""
     found = (one for one in mesh.attributes if one.semantic == semantic and is_worn(one))
     return next((painted(semantic, at_corners(one, mesh.faces)) for one in found), None)
 
