@@ -21,7 +21,7 @@ from bsm.codec.denoise.recipe import DenoiseOptions, Patient, hand_over
 from bsm.codec.denoise.rehearsal import Progress, silent
 from bsm.codec.denoise.safety import judge, keep_good
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.welding import weld
 from bsm.codec.threads import ordered_map
 
@@ -177,6 +177,7 @@ class FrameDenoiser:
             raise MeshError(f"a frame has shape {frame.shape}, the first one {self._shape}")
         if not np.isfinite(frame).all():
             raise MeshError("a frame has a coordinate that is not finite; remove or repair it")
+        require_sizes(frame, done="denoised")
         return np.ascontiguousarray(frame, dtype=np.float64)
 
 

@@ -104,14 +104,7 @@ class TriangleMesh:
 
     def require_sizes(self, smallest: float, largest: float) -> None:
         """Raise `MeshError` where it is smaller, or goes farther from the origin, than the caller can process."""
-        farthest = float(np.abs(self.positions).max(initial=0.0))
-        with np.errstate(over="ignore"):
-            extent = float(extent_of(self.positions).max()) if len(self.positions) else 0.0
-        if farthest > largest or 0.0 < extent < smallest:
-            raise MeshError(
-                f"the mesh is {extent:.3g} across, and {farthest:.3g} from the origin; what is from {smallest:g} to "
-                f"{largest:g} can be encoded so: scale it, and say the unit in its metadata"
-            )
+        require_sizes(self.positions, smallest, largest)
 
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
         """The mesh with its vertices elsewhere, shape (n, 3), and the names of its normals, which are left out."""
@@ -142,6 +135,23 @@ def _as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> n
         return np.array(values, dtype=kind)
     except (TypeError, ValueError) as error:
         raise MeshError(f"{name} is not an array of numbers: {error}") from error
+
+
+LARGEST = 1e100
+"""Largest coordinate where products of three lengths are finite."""
+
+
+def require_sizes(positions: Positions, smallest: float = 0.0, largest: float = LARGEST, done: str = "encoded so") -> None:
+    """Raise `MeshError` unless positions, shape (n, 3), can be computed with; `done` says what is to be done with them."""
+    farthest = float(np.abs(positions).max(initial=0.0))
+    with np.errstate(over="ignore"):
+        extent = float(extent_of(positions).max()) if len(positions) else 0.0
+    if farthest > largest or 0.0 < extent < smallest:
+        sizes = f"from {smallest:g} to {largest:g}" if smallest else f"up to {largest:g}"
+        raise MeshError(
+            f"the mesh is {extent:.3g} across, and {farthest:.3g} from the origin; what is {sizes} can be {done}: "
+            "scale it, and say the unit in its metadata"
+        )
 
 
 def box_around(points: Positions) -> tuple[Matrix, Matrix]:

@@ -17,7 +17,7 @@ from bsm.bitstream.errors import MeshError, public
 from bsm.codec import _kernels
 from bsm.codec.arrays import Faces, Indices, Matrix, Order, Positions
 from bsm.codec.geometry.graph import Rows, mesh_edges, vertex_neighbours
-from bsm.codec.geometry.mesh import extent_of
+from bsm.codec.geometry.mesh import extent_of, require_sizes
 
 Floats = Matrix
 
@@ -68,6 +68,7 @@ class Reference:
 
     def __init__(self, positions: Positions, faces: Faces) -> None:
         self.positions: Positions = np.ascontiguousarray(positions, dtype=np.float64)
+        require_sizes(self.positions, done="compared")
         self.faces = np.ascontiguousarray(faces, dtype=np.int32)
         self.scale = float(np.linalg.norm(extent_of(self.positions))) or 1.0
         self._neighbours = vertex_neighbours(self.faces, len(self.positions))
@@ -105,6 +106,7 @@ class Reference:
         return float(lengths[counted].mean()) if counted.any() else 0.0
 
     def compare(self, decoded: Positions) -> Comparison:
+        require_sizes(decoded, done="compared")
         visual = self.nmsve(decoded)
         squared = np.square(self.positions - decoded).sum(axis=1)
         rms = math.sqrt(squared.mean())

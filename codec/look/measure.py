@@ -14,7 +14,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import MeshError, public
 from bsm.codec.arrays import Faces, Mask, Matrix, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic, at_corners
-from bsm.codec.geometry.mesh import TriangleMesh, box_around
+from bsm.codec.geometry.mesh import LARGEST, TriangleMesh, box_around
 from bsm.codec.geometry.metrics import face_normals
 from bsm.codec.look.pictures import (
     BACKGROUND,
@@ -257,7 +257,9 @@ class LookMetric:
         return max(zip(self._pictures, drawn, strict=True), key=lambda pair: difference(*pair)[0])
 
     def _placed(self, positions: Positions) -> Positions:
-        return np.ascontiguousarray((positions - self._middle) / self._diagonal)
+        with np.errstate(over="ignore"):
+            placed = (positions - self._middle) / self._diagonal
+        return np.ascontiguousarray(placed.clip(-LARGEST, LARGEST))
 
     def _each(self, work: Callable[[Canvas, int], Result], sides: Sequence[int]) -> list[Result]:
         """Work on each side, on a canvas that nobody else draws on meanwhile."""

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from bsm.bitstream.errors import MeshError
 from bsm.codec.arrays import Indices, Matrix, Order
 from bsm.codec.geometry.attributes import Attribute, has
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import JoinedMesh, joined
 from bsm.codec.static.work import Allowance
@@ -228,6 +228,7 @@ class _Frames:
             raise MeshError(f"frame {self.number} has shape {positions.shape}, the first one {self._shape}")
         if not np.isfinite(positions).all():
             raise MeshError(f"frame {self.number} has a coordinate that is not finite; remove or repair it")
+        require_sizes(positions)
         return positions
 
 

@@ -43,8 +43,8 @@ def compare_runs(runs: Runs) -> SequenceComparison:
     each = []
     wrong = extent = flicker = motion = 0.0
     for original, decoded, faces in runs:
-        diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
         found = [Reference(a, faces).compare(b) for a, b in zip(original, decoded, strict=True)]
+        diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
         each += [(frame, frame.rms / diagonal, frame.max_error / diagonal) for frame in found]
         wrong += float(np.square(original - decoded).sum())
         extent += float(np.square(original - original.mean(axis=1, keepdims=True)).sum())

@@ -9,6 +9,7 @@ import pytest
 import bsm
 from bsm.bitstream.errors import MeshError
 from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.cli import main as program
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.files.mesh import read_mesh
@@ -70,3 +71,45 @@ def test_attributes_that_decoders_would_refuse_are_not_written(monkeypatch):
     with pytest.raises(bsm.OptionError, match="decoders with default limits would refuse this stream"):
         bsm.encode(TriangleMesh(shape.positions, shape.faces, many), grid=8)
     bsm.encode(TriangleMesh(shape.positions, shape.faces, many[:2]), grid=8)
+
+
+def _one_far(scale):
+    positions = torus(6, 6).positions.copy()
+    positions[3, 1] = scale
+    return positions
+
+
+USES = {
+    "compare": lambda mesh, good: bsm.compare(good, mesh),
+    "compare with": lambda mesh, good: bsm.compare(mesh, good),
+    "look with": lambda mesh, good: bsm.look(mesh, good),
+    "denoise": lambda mesh, good: bsm.denoise(mesh),
+    "encode": lambda mesh, good: bsm.encode(mesh, preset="lossless"),
+    "encode frames": lambda mesh, good: bsm.encode_sequence(np.stack([good[0], mesh[0], good[0]]), good[1]),
+}
+
+
+@pytest.mark.parametrize("use", USES)
+@pytest.mark.parametrize("positions", [torus(6, 6).positions * 3e307, _one_far(1e308), _one_far(-1e300)])
+def test_coordinates_that_overflow_are_told_wherever_they_come(use, positions):
+    faces = torus(6, 6).faces
+    with np.errstate(all="raise", under="ignore"), pytest.raises(MeshError, match="scale"):
+        USES[use]((positions, faces), (torus(6, 6).positions, faces))
+
+
+def test_a_vertex_that_flies_away_is_seen():
+    faces = torus(6, 6).faces
+    with np.errstate(all="raise", under="ignore"):
+        assert bsm.look((torus(6, 6).positions, faces), (_one_far(1e308), faces)).distance > 1
+
+
+@pytest.mark.parametrize("name", ["a.ply", "a.obj", "a.npz", "a.off", "a.vtp"])
+def test_coordinates_that_overflow_are_read_and_neither_cut_nor_compared_nor_encoded(tmp_path, name, capsys):
+    path, positions = tmp_path / name, _one_far(1e308)
+    bsm.save((positions, torus(6, 6).faces), str(path))
+    assert np.array_equal(bsm.load(path).positions, positions)
+    with np.errstate(all="raise", under="ignore"):
+        tile = [["tile", "-o", tmp_path / "tiles"]] if path.suffix in (".ply", ".obj", ".npz") else []
+        for words in (*tile, ["compare", path], ["denoise", "-o", tmp_path / "b.ply"], ["encode", "-o", tmp_path / "a.bsm"]):
+            assert program([words[0], str(path), *map(str, words[1:])]) == 3
+            assert "scale it" in capsys.readouterr().err

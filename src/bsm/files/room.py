@@ -8,7 +8,6 @@ import re
 import zipfile
 import zlib
 from collections.abc import Sequence
-from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -21,22 +20,19 @@ Ints = npt.NDArray[np.int64]
 Doubles = npt.NDArray[np.float64]
 
 
+_LINES = 1 << 12
+
+
 class Rows:
     """Lines of numbers: all values in one array, and where each line's begin."""
 
     def __init__(self, lines: Sequence[bytes], what: str) -> None:
-        fields = [line.split() for line in lines]
-        if any(b"_" in line for line in lines):  # which Python allows inside numbers
-            raise MeshError(f"a {what} is not made of numbers: it has an underscore")
         self.what = what
-        self.counts: Ints = np.fromiter(map(len, fields), np.int64, len(fields))
+        self.counts: Ints = np.fromiter((len(line.split()) for line in lines), np.int64, len(lines))
         self.starts: Ints = np.cumsum(self.counts) - self.counts
-        try:
-            self.values: Doubles = np.array(list(chain.from_iterable(fields)), dtype=np.float64)
-        except ValueError:
-            word = next(filter(_is_no_number, chain.from_iterable(fields)), b"")
-            shown = word[:40].decode(errors="replace")
-            raise MeshError(f"a {what} is not made of numbers: {shown!r}") from None
+        # Few words at a time: millions of small objects fall out of the caches, and reading slows down with their number.
+        pieces = (_numbers(lines[begin : begin + _LINES], what) for begin in range(0, len(lines), _LINES))
+        self.values: Doubles = np.concatenate([np.zeros(0), *pieces])
 
     def require(self, needed: int | Ints) -> None:
         short = self.counts < needed
@@ -57,6 +53,18 @@ class Rows:
             raise MeshError(f"{self.what} {int(np.argmax(sizes < 0))} has a negative number of corners")
         self.require(before + 1 + sizes)
         return sizes, as_integers(self.values[ranges(self.starts + before + 1, sizes)], "a vertex index")
+
+
+def _numbers(lines: Sequence[bytes], what: str) -> Doubles:
+    text = b" ".join(lines)
+    if b"_" in text:  # which Python allows inside numbers
+        raise MeshError(f"a {what} is not made of numbers: it has an underscore")
+    words = text.split()
+    try:
+        return np.array(words, dtype=np.float64)
+    except ValueError:
+        shown = next(filter(_is_no_number, words), b"")[:40].decode(errors="replace")
+        raise MeshError(f"a {what} is not made of numbers: {shown!r}") from None
 
 
 def _is_no_number(word: bytes) -> bool:

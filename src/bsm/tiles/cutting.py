@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.fields.corners import MOST_LARGEST
-from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.threads import ordered_map
 from bsm.files.output import by_its_own_name, write_output
@@ -64,6 +64,7 @@ class Lattice:
 
 def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | None, threads: int) -> Lattice:
     """Return the requested lattice, or one by the look of a sample; its cells represent every position exactly."""
+    require_sizes(np.array([raw.low, raw.high]), done="cut")
     lattice = Lattice(_cell_by_look(raw, threads) if cell is None else cell, origin or (0.0, 0.0, 0.0))
     reach = (abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
     farthest = max(reach) / lattice.cell

@@ -101,16 +101,15 @@ class ObjPieces:
 
 class _Lines:
     def __init__(self, text: bytes) -> None:
-        parts = [line.split(None, 1) or [b""] for line in text.splitlines()]
-        self._parts = parts
-        self._keywords = np.array([part[0] for part in parts] or [b""], dtype="S8")
+        self._lines = text.splitlines()
+        self._keywords = np.array([(line.split(None, 1) or [b""])[0] for line in self._lines] or [b""], dtype="S8")
 
     def are(self, keyword: bytes) -> Mask:
         found: Mask = self._keywords == keyword
         return found
 
     def of(self, keyword: bytes) -> list[bytes]:
-        return [b"".join(self._parts[i][1:]) for i in np.flatnonzero(self.are(keyword)).tolist()]
+        return [b"".join(self._lines[i].split(None, 1)[1:]) for i in np.flatnonzero(self.are(keyword)).tolist()]
 
 
 class _References:

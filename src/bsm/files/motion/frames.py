@@ -140,7 +140,8 @@ class Loops:
 
     def take(self, frame: Positions) -> None:
         if not self._kept:
-            self._diagonal = float(np.linalg.norm(np.ptp(frame, axis=0)))
+            with np.errstate(over="ignore"):  # what is as large as that is refused elsewhere
+                self._diagonal = float(np.linalg.norm(np.ptp(frame, axis=0)))
         if len(self._kept) <= MOST_FRAMES:
             rows = np.linspace(0, len(frame) - 1, min(_POINTS, len(frame))).astype(np.int64)
             self._kept.append(frame[rows].reshape(-1))
