@@ -113,8 +113,11 @@ INLINE void draw_face(Face face, const float *normals, const double *light, int3
             double nz = q * (double)n[2] + s * (double)n[5] + r * (double)n[8];
             float facing = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
             float length = (float)(nx * nx + ny * ny + nz * nz);
-            if (z == depth.data[pixel] && !(shade_of(facing, length) > shade_of(picture.data[pixel], lengths.data[pixel])))
-                continue;
+            if (z == depth.data[pixel]) {
+                float facing_before = picture.data[pixel], length_before = lengths.data[pixel];
+                if (facing == facing_before && length == length_before) continue; /* soon told of faces drawn again */
+                if (!(shade_of(facing, length) > shade_of(facing_before, length_before))) continue;
+            }
             owner.data[pixel] = number;
             depth.data[pixel] = z;
             picture.data[pixel] = facing;

@@ -91,9 +91,11 @@ def changed(tree: Any, random: Random) -> Any:
                 value = value[step]
             inside[key] = copy.deepcopy(value)
         case 3 if type(inside[key]) in (int, float):
-            inside[key] += random.choice((-1, 1, 0.5, 2**20, -(2**20)))
+            with suppress(OverflowError):  # of what is no float any more
+                inside[key] += random.choice((-1, 1, 0.5, 2**20, -(2**20)))
         case 4 if type(inside[key]) in (int, float):
-            inside[key] *= random.choice((-1, 2, 2.0, 10**6, 1e300))
+            with suppress(OverflowError):
+                inside[key] *= random.choice((-1, 2, 2.0, 10**6, 1e300))
         case _:
             inside[key] = copy.deepcopy(random.choice(VALUES))
     return tree

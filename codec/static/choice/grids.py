@@ -248,7 +248,7 @@ class Gridded:
         extent, closest = float(extent_of(self._prepared.positions).max()), math.inf
         farthest = float(np.abs(self._prepared.mesh.positions).max()) / self._prepared.units.scale
         far = farthest > MOST_LARGEST * extent / MOST_PARTS
-        for parts, make in product(range(1, MOST_PARTS), (self.at, self.counted)[: 1 if far else 2]):
+        for parts, make in product(range(1, MOST_PARTS), (self.at,) if far else (self.counted, self.at)):
             if not single(extent / parts * self._prepared.units.scale) > 0.0:
                 return  # beyond the range of numbers
             candidate = make(extent / parts)
