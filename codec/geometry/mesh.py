@@ -141,8 +141,10 @@ LARGEST = 1e100
 """Largest coordinate where products of three lengths are finite."""
 
 
-def require_sizes(positions: Positions, smallest: float = 0.0, largest: float = LARGEST, done: str = "encoded so") -> None:
-    """Raise `MeshError` unless positions, shape (n, 3), can be computed with; `done` says what is to be done with them."""
+def require_sizes(
+    positions: Positions, smallest: float = 0.0, largest: float = LARGEST, done: str = "encoded so"
+) -> None:
+    """Raise `MeshError` unless positions, shape (n, 3), are within these sizes; `done` says what for."""
     farthest = float(np.abs(positions).max(initial=0.0))
     with np.errstate(over="ignore"):
         extent = float(extent_of(positions).max()) if len(positions) else 0.0

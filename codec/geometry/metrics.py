@@ -15,7 +15,7 @@ import numpy as np
 
 from bsm.bitstream.errors import MeshError, public
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Indices, Matrix, Order, Positions
+from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Order, Positions
 from bsm.codec.geometry.graph import Rows, mesh_edges, vertex_neighbours
 from bsm.codec.geometry.mesh import extent_of, require_sizes
 
@@ -164,6 +164,14 @@ def face_normals(positions: Positions, faces: Faces) -> Floats:
     normals = np.empty((len(faces), 3))
     _kernels.face_normals(np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32), normals)
     return normals
+
+
+def flat_faces(positions: Positions, faces: Faces) -> Mask:
+    """Which faces, shape (m,), have no area, but for the rounding of coordinates."""
+    a, b, c = (np.asarray(positions, np.float64)[corner] for corner in np.ascontiguousarray(faces.T))
+    longest = np.sqrt(np.max([np.square(side).sum(axis=1) for side in (b - a, c - b, a - c)], axis=0))
+    area = np.sqrt(np.square(np.cross(b - a, c - a)).sum(axis=1))
+    return np.asarray(area <= 8.0 * np.finfo(np.float64).eps * np.abs(positions).max(initial=0.0) * longest)
 
 
 def folded_edges(positions: Positions, faces: Faces) -> int:

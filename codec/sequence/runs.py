@@ -228,7 +228,7 @@ class _Frames:
             raise MeshError(f"frame {self.number} has shape {positions.shape}, the first one {self._shape}")
         if not np.isfinite(positions).all():
             raise MeshError(f"frame {self.number} has a coordinate that is not finite; remove or repair it")
-        require_sizes(positions)
+        require_sizes(positions[:, :3])  # what moves with them stands behind them
         return positions
 
 

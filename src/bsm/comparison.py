@@ -17,7 +17,8 @@ from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import AttributeComparison, at_corners, compare_values
 from bsm.codec.geometry.graph import canonical, canonical_order
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.geometry.metrics import Comparison, compare
+from bsm.codec.geometry.metrics import Comparison, compare, flat_faces
+from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import join
 from bsm.files.formats.npz import write_npy
 from bsm.files.output import open_output
@@ -119,6 +120,10 @@ class MeshComparison(Comparison):
     ----------
     attributes : mapping of str to AttributeComparison or None
         Errors of the original's attributes by name, at the corners of faces; None: the attribute is missing.
+    flattened : int
+        Faces that have an area in the original but not in the decoded mesh.
+    merged : int
+        Vertices that share the position of another vertex in the decoded mesh but not in the original.
 
     Examples
     --------
@@ -129,6 +134,8 @@ class MeshComparison(Comparison):
     """
 
     attributes: Mapping[str, AttributeComparison | None] = field(default_factory=dict)
+    flattened: int = 0
+    merged: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,7 +174,10 @@ def pair(original: TriangleMesh, decoded: TriangleMesh, order: Order | None = No
 
 
 def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) -> MeshComparison:
-    positions = compare(paired.original.positions, paired.positions, paired.original.faces)
+    first, second, faces = paired.original.positions, paired.positions, paired.original.faces
+    positions = compare(first, second, faces)
+    flattened = int((flat_faces(second, faces) & ~flat_faces(first, faces)).sum())
+    places = [len(first_of(group_rows(np.ascontiguousarray(points, np.float64)))) for points in (first, second)]
     found: dict[str, AttributeComparison | None] = {}
     after = {attribute.name: attribute for attribute in decoded.attributes}
     for attribute in original.attributes:
@@ -177,4 +187,5 @@ def compare_meshes(original: TriangleMesh, decoded: TriangleMesh, paired: Pair) 
             values = at_corners(attribute, original.faces).reshape(-1, attribute.components)[paired.corners]
             others = at_corners(other, decoded.faces).reshape(-1, attribute.components)[paired.others]
             found[attribute.name] = compare_values(values, others, normals=attribute.semantic == "normal")
-    return MeshComparison(**asdict(positions), attributes=found)
+    merged = max(0, places[0] - places[1])
+    return MeshComparison(**asdict(positions), attributes=found, flattened=flattened, merged=merged)

@@ -110,6 +110,11 @@ def test_coordinates_that_overflow_are_read_and_neither_cut_nor_compared_nor_enc
     assert np.array_equal(bsm.load(path).positions, positions)
     with np.errstate(all="raise", under="ignore"):
         tile = [["tile", "-o", tmp_path / "tiles"]] if path.suffix in (".ply", ".obj", ".npz") else []
-        for words in (*tile, ["compare", path], ["denoise", "-o", tmp_path / "b.ply"], ["encode", "-o", tmp_path / "a.bsm"]):
+        for words in (
+            *tile,
+            ["compare", path],
+            ["denoise", "-o", tmp_path / "b.ply"],
+            ["encode", "-o", tmp_path / "a.bsm"],
+        ):
             assert program([words[0], str(path), *map(str, words[1:])]) == 3
             assert "scale it" in capsys.readouterr().err

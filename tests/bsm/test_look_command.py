@@ -81,3 +81,28 @@ def test_what_has_no_area_is_a_sentence(files, capsys):
     bsm.save(([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)]), files / "line.off")
     assert main(["compare", str(files / "line.off"), str(files / "a.ply"), "--look"]) == 3
     assert "cannot be looked at" in capsys.readouterr().err
+
+
+def test_triangles_without_area_and_vertices_at_one_place_are_counted_beyond_the_inputs(tmp_path, capsys):
+    faces = [(0, 1, 2), (2, 1, 3), (0, 2, 4), (4, 2, 3), (0, 1, 5)]
+    before = np.array(
+        [(0, 0, 0), (1, 0, 0), (0.4, 0.1, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0)]
+    )  # the last is flat already
+    after = before.copy()
+    after[2] = 0.5, 0.0, 0.0  # on the line of 0 and 1, and so the first face
+    found = bsm.compare((before, faces), (after, faces))
+    assert (found.flattened, found.merged) == (1, 0)
+    after[2] = before[4]
+    found = bsm.compare((before, faces), (after, faces))
+    assert (found.flattened, found.merged) == (2, 1)
+    assert (
+        bsm.compare((after, faces), (after, faces)).flattened,
+        bsm.compare((before, faces), (before, faces)).merged,
+    ) == (0, 0)
+    bsm.save((before, faces), tmp_path / "a.ply")
+    bsm.save((after, faces), tmp_path / "b.ply")
+    assert main(["compare", str(tmp_path / "a.ply"), str(tmp_path / "b.ply"), "-q"]) == 0
+    said = capsys.readouterr().out.splitlines()[0]
+    assert said.endswith("; 2 triangles without area that had one; 1 vertex where another one is, and was not before")
+    found = run_json(capsys, tmp_path / "a.ply", tmp_path / "b.ply")
+    assert (found["flattened"], found["merged"]) == (2, 1)

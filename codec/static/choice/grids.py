@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +19,7 @@ from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
 from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
 from bsm.codec.static.choice.shaping import SAMPLE, Aim
-from bsm.codec.static.preamble_encoding import Draft, Prepared
+from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft, Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.grid import Grid, encode_exact, encode_grid
 
@@ -42,6 +43,8 @@ def rounded(prepared: Prepared, bits: int) -> Draft:
     with np.errstate(over="ignore", invalid="ignore"):
         narrow = np.spacing(np.float32(largest)) * cells < PART_OF_CELL * extent
     kind = np.float32 if narrow else np.float64
+    if (again := _made_on_grid(positions, cells, kind)) is not None:
+        return grid_draft(prepared, *again)
     values = positions.astype(kind)
     low = values.min(axis=0)
     most, extent = kind(cells), (values - low).max()
@@ -52,6 +55,19 @@ def rounded(prepared: Prepared, bits: int) -> Draft:
     if not (step > 0.0 and np.isfinite(step)):
         raise TargetError(f"a grid of {bits} bits is beyond the range of numbers for this mesh")
     return grid_draft(prepared, *latticed(tuple(map(float, low)), step, places, cells))
+
+
+def _made_on_grid(positions: Matrix, cells: int, kind: type[np.floating[Any]]) -> tuple[Grid, Levels] | None:
+    """The grid of so many cells that positions, shape (n, 3), were decoded from; None: they are on no such grid."""
+    low = positions.min(axis=0)
+    near = kind((positions - low).max() / cells)
+    for step in map(float, (near, np.nextafter(near, kind(0)), np.nextafter(near, kind(np.inf)))):
+        if step > 0.0 and np.isfinite(step):
+            places = np.rint((positions - low) / step)
+            grid, points = latticed(tuple(map(float, low)), step, places.astype(np.int64), cells)
+            if (grid.positions(points) == positions).all():
+                return grid, points
+    return None
 
 
 def exact(prepared: Prepared) -> Draft:
@@ -206,11 +222,13 @@ class Gridded:
         return replace(candidate, unfold=unfold)
 
     def made(self) -> Iterator[Candidate]:
-        """The grid that the mesh was made on."""
+        """The grid that the mesh was made on; of few vertices counted from its zero, too."""
         step = made_on(self._prepared.mesh.positions)
         if step is not None:  # wherever coarser ones are looked for, from what looks about right on
-            made = self.at(step / self._prepared.units.scale)
-            yield replace(made, step=max(made.step, self._bounds.rough_step))
+            few = self._prepared.graph.size < FEW_VERTICES
+            for make in (self.counted, self.at) if few else (self.at,):
+                made = make(step / self._prepared.units.scale)
+                yield replace(made, step=max(made.step, self._bounds.rough_step))
 
     def counted(self, step: float) -> Candidate:
         """A grid of this step with places that are counted from where the mesh's unit begins: shorter to write."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import MeshError, OptionError
+from bsm.bitstream.errors import MeshError, OptionError, counted
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -140,6 +140,15 @@ def _compared(
 
 
 def sentence(compared: dict[str, Any], unit: str) -> str:
+    found = [_errors(compared, unit)]
+    if compared["flattened"]:
+        found.append(f"{counted(triangles=compared['flattened'])} without area that had one")
+    if compared["merged"]:
+        found.append(f"{counted(vertices=compared['merged'])} where another one is, and was not before")
+    return "; ".join(found)
+
+
+def _errors(compared: dict[str, Any], unit: str) -> str:
     share = 100.0 * compared["max_error_relative"]
     if share == 0.0:
         return "all vertices are equal"

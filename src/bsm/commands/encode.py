@@ -32,6 +32,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     said = "store metadata, such as name=Bunny or unit=mm. May be repeated"
     add("--meta", action="append", default=[], metavar="NAME=TEXT", help=said)
     add("--up", choices=("y", "z"), help="store the up axis (same as --meta up=y)")
+    made = "store the version of bsm, the preset and its bounds, and the SHA-256 of the input. Without the flag, only "
+    made += "for meshes decoded from such a stream"
+    add("--provenance", action=argparse.BooleanOptionalAction, help=made)
     add_reader_flag(parser)
     add_encode_flags(parser)
 

@@ -30,7 +30,7 @@ class Rows:
         self.what = what
         self.counts: Ints = np.fromiter((len(line.split()) for line in lines), np.int64, len(lines))
         self.starts: Ints = np.cumsum(self.counts) - self.counts
-        # Few words at a time: millions of small objects fall out of the caches, and reading slows down with their number.
+        # Few words at a time: millions of small objects fall out of the caches, and each then takes longer.
         pieces = (_numbers(lines[begin : begin + _LINES], what) for begin in range(0, len(lines), _LINES))
         self.values: Doubles = np.concatenate([np.zeros(0), *pieces])
 

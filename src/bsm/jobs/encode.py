@@ -7,7 +7,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from bsm.files.motion.frames import Frames, Loops, Wanted, said_of_runs
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
+from bsm.jobs.provenance import NAME, with_provenance
 from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import in_own_unit
 from bsm.libraries import with_metadata
@@ -51,6 +52,7 @@ class EncodeJob(Task):
     members: tuple[str, ...] = ()
     animation: str | None = None
     cache_mesh: str | None = None
+    provenance: bool | None = None
 
 
 def encode_one(job: EncodeJob, console: Console) -> Facts:
@@ -79,6 +81,8 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
     if lengths := in_own_unit(job.options, mesh.metadata):
         chosen = encode_options(**{**job.options, **lengths}, threads=job.threads)
     begin = time.perf_counter()
+    known, generations = with_provenance(mesh.metadata, job.provenance, job.input, job.options, chosen)
+    mesh = replace(mesh, metadata=known)
     encoder = Encoder(mesh, chosen)
     overwrite = job.may_replace(job.output)
     with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
@@ -87,9 +91,10 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
             file.write(chunk)
     seconds = time.perf_counter() - begin
     images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
-    left_out = source.mesh.metadata.keys() - mesh.metadata.keys()
+    left_out = source.mesh.metadata.keys() - mesh.metadata.keys() - {NAME}
     notes = [
         *source.notes,
+        *generations,
         *encoder.notes,
         *(["left out: materials, images"] if left_out else []),
         *([f"{images} of the bytes are images, as they are"] if images else []),
@@ -124,7 +129,8 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     if job.permutation and chosen.runs:
         raise OptionError("--permutation is the order of one mesh, and --runs lets the faces change")
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
-    metadata = {**source.metadata, **rate, **job.metadata}
+    said = {**source.metadata, **rate, **job.metadata}
+    metadata, generations = with_provenance(said, job.provenance, job.input, job.options, chosen)
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
     echo = Echo(looks=chosen.promise is None or chosen.promise.look == math.inf)
     size = 0
@@ -139,7 +145,7 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
                 echo.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
-    notes = [*source.notes, *encoder.notes, *([said_of_runs(runs)] if runs else echo.loops.said())]
+    notes = [*source.notes, *generations, *encoder.notes, *([said_of_runs(runs)] if runs else echo.loops.said())]
     look = echo.worst_look
     if look is not None:
         notes.append(f"no look is promised: the worst frame has a look of {look:.2g}, where the default has at most 1")

@@ -1,0 +1,110 @@
+"""What stays the same from generation to generation, and what a stream says of how it was made."""
+
+from dataclasses import replace
+from hashlib import sha256
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.bitstream.errors import BsmError
+from bsm.cli import main
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.files.mesh import read_mesh
+from tests.conftest import mesh_folder
+from tests.shapes import curved, tetrahedron, torus
+
+GENERATIONS = 10
+MADE = {
+    "torus": torus(20, 12),
+    "curved": curved(torus(30, 20)),
+    "tetrahedron": tetrahedron(),
+    "far": (torus(12, 8).positions * 1e-3 + 1e4, torus(12, 8).faces),
+    "uneven": (torus(12, 8).positions * (1.0, 0.5, 1e2), torus(12, 8).faces),
+    "random": (np.random.default_rng(1).normal(size=(60, 3)), np.random.default_rng(2).integers(0, 60, (200, 3))),
+}
+MOST_BYTES = 300_000  # of real files: larger ones say nothing more
+
+
+def real():
+    folder = mesh_folder()
+    paths = [] if folder is None else [path for room in ("assets", "hostile") for path in (folder / room).iterdir()]
+    return sorted(f"{path.parent.name}/{path.name}" for path in paths if path.stat().st_size < MOST_BYTES)
+
+
+def generations(mesh, preset, count=GENERATIONS):
+    """The streams of a mesh, of what that decodes to, and so on."""
+    for _ in range(count):
+        data = bsm.encode(mesh, preset=preset, threads=1)
+        yield data
+        mesh = bsm.decode(data, threads=1)
+
+
+def narrow(mesh):
+    """As `lossless` keeps it: in single precision."""
+    return replace(mesh, positions=mesh.positions.astype(np.float32))
+
+
+@pytest.mark.parametrize("preset", ["grid14", "lossless"])
+@pytest.mark.parametrize("name", MADE)
+def test_ten_generations_are_the_same_bytes(name, preset):
+    mesh = MADE[name] if isinstance(MADE[name], TriangleMesh) else TriangleMesh(*MADE[name])
+    first, *others = generations(narrow(mesh) if preset == "lossless" else mesh, preset)
+    assert set(others) == {first}
+
+
+def test_vertices_that_rounding_puts_at_one_place_are_one_from_the_second_generation_on():
+    flat = TriangleMesh(torus(12, 8).positions * (1.0, 1e-3, 1e3), torus(12, 8).faces)
+    first, second, *others = generations(flat, "grid14")
+    assert set(others) == {second} != {first}
+    places = [{tuple(row) for row in bsm.decode(data).positions} for data in (first, second)]
+    assert places[0] == places[1] and bsm.compare(flat, first).merged > 0
+
+
+@pytest.mark.real
+@pytest.mark.parametrize("preset", ["grid14", "lossless"])
+@pytest.mark.parametrize("name", real() or [pytest.param("", marks=pytest.mark.skip("no real meshes"))])
+def test_real_meshes_come_back_in_every_generation(name, preset, meshes):
+    """Once two generations are the same bytes, all that follow are."""
+    try:
+        mesh = read_mesh(str(meshes / name)).mesh.bare
+        first, second, third = generations(narrow(mesh) if preset == "lossless" else mesh, preset, 3)
+    except BsmError:
+        pytest.skip("no mesh that can be encoded")
+    assert second == third
+    kept = [bsm.decode(data) for data in (first, second)]
+    assert first == second or len(kept[1].positions) < len(kept[0].positions)  # vertices at one place became one
+    assert np.array_equal(*(np.unique(mesh.positions, axis=0) for mesh in kept))
+
+
+def said(capsys, *words):
+    capsys.readouterr()
+    assert main([*map(str, words)]) == 0
+    return capsys.readouterr()
+
+
+def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_generation(tmp_path, capsys):
+    source, stream, again = tmp_path / "a.ply", tmp_path / "a.bsm", tmp_path / "b.ply"
+    bsm.save(torus(20, 12), source)
+    assert not said(capsys, "encode", source).err.count("generation")
+    assert "provenance" not in bsm.decode(stream).metadata
+    said(capsys, "encode", source, "-f", "--provenance", "--max-error", "0.2%")
+    made = bsm.decode(stream).metadata["provenance"]
+    digest = sha256(source.read_bytes()).hexdigest()
+    assert made == f"bsm {bsm.__version__} balanced farthest=0.2% look=1 sha256={digest}"
+    assert made in said(capsys, "info", stream).out
+    said(capsys, "decode", stream, "-o", again)
+    assert "is generation 2: errors add up" in said(capsys, "encode", again).err
+    second = bsm.decode(tmp_path / "b.bsm").metadata["provenance"]
+    assert second.startswith(f"bsm {bsm.__version__} balanced farthest=1% look=1 generation=2 sha256=")
+    said(capsys, "decode", tmp_path / "b.bsm", "-o", tmp_path / "c.ply")
+    third = said(capsys, "encode", tmp_path / "c.ply", "--preset", "lossless", "--no-provenance")
+    assert "is generation 3\n" in third.err
+    assert "provenance" not in bsm.decode(tmp_path / "c.bsm").metadata
+
+
+def test_frames_say_how_they_were_made(tmp_path, capsys):
+    frames = np.stack([torus(12, 8).positions + 0.1 * t for t in range(3)])
+    np.savez(tmp_path / "a.npz", positions=frames, faces=torus(12, 8).faces)
+    said(capsys, "encode", tmp_path / "a.npz", "--provenance")
+    assert " balanced farthest=1% look=1 sha256=" in said(capsys, "info", tmp_path / "a.bsm").out
