@@ -10,12 +10,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Results are the same to the last bit everywhere (specification, M 1.3): each operation is rounded as IEEE 754 has it. What
- * a compiler says of itself is checked here, and fusing products and sums is switched off for all that follows. What only
- * running shows, the decoder finds (engine/arithmetic.c). */
+/* Results are the same to the last bit everywhere (specification, M 1.3): each operation is rounded as IEEE 754 has it.
+ * What a compiler says of itself is checked here, and fusing products and sums is switched off for all that follows.
+ * What only running shows, the decoder finds (engine/arithmetic.c). */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(_M_FP_FAST) \
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
-#error "compile BSM without -ffast-math, -Ofast, -funsafe-math-optimizations or /fp:fast: they change what streams decode to"
+#error "compile BSM without -ffast-math, -Ofast, -funsafe-math-optimizations or /fp:fast: they change decoded bits"
 #endif
 #if !defined(FLT_EVAL_METHOD) || FLT_EVAL_METHOD != 0
 #error "compile BSM with arithmetic that is as wide as its types: for 32-bit x86 with -msse2 -mfpmath=sse"
@@ -82,16 +82,16 @@ BSM_ARRAY(Doubles, double)
 #else
 #define INLINE static inline __attribute__((always_inline))
 #endif
-/* Copied to every call for speed, but to none in a decoder that is built alone, which has one of all files: that is sent
- * to where it is needed. */
+/* Copied to every call for speed, but to none in a decoder that is built alone, which has one of all files: that is
+ * sent to where it is needed. */
 #ifdef BSM_DECODER
 #define SHARED __attribute__((noinline, weak))
 #else
 #define SHARED INLINE
 #endif
 
-/* Called often, and so not copied to where it is called: what runs WebAssembly compiles a function better from one call to
- * the next, and never while it runs. A decoder that has to be small copies what is called at one place. */
+/* Called often, and so not copied to where it is called: what runs WebAssembly compiles a function better from one call
+ * to the next, and never while it runs. A decoder that has to be small copies what is called at one place. */
 #if defined(BSM_DECODER) && !defined(BSM_LEAN)
 #define OFTEN __attribute__((noinline))
 #else

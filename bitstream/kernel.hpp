@@ -76,11 +76,13 @@ template <typename... Arguments, int64_t (*kernel)(Arguments...)> struct Checked
 };
 template <auto kernel> constexpr auto checked = &Checked<kernel>::call;
 
+#define BSM_CASTER(Array, type, dimensions)                                                                            \
+    template <> struct nb::detail::type_caster<Array> : nb::detail::ArrayCaster<Array, type, dimensions> {};
 #define BSM_CASTERS(Array, type)                                                                                       \
-    template <> struct nb::detail::type_caster<Array> : nb::detail::ArrayCaster<Array, type, 1> {};                    \
-    template <> struct nb::detail::type_caster<Array##2> : nb::detail::ArrayCaster<Array##2, type, 2> {};                 \
-    template <> struct nb::detail::type_caster<Const##Array> : nb::detail::ArrayCaster<Const##Array, const type, 1> {};   \
-    template <> struct nb::detail::type_caster<Const##Array##2> : nb::detail::ArrayCaster<Const##Array##2, const type, 2> {};
+    BSM_CASTER(Array, type, 1)                                                                                         \
+    BSM_CASTER(Array##2, type, 2)                                                                                      \
+    BSM_CASTER(Const##Array, const type, 1)                                                                            \
+    BSM_CASTER(Const##Array##2, const type, 2)
 
 BSM_CASTERS(Bytes, uint8_t)
 BSM_CASTERS(Shorts, int16_t)

@@ -59,10 +59,10 @@ NB_MODULE(_kernels, m) {
     m.def("code_block", checked<code_block>, "coder"_a, "bank"_a, "past"_a, "expectations"_a, "levels"_a, Unlocked());
     m.def("search_levels", checked<search_levels>, "bank"_a, "past"_a, "expectations"_a, "targets"_a, "price"_a,
         "costs"_a, "ways"_a, "origins"_a, "levels"_a, "kept"_a, Unlocked());
-    m.def("code_matrix", checked<code_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "lead"_a, "stair"_a, "turn"_a,
-        "few"_a, "slow"_a, Unlocked());
-    m.def("price_matrix", checked<price_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "lead"_a, "stair"_a, "turn"_a,
-        "few"_a, "slow"_a, "costs"_a, "prices"_a, Unlocked());
+    m.def("code_matrix", checked<code_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "lead"_a,
+        "stair"_a, "turn"_a, "few"_a, "slow"_a, Unlocked());
+    m.def("price_matrix", checked<price_matrix>, "coder"_a, "bank"_a, "levels"_a, "reference"_a, "rows"_a, "lead"_a,
+        "stair"_a, "turn"_a, "few"_a, "slow"_a, "costs"_a, "prices"_a, Unlocked());
 
     m.def("link_corners", checked<link_corners>, "corners"_a, "scratch"_a, Unlocked());
     m.def("order_vertices", checked<order_vertices>, "corners"_a, "order"_a, "scratch"_a, Unlocked());

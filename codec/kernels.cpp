@@ -14,9 +14,8 @@ extern "C" {
 }
 
 template <>
-struct nb::detail::type_caster<Fronts>
-    : nb::detail::TupleCaster<Fronts, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords, ConstWords,
-                                 ConstDoubles> {};
+struct nb::detail::type_caster<Fronts> : nb::detail::TupleCaster<Fronts, ConstWords, ConstWords, ConstWords, ConstWords,
+    ConstWords, ConstWords, ConstWords, ConstDoubles> {};
 
 template <>
 struct nb::detail::type_caster<PredictionRules>
@@ -69,8 +68,7 @@ NB_MODULE(_kernels, m) {
     m.def("minus_mean", &minus_mean, "values"_a, "starts"_a, "members"_a, "rest"_a, Unlocked());
     m.def("patch_scores", &patch_scores, "normals"_a, "areas"_a, "starts"_a, "members"_a, "steps"_a,
           "inner_starts"_a, "inner"_a, "scores"_a, "means"_a, Unlocked());
-    m.def("most_consistent", &most_consistent, "scores"_a, "means"_a, "starts"_a, "members"_a, "guide"_a,
-          Unlocked());
+    m.def("most_consistent", &most_consistent, "scores"_a, "means"_a, "starts"_a, "members"_a, "guide"_a, Unlocked());
     m.def("filter_normals", &filter_normals, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "starts"_a, "near"_a,
           "sigma_s"_a, "sigma_r"_a, "packed"_a, "filtered"_a, Unlocked());
     m.def("describe_faces", &describe_faces, "centroids"_a, "areas"_a, "normals"_a, "guide"_a, "smooth"_a, "axes"_a,
@@ -81,18 +79,17 @@ NB_MODULE(_kernels, m) {
           "members"_a, Unlocked());
     m.def("inner_pairs", &inner_pairs, "starts"_a, "members"_a, "pairs"_a, "first"_a, "own"_a, "inside"_a,
           "inner_starts"_a, "inner"_a, Unlocked());
-    m.def("face_geometry", &face_geometry, "positions"_a, "faces"_a, "centroids"_a, "areas"_a, "normals"_a,
-          Unlocked());
+    m.def("face_geometry", &face_geometry, "positions"_a, "faces"_a, "centroids"_a, "areas"_a, "normals"_a, Unlocked());
     m.def("pair_distances", &pair_distances, "values"_a, "pairs"_a, "distances"_a, Unlocked());
     m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
     m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
           "iterations"_a, "free"_a, "planes"_a, "sums"_a, Unlocked());
     m.def("find_fronts", checked<&find_fronts>, "offsets"_a, "neighbours"_a, "leaf"_a, "most_work"_a, "scratch"_a,
-          "rows"_a, "steps"_a, "owners"_a, "firsts"_a, "starts"_a, "borders"_a, "places"_a, "sums"_a,
-          Unlocked());
+        "rows"_a, "steps"_a, "owners"_a, "firsts"_a, "starts"_a, "borders"_a, "places"_a, "sums"_a, Unlocked());
     m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a,
           "column"_a, "scratch"_a, "values"_a, "inverse"_a, Unlocked());
-    m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "scratch"_a, "solution"_a, Unlocked());
+    m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "scratch"_a, "solution"_a,
+        Unlocked());
     m.def("cosines", &cosines, "table"_a, "columns"_a, Unlocked());
     m.def("resize_columns", &resize_columns, "previous"_a, "table"_a, "columns"_a, Unlocked());
     m.def("iteration_space", &iteration_space, "n"_a, "c"_a);
@@ -137,8 +134,8 @@ NB_MODULE(_kernels, m) {
     m.def("weighted_angle", &weighted_angle, "normals"_a, "weights"_a, "decoded"_a, "faces"_a, "lost"_a, Unlocked());
     m.def("farthest_apart", &farthest_apart, "original"_a, "decoded"_a, Unlocked());
     m.def("local_frames", checked<&local_frames>, "positions"_a, "faces"_a, "frames"_a, Unlocked());
-    m.def("tangent_steps", checked<&tangent_steps>, "positions"_a, "faces"_a, "step"_a, "ratio"_a, "scratch"_a, "steps"_a,
-          Unlocked());
+    m.def("tangent_steps", checked<&tangent_steps>, "positions"_a, "faces"_a, "step"_a, "ratio"_a, "scratch"_a,
+        "steps"_a, Unlocked());
     m.def("add_heights", checked<&add_heights>, "positions"_a, "frames"_a, "levels"_a, "step"_a, Unlocked());
     m.def("add_slides", checked<&add_slides>, "positions"_a, "frames"_a, "levels"_a, "steps"_a, Unlocked());
     m.def("collect_flaps", checked<&collect_flaps>, "faces"_a, "starts"_a, "members"_a, "pending"_a, "flaps"_a,
@@ -153,8 +150,8 @@ NB_MODULE(_kernels, m) {
     m.def("settle_levels", checked<&settle_levels>, "offsets"_a, "normals"_a, "losses"_a, "steps"_a,
           "reach"_a, "starts"_a, "members"_a, "rates"_a, "pull"_a, "fixed"_a, "creases"_a, "places"_a, "frames"_a,
           "moved"_a, "levels"_a, "counts"_a, Unlocked());
-    m.def("unfold_levels", checked<&unfold_levels>, "wanted"_a, "reach"_a, "moved"_a, "levels"_a, "directions"_a, "open"_a,
-          Unlocked());
+    m.def("unfold_levels", checked<&unfold_levels>, "wanted"_a, "reach"_a, "moved"_a, "levels"_a, "directions"_a,
+        "open"_a, Unlocked());
     m.def("shape_grid", checked<&shape_grid>, "wanted"_a, "aim"_a, "moved"_a, "places"_a, "step"_a, "flaps"_a,
           "starts"_a, "members"_a, "bends"_a, "rates"_a, "axes"_a, "creases"_a, "open"_a, Unlocked());
 }

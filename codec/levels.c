@@ -39,7 +39,7 @@ CHOOSE(int64_t, completion_space, (int64_t h), (h))
 CHOOSE(int64_t, complete_columns, (ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole),
        (first, least_pivot, scratch, whole))
 CHOOSE_VOID(factorize_fronts,
-       (ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts, Words column,
+    (ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts, Words column,
         Singles scratch, Singles values, Singles inverse),
        (offsets, neighbours, weights, diagonal, fronts, column, scratch, values, inverse))
 CHOOSE_VOID(solve_columns,

@@ -28,7 +28,8 @@ KERNEL static bool are_numbers_exact(void) {
 
 /* Division is not by reciprocals; infinities, and the sign of zero, mean something. */
 KERNEL static bool are_all_numbers_used(void) {
-    double one = ONE_LATE, divisor = DIVISOR_LATE, none = one - one, infinite = one / none, minus_none = -none, quotient[3];
+    double one = ONE_LATE, divisor = DIVISOR_LATE, none = one - one, infinite = one / none, minus_none = -none,
+        quotient[3];
     for (int i = 0; i < 3; i++) quotient[i] = (double)(i + 1) * divisor / divisor;
     bool divides = quotient[0] == 1 && quotient[1] == 2 && quotient[2] == 3;
     return divides && !(infinite - infinite == 0) && one / (minus_none + none) > 0;

@@ -1,5 +1,5 @@
-/* The arithmetic of the processor: the decoder needs that of IEEE 754, rounded to nearest, with subnormal numbers; its host
- * may have set another one. Game engines let small numbers be flushed to 0. */
+/* The arithmetic of the processor: the decoder needs that of IEEE 754, rounded to nearest, with subnormal numbers; its
+ * host may have set another one. Game engines let small numbers be flushed to 0. */
 #ifndef BSMDEC_ARITHMETIC_H
 #define BSMDEC_ARITHMETIC_H
 
@@ -62,8 +62,8 @@ INLINE Arithmetic begin_arithmetic(void) {
 INLINE void end_arithmetic(Arithmetic host) { fesetenv(&host); }
 #endif
 
-/* Begins a function that computes whatever its host has set: inside of it arithmetic is exact, behind it as it was. The body
- * is a function of its own, so that compilers move nothing out of it. */
+/* Begins a function that computes whatever its host has set: inside of it arithmetic is exact, behind it as it was. The
+ * body is a function of its own, so that compilers move nothing out of it. */
 #define EXACTLY(type, name, parameters, arguments)                                                                     \
     static __attribute__((noinline)) type name##_exactly parameters;                                                   \
     type name parameters {                                                                                             \
@@ -74,7 +74,8 @@ INLINE void end_arithmetic(Arithmetic host) { fesetenv(&host); }
     }                                                                                                                  \
     static __attribute__((noinline)) type name##_exactly parameters
 
-/* Whether this build computes as IEEE 754 has it, where nothing else is set: each operation rounded by itself, to its type. */
+/* Whether this build computes as IEEE 754 has it, where nothing else is set: each operation rounded by itself, to its
+ * type. */
 bool is_exact(void);
 #endif
 

@@ -6,8 +6,9 @@
 
 bool begin_assembly(Assembly *assembly, int64_t vertices, int64_t blocks, Arena *arena) {
     assembly->lossy = false;
-    return zero_doubles2(arena, vertices, 3, &assembly->blend.sums) && zero_doubles(arena, vertices, &assembly->blend.weights)
-        && zero_bytes(arena, vertices, &assembly->lost) && zero_bytes(arena, blocks, &assembly->added);
+    return zero_doubles2(arena, vertices, 3, &assembly->blend.sums)
+        && zero_doubles(arena, vertices, &assembly->blend.weights) && zero_bytes(arena, vertices, &assembly->lost)
+        && zero_bytes(arena, blocks, &assembly->added);
 }
 
 void add_block(Assembly *assembly, const DecodedBlock *block) {
@@ -30,7 +31,8 @@ void filter_polynomial(double amount, double *powers) {
         powers[i] = 0.0;
     }
     for (int level = 1; level < POWERS; level++)
-        for (int i = POWERS - 1; i >= level; i--) table[i] = (table[i] - table[i - 1]) / (NODES_OF[i] - NODES_OF[i - level]);
+        for (int i = POWERS - 1; i >= level; i--)
+            table[i] = (table[i] - table[i - 1]) / (NODES_OF[i] - NODES_OF[i - level]);
     for (int i = POWERS - 1; i >= 0; i--) {
         memcpy(before, powers, sizeof before);
         for (int k = 0; k < POWERS; k++) {
@@ -40,7 +42,8 @@ void filter_polynomial(double amount, double *powers) {
     }
 }
 
-bool blend_all(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch, Doubles2 *positions) {
+bool blend_all(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch,
+    Doubles2 *positions) {
     int64_t n = graph->size;
     Mark mark = mark_of(scratch);
     bool smoothing = header->smoothing > 0.0, done = take_doubles2(arena, n, 3, positions);
@@ -54,7 +57,9 @@ bool blend_all(const Assembly *assembly, const Header *header, const Graph *grap
         }
         double powers[POWERS];
         filter_polynomial(header->smoothing, powers);
-        if (smoothing) smooth_all(graph->offsets, graph->neighbours, const_doubles2(blended), (ConstDoubles){powers, POWERS}, room, *positions);
+        if (smoothing)
+            smooth_all(graph->offsets, graph->neighbours, const_doubles2(blended), (ConstDoubles){powers, POWERS}, room,
+                *positions);
     }
     release_to(scratch, mark);
     return done;
@@ -67,12 +72,14 @@ static bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scra
     for (; rings > 0; rings--) {
         memcpy(before.data, marks.data, (size_t)marks.size);
         for (int64_t v = 0; v < graph->size; v++)
-            for (int64_t i = graph->offsets.data[v]; i < graph->offsets.data[v + 1]; i++) marks.data[v] |= before.data[graph->neighbours.data[i]];
+            for (int64_t i = graph->offsets.data[v]; i < graph->offsets.data[v + 1]; i++)
+                marks.data[v] |= before.data[graph->neighbours.data[i]];
     }
     return true;
 }
 
-bool mark_whole(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch, int beyond, Bytes *whole) {
+bool mark_whole(const Assembly *assembly, const Header *header, const Graph *graph, Arena *arena, Arena *scratch,
+    int beyond, Bytes *whole) {
     *whole = (Bytes){NULL, 0};
     if (!assembly->lossy) return true;
     Mark mark = mark_of(scratch);

@@ -382,8 +382,8 @@ BSMDEC_API void bsmdec_release(bsmdec_mesh *mesh);
 /* ---- Updates ----
  *
  * For drawing a mesh while it arrives. Each function fills a structure with arrays that the decoder owns; they are
- * valid until the next of these calls or the next event. Vertices are numbered as in bsmdec_faces. A status that is neither
- * BSMDEC_OK nor BSMDEC_MISUSED is that of the decoder's error.
+ * valid until the next of these calls or the next event. Vertices are numbered as in bsmdec_faces. A status that is
+ * neither BSMDEC_OK nor BSMDEC_MISUSED is that of the decoder's error.
  */
 
 /* Vertices that have moved, and where they are now. */

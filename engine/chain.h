@@ -50,9 +50,11 @@ typedef struct {
     Ledger ledger;
 } ReadyBlock;
 
-bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, Arena *arena);
+bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks,
+    Arena *arena);
 void end_chains(Chains *chains);
-bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch, DecodedBlock *decoded);
+bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch,
+    DecodedBlock *decoded);
 /* Forget the chain under way: the next block begins one. */
 void leave_chain(Chains *chains);
 /* Count a block as decoded that other chains decoded, and make its charges. */

@@ -15,14 +15,17 @@ bool begin_reading(Context *context, Span payload, Reading *reading) {
 bool ran_over(const Reading *reading) { return reading->state[CODER_POSITION] > reading->coder.data.size + AHEAD; }
 
 bool nonsense(const Reading *reading, const char *what) {
-    if (ran_over(reading)) return FAIL(reading->context, TRUNCATED, "an entropy-coded payload of # bytes ends before its last symbol", reading->coder.data.size);
+    if (ran_over(reading))
+        return FAIL(reading->context, TRUNCATED, "an entropy-coded payload of # bytes ends before its last symbol",
+            reading->coder.data.size);
     return FAIL(reading->context, CORRUPT, what);
 }
 
 bool finish_reading(const Reading *reading) {
     int64_t left = reading->coder.data.size - reading->state[CODER_POSITION];
     if (ran_over(reading)) return nonsense(reading, "");
-    return left <= 0 || FAIL(reading->context, CORRUPT, "# bytes are left over behind the last symbol of a payload", left);
+    return left <= 0
+        || FAIL(reading->context, CORRUPT, "# bytes are left over behind the last symbol of a payload", left);
 }
 
 bool make_bank(Arena *arena, BankPlan plan, Bank *bank) {
@@ -41,5 +44,6 @@ bool make_bank(Arena *arena, BankPlan plan, Bank *bank) {
 bool make_level_bank(Arena *arena, Bank *bank) {
     enum { INPUTS = 6, UNARY = 14, SPAN = SIGNED_SPAN(UNARY) + 3, ALIKE = 12, PLACES = 40 };
     int64_t slots = ((INPUTS - 1) * ALIKE * ALIKE + ALIKE * PLACES) * SPAN;
-    return make_bank(arena, (BankPlan){.slots = slots, .selectors = 3 * SPAN, .inputs = INPUTS, .limit = 400, .rate = 10}, bank);
+    return make_bank(arena,
+        (BankPlan){.slots = slots, .selectors = 3 * SPAN, .inputs = INPUTS, .limit = 400, .rate = 10}, bank);
 }

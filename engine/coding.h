@@ -1,4 +1,5 @@
-/* What entropy-coded payloads are read with (specification, C 1 to C 3): the kernels' coder and banks, of a decoder's memory. */
+/* What entropy-coded payloads are read with (specification, C 1 to C 3): the kernels' coder and banks, of a decoder's
+ * memory. */
 #ifndef BSMDEC_CODING_H
 #define BSMDEC_CODING_H
 

@@ -9,7 +9,8 @@ bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *aren
     Ints room;
     corners->faces = faces;
     bool done = take_ints(arena, vertices + 1, &corners->starts) && take_ints(arena, size, &corners->corners)
-        && take_ints(arena, size, &corners->opposite) && take_ints(arena, vertices, &corners->rank) && take_ints(scratch, vertices + size, &room);
+        && take_ints(arena, size, &corners->opposite) && take_ints(arena, vertices, &corners->rank)
+        && take_ints(scratch, vertices + size, &room);
     for (int64_t v = 0; done && v < vertices; v++) corners->rank.data[v] = (int32_t)v;
     done = done && (link_corners(*corners, room) == 0 || FAIL(context, LIMIT, "# faces are too many", faces.rows));
     release_to(scratch, mark);
@@ -39,7 +40,9 @@ bool make_value_model(Arena *arena, ValueModel *model) {
     return true;
 }
 
-bool make_learners(Arena *arena, int64_t count, Longs2 *learners) { return zero_longs2(arena, count, LEARNER_COLUMNS, learners); }
+bool make_learners(Arena *arena, int64_t count, Longs2 *learners) {
+    return zero_longs2(arena, count, LEARNER_COLUMNS, learners);
+}
 
 bool check_chunk_done(const Reading *reading, int64_t done, int64_t count) {
     if (ran_over(reading) || done < count) return nonsense(reading, "a value is out of its range");

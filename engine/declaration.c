@@ -2,7 +2,8 @@
 #include "engine/header.h"
 
 enum {
-    NAME = 1, DOMAIN_KEY, ORIGIN, SEMANTIC, KIND, COMPONENTS, CODING, ROWS, LARGEST, OFFSET, STEP, LEANS, MOVES, SEAMS_OF = 15,
+    NAME = 1, DOMAIN_KEY, ORIGIN, SEMANTIC, KIND, COMPONENTS, CODING, ROWS, LARGEST, OFFSET, STEP, LEANS, MOVES,
+    SEAMS_OF = 15,
 };
 
 #define MOST_LEVEL 4294967295.0
@@ -50,7 +51,8 @@ static void set_declaration(const Record *record, Declaration *d) {
 /* D 1.4. */
 static bool agrees_with_itself(const Record *record, const Declaration *d) {
     const int *count = record->count;
-    bool unit = d->components == 3 && d->kind >= BSMDEC_FLOAT32, turned = d->coding == OCTAHEDRAL || d->coding == RECOMPUTED;
+    bool unit = d->components == 3 && d->kind >= BSMDEC_FLOAT32, turned = d->coding == OCTAHEDRAL
+        || d->coding == RECOMPUTED;
     uint32_t first = d->largest[0];
     if (d->domain == BSMDEC_FACE && d->origin != 0) return false;
     if (turned && (!unit || count[OFFSET] + count[STEP] > 0)) return false;
@@ -59,7 +61,8 @@ static bool agrees_with_itself(const Record *record, const Declaration *d) {
     if (d->coding == BITS && (d->kind < BSMDEC_FLOAT32 || count[STEP] > 0)) return false;
     if (count[LARGEST] != d->words || (count[OFFSET] != 0 && count[OFFSET] != d->words)) return false;
     if (count[STEP] > 1 && count[STEP] != d->words) return false;
-    if (d->coding == OCTAHEDRAL && !(first == d->largest[1] && first >= 2 && first <= 65534 && first % 2 == 0)) return false;
+    if (d->coding == OCTAHEDRAL && !(first == d->largest[1] && first >= 2 && first <= 65534 && first % 2 == 0))
+        return false;
     if (d->domain == BSMDEC_FACE && d->leans) return false;
     if (d->moves && (d->domain != BSMDEC_VERTEX || d->origin != 0 || d->coding != LEVELS)) return false;
     return d->seams_of == 0 || d->domain == BSMDEC_CORNER;
@@ -69,13 +72,15 @@ static bool is_whole(double x) { return x >= -0x1p53 && x <= 0x1p53 && x == (dou
 
 /* Whether the values of the levels fit the kind. */
 static bool in_kind(const Declaration *d) {
-    static const double LOW[] = {0, -128, 0, -32768, 0, -2147483648.0}, HIGH[] = {255, 127, 65535, 32767, MOST_LEVEL, 2147483647.0};
+    static const double LOW[] = {0, -128, 0, -32768, 0, -2147483648.0},
+        HIGH[] = {255, 127, 65535, 32767, MOST_LEVEL, 2147483647.0};
     for (int i = 0; i < d->words; i++) {
         double first = d->offset[i], last = first + d->step[i] * (double)d->largest[i];
         if (d->coding == BITS && !(first >= 0.0 && is_whole(first) && last <= MOST_LEVEL)) return false;
         if (d->coding != LEVELS) continue;
         if (d->kind < BSMDEC_FLOAT32) {
-            if (!(is_whole(first) && is_whole(d->step[i]) && first >= LOW[d->kind] && last <= HIGH[d->kind])) return false;
+            if (!(is_whole(first) && is_whole(d->step[i]) && first >= LOW[d->kind] && last <= HIGH[d->kind]))
+                return false;
         } else {
             double most = d->kind == BSMDEC_FLOAT32 ? 0x1.fffffep+127 : 1e308;
             if (!(first >= -most && first <= most && last >= -most && last <= most)) return false;
@@ -86,7 +91,8 @@ static bool in_kind(const Declaration *d) {
 
 bool parse_declaration(Context *context, Span payload, Arena *scratch, Declaration *declaration) {
     Record record;
-    if (payload.size > MOST_DECLARATION) return FAIL(context, CORRUPT, "a declaration of # bytes is too long", payload.size);
+    if (payload.size > MOST_DECLARATION)
+        return FAIL(context, CORRUPT, "a declaration of # bytes is too long", payload.size);
     if (!parse_record(context, payload, FIELDS, sizeof FIELDS / sizeof *FIELDS, scratch, &record)) return false;
     set_declaration(&record, declaration);
     if (agrees_with_itself(&record, declaration) && in_kind(declaration)) return true;

@@ -1,8 +1,10 @@
-/* Which packet may follow which, and what a packet must have to agree with the header (specification, F 3.5 to F 3.14). */
+/* Which packet may follow which, and what a packet must have to agree with the header (specification, F 3.5 to F
+ * 3.14). */
 #include "engine/grammar.h"
 
 #define BIT(type) (1u << (type))
-static const uint32_t BODY = BIT(BLOCK_FRAME) | BIT(GOP_FRAME) | BIT(GRID_FRAME) | BIT(REFINEMENT_FRAME) | BIT(END_FRAME);
+static const uint32_t BODY = BIT(BLOCK_FRAME) | BIT(GOP_FRAME) | BIT(GRID_FRAME) | BIT(REFINEMENT_FRAME)
+    | BIT(END_FRAME);
 static const uint32_t TAIL = BIT(VALUES_FRAME) | BIT(END_FRAME);
 
 /* Types that may follow one, METADATA and skippable ones left aside (F 3.8). */
@@ -83,7 +85,8 @@ static bool check_run(Context *context, const Grammar *grammar, const Header *he
         if (header->run == 0 || grammar->joining) return true;
         return FAIL(context, CORRUPT, "the stream begins within a sequence; a tolerant decoder joins it there");
     }
-    if (before->gop_frames == 0 || header->gop_frames == 0) return FAIL(context, CORRUPT, "a second HEADER of a static mesh");
+    if (before->gop_frames == 0 || header->gop_frames == 0)
+        return FAIL(context, CORRUPT, "a second HEADER of a static mesh");
     int64_t following = before->run + 1;
     if (header->run < following || (header->run > following && !grammar->lossy))
         return FAIL(context, CORRUPT, "run # where run # must follow", header->run, following);
@@ -105,7 +108,8 @@ static bool check_attribute(Context *context, const Grammar *grammar, const Pack
         if (grammar->declared[k] != NULL && is_called(grammar->declared[k], d))
             return FAIL(context, CORRUPT, "attribute # has the name of attribute #", index, k);
     bool own_seams = d->domain == BSMDEC_CORNER && d->seams_of == 0;
-    if (packet->data.size > 0 && !own_seams) return FAIL(context, CORRUPT, "seams of an attribute that has none of its own");
+    if (packet->data.size > 0 && !own_seams)
+        return FAIL(context, CORRUPT, "seams of an attribute that has none of its own");
     if (d->seams_of > 0) {
         const Declaration *shared = d->seams_of <= MOST_ATTRIBUTES ? grammar->declared[d->seams_of - 1] : NULL;
         if (shared == NULL || shared->domain != BSMDEC_CORNER || shared->seams_of > 0)
@@ -113,7 +117,8 @@ static bool check_attribute(Context *context, const Grammar *grammar, const Pack
     }
     if (d->leans && !grammar->header->on_grid)
         return FAIL(context, CORRUPT, "an attribute that leans on positions which are on no grid");
-    if (d->moves && grammar->header->gop_frames == 0) return FAIL(context, CORRUPT, "an attribute of one mesh that moves");
+    if (d->moves && grammar->header->gop_frames == 0)
+        return FAIL(context, CORRUPT, "an attribute of one mesh that moves");
     if (grammar->header->gop_frames > 0 && d->coding == RECOMPUTED)
         return FAIL(context, CORRUPT, "an attribute of a sequence that is recomputed from positions");
     return true;
@@ -137,7 +142,8 @@ static bool check_block(Context *context, const Grammar *grammar, const Packet *
     if (packet->index < grammar->next_block) return FAIL(context, CORRUPT, "the indices of blocks must ascend");
     if (packet->index >= header->blocks) return FAIL(context, CORRUPT, "block # of #", packet->index, header->blocks);
     if (packet->coefficients > header->coefficients)
-        return FAIL(context, CORRUPT, "# coefficients where the header allows #", packet->coefficients, header->coefficients);
+        return FAIL(context, CORRUPT, "# coefficients where the header allows #", packet->coefficients,
+            header->coefficients);
     if (grammar->resuming && packet->index % chain_length(header) != 0)
         return FAIL(context, CORRUPT, "block # depends on one that is lost", packet->index);
     return true;
@@ -148,7 +154,8 @@ static bool check_chunk(Context *context, const Grammar *grammar, const Packet *
     if (packet->first != following)
         return FAIL(context, CORRUPT, "vertices from # on where those from # on must follow", packet->first, following);
     if (packet->count == 0 || packet->count > grammar->header->vertices - packet->first)
-        return FAIL(context, CORRUPT, "# vertices from # on, of #", packet->count, packet->first, grammar->header->vertices);
+        return FAIL(context, CORRUPT, "# vertices from # on, of #", packet->count, packet->first,
+            grammar->header->vertices);
     return true;
 }
 
@@ -174,7 +181,8 @@ static bool check_end(Context *context, const Grammar *grammar) {
 bool check_packet(Context *context, const Grammar *grammar, const Packet *packet) {
     const uint32_t COMPLETE = BIT(BLOCK_FRAME) | BIT(GOP_FRAME) | BIT(GRID_FRAME) | BIT(VALUES_FRAME) | BIT(END_FRAME);
     const Header *header = grammar->header;
-    if (!(expected_types(grammar) >> packet->type & 1)) return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
+    if (!(expected_types(grammar) >> packet->type & 1))
+        return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
     if (packet->type == HEADER_FRAME) return check_run(context, grammar, packet->header);
     if (header == NULL) return true;
     if (COMPLETE >> packet->type & 1 && grammar->declared_count < header->attributes && !grammar->lossy)
@@ -201,7 +209,8 @@ void advance_grammar(Grammar *grammar, const Packet *packet, Declaration *declar
     }
     if (packet->type == BLOCK_FRAME) grammar->next_block = packet->index + 1;
     if (packet->type == GOP_FRAME) grammar->next_frame = packet->index + 1;
-    if (packet->type == GRID_FRAME || packet->type == REFINEMENT_FRAME) grammar->next_vertex = packet->first + packet->count;
+    if (packet->type == GRID_FRAME || packet->type == REFINEMENT_FRAME)
+        grammar->next_vertex = packet->first + packet->count;
     if (packet->type == ATTRIBUTE_FRAME) {
         grammar->declared[packet->index] = declaration;
         grammar->declared_count++;

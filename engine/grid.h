@@ -22,7 +22,8 @@ typedef struct {
     bool broken;
 } GridField;
 
-bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena, Arena *scratch);
+bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
+    Arena *scratch);
 bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch);
 
 #endif

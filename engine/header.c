@@ -43,7 +43,8 @@ static void set_header(const Record *record, Header *header) {
     const double(*number)[MOST_LIST] = record->number;
     const int *count = record->count;
     *header = (Header){
-        .vertices = (int64_t)number[VERTICES][0], .faces = (int64_t)number[FACES][0], .blocks = (int64_t)number[BLOCKS][0],
+        .vertices = (int64_t)number[VERTICES][0], .faces = (int64_t)number[FACES][0],
+        .blocks = (int64_t)number[BLOCKS][0],
         .block_size = (int64_t)number[BLOCK_SIZE][0], .coefficients = (int64_t)number[COEFFICIENTS][0],
         .key_interval = (int64_t)number[KEY_INTERVAL][0], .attributes = (int64_t)number[ATTRIBUTES][0],
         .step = number[STEP][0], .scale = number[SCALE][0], .smoothing = number[SMOOTHING][0],
@@ -52,7 +53,8 @@ static void set_header(const Record *record, Header *header) {
         .light = (int)number[LIGHT_KEY][0], .counted = count[CORNER] > 0,
         .frames = (int64_t)number[SEQUENCE][0], .gop_frames = (int64_t)number[SEQUENCE][1],
         .run = (int64_t)number[RUN][0], .again = count[RUN] > 1 ? (int64_t)number[RUN][1] : -1,
-        .paper = {.power = 3, .iterations = count[SEQUENCE] > 0 ? 2 : 1, .key_iterations = 2, .springs = 1, .shift = count[SEQUENCE] > 0 ? 0x1p-5 : 0x1p-7},
+        .paper = {.power = 3, .iterations = count[SEQUENCE] > 0 ? 2 : 1, .key_iterations = 2, .springs = 1,
+            .shift = count[SEQUENCE] > 0 ? 0x1p-5 : 0x1p-7},
     };
     if (count[LATTICE] == 2) {
         header->cells = (int64_t)number[LATTICE][0];
@@ -73,12 +75,15 @@ static bool set_paper(Context *context, const Record *record, Paper *paper) {
     if (!agrees(context, record->count[PAPER] == 8, "a paper that is not eight numbers")) return false;
     for (int k = 0; k < 8; k++) {
         bool whole = k == 6 || number[k] == (double)(int64_t)number[k];
-        if (!(number[k] >= LOW[k] && number[k] <= HIGH[k] && whole)) return FAIL(context, CORRUPT, "number # of the paper is not legal", k);
+        if (!(number[k] >= LOW[k] && number[k] <= HIGH[k] && whole))
+            return FAIL(context, CORRUPT, "number # of the paper is not legal", k);
     }
     Paper law = *paper;
-    *paper = (Paper){(int)number[0], (int)number[1], (int)number[2], (int)number[3], (int)number[4], (int)number[5], (int)number[7], number[6]};
-    bool same = paper->bits == 0 && paper->coarser == 0 && paper->exact == 0 && paper->power == law.power && paper->springs == 1
-        && paper->iterations == law.iterations && paper->key_iterations == law.key_iterations && paper->shift == law.shift;
+    *paper = (Paper){(int)number[0], (int)number[1], (int)number[2], (int)number[3], (int)number[4], (int)number[5],
+        (int)number[7], number[6]};
+    bool same = paper->bits == 0 && paper->coarser == 0 && paper->exact == 0 && paper->power == law.power
+        && paper->springs == 1 && paper->iterations == law.iterations && paper->key_iterations == law.key_iterations
+        && paper->shift == law.shift;
     return agrees(context, !same, "a paper that says what the law says");
 }
 
@@ -92,37 +97,40 @@ static bool check_grid(Context *context, const Record *record, const Header *hea
         centered = centered || header->center[j] != 0.0;
     }
     return agrees(context, count[GRID] == 3, "a grid of other than three axes")
-        && agrees(context, count[LATTICE] != 1, "a lattice that is not cells and points")
-        && agrees(context, header->points == 0 || header->points >= most, "a lattice with fewer points than the grid has values")
+        && agrees(context, count[LATTICE] != 1, "a lattice that is not cells and points") && agrees(context,
+            header->points == 0 || header->points >= most, "a lattice with fewer points than the grid has values")
         && agrees(context, header->points <= header->cells, "a lattice of more points than cells")
         && agrees(context, count[CORNER] % 3 == 0, "a corner that is not one of three axes")
-        && agrees(context, !(header->counted && centered), "a corner and a center")
-        && agrees(context, header->light != EXACT_FLOATS || count[LATTICE] + count[CORNER] == 0, "floats in cells that are counted")
+        && agrees(context, !(header->counted && centered), "a corner and a center") && agrees(context,
+            header->light != EXACT_FLOATS || count[LATTICE] + count[CORNER] == 0, "floats in cells that are counted")
         && agrees(context, (record->stored & ~OF_A_GRID) == 0, "a grid, and fields of blocks");
 }
 
 static bool check_blocks(Context *context, const Record *record, const Header *header) {
     const int *count = record->count;
     double rows = (double)header->blocks * (double)header->block_size, step = header->refinement[0];
-    return agrees(context, header->blocks > 0 && header->block_size > 0 && header->coefficients > 0, "neither blocks nor a grid")
+    return agrees(context, header->blocks > 0 && header->block_size > 0
+            && header->coefficients > 0, "neither blocks nor a grid")
         && agrees(context, count[LATTICE] + count[CORNER] + header->light == 0, "what belongs to a grid, without one")
         && agrees(context, header->blocks <= header->vertices, "more blocks than vertices")
         && agrees(context, header->block_size <= header->vertices, "blocks larger than the mesh")
-        && agrees(context, rows >= (double)header->vertices, "blocks too small to cover the mesh")
-        && agrees(context, rows <= (double)EVERY_VERTEX * (double)header->vertices + FREE_COPIES, "blocks that overlap too much")
+        && agrees(context, rows >= (double)header->vertices, "blocks too small to cover the mesh") && agrees(context,
+            rows <= (double)EVERY_VERTEX * (double)header->vertices + FREE_COPIES, "blocks that overlap too much")
         && agrees(context, header->coefficients <= header->block_size, "more coefficients than a block has vertices")
         && agrees(context, count[REFINEMENT] != 1, "a refinement that is not a step and a ratio")
-        && agrees(context, !header->refined || (step >= 0x1p-40 && step <= 1.0), "a step of a refinement out of its range")
-        && agrees(context, !header->refined || header->refinement[1] >= 0x1p-4, "a ratio of a refinement out of its range")
+        && agrees(context, !header->refined || (step >= 0x1p-40
+            && step <= 1.0), "a step of a refinement out of its range") && agrees(context, !header->refined
+            || header->refinement[1] >= 0x1p-4, "a ratio of a refinement out of its range")
         && agrees(context, !(header->refined && header->is_sequence), "refinement of a sequence");
 }
 
 static bool check_header(Context *context, const Record *record, const Header *header) {
     const int *count = record->count;
     if (!(agrees(context, header->vertices <= 3 * header->faces, "more vertices than the corners of its faces")
-            && agrees(context, !header->is_sequence || header->gop_frames > 0, "a sequence that is not frames and a length for GOPs")
-            && agrees(context, count[RUN] == 0 || header->is_sequence, "a run of a static mesh")
-            && agrees(context, count[RUN] != 1 || header->run > 0, "a run that is stored although it is the first")))
+        && agrees(context, !header->is_sequence
+            || header->gop_frames > 0, "a sequence that is not frames and a length for GOPs")
+        && agrees(context, count[RUN] == 0 || header->is_sequence, "a run of a static mesh")
+        && agrees(context, count[RUN] != 1 || header->run > 0, "a run that is stored although it is the first")))
         return false;
     if (header->on_grid) return check_grid(context, record, header);
     if (header->again < 0) return check_blocks(context, record, header);
@@ -145,11 +153,12 @@ bool parse_header(Context *context, Span payload, Arena *scratch, Header *header
 void list_header(const Header *h, double *numbers) {
     const Paper *p = &h->paper;
     const double all[HEADER_NUMBERS] = {
-        (double)h->vertices, (double)h->faces, (double)h->blocks, (double)h->block_size, (double)h->coefficients, (double)h->key_interval,
-        h->step, h->scale, h->smoothing, (double)h->attributes, h->light, (double)h->frames, (double)h->gop_frames, (double)h->run,
-        (double)h->again, h->center[0], h->center[1], h->center[2], h->refined, h->refinement[0], h->refinement[1], h->on_grid,
-        h->grid[0], h->grid[1], h->grid[2], (double)h->cells, (double)h->points, h->counted, (double)h->corner[0], (double)h->corner[1],
-        (double)h->corner[2], p->bits, p->coarser, p->exact, p->power, p->iterations, p->key_iterations, p->shift, p->springs, h->is_sequence,
+        (double)h->vertices, (double)h->faces, (double)h->blocks, (double)h->block_size, (double)h->coefficients,
+        (double)h->key_interval, h->step, h->scale, h->smoothing, (double)h->attributes, h->light, (double)h->frames,
+        (double)h->gop_frames, (double)h->run, (double)h->again, h->center[0], h->center[1], h->center[2], h->refined,
+        h->refinement[0], h->refinement[1], h->on_grid, h->grid[0], h->grid[1], h->grid[2], (double)h->cells,
+        (double)h->points, h->counted, (double)h->corner[0], (double)h->corner[1], (double)h->corner[2], p->bits,
+        p->coarser, p->exact, p->power, p->iterations, p->key_iterations, p->shift, p->springs, h->is_sequence,
     };
     memcpy(numbers, all, sizeof all);
 }

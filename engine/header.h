@@ -32,7 +32,9 @@ enum { HEADER_NUMBERS = 40 };
 void list_header(const Header *header, double *numbers);
 
 /* Blocks of a chain (M 10.1). */
-INLINE int64_t chain_length(const Header *header) { return header->key_interval > 0 ? header->key_interval : header->blocks; }
+INLINE int64_t chain_length(const Header *header) {
+    return header->key_interval > 0 ? header->key_interval : header->blocks;
+}
 
 enum { LEVELS, OCTAHEDRAL, BITS, RECOMPUTED };
 enum { MOST_ATTRIBUTES = 256, MOST_WORDS = 8, MOST_NAME = 255 };

@@ -24,7 +24,8 @@ typedef struct {
 bool begin_levels(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Arena *scratch);
 void end_layer(Layer *layer);
 /* `layer` is zero, or its levels are begun; `base` is the layer's from here on; `whole` as above. */
-bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch);
+bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole,
+    Arena *arena, Arena *scratch);
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch);
 
 /* Marks of the vertices whose steps follow from whole ones alone; empty: all. */

@@ -29,7 +29,8 @@ static bool is_text(Span bytes) {
             if ((bytes.data[i] & 0xc0) != 0x80) return false;
             value = value << 6 | (bytes.data[i] & 0x3f);
         }
-        if ((more == 2 && (value < 0x800 || (value >= 0xd800 && value < 0xe000))) || (more == 3 && (value < 0x10000 || value > 0x10ffff)))
+        if ((more == 2 && (value < 0x800 || (value >= 0xd800 && value < 0xe000)))
+            || (more == 3 && (value < 0x10000 || value > 0x10ffff)))
             return false;
     }
     return true;
@@ -42,7 +43,8 @@ static Value bytes_value(Cursor *cursor, Kind kind, int64_t size) {
 }
 
 static Value unsigned_value(uint64_t bits) {
-    return (Value){.kind = INTEGER, .whole = bits > INT64_MAX ? INT64_MAX : (int64_t)bits, .bits = bits, .number = (double)bits};
+    return (Value){.kind = INTEGER, .whole = bits > INT64_MAX ? INT64_MAX : (int64_t)bits, .bits = bits,
+        .number = (double)bits};
 }
 
 static Value negative_value(Cursor *cursor, int size) {
@@ -72,7 +74,8 @@ static Value real_value(Cursor *cursor, bool is_double) {
 
 /* A value that holds no other; what else begins with `tag` is corrupt. */
 static Value take_single(Cursor *cursor, uint8_t tag) {
-    static const uint64_t TEXTS[] = {32, 256, 65536}, BINARIES[] = {0, 256, 65536}, LONGER[] = {128, 256, 65536, UINT64_C(1) << 32};
+    static const uint64_t TEXTS[] = {32, 256, 65536}, BINARIES[] = {0, 256, 65536},
+        LONGER[] = {128, 256, 65536, UINT64_C(1) << 32};
     if (tag < 0x80) return unsigned_value(tag);
     if (tag >= 0xe0) return (Value){.kind = INTEGER, .whole = (int8_t)tag, .number = (int8_t)tag};
     if (tag >= 0xa0 && tag <= 0xbf) return bytes_value(cursor, TEXT, tag & 31);
@@ -116,7 +119,8 @@ static Value take_value(Cursor *cursor, Map *map) {
         FAIL(cursor->context, CORRUPT, "the arrays of a map have too many entries");
         return list;
     }
-    for (; count > 0 && fine(cursor->context); count--) map->item[map->items++] = take_single(cursor, take_byte(cursor));
+    for (; count > 0 && fine(cursor->context); count--)
+        map->item[map->items++] = take_single(cursor, take_byte(cursor));
     return list;
 }
 
@@ -142,7 +146,8 @@ bool parse_map(Context *context, Span payload, Map *map) {
         if (failed(context)) return false;
         if (key->kind != TEXT && (key->kind != INTEGER || key->whole < 0))
             return FAIL(context, CORRUPT, "the keys of a map must be unsigned integers or texts");
-        if (i > 0 && !ascends(key - 1, key)) return FAIL(context, CORRUPT, "the keys of a map must be of one type and ascend");
+        if (i > 0 && !ascends(key - 1, key))
+            return FAIL(context, CORRUPT, "the keys of a map must be of one type and ascend");
     }
     return at_end(&cursor);
 }
@@ -162,8 +167,10 @@ static bool refuse_unknown(Context *context, const Map *map, const Field *fields
         if (map->key[i].kind != INTEGER) return FAIL(context, CORRUPT, "the key of a field is no integer");
         const Field *field = field_of(fields, count, map->key[i].bits);
         if (field == NULL) return FAIL(context, UNSUPPORTED, "field # is unknown to this decoder", map->key[i].whole);
-        if (field->type == METHOD_FIELD && value->kind == INTEGER && value->number > field->high && value->whole <= METHODS)
-            return FAIL(context, UNSUPPORTED, "field # names method #, unknown to this decoder", field->key, value->whole);
+        if (field->type == METHOD_FIELD && value->kind == INTEGER && value->number > field->high
+            && value->whole <= METHODS)
+            return FAIL(context, UNSUPPORTED, "field # names method #, unknown to this decoder", field->key,
+                value->whole);
     }
     return true;
 }
@@ -171,7 +178,8 @@ static bool refuse_unknown(Context *context, const Map *map, const Field *fields
 /* The numbers of a value that has the type of its field. */
 static bool read_field(Context *context, const Map *map, const Field *field, const Value *value, Record *record) {
     bool is_list = field->type == INTS_FIELD || field->type == FLOATS_FIELD;
-    Kind own = field->type == FLOAT_FIELD || field->type == FLOATS_FIELD ? REAL : field->type == TEXT_FIELD ? TEXT : INTEGER;
+    Kind own = field->type == FLOAT_FIELD || field->type == FLOATS_FIELD ? REAL : field->type == TEXT_FIELD ? TEXT
+        : INTEGER;
     const Value *from = is_list && value->kind == LIST ? map->item + value->first : value;
     int64_t count = is_list && value->kind == LIST ? value->whole : 1;
     bool right = !is_list || value->kind == LIST;
@@ -200,7 +208,8 @@ static bool in_range(const Field *field, const Record *record) {
     int count = record->count[field->key];
     if (is_list && (count < field->least || count > field->most)) return false;
     for (int i = 0; i < count; i++)
-        if (!(record->number[field->key][i] >= field->low && record->number[field->key][i] <= field->high)) return false;
+        if (!(record->number[field->key][i] >= field->low && record->number[field->key][i] <= field->high))
+            return false;
     return true;
 }
 
@@ -210,11 +219,13 @@ static bool read_record(Context *context, const Map *map, const Field *fields, i
     for (int i = 0; i < map->count; i++) {
         const Field *field = field_of(fields, count, map->key[i].bits);
         if (!read_field(context, map, field, &map->value[i], record)) return false;
-        if (is_default(field, record)) return FAIL(context, CORRUPT, "field # is stored although it has its default", field->key);
+        if (is_default(field, record))
+            return FAIL(context, CORRUPT, "field # is stored although it has its default", field->key);
     }
     for (int i = 0; i < count; i++) {
         const Field *field = fields + i;
-        bool is_stored = record->stored >> field->key & 1, is_list = field->type == INTS_FIELD || field->type == FLOATS_FIELD;
+        bool is_stored = record->stored >> field->key & 1, is_list = field->type == INTS_FIELD
+            || field->type == FLOATS_FIELD;
         if (!is_stored && field->required) return FAIL(context, CORRUPT, "field # is missing", field->key);
         if (!is_stored) {
             record->count[field->key] = is_list ? field->least : 1;
@@ -222,14 +233,16 @@ static bool read_record(Context *context, const Map *map, const Field *fields, i
         }
     }
     for (int i = 0; i < count; i++)
-        if (!in_range(fields + i, record)) return FAIL(context, CORRUPT, "field # is outside its legal range", fields[i].key);
+        if (!in_range(fields + i, record))
+            return FAIL(context, CORRUPT, "field # is outside its legal range", fields[i].key);
     return true;
 }
 
 bool parse_record(Context *context, Span payload, const Field *fields, int count, Arena *scratch, Record *record) {
     Mark mark = mark_of(scratch);
     Map *map;
-    bool done = TAKE(scratch, 1, map) && parse_map(context, payload, map) && read_record(context, map, fields, count, record);
+    bool done = TAKE(scratch, 1, map) && parse_map(context, payload, map)
+        && read_record(context, map, fields, count, record);
     release_to(scratch, mark);
     return done;
 }

@@ -13,6 +13,7 @@ typedef struct {
     ConstDoubles2 loose; /* positions of those in no face, in their order */
 } Numbering;
 
-bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *header, Arena *arena, Arena *scratch, Numbering *numbering);
+bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *header, Arena *arena, Arena *scratch,
+    Numbering *numbering);
 
 #endif

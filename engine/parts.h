@@ -11,7 +11,8 @@ typedef struct {
     Doubles springs, stiffness;
     Ints starts, outer, around; /* `outer`: which of the vertices `around` each spring goes to */
     Factor factor;
-    int64_t width, first; /* columns of the dictionary; row of the first vertex around it, where rows of all parts are stacked */
+    /* columns of the dictionary; row of the first vertex around it, where rows of all parts are stacked */
+    int64_t width, first;
     double making, work;  /* bytes that making the dictionary takes; nanoseconds that it took, -1 before */
     Singles2 dictionary;  /* no rows unless it is kept */
     Mark before;

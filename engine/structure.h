@@ -29,7 +29,8 @@ typedef struct {
 
 bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph);
 /* `labels`: the part of each vertex, or no array for what follows from the graph. */
-bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch, Blocks *blocks);
+bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch,
+    Blocks *blocks);
 /* Order the rows of a block of these vertices (M 6), and find what its factorisation needs. */
 bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *patch);
 bool find_patch_fronts(Context *context, Arena *arena, Patch *patch);
@@ -37,6 +38,8 @@ bool find_patch_fronts(Context *context, Arena *arena, Patch *patch);
 INLINE ConstInts members_of(const Blocks *blocks, int64_t index, int64_t count) {
     return (ConstInts){blocks->members.data + blocks->starts.data[index], count};
 }
-INLINE int64_t size_of_block(const Blocks *blocks, int64_t index) { return blocks->starts.data[index + 1] - blocks->starts.data[index]; }
+INLINE int64_t size_of_block(const Blocks *blocks, int64_t index) {
+    return blocks->starts.data[index + 1] - blocks->starts.data[index];
+}
 
 #endif

@@ -4,7 +4,8 @@
 
 #include "engine/structure.h"
 
-bool decode_connectivity(Context *context, Span payload, const Header *header, Arena *arena, Arena *scratch, Ints2 *faces);
+bool decode_connectivity(Context *context, Span payload, const Header *header, Arena *arena, Arena *scratch,
+    Ints2 *faces);
 bool decode_labels(Context *context, Span payload, const Graph *graph, int64_t parts, Arena *scratch, Ints labels);
 
 #endif

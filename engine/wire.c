@@ -23,8 +23,9 @@ void make_sums(Sums *sums) {
 /* Eight bytes, the first the lowest. */
 INLINE uint32_t add_word(const Sums *sums, uint32_t value, uint64_t word) {
     uint32_t low = (uint32_t)word ^ value, high = (uint32_t)(word >> 32);
-    return sums->long_sums[7][low & 255] ^ sums->long_sums[6][low >> 8 & 255] ^ sums->long_sums[5][low >> 16 & 255] ^ sums->long_sums[4][low >> 24]
-        ^ sums->long_sums[3][high & 255] ^ sums->long_sums[2][high >> 8 & 255] ^ sums->long_sums[1][high >> 16 & 255] ^ sums->long_sums[0][high >> 24];
+    return sums->long_sums[7][low & 255] ^ sums->long_sums[6][low >> 8 & 255] ^ sums->long_sums[5][low >> 16 & 255]
+        ^ sums->long_sums[4][low >> 24] ^ sums->long_sums[3][high & 255] ^ sums->long_sums[2][high >> 8 & 255]
+        ^ sums->long_sums[1][high >> 16 & 255] ^ sums->long_sums[0][high >> 24];
 }
 
 uint32_t crc32_of(const Sums *sums, Span bytes, uint32_t before) {
@@ -99,5 +100,6 @@ Span take_span(Cursor *cursor, int64_t count) {
 
 bool at_end(const Cursor *cursor) {
     if (failed(cursor->context)) return false;
-    return cursor->left.size == 0 || FAIL(cursor->context, CORRUPT, "a payload has # bytes too many", cursor->left.size);
+    return cursor->left.size == 0
+        || FAIL(cursor->context, CORRUPT, "a payload has # bytes too many", cursor->left.size);
 }

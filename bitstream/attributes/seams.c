@@ -2,7 +2,7 @@
 #include "bitstream/attributes/attributes.h"
 
 enum {
-    NO_SEAM, SEAM, OPEN, UNKNOWN, /* an edge, as the corner that faces it has it; OPEN: no corner faces it from beyond */
+    NO_SEAM, SEAM, OPEN, UNKNOWN, /* an edge, as seen by the corner that faces it; OPEN: none faces it from beyond */
     KNOWN = 3, WRITTEN = 4,       /* what both sides know of it; that it is a seam, which only a writer knows yet */
     INPUTS = 4,
     ENDS = 32, /* states of a vertex */
@@ -21,10 +21,11 @@ INLINE int state_of(const int32_t *end) {
     return (int)(least(end[KNOWN_SEAMS], 3) * 8 + least(end[LEFT], 3) * 2 + (end[BORDER] > 0));
 }
 
-static bool code_edge(RangeCoder *coder, const Mixer *mixer, const Corners *c, const uint8_t *seams, const uint8_t *others,
-    int32_t *ends, int32_t k, bool seam) {
+static bool code_edge(RangeCoder *coder, const Mixer *mixer, const Corners *c, const uint8_t *seams,
+    const uint8_t *others, int32_t *ends, int32_t k, bool seam) {
     int32_t beyond = c->opposite.data[k];
-    int32_t *u = ends + END_COLUMNS * c->faces.data[next_corner(k)], *v = ends + END_COLUMNS * c->faces.data[previous_corner(k)];
+    int32_t *u = ends + END_COLUMNS * c->faces.data[next_corner(k)],
+        *v = ends + END_COLUMNS * c->faces.data[previous_corner(k)];
     u[LEFT]--;
     v[LEFT]--;
     int su = state_of(u), sv = state_of(v);
@@ -44,9 +45,9 @@ static bool code_edge(RangeCoder *coder, const Mixer *mixer, const Corners *c, c
     return seam;
 }
 
-/* Code for each edge that two corners face whether it is a seam; `seams` has an entry for each corner, for the edge that
- * it faces. `ends`: three numbers for each vertex, scratch. Returns how many seams
- * there are, or -1 where the data is beyond its end. */
+/* Code for each edge that two corners face whether it is a seam; `seams` has an entry for each corner, for the edge
+ * that it faces. `ends`: three numbers for each vertex, scratch. Returns how many seams there are, or -1 where the data
+ * is beyond its end. */
 int64_t code_edges(Coder given, Bank bank, Corners corners, Bytes seams, ConstBytes others, Ints2 ends) {
     RangeCoder coder;
     Mixer mixer;

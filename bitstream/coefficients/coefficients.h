@@ -49,8 +49,8 @@ INLINE int situation(const Chain *chain, int coordinate) { return coordinate + (
 /* What is remembered of a level. */
 INLINE int32_t remembered(int64_t level) { return (int32_t)least(level < 0 ? -level : level, CEILING); }
 
-/* The inputs of the expectations of coefficient `d` of a row (M 9.4). `now`, `before` and `usual` are that row of three;
- * known are all rows above it, and the coordinates before its own in its row. */
+/* The inputs of the expectations of coefficient `d` of a row (M 9.4). `now`, `before` and `usual` are that row of
+ * three; known are all rows above it, and the coordinates before its own in its row. */
 INLINE void gather_inputs(
     const int32_t *now, const int32_t *before, const int32_t *usual, int64_t row, int d, int32_t *out) {
     int e = d == 2 ? 0 : d + 1, f = d == 0 ? 2 : d - 1;
@@ -125,7 +125,9 @@ INLINE int size_node(int size, int grid) {
 INLINE int first_bit_node(int size) { return FIRST_NODES + (size < BIT_SIZES ? size : BIT_SIZES); }
 
 /* Node of the bit below `first`, for `size` from 3 on. */
-INLINE int second_bit_node(int size, int first) { return SECOND_NODES + 2 * (size < BIT_SIZES ? size : BIT_SIZES) + first; }
+INLINE int second_bit_node(int size, int first) {
+    return SECOND_NODES + 2 * (size < BIT_SIZES ? size : BIT_SIZES) + first;
+}
 
 /* Weights of all expectations, a row for each expectation and situation. */
 INLINE bool are_expectations(ConstInts2 weights) {
@@ -151,9 +153,8 @@ void points_of_levels(ConstInts2 levels, Ints2 points);
 /* Entropy coding of a sequence's levels. See matrices.py. */
 enum { PRICED = 6 }; /* magnitudes whose prices are computed */
 
-int64_t code_matrix(
-    Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, int64_t stair, int64_t turn,
-    int64_t few, Longs slow);
+int64_t code_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
+    int64_t stair, int64_t turn, int64_t few, Longs slow);
 int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
     int64_t stair, int64_t turn, int64_t few, Longs slow, ConstLongs costs, Shorts prices);
 
@@ -161,7 +162,8 @@ int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference,
 int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, ConstLongs2 targets, double price,
     ConstLongs costs, Ints2 ways, Bytes2 origins, Ints2 levels, Doubles kept);
 
-/* The learnt numbers that adaptive coefficients start from: the bytes of spec/priors.bin, which the build turns into C. */
+/* The learnt numbers that adaptive coefficients start from: the bytes of spec/priors.bin, which the build turns into
+ * C. */
 #define PRIORS_BYTES 12120
 
 extern const unsigned char PRIORS[PRIORS_BYTES];

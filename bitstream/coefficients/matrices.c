@@ -43,7 +43,8 @@ INLINE int64_t at(const int32_t *data, int64_t rows, int64_t columns, int64_t ro
 /* Sum of the magnitudes in some rows, of those that there are. */
 INLINE int64_t sum_of(const int32_t *data, int64_t rows, int64_t columns, int64_t first, int64_t end) {
     int64_t sum = 0;
-    for (int64_t k = columns * (first < 0 ? 0 : first); k < columns * least(end, rows); k++) sum += magnitude_of(data[k]);
+    for (int64_t k = columns * (first < 0 ? 0 : first); k < columns * least(end, rows); k++)
+        sum += magnitude_of(data[k]);
     return sum;
 }
 
@@ -51,8 +52,8 @@ INLINE int zero_node(int grid) { return grid ? OTHER_ZERO : 0; }
 INLINE int one_node(int grid) { return grid ? OTHER_ONE : 2; }
 
 /* Code whether row j or one behind it has levels (S 4.2); `behind` is the sum of the reference from row j on. */
-INLINE int code_more(RangeCoder *coder, const Mixer *mixer, Ints2 levels, ConstInts2 reference, int64_t j, int64_t behind,
-    int64_t place, int64_t selector, int more) {
+INLINE int code_more(RangeCoder *coder, const Mixer *mixer, Ints2 levels, ConstInts2 reference, int64_t j,
+    int64_t behind, int64_t place, int64_t selector, int more) {
     int64_t lately = class_of(sum_of(levels.data, levels.rows, levels.columns, j - TOGETHER, j));
     int64_t next = class_of(sum_of(reference.data, reference.rows, reference.columns, j, j + TOGETHER));
     int64_t left = class_of(behind);
@@ -80,7 +81,8 @@ INLINE int32_t code_level(
     return (int32_t)(negative ? -magnitude : magnitude);
 }
 
-INLINE int64_t cost_of(const Mixer *mixer, const int64_t *costs, const int64_t *contexts, int64_t selector, int node, int bit) {
+INLINE int64_t cost_of(const Mixer *mixer, const int64_t *costs, const int64_t *contexts, int64_t selector, int node,
+    int bit) {
     int32_t stretched[INPUTS];
     uint32_t probability = mixed_probability(mixer, INPUTS, contexts, node, selector, stretched);
     return costs[(bit ? probability : ONE - probability) >> COST_SHIFT];
@@ -103,9 +105,9 @@ INLINE void note_prices(
     }
 }
 
-/* Code rows, as many together as it takes to reach the last of `rows`; `prices` is filled if there are costs, of all. Of
- * the first row `lead` columns are coded, of each next one `stair` more; if row `turn` is coded, how many columns, `few`,
- * of it and those behind it (S 4.2). The others are 0. */
+/* Code rows, as many together as it takes to reach the last of `rows`; `prices` is filled if there are costs, of all.
+ * Of the first row `lead` columns are coded, of each next one `stair` more; if row `turn` is coded, how many columns,
+ * `few`, of it and those behind it (S 4.2). The others are 0. */
 INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
     int64_t stair, int64_t turn, int64_t few, Longs slow, const int64_t *costs, int16_t *prices) {
     RangeCoder coder;
@@ -164,10 +166,10 @@ INLINE int64_t follow_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 re
     return j;
 }
 
-/* Code the first of some rows, those that have levels among them; returns how many were coded. `slow` is scratch, an entry a
- * column. */
-int64_t code_matrix(
-    Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead, int64_t stair, int64_t turn, int64_t few, Longs slow) {
+/* Code the first of some rows, those that have levels among them; returns how many were coded. `slow` is scratch, an
+ * entry a column. */
+int64_t code_matrix(Coder given, Bank bank, Ints2 levels, ConstInts2 reference, int64_t rows, int64_t lead,
+    int64_t stair, int64_t turn, int64_t few, Longs slow) {
     return follow_matrix(given, bank, levels, reference, rows, lead, stair, turn, few, slow, 0, 0);
 }
 

@@ -72,8 +72,8 @@ static void trace_back(const Survivor *last, ConstLongs2 targets, Ints2 ways, By
 
 /* The best levels for all rows, and the least error and bits together up to each row.
  *
- * Targets are in 1 / TARGET_UNIT of a step. `costs` are of probabilities, see COST_SHIFT; `ways` and `origins` are scratch
- * with a row of STATES for each coefficient. */
+ * Targets are in 1 / TARGET_UNIT of a step. `costs` are of probabilities, see COST_SHIFT; `ways` and `origins` are
+ * scratch with a row of STATES for each coefficient. */
 KERNEL int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, ConstLongs2 targets, double price,
     ConstLongs costs, Ints2 ways, Bytes2 origins, Ints2 levels, Doubles kept) {
     Mixer mixer;

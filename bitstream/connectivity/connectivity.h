@@ -32,8 +32,8 @@ typedef struct {
 /* False for arrays that are no front. */
 INLINE bool open_front(Polygons *front, Front given) {
     *front = (Polygons){(Node *)given.nodes.data, given.nodes.rows, given.heads.data};
-    return given.nodes.columns == NODE_COLUMNS && given.nodes.rows <= INT32_MAX && given.heads.size == HEADS && front->heads[MADE] >= 0
-        && front->heads[MADE] <= front->capacity;
+    return given.nodes.columns == NODE_COLUMNS && given.nodes.rows <= INT32_MAX && given.heads.size == HEADS
+        && front->heads[MADE] >= 0 && front->heads[MADE] <= front->capacity;
 }
 
 INLINE int bucket_of(int32_t free) { return free < BUCKETS - 1 ? free : BUCKETS - 1; }

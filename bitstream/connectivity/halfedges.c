@@ -128,7 +128,8 @@ int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twi
     return dummies;
 }
 
-/* The numbers that a decoder gives vertices: in the order of their first appearance (specification, C 7.2 and C 8.1). */
+/* The numbers that a decoder gives vertices: in the order of their first appearance (specification, C 7.2 and C
+ * 8.1). */
 
 /* The distinct values in the order of their first appearance, and the number of each value there, -1 if it does not
  * occur; both arrays have an entry for each possible value. Returns how many there are. */

@@ -4,8 +4,8 @@
 enum { MOST_CORNERS = 1 << 30, QUEUES = 4 };
 
 bool fits_corners(const Corners *c) {
-    return c->faces.columns == 3 && c->faces.rows <= MOST_CORNERS / 3 && c->starts.size >= 1
-        && c->corners.size == 3 * c->faces.rows && c->opposite.size == c->corners.size && c->rank.size == c->starts.size - 1;
+    return c->faces.columns == 3 && c->faces.rows <= MOST_CORNERS / 3 && c->starts.size >= 1 && c->corners.size == 3
+        * c->faces.rows && c->opposite.size == c->corners.size && c->rank.size == c->starts.size - 1;
 }
 
 /* The corners of each vertex, in order. */

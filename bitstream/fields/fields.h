@@ -129,7 +129,8 @@ enum {
 };
 
 typedef struct { /* a row of what Python keeps */
-    int64_t square[MOST_TERMS][MOST_TERMS], product[MOST_TERMS]; /* normal equations of the samples; of `square`, the lower half */
+    /* normal equations of the samples; of `square`, the lower half */
+    int64_t square[MOST_TERMS][MOST_TERMS], product[MOST_TERMS];
     int64_t weight[MOST_TERMS], start[MOST_TERMS];
 } Learner;
 
@@ -217,7 +218,8 @@ enum { MOST_SPAN = 1 << 20 };
 /* Code row number i; false if a value is none. */
 typedef bool CodeRow(void *work, int64_t i);
 
-/* Code `count` rows from `first` on, as far as there is room for `bytes` (writing) or sense (reading); returns how many. */
+/* Code `count` rows from `first` on, as far as there is room for `bytes` (writing) or sense (reading); returns how
+ * many. */
 INLINE int64_t code_rows(Coder given, RangeCoder *coder, int64_t rows, int64_t first, int64_t count, int64_t bytes,
     CodeRow *code_row, void *work) {
     if (!open_coder(coder, given) || first < 0 || count < 0 || first > rows - count) return MISUSED;
@@ -235,7 +237,8 @@ bool fits_seen(ConstInts largest, Longs2 seen);
 int32_t error_at(const Ints2 *gaps, int32_t v);
 /* Tell the neighbours of v, which is known now. */
 void pass_on(const Corners *corners, const Ints2 *values, const Longs2 *sums, int32_t v);
-/* What component j would be, less `otherwise`, if it balanced the others around neighbours where it is all that is missing. */
+/* What component j would be, less `otherwise`, if it balanced the others around neighbours where it is all that is
+ * missing. */
 int32_t balance(const Corners *corners, const Ints2 *values, const Longs2 *sums, const Around *around, int j,
     int32_t otherwise);
 
@@ -289,8 +292,8 @@ typedef struct {
     Longs2 known; /* 3 x values: the last float in each cell of an axis, or `NO_FLOAT` */
 } Floats;
 
-int64_t code_floats(Coder coder, Floats floats, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest, ConstLongs2 high,
-                    Longs2 chosen);
+int64_t code_floats(Coder coder, Floats floats, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest,
+    ConstLongs2 high, Longs2 chosen);
 
 /* Levels around a prediction. See levels.c. */
 /* As Python keeps it; each n x 3 but the last. */

@@ -108,7 +108,8 @@ static void average(const Grid *g, int32_t last, Place *p) {
             error += size_of(g->gaps.data[AXES * (int64_t)r->neighbour[i] + j]);
         }
         int32_t most = g->largest.data[j];
-        p->mean[j] = r->neighbours > 0 ? divided(near, r->neighbours) : last < 0 ? 0 : x[AXES * (int64_t)last + j] * FINE;
+        p->mean[j] = r->neighbours > 0 ? divided(near, r->neighbours) : last < 0 ? 0
+            : x[AXES * (int64_t)last + j] * FINE;
         p->error_near[j] = r->neighbours > 0 ? divided(error, r->neighbours) : last < 0 ? FINE * most : most;
         p->base[j] = r->flaps > 0 ? divided(across, r->flaps) : p->mean[j];
         p->apart[j] = r->flaps > 1 ? size_of(p->across[0][j] - p->across[1][j]) : 0;

@@ -19,7 +19,8 @@ enum {
     LEVEL_BYTES = 64, /* more than a level can take */
 };
 
-typedef struct { /* n, as what a number is multiplied with and shifted by instead of divided by n: processors divide slowly */
+/* n, as what a number is multiplied with and shifted by instead of divided by n: processors divide slowly */
+typedef struct {
     uint64_t factor;
     int shift;
     uint32_t half;
@@ -62,7 +63,8 @@ INLINE int32_t mean_of(int64_t sum, Divisor n) {
 static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p) {
     gather_around(corners, v, &p->around);
     const Around *r = &p->around;
-    p->near = divisor_of(r->neighbours), p->with_own = divisor_of(r->neighbours + 1), p->all_flaps = divisor_of(r->flaps);
+    p->near = divisor_of(r->neighbours), p->with_own = divisor_of(r->neighbours + 1),
+        p->all_flaps = divisor_of(r->flaps);
     p->flaps = (int32_t)least(r->flaps, 3);
     p->valence = within(faces_at(corners, v) - 3, 0, 7);
     p->latest = p->earliest = r->neighbours > 0 ? r->neighbour[0] : v;
@@ -79,7 +81,8 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
         across += row_at(&l->levels, r->flap[i].a) + row_at(&l->levels, r->flap[i].b) - tip;
         tips += tip;
     }
-    p->sum = sum, p->size = size, p->gaps = gaps, p->errors = errors, p->means = means, p->across = across, p->tips = tips;
+    p->sum = sum, p->size = size, p->gaps = gaps, p->errors = errors, p->means = means, p->across = across,
+        p->tips = tips;
     p->busy = r->neighbours > 0 ? mean_of((int64_t)(size[0] + size[1] + size[2]) * FINE, p->near) : 4 * FINE;
 }
 
@@ -113,7 +116,8 @@ INLINE int32_t code_level(const Level *w, int32_t centre, int32_t off, int k, in
 
 INLINE int32_t near_to(int32_t x, int32_t centre) { return within((int64_t)x - centre, -3, 3) + 3; }
 
-static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t v, int j, const Place *p, int32_t *own) {
+static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t v, int j, const Place *p,
+    int32_t *own) {
     const Around *r = &p->around;
     const int64_t axes = AXES;
     int32_t *x = l->levels.data + j, near = r->neighbours;
@@ -138,7 +142,8 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     int32_t aside = (size_of(off) > 1) + (size_of(off) > 3) + (size_of(off) > 6);
     int32_t a = (int32_t)least(size_class(typical), 23), s = (int32_t)least(size_class(error_near), 23);
     int32_t b = (int32_t)least(size_class(p->busy), 23), o = (int32_t)least(size_class(*own * 4), 11);
-    int32_t around = (int32_t)least(near, 5) * 6 + (int32_t)least(p->valence, 5), side = off < 0 ? 3 - aside : 3 + aside;
+    int32_t around = (int32_t)least(near, 5) * 6 + (int32_t)least(p->valence, 5), side = off < 0 ? 3 - aside
+        : 3 + aside;
     int32_t context[INPUTS] = {
         (int32_t)least(a, 20) * 24 + s,
         s * 16 + p->flaps * 4 + aside,

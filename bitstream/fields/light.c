@@ -183,8 +183,8 @@ static bool code_cells(void *work, int64_t i) {
 
 static bool cells_shaped(ConstLongs2 x, int64_t rows) { return x.rows == rows && x.columns == AXES; }
 
-/* Code the numbers of floats, from `low` to below `high`, of values of a grid: each may be the latest of its value, or else,
- * where the value is new, the `nearest` to its place. Returns of how many vertices. */
+/* Code the numbers of floats, from `low` to below `high`, of values of a grid: each may be the latest of its value, or
+ * else, where the value is new, the `nearest` to its place. Returns of how many vertices. */
 int64_t code_floats(Coder given, Floats f, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest, ConstLongs2 high,
                     Longs2 chosen) {
     int64_t rows = values.rows;

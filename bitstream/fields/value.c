@@ -183,7 +183,8 @@ INLINE int64_t code_distance(
 INLINE void learn_errors(const Work *w, int32_t value) {
     const Expectation *e = w->e;
     for (int j = 0; j < PREDICTIONS; j++) {
-        learn_slot(w->model->hits.data + j * HIT_CONTEXTS + e->hit_context, whole(e->prediction[j]) == value, HIT_LIMIT);
+        learn_slot(w->model->hits.data + j * HIT_CONTEXTS + e->hit_context, whole(e->prediction[j]) == value,
+            HIT_LIMIT);
         int32_t *scale = w->model->scales.data + 2 * (j * SCALE_CONTEXTS + e->scale_context);
         int64_t error = (int64_t)value * FINE - e->prediction[j];
         int64_t usual = scale[1] > 0 ? scale[0] : (int64_t)first_scale(e) << 8;

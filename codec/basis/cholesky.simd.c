@@ -1,8 +1,8 @@
 /* Sparse Cholesky factorisation front by front: L + delta I = P^T C D C^T P, the R^-1 of the paper's section 4.
  *
  * A front gets its part of the matrix, eliminates its own steps, and takes what they leave to the steps of its border
- * straight from the fronts that own those. Every entry is its number in the matrix less the terms of all steps before it,
- * one after the other (specification, M 7.6): fronts do not show.
+ * straight from the fronts that own those. Every entry is its number in the matrix less the terms of all steps before
+ * it, one after the other (specification, M 7.6): fronts do not show.
  */
 #include "codec/basis/vectors.h"
 
@@ -26,9 +26,10 @@ INLINE void eliminate(const int vectors, int64_t p, float *matrix, int64_t apart
     EACH(v, vectors) store(row + v * WIDTH, lanes[v]);
 }
 
-/* Part of one or two rows, `apart` from each other, less what the steps of a front take from its columns i and i + 1. */
-INLINE void leave(const int vectors, int64_t p, const int rows, const float *matrix, int64_t apart, const float *inverse,
-                  int64_t own, int64_t i, float *result) {
+/* Part of one or two rows, `apart` from each other, less what the steps of a front take from its columns i and i +
+ * 1. */
+INLINE void leave(const int vectors, int64_t p, const int rows, const float *matrix, int64_t apart,
+    const float *inverse, int64_t own, int64_t i, float *result) {
     Vector lanes[2][VECTORS];
     EACH(r, rows) EACH(v, vectors) lanes[r][v] = load(result + r * apart + p + v * WIDTH);
     for (int64_t k = 0; k < own; k++) {
@@ -41,10 +42,11 @@ INLINE void leave(const int vectors, int64_t p, const int rows, const float *mat
     EACH(r, rows) EACH(v, vectors) store(result + r * apart + p + v * WIDTH, lanes[r][v]);
 }
 
-/* Take from one or two rows of a target's matrix what the steps of a front take from its columns i and i + 1. `places` says
- * which column of the target each column of the front up to `end` is; `left` is scratch. */
-INLINE void take_from(const int rows, const Fronts *fronts, const Front *front, const float *matrix, const float *inverse,
-                      int64_t i, int64_t end, const Front *target, float *matrices, const uint32_t *places, float *left) {
+/* Take from one or two rows of a target's matrix what the steps of a front take from its columns i and i + 1. `places`
+ * says which column of the target each column of the front up to `end` is; `left` is scratch. */
+INLINE void take_from(const int rows, const Fronts *fronts, const Front *front, const float *matrix,
+    const float *inverse, int64_t i, int64_t end, const Front *target, float *matrices, const uint32_t *places,
+    float *left) {
     const uint32_t *border = fronts->borders.data + front->edge - front->own;
     int64_t apart = front->apart;
     float *to[2];
@@ -53,13 +55,16 @@ INLINE void take_from(const int rows, const Fronts *fronts, const Front *front, 
         for (int64_t j = i + r; j < end; j++) left[r * apart + j] = to[r][places[j]];
     }
     for (int64_t p = i / WIDTH * WIDTH; p < end; p += LANES)
-        WITH_VECTORS(least(VECTORS, (whole_vectors(end) - p) / WIDTH), p, leave, rows, matrix, apart, inverse, front->own, i, left);
+        WITH_VECTORS(least(VECTORS, (whole_vectors(end) - p) / WIDTH), p, leave, rows, matrix, apart, inverse,
+            front->own, i, left);
     EACH(r, rows) for (int64_t j = i + r; j < end; j++) to[r][places[j]] = left[r * apart + j];
 }
 
 /* Which column of a target's matrix each column of a front from i to `end` is: both are in ascending order. */
-INLINE void find_places(const Fronts *fronts, const Front *front, int64_t i, int64_t end, const Front *target, uint32_t *places) {
-    const uint32_t *border = fronts->borders.data + front->edge - front->own, *theirs = fronts->borders.data + target->edge;
+INLINE void find_places(const Fronts *fronts, const Front *front, int64_t i, int64_t end, const Front *target,
+    uint32_t *places) {
+    const uint32_t *border = fronts->borders.data + front->edge - front->own,
+        *theirs = fronts->borders.data + target->edge;
     int64_t limit = target->first + target->own, last = target->width - target->own - 1, k = 0;
     for (; i < end && border[i] < limit; i++) places[i] = border[i] - (uint32_t)target->first;
     for (; i < end; i++) {
@@ -68,9 +73,9 @@ INLINE void find_places(const Fronts *fronts, const Front *front, int64_t i, int
     }
 }
 
-/* Factorise the matrix that has `diagonal`, and minus its weight, one without any, for every edge, to the columns of -C, as
- * rows of the fronts' matrices, and D^-1. `column` is scratch of n + 1, `scratch` of three rows of a front's matrix, at most
- * 3 (n + 16), and 15 more. */
+/* Factorise the matrix that has `diagonal`, and minus its weight, one without any, for every edge, to the columns of
+ * -C, as rows of the fronts' matrices, and D^-1. `column` is scratch of n + 1, `scratch` of three rows of a front's
+ * matrix, at most 3 (n + 16), and 15 more. */
 void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal,
                              Fronts fronts, Words column, Singles scratch, Singles values, Singles inverse) {
     int64_t n = fronts.rows.size, count = fronts.firsts.size - 1, filled = fronts.places.data[count];
@@ -120,8 +125,8 @@ void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubl
 /* Forward and back substitution for all columns at once: R^z X, with R = (C D C^T)^-1 (paper, section 4). */
 
 /* Rows `start` to `end` of a panel, less what some rows of a front take of each; these stay in registers. */
-INLINE void take_rows(const int vectors, const int rows, Vector taken[ROWS][VECTORS], const float *entries, int64_t apart,
-                      const uint32_t *border, int64_t start, int64_t end, float *x, int64_t lane) {
+INLINE void take_rows(const int vectors, const int rows, Vector taken[ROWS][VECTORS], const float *entries,
+    int64_t apart, const uint32_t *border, int64_t start, int64_t end, float *x, int64_t lane) {
     for (int64_t j = start; j < end; j++) {
         float *row = x + (border ? border[j] : j) * lane;
         Vector lanes[VECTORS];
@@ -134,8 +139,8 @@ INLINE void take_rows(const int vectors, const int rows, Vector taken[ROWS][VECT
     }
 }
 
-/* C X = B for successive rows of a front from its row k on: what they take of each other, of the later rows of the front,
- * and of its border. */
+/* C X = B for successive rows of a front from its row k on: what they take of each other, of the later rows of the
+ * front, and of its border. */
 INLINE void take_forward(const int vectors, const int rows, int64_t lane, const Front *front, int64_t k,
                          const uint32_t *border, const float *matrix, float *x) {
     Vector taken[ROWS][VECTORS];

@@ -1,13 +1,13 @@
 /* Columns that complete others to a square matrix with columns at right angles (specification, M 8.7).
  *
- * With U the h columns that are there, E the first h columns of I, and A = I + E^T U, the matrix I - (U + E) A^-T (U + E)^T
- * is orthogonal and takes E to -U; so its columns from h on are orthogonal to U. A has a symmetric part that is not
- * indefinite, which is why it is factorised without exchanges.
+ * With U the h columns that are there, E the first h columns of I, and A = I + E^T U, the matrix
+ * I - (U + E) A^-T (U + E)^T is orthogonal and takes E to -U; so its columns from h on are orthogonal to U. A has a
+ * symmetric part that is not indefinite, which is why it is factorised without exchanges.
  */
 #include "codec/basis/vectors.h"
 
-/* A^T = L R, of a multiple of ROWS rows, with the identity behind those that there are; the rows of a panel; and as many
- * rows of U + E as are taken at a time. */
+/* A^T = L R, of a multiple of ROWS rows, with the identity behind those that there are; the rows of a panel; and as
+ * many rows of U + E as are taken at a time. */
 typedef struct {
     int64_t size;
     float *lower, *upper, *panel, *some;
@@ -85,14 +85,17 @@ static void solve_panel(Completion own) {
         const float *left = own.upper + i * size + i;
         take_rows(left, size, rows, size - i - 1, ROWS - 1, rows);
         for (int64_t r = ROWS - 1; r >= 0; r--) {
-            for (int64_t k = ROWS - 1; k > r; k--) take_row(rows + r * LANES, left[r * size + k], rows + k * LANES, LANES);
+            for (int64_t k = ROWS - 1; k > r; k--)
+                take_row(rows + r * LANES, left[r * size + k], rows + k * LANES, LANES);
             float scale = 1.0f / left[r * size + r];
-            for (int64_t b = 0; b < LANES; b += WIDTH) store(rows + r * LANES + b, scaled(load(rows + r * LANES + b), scale));
+            for (int64_t b = 0; b < LANES; b += WIDTH)
+                store(rows + r * LANES + b, scaled(load(rows + r * LANES + b), scale));
         }
     }
 }
 
-/* Fill `whole`, first of all by the columns that are there, `first`. Returns whether A has no pivot below `least_pivot`. */
+/* Fill `whole`, first of all by the columns that are there, `first`. Returns whether A has no pivot below
+ * `least_pivot`. */
 int64_t LEVEL(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole) {
     int64_t h = first.columns, n = first.rows, c = whole.columns;
     if (whole.rows != n || c < h || c > n || scratch.size < LEVEL(completion_space)(h)) return MISUSED;

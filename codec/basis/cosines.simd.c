@@ -15,8 +15,8 @@ INLINE Part series(Part x, const int order) {
     return value;
 }
 
-/* Entry k of the table is cos(pi k / (2 n)) for n `rows`: from the cosine up to pi / 4, from the sine of what is left to
- * pi / 2 beyond. */
+/* Entry k of the table is cos(pi k / (2 n)) for n `rows`: from the cosine up to pi / 4, from the sine of what is left
+ * to pi / 2 beyond. */
 INLINE void make_table(int64_t rows, double *table) {
     Part along;
     EACH(i, REGISTER) along[i] = i;

@@ -52,8 +52,9 @@ static int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, In
 
 typedef uint64_t StepBits __attribute__((aligned(4), may_alias));
 
-/* Sets of steps, of `words` words each. A set waits for the front whose step is its first after the front that left it. That
- * front is a separator of a part around: sets wait for one front of each level at most, and those are fewer than 31. */
+/* Sets of steps, of `words` words each. A set waits for the front whose step is its first after the front that left it.
+ * That front is a separator of a part around: sets wait for one front of each level at most, and those are fewer than
+ * 31. */
 typedef struct {
     StepBits *bits;
     int64_t words;
@@ -92,10 +93,11 @@ static void leave_set(Sets *sets, uint32_t set, int64_t from, uint32_t owner) {
 /* The borders of the fronts that `dissect` found, and all else that `Fronts` holds.
  *
  * Returns the size of `borders`; -1 if there is no room for them; -2 if a factorisation takes more operations than
- * `most_work`, or rows are not in the order of a bisection. `scratch` has room for 3 n, `starts` and `places` for t + 1.
+ * `most_work`, or rows are not in the order of a bisection. `scratch` has room for 3 n, `starts` and `places` for t +
+ * 1.
  */
-static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, ConstWords firsts, double most_work,
-                     Words scratch, Words steps, Words owners, Words starts, Words borders, Words places) {
+static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, ConstWords firsts,
+    double most_work, Words scratch, Words steps, Words owners, Words starts, Words borders, Words places) {
     int64_t n = rows.size, count = firsts.size - 1;
     Sets sets = open_sets(scratch.data, n);
     for (int64_t t = 0; t < count; t++) {
@@ -137,14 +139,14 @@ static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords 
     return size;
 }
 
-/* All that `Fronts` holds, of a graph of n rows in bisection order: `dissect`, `find_borders`, and of each front the own
- * steps times the width, once and twice, summed. Returns how many fronts there are, or what `find_borders` does where that
- * is below zero. `firsts`, `starts` and `places` have room for n + 1, `scratch` for 3 n. */
+/* All that `Fronts` holds, of a graph of n rows in bisection order: `dissect`, `find_borders`, and of each front the
+ * own steps times the width, once and twice, summed. Returns how many fronts there are, or what `find_borders` does
+ * where that is below zero. `firsts`, `starts` and `places` have room for n + 1, `scratch` for 3 n. */
 int64_t find_fronts(ConstInts offsets, ConstInts neighbours, int64_t leaf, double most_work, Words scratch, Words rows,
                     Words steps, Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums) {
     int64_t n = offsets.size - 1;
-    if (!fits_graph(offsets, neighbours) || scratch.size < 3 * n || rows.size != n || steps.size != n || owners.size != n || firsts.size != n + 1 ||
-        starts.size != n + 1 || places.size != n + 1 || sums.size != 2)
+    if (!fits_graph(offsets, neighbours) || scratch.size < 3 * n || rows.size != n || steps.size != n
+        || owners.size != n || firsts.size != n + 1 || starts.size != n + 1 || places.size != n + 1 || sums.size != 2)
         return MISUSED;
     int64_t count = dissect(offsets, neighbours, leaf, (Ints){(int32_t *)scratch.data, n}, rows, firsts);
     for (int64_t t = 0; t <= count; t++) firsts.data[t] = firsts.data[n - count + t];

@@ -1,4 +1,5 @@
-/* Orthogonal iterations, U(t) = Onorm(R^z U(t-1)) (paper, Algorithm 1; specification, M 8.4), Onorm after every solution. */
+/* Orthogonal iterations, U(t) = Onorm(R^z U(t-1)) (paper, Algorithm 1; specification, M 8.4), Onorm after every
+ * solution. */
 #include "codec/basis/vectors.h"
 
 /* Between a matrix row by row and its panels, the rows in any order. */
@@ -54,8 +55,7 @@ INLINE void gram_tile(const int vectors, const int rows, const float *left, int6
     EACH(i, rows)
         EACH(v, vectors) sums[i][v] = zeros();
     for (int64_t r = 0; r < size; r++, left += left_apart, right += right_apart)
-        EACH(i, rows)
-            EACH(v, vectors) sums[i][v] = add_scaled(sums[i][v], left[i], load(right + v * WIDTH));
+        EACH(i, rows) EACH(v, vectors) sums[i][v] = add_scaled(sums[i][v], left[i], load(right + v * WIDTH));
     EACH(i, rows)
         EACH(v, vectors) store(result + i * apart + v * WIDTH, sums[i][v]);
 }
@@ -93,14 +93,13 @@ INLINE void reduce_row(const int vectors, float *panel, int64_t apart, int64_t j
     Vector row[VECTORS];
     EACH(v, vectors) row[v] = load(panel + j * apart + v * WIDTH);
     for (int64_t k = 0; k < j; k++)
-        EACH(v, vectors)
-            row[v] = add_scaled(row[v], -column[k * apart], load(panel + k * apart + v * WIDTH));
+        EACH(v, vectors) row[v] = add_scaled(row[v], -column[k * apart], load(panel + k * apart + v * WIDTH));
     EACH(v, vectors) store(panel + j * apart + v * WIDTH, row[v]);
 }
 
 /* Overwrite the first c rows of G = X^T X by the upper triangular C with G = C^T C, but for its diagonal, where it has
- * the inverse; nothing below the diagonal is used. Returns how many columns there are before one of which little is left
- * of the squared length that it had. */
+ * the inverse; nothing below the diagonal is used. Returns how many columns there are before one of which little is
+ * left of the squared length that it had. */
 static int64_t factorize_gram(float *product, int64_t apart, int64_t c, const float *lengths) {
     for (int64_t j = 0; j < c; j++) {
         float *row = product + j * apart;
@@ -140,8 +139,8 @@ static void invert_triangle(const float *triangle, int64_t apart, int64_t good, 
 }
 
 /* Add to some rows of a result, from vector `from` on, the terms of `size` columns of X. */
-INLINE void add_terms(const int vectors, const int from, Vector sums[ROWS][VECTORS], const float *left, int64_t left_apart,
-                      const float *t, int64_t t_apart, int64_t size) {
+INLINE void add_terms(const int vectors, const int from, Vector sums[ROWS][VECTORS], const float *left,
+    int64_t left_apart, const float *t, int64_t t_apart, int64_t size) {
     for (int64_t k = 0; k < size; k++, t += t_apart)
         EACH(i, ROWS) EACH(v, vectors - from)
             sums[i][from + v] = add_scaled(sums[i][from + v], left[i * left_apart + k], load(t + (from + v) * WIDTH));
@@ -267,8 +266,8 @@ static bool clean_column(Panels *panels, int64_t n, int64_t j, const uint32_t *o
 /* What `iterate` returns: U is there; more columns have to be made orthonormal one by one; they cannot be. */
 enum { DONE, NEEDS_CARE, LOST };
 
-/* Overwrites X, of n rows in some order and c columns, by Onorm(X); takes those that are made orthonormal one by one from
- * `care`. */
+/* Overwrites X, of n rows in some order and c columns, by Onorm(X); takes those that are made orthonormal one by one
+ * from `care`. */
 static int64_t onorm(Panels *panels, int64_t n, int64_t c, int64_t *care, const uint32_t *order, float *scratch) {
     float *triangle = scratch, *other = triangle + LANES * LANES, *lengths = other + LANES * LANES;
     float *rest = lengths + panels->columns;
@@ -294,15 +293,15 @@ INLINE Panels panels_of(int64_t n, int64_t c, float *memory) {
     return (Panels){memory, padded_rows(n), whole_vectors(c)};
 }
 
-/* Numbers of scratch that a matrix of n rows and c columns takes: itself, two matrices of a panel's columns, a column, and
- * two numbers for each. */
+/* Numbers of scratch that a matrix of n rows and c columns takes: itself, two matrices of a panel's columns, a column,
+ * and two numbers for each. */
 int64_t LEVEL(iteration_space)(int64_t n, int64_t c) {
     Panels panels = panels_of(n, c, 0);
     return panels_size(&panels) + 2 * LANES * LANES + n + 2 * panels.columns + LINE - 1;
 }
 
-/* A number of solutions with a factor of `factorize_fronts`, Onorm after each and once more, of as many of the columns of
- * `start` as `subspace` has; at most `care` columns are made orthonormal one by one. */
+/* A number of solutions with a factor of `factorize_fronts`, Onorm after each and once more, of as many of the columns
+ * of `start` as `subspace` has; at most `care` columns are made orthonormal one by one. */
 int64_t LEVEL(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions,
                        int64_t care, Singles scratch, Singles2 subspace) {
     int64_t n = start.rows, c = subspace.columns, found = DONE;

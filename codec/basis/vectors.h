@@ -20,8 +20,8 @@ typedef float Real;
 #define LANES (4 * LINE)       /* columns of a panel */
 
 /* Numbers that a register and a vector hold, how many vectors side by side have room in registers for several rows of
- * them, and rows of one vector that are summed side by side: eight registers, so that as many are left for what is added.
- * Where registers are short, so are vectors: fewer lanes are beyond the last column. */
+ * them, and rows of one vector that are summed side by side: eight registers, so that as many are left for what is
+ * added. Where registers are short, so are vectors: fewer lanes are beyond the last column. */
 #if defined(__AVX512F__) || KERNEL_LEVEL == 4
 #define REGISTER LINE
 #define WIDTH LINE

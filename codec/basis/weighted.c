@@ -1,4 +1,5 @@
-/* Edges weighted by cotangents (Pinkall and Polthier 1993; specification, S 3.1), and parts that hang on others (S 3.2). */
+/* Edges weighted by cotangents (Pinkall and Polthier 1993; specification, S 3.1), and parts that hang on others (S
+ * 3.2). */
 #include "codec/basis/basis.h"
 
 /* Index of the first entry that is not below `value`, in an ascending list from `low` to before `high`. */
@@ -25,8 +26,8 @@ INLINE double soft_cotangent(const double *p, const double *q, const double *s, 
     return product / __builtin_sqrt(x * x + y * y + z * z + flatness * sides * sides + smallness);
 }
 
-/* Half the sum of the soft cotangents opposite to each edge, added to `weights`, one for every entry of `neighbours`; the
- * graph has every edge of `faces`. */
+/* Half the sum of the soft cotangents opposite to each edge, added to `weights`, one for every entry of `neighbours`;
+ * the graph has every edge of `faces`. */
 void cotangents(ConstInts offsets, ConstInts neighbours, ConstInts2 faces, ConstDoubles2 positions, double flatness,
                 double smallness, Doubles weights) {
     for (int64_t f = 0; f < faces.rows; f++) {
@@ -43,8 +44,8 @@ void cotangents(ConstInts offsets, ConstInts neighbours, ConstInts2 faces, Const
 }
 
 /* The weights of a part's edges, `inner`, one for every entry of its own graph, and the springs on which it hangs: its
- * edges to vertices of a lower rank. Row r has those from `starts[r]` on, together as stiff as `springs[r]`. Returns how
- * many there are; there is room for as many as the vertices have neighbours. */
+ * edges to vertices of a lower rank. Row r has those from `starts[r]` on, together as stiff as `springs[r]`. Returns
+ * how many there are; there is room for as many as the vertices have neighbours. */
 int64_t hold(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstInts rank, ConstInts vertices,
              ConstInts own_offsets, ConstInts own_neighbours, Doubles inner, Doubles springs, Ints starts, Ints outer,
              Doubles stiffness) {

@@ -147,9 +147,9 @@ static bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Lon
     return true;
 }
 
-/* The graph of the parts, as `chain_parts` takes it: a part's neighbours in ascending order. Vertices before the `first`
- * are in no part; `labels` are those of the others. `counts`, one entry a part, is scratch. False where `ends` and `edges`
- * have no room. */
+/* The graph of the parts, as `chain_parts` takes it: a part's neighbours in ascending order. Vertices before the
+ * `first` are in no part; `labels` are those of the others. `counts`, one entry a part, is scratch. False where `ends`
+ * and `edges` have no room. */
 static bool link_parts(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
                        Longs counts, Longs starts, Ints ends, Longs edges) {
     int64_t found = 0, first = offsets.size - 1 - labels.size;
@@ -183,8 +183,8 @@ int64_t chain_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, C
                      int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
                      Longs edges, Ints members) {
     int64_t n = offsets.size - 1, parts = bounds.size - 1;
-    if (!fits_graph(offsets, neighbours) || parts < 1 || order.size != labels.size || labels.size > n || seen.size != n || scratch.size < 7 * parts ||
-        chain.size != parts || starts.size != parts + 1 || edges.size != parts)
+    if (!fits_graph(offsets, neighbours) || parts < 1 || order.size != labels.size || labels.size > n || seen.size != n
+        || scratch.size < 7 * parts || chain.size != parts || starts.size != parts + 1 || edges.size != parts)
         return MISUSED;
     int64_t *room = scratch.data;
     Longs shared = {room, parts}, next = {room + parts, parts}, first = {room + 4 * parts, parts + 1};

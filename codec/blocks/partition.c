@@ -169,8 +169,8 @@ bool bisect(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Wo
     return true;
 }
 
-/* The first cut of `bisect`, after which `bisect_half` can go on with both halves at once: one with `scratch`, the other
- * one with `second`. */
+/* The first cut of `bisect`, after which `bisect_half` can go on with both halves at once: one with `scratch`, the
+ * other one with `second`. */
 bool bisect_once(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch, Words second) {
     Work work, other;
     if (!open_work(&work, offsets, neighbours, order, bounds, scratch) ||

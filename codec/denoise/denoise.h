@@ -4,8 +4,8 @@
 
 #include "bitstream/kernel.h"
 
-int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen, Longs starts,
-                     Ints members);
+int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen,
+    Longs starts, Ints members);
 int64_t inner_pairs(ConstLongs starts, ConstInts members, ConstInts2 pairs, Longs first, Ints own, Ints inside,
                     Longs inner_starts, Ints inner);
 int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t begin, Ints seen,
@@ -17,8 +17,7 @@ void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, Con
                     int64_t iterations, ConstBytes free, Doubles2 planes, Doubles2 sums);
 void minus_mean(ConstDoubles2 values, ConstLongs starts, ConstInts members, Doubles2 rest);
 void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
-                    ConstLongs starts, ConstInts near, double sigma_s, double sigma_r, Doubles2 packed,
-                    Doubles2 filtered);
+    ConstLongs starts, ConstInts near, double sigma_s, double sigma_r, Doubles2 packed, Doubles2 filtered);
 void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members, ConstDoubles steps,
                   ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means);
 void most_consistent(ConstDoubles scores, ConstDoubles2 means, ConstLongs starts, ConstInts members, Doubles2 guide);

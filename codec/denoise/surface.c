@@ -18,8 +18,8 @@ static int64_t place_of(const int32_t *row, int64_t size, int32_t value) {
 
 /* Each face with the faces that share a vertex with it, itself first; in a fan of more than 2 `crowd` faces only the
  * `crowd` before and behind. Returns the number of members; `seen` is scratch, one entry a face. */
-int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen, Longs starts,
-                     Ints members) {
+int64_t face_patches(ConstInts2 faces, ConstLongs around_starts, ConstInts around, int64_t crowd, Ints seen,
+    Longs starts, Ints members) {
     int64_t end = 0;
     for (int64_t f = 0; f < faces.rows; f++) seen.data[f] = -1;
     starts.data[0] = 0;
@@ -80,9 +80,9 @@ int64_t inner_pairs(ConstLongs starts, ConstInts members, ConstInts2 pairs, Long
     return end;
 }
 
-/* Breadth-first from each point over adjacent points within the radius of it, point `begin` on. Returns the point before
- * which it stopped because a row of it might not fit into `reached`. `seen`, one entry a point, holds -1 when the first
- * point is asked for. */
+/* Breadth-first from each point over adjacent points within the radius of it, point `begin` on. Returns the point
+ * before which it stopped because a row of it might not fit into `reached`. `seen`, one entry a point, holds -1 when
+ * the first point is asked for. */
 int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double radius, int64_t begin, Ints seen,
               Longs reached_starts, Ints reached) {
     int64_t end = begin > 0 ? reached_starts.data[begin] : 0;
@@ -114,7 +114,8 @@ void face_geometry(ConstDoubles2 positions, ConstInts2 faces, Doubles2 centroids
         Vector3 c = row_of(positions.data, face[2]), normal = cross(less(b, a), less(c, a));
         areas.data[f] = 0.5 * length_of(normal);
         put_row(normals.data, f, direction(normal, (Vector3){0.0, 0.0, 0.0}));
-        put_row(centroids.data, f, (Vector3){(a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0, (a.z + b.z + c.z) / 3.0});
+        put_row(centroids.data, f,
+            (Vector3){(a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0, (a.z + b.z + c.z) / 3.0});
     }
 }
 
@@ -137,8 +138,8 @@ void vertex_normals(ConstDoubles2 normals, ConstLongs starts, ConstInts around, 
 }
 
 /* Every iteration moves each free vertex by the mean of its offsets from the planes through its faces' centroids with
- * the given normals, in place: sum n (o - n . p) = sum n o - (sum n n') p. `planes`, a row of 4 for each face, and `sums`, a
- * row of 16 for each vertex, are scratch: normal and offset; place and the columns of sum n n'. */
+ * the given normals, in place: sum n (o - n . p) = sum n o - (sum n n') p. `planes`, a row of 4 for each face, and
+ * `sums`, a row of 16 for each vertex, are scratch: normal and offset; place and the columns of sum n n'. */
 KERNEL void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around,
                            ConstDoubles2 normals, int64_t iterations, ConstBytes free, Doubles2 planes, Doubles2 sums) {
     Four *plane = (Four *)planes.data;
@@ -160,7 +161,8 @@ KERNEL void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs star
         for (int64_t f = 0; f < faces.rows; f++) {
             const int32_t *face = faces.data + 3 * f;
             const Four *place = (Four *)sums.data;
-            Four along = plane[f] * (place[4 * (int64_t)face[0]] + place[4 * (int64_t)face[1]] + place[4 * (int64_t)face[2]]);
+            Four along =
+                plane[f] * (place[4 * (int64_t)face[0]] + place[4 * (int64_t)face[1]] + place[4 * (int64_t)face[2]]);
             plane[f][3] = (along[0] + along[1] + along[2]) / 3.0;
         }
         for (int64_t v = 0; v < positions.rows; v++) {

@@ -1,8 +1,8 @@
 /* The graph of a mesh, compressed rows in ascending order (specification, M 2). */
 #include "codec/geometry/geometry.h"
 
-/* Edges of `faces`, whose entries are below `offsets.size - 1`. Returns the number of neighbours kept in `ends`, which has
- * room for six a face; `filled` and `second` are scratch, one entry a vertex and six a face. */
+/* Edges of `faces`, whose entries are below `offsets.size - 1`. Returns the number of neighbours kept in `ends`, which
+ * has room for six a face; `filled` and `second` are scratch, one entry a vertex and six a face. */
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second) {
     int64_t size = offsets.size - 1;
     for (int64_t v = 0; v <= size; v++) offsets.data[v] = 0;
@@ -25,9 +25,9 @@ int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, In
             if (a != c) second.data[filled.data[a]++] = c;
         }
     }
-    /* Each row is complete now, but in no order, and an edge stands in it once for every face beside it. Turned over, the
-     * rows are ascending: vertex v comes to its neighbours after all vertices before it. A row holds as many entries as
-     * come to it, so that what is written twice stays within it. */
+    /* Each row is complete now, but in no order, and an edge stands in it once for every face beside it. Turned over,
+     * the rows are ascending: vertex v comes to its neighbours after all vertices before it. A row holds as many
+     * entries as come to it, so that what is written twice stays within it. */
     for (int64_t v = 0; v < size; v++) filled.data[v] = offsets.data[v];
     for (int64_t v = 0; v < size; v++) {
         for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {

@@ -74,8 +74,8 @@ enum { LANES = 8, TERMS = 13 };
 /* Arc sine of x in 0 .. 1, to 1e-9: its series up to 1/2, and beyond that by half the complement. */
 INLINE double arc_sine(double x) {
     static const double terms[TERMS] = {
-        1.0,           1.0 / 6,         3.0 / 40,        5.0 / 112,         35.0 / 1152,         63.0 / 2816,        231.0 / 13312,
-        143.0 / 10240, 6435.0 / 557056, 12155.0 / 1245184, 46189.0 / 5505024, 88179.0 / 12058624, 676039.0 / 104857600,
+        1.0, 1.0 / 6, 3.0 / 40, 5.0 / 112, 35.0 / 1152, 63.0 / 2816, 231.0 / 13312, 143.0 / 10240, 6435.0 / 557056,
+        12155.0 / 1245184, 46189.0 / 5505024, 88179.0 / 12058624, 676039.0 / 104857600,
     };
     double small = x > 0.5 ? __builtin_sqrt((1.0 - x) * 0.5) : x, square = small * small, sum = terms[TERMS - 1];
     for (int k = TERMS - 1; k-- > 0;) sum = sum * square + terms[k];
@@ -83,8 +83,8 @@ INLINE double arc_sine(double x) {
     return x > 0.5 ? 1.5707963267948966 - 2.0 * sum : sum;
 }
 
-/* Sum over faces of weight times angle (radians) between a unit normal and the decoded face's; `lost` for a decoded face
- * so flat that its normal is rounding alone: two edges whose angle has a sine below 1e-9. */
+/* Sum over faces of weight times angle (radians) between a unit normal and the decoded face's; `lost` for a decoded
+ * face so flat that its normal is rounding alone: two edges whose angle has a sine below 1e-9. */
 KERNEL double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
                              double lost) {
     double total = 0.0;
@@ -244,7 +244,8 @@ void nearest_distances(ConstDoubles2 points, ConstDoubles2 triangles, ConstDoubl
                        ConstLongs first, ConstLongs count, Doubles distances) {
     int64_t found = 0;
     for (int64_t i = 0; i < least(points.rows, distances.size); i++)
-        distances.data[i] = __builtin_sqrt(nearest(points.data + 3 * i, triangles, low, high, first, count, 0.0, &found));
+        distances.data[i] =
+            __builtin_sqrt(nearest(points.data + 3 * i, triangles, low, high, first, count, 0.0, &found));
 }
 
 /* The largest of these distances: what is nearer than the largest so far need not be known exactly. */

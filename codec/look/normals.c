@@ -11,7 +11,8 @@ INLINE void cross_product(const double *a, const double *b, const double *c, dou
 
 INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* The sum of the faces around a vertex; returns whether each is so near to it that no two of them have a crease between. */
+/* The sum of the faces around a vertex; returns whether each is so near to it that no two of them have a crease
+ * between. */
 INLINE bool smoothly(const double *crosses, const int32_t *members, int64_t count, double half, double *sum) {
     sum[0] = sum[1] = sum[2] = 0.0;
     for (int64_t i = 0; i < count; i++)
@@ -26,7 +27,8 @@ INLINE bool smoothly(const double *crosses, const int32_t *members, int64_t coun
 }
 
 /* The sum of a face, and of those around that have no crease to it. */
-INLINE void sum_around(const double *crosses, const int32_t *members, int64_t count, int64_t face, double cosine, double *sum) {
+INLINE void sum_around(const double *crosses, const int32_t *members, int64_t count, int64_t face, double cosine,
+    double *sum) {
     const double *own = crosses + 4 * face;
     double bound = cosine * own[3];
     for (int d = 0; d < 3; d++) sum[d] = own[d];
@@ -37,11 +39,11 @@ INLINE void sum_around(const double *crosses, const int32_t *members, int64_t co
     }
 }
 
-/* `joined` has the vertices of faces with those at one place as one, `starts` and `around` the faces of each.
- * `normals` has nine numbers a face, three of each corner: the sum of the cross products of those around the corner's
- * vertex whose angle to the face has a cosine above `cosine`, and of the face itself; of length 1, or zero. A
- * vertex with more than `most` faces smooths nothing. `half` is a cosine of a little less than half that angle: where all
- * faces are so near to their sum, that is the normal of each. `crosses` is room for four numbers a face. */
+/* `joined` has the vertices of faces with those at one place as one, `starts` and `around` the faces of each. `normals`
+ * has nine numbers a face, three of each corner: the sum of the cross products of those around the corner's vertex
+ * whose angle to the face has a cosine above `cosine`, and of the face itself; of length 1, or zero. A vertex with more
+ * than `most` faces smooths nothing. `half` is a cosine of a little less than half that angle: where all faces are so
+ * near to their sum, that is the normal of each. `crosses` is room for four numbers a face. */
 int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, ConstLongs starts, ConstInts around,
                       double cosine, double half, int64_t most, Doubles2 crosses, Singles2 normals) {
     int64_t n = starts.size - 1;
@@ -49,11 +51,13 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
         joined.columns != 3 || joined.rows != faces.rows || crosses.rows < faces.rows || normals.rows < faces.rows)
         return MISUSED;
     for (int64_t v = 0; v < n; v++)
-        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > around.size) return MISUSED;
+        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > around.size)
+            return MISUSED;
     for (int64_t k = 0; k < around.size; k++)
         if (around.data[k] < 0 || around.data[k] >= faces.rows) return MISUSED;
     for (int64_t k = 0; k < 3 * faces.rows; k++)
-        if (faces.data[k] < 0 || faces.data[k] >= positions.rows || joined.data[k] < 0 || joined.data[k] >= n) return MISUSED;
+        if (faces.data[k] < 0 || faces.data[k] >= positions.rows || joined.data[k] < 0 || joined.data[k] >= n)
+            return MISUSED;
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
         double *own = crosses.data + 4 * f;
@@ -69,7 +73,8 @@ int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 join
         for (int64_t i = 0; i < to - from; i++)
             for (int k = 0; k < 3; k++) {
                 if (joined.data[3 * (int64_t)members[i] + k] != v) continue;
-                if (!smooth) sum_around(crosses.data, members, to - from <= most ? to - from : 0, members[i], cosine, sum);
+                if (!smooth)
+                    sum_around(crosses.data, members, to - from <= most ? to - from : 0, members[i], cosine, sum);
                 double length = __builtin_sqrt(dot(sum, sum));
                 float *normal = normals.data + 9 * (int64_t)members[i] + 3 * k;
                 for (int d = 0; d < 3; d++) normal[d] = length > 0.0 ? (float)(sum[d] / length) : 0.0f;

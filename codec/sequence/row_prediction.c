@@ -51,8 +51,8 @@ INLINE void learn_row(Doubles2 moments, PredictionRules rules, double step, int6
     }
 }
 
-/* Go through all rows: fills `decoded`. `factor`, `row` and `expected`, of the shape of `moments` and as long as its rows,
- * are scratch. */
+/* Go through all rows: fills `decoded`. `factor`, `row` and `expected`, of the shape of `moments` and as long as its
+ * rows, are scratch. */
 KERNEL void follow_rows(ConstDoubles2 known, ConstInts2 levels, Doubles2 decoded, Doubles2 moments, double step,
     PredictionRules rules, Doubles2 factor, Doubles row, Doubles expected) {
     int64_t count = known.columns, size = moments.rows, width = moments.columns, coded = width - count;
@@ -76,8 +76,9 @@ KERNEL void follow_rows(ConstDoubles2 known, ConstInts2 levels, Doubles2 decoded
     }
 }
 
-/* Fills `moments` with what a loop begins with: how a field follows from `known` at vertices around, a row for each, all
- * of which together count as `rules.around` rows of the block. `mean` and `row`, as long as rows of `moments`, are scratch. */
+/* Fills `moments` with what a loop begins with: how a field follows from `known` at vertices around, a row for each,
+ * all of which together count as `rules.around` rows of the block. `mean` and `row`, as long as rows of `moments`, are
+ * scratch. */
 KERNEL void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 moments, double step, PredictionRules rules,
     Doubles mean, Doubles row) {
     int64_t count = known.columns, width = moments.columns, coded = width - count;
@@ -103,9 +104,9 @@ KERNEL void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 mome
     for (int64_t i = 0; i < moments.rows * width; i++) moments.data[i] *= weight;
 }
 
-/* The best way through the trellis of each row (an encoder's choice, no part of the format): for each state the way survives
- * that has the least squared error and price of bits, with expectations of its own for the columns behind. At the end of a row
- * the best survivor stays: what the rows behind are predicted from.
+/* The best way through the trellis of each row (an encoder's choice, no part of the format): for each state the way
+ * survives that has the least squared error and price of bits, with expectations of its own for the columns behind. At
+ * the end of a row the best survivor stays: what the rows behind are predicted from.
  */
 
 enum { STATES = TRELLIS_STATES, BIT_UNIT = 256, LARGEST_LEVEL = (1 << 23) - 1 };
@@ -125,8 +126,8 @@ INLINE double price_of(const int16_t *prices, int32_t magnitude) {
 }
 
 /* Fills `levels` and `decoded` from `targets`, and moments as the decoder has them afterwards. `prices` are those of
- * price_matrix, `weight` the squared steps that a bit is worth. Scratch: `factor` and `row` as of follow_rows, `expected` of
- * 2 STATES + 1 rows, and of a row of STATES for each coded column `values`, `ways` and `origins`. */
+ * price_matrix, `weight` the squared steps that a bit is worth. Scratch: `factor` and `row` as of follow_rows,
+ * `expected` of 2 STATES + 1 rows, and of a row of STATES for each coded column `values`, `ways` and `origins`. */
 KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts prices, double weight, Ints2 levels,
     Doubles2 decoded, Doubles2 moments, double step, PredictionRules rules, Doubles2 factor, Doubles row,
     Doubles2 expected, Doubles2 values, Ints2 ways, Bytes2 origins) {

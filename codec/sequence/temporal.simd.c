@@ -1,5 +1,5 @@
-/* The temporal transform (specification, S 5, S 7): columns at right angles, and frames of the components of a field, each
- * of its coordinates in as many frames as a vector has numbers. */
+/* The temporal transform (specification, S 5, S 7): columns at right angles, and frames of the components of a field,
+ * each of its coordinates in as many frames as a vector has numbers. */
 #define VECTORS_OF_DOUBLES
 #include "codec/basis/vectors.h"
 #include "codec/sequence/temporal.h"
@@ -22,8 +22,8 @@ INLINE void show_vertices(const int rows, const int vectors, ConstDoubles2 field
 }
 
 /* Some coordinates of all vertices. */
-INLINE void show_coordinates(const int vectors, int64_t column, ConstDoubles2 field, int64_t first, ConstDoubles2 weights,
-                             Doubles2 frames) {
+INLINE void show_coordinates(const int vectors, int64_t column, ConstDoubles2 field, int64_t first,
+    ConstDoubles2 weights, Doubles2 frames) {
     int64_t v = 0;
     for (; v + ROWS <= field.rows; v += ROWS)
         show_vertices(ROWS, vectors, field, first, weights, v, column, frames);
@@ -59,13 +59,14 @@ int64_t LEVEL(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Double
     for (int64_t r = 0; r < left.rows; r++) {
         double *row = result.data + r * columns;
         for (int64_t j = 0; j < columns; j++) row[j] = 0.0;
-        for (int64_t k = 0; k < left.columns; k++) add_row(row, left.data[r * left.columns + k], right.data + k * columns, columns);
+        for (int64_t k = 0; k < left.columns; k++)
+            add_row(row, left.data[r * left.columns + k], right.data + k * columns, columns);
     }
     return 0;
 }
 
-/* Columns at right angles, of what is free in them, which they overwrite (S 5.3). `vector` has room for a column, `shares`
- * for a row. */
+/* Columns at right angles, of what is free in them, which they overwrite (S 5.3). `vector` has room for a column,
+ * `shares` for a row. */
 int64_t LEVEL(turn_columns)(Doubles2 free, Doubles vector, Doubles shares) {
     int64_t rows = free.rows, columns = free.columns;
     if (columns > rows || vector.size < rows || shares.size < columns) return MISUSED;

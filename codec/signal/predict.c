@@ -1,5 +1,5 @@
-/* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order; and what
- * continues the known (M 7.4), sums in the order of rows. */
+/* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order; and
+ * what continues the known (M 7.4), sums in the order of rows. */
 #include "bitstream/trellis.h"
 #include "codec/geometry/geometry.h"
 #include "codec/signal/signal.h"
@@ -9,8 +9,8 @@ static void hang(Doubles springs, Doubles2 pulls, int64_t row, double stiffness,
     for (int d = 0; d < 3; d++) pulls.data[3 * row + d] += stiffness * (sum[d] / weight);
 }
 
-/* Stiffnesses and pulls at the rows of the block of `vertices`. A vertex whose copies weigh anything is known, and is at
- * `sums` over `weights`. `inside`, one entry a vertex of the mesh, is zero before and after. */
+/* Stiffnesses and pulls at the rows of the block of `vertices`. A vertex whose copies weigh anything is known, and is
+ * at `sums` over `weights`. `inside`, one entry a vertex of the mesh, is zero before and after. */
 void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
                  ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls) {
     for (int64_t r = 0; r < vertices.size; r++) inside.data[vertices.data[r]] = 1;
@@ -21,7 +21,8 @@ void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, By
         if (weights.data[v] > 0.0) hang(springs, pulls, r, stiffness, sums.data + 3 * v, weights.data[v]);
         for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
             int64_t w = neighbours.data[i];
-            if (!inside.data[w] && weights.data[w] > 0.0) hang(springs, pulls, r, 1.0, sums.data + 3 * w, weights.data[w]);
+            if (!inside.data[w] && weights.data[w] > 0.0)
+                hang(springs, pulls, r, 1.0, sums.data + 3 * w, weights.data[w]);
         }
     }
     for (int64_t r = 0; r < vertices.size; r++) inside.data[vertices.data[r]] = 0;
@@ -38,8 +39,8 @@ INLINE double mean_of(ConstDoubles2 pulls, int64_t d, double total) {
 int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
                        Singles scratch, Doubles2 continued) {
     int64_t n = pulls.rows, m = pulls.columns;
-    if (springs.size != n || continued.rows != n || continued.columns != m || !fits_factor(&fronts, n, values, inverse) ||
-        scratch.size < (n + 4) * (m + 16) + 15)
+    if (springs.size != n || continued.rows != n || continued.columns != m || !fits_factor(&fronts, n, values, inverse)
+        || scratch.size < (n + 4) * (m + 16) + 15)
         return MISUSED;
     double total = 0.0;
     for (int64_t r = 0; r < n; r++) total += springs.data[r];
@@ -59,27 +60,28 @@ int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, Cons
     return 0;
 }
 
-/* A block on springs (M 7.3): the factor of L + S + delta I as `factorize_fronts` leaves it, and what continues the known.
- * `sums` has room for a number a row, `column` for one more, and `scratch` is what `continue_known` asks for. */
+/* A block on springs (M 7.3): the factor of L + S + delta I as `factorize_fronts` leaves it, and what continues the
+ * known. `sums` has room for a number a row, `column` for one more, and `scratch` is what `continue_known` asks for. */
 int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
                 ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
                 Singles values, Singles inverse, Doubles2 continued) {
     int64_t n = springs.size;
     ConstSingles pivots = {inverse.data, inverse.size};
-    if (!fits_graph(offsets, neighbours) || offsets.size != n + 1 || diagonal.size != n || pulls.rows != n ||
-        !fits_factor(&fronts, n, values, pivots) || (weights.size > 0 && weights.size < offsets.data[n]) || sums.size != n ||
-        column.size != n + 1 || scratch.size < 3 * (n + 16) + 15)
+    if (!fits_graph(offsets, neighbours) || offsets.size != n + 1 || diagonal.size != n || pulls.rows != n
+        || !fits_factor(&fronts, n, values, pivots) || (weights.size > 0 && weights.size < offsets.data[n])
+        || sums.size != n || column.size != n + 1 || scratch.size < 3 * (n + 16) + 15)
         return MISUSED;
     for (int64_t r = 0; r < n; r++) sums.data[r] = diagonal.data[r] + (springs.data[r] + shift);
-    factorize_fronts(offsets, neighbours, weights, (ConstDoubles){sums.data, n}, fronts, column, scratch, values, inverse);
+    factorize_fronts(offsets, neighbours, weights, (ConstDoubles){sums.data, n}, fronts, column, scratch, values,
+        inverse);
     return continue_known(fronts, values, pivots, springs, pulls, scratch, continued);
 }
 
 /* Positions of a block from its levels (specification, M 10.2): what is expected, and U times the coefficients. */
 
 /* `levels` are those of M 9.11, a row for each of the first columns of U; `scratch` has room for a number for each. */
-int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step, Doubles scratch,
-                    Doubles2 positions) {
+int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step,
+    Doubles scratch, Doubles2 positions) {
     int64_t n = subspace.rows, count = 3 * levels.rows;
     if (prediction.rows != n || positions.rows != n || prediction.columns != 3 || positions.columns != 3 ||
         levels.columns != 3 || levels.rows > subspace.columns || scratch.size < count)

@@ -11,17 +11,17 @@ void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, By
 int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
                        Singles scratch, Doubles2 continued);
 int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
-                ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch, Singles values,
-                Singles inverse, Doubles2 continued);
-int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step, Doubles scratch,
-                    Doubles2 positions);
+    ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
+    Singles values, Singles inverse, Doubles2 continued);
+int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step,
+    Doubles scratch, Doubles2 positions);
 void apply_powers(ConstInts offsets, ConstInts neighbours, Doubles terms, int64_t degree);
 void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDoubles weights, Doubles2 smoothed);
 int64_t smooth_all(ConstInts offsets, ConstInts neighbours, ConstDoubles2 positions, ConstDoubles weights,
                    Doubles scratch, Doubles2 smoothed);
 int64_t find_rings(ConstInts offsets, ConstInts neighbours, Ints number, ConstInts vertices, Ints rows, Longs starts);
-void filter_rows(ConstInts offsets, ConstInts neighbours, ConstInts number, ConstDoubles2 positions, ConstDoubles weights,
-                 ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed);
+void filter_rows(ConstInts offsets, ConstInts neighbours, ConstInts number, ConstDoubles2 positions,
+    ConstDoubles weights, ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed);
 int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames);
 int64_t tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double step, double ratio, Doubles2 scratch,
                       Doubles steps);

@@ -17,8 +17,8 @@ INLINE Four apply(ConstInts offsets, ConstInts neighbours, const double *values,
     return last == first ? (Four){0.0, 0.0, 0.0, 0.0} : moved;
 }
 
-/* K^1 V to K^degree V behind V, each of 3 n numbers, in `terms`, which has room for one number more: the fourth number of
- * a vertex is overwritten by the next one. */
+/* K^1 V to K^degree V behind V, each of 3 n numbers, in `terms`, which has room for one number more: the fourth number
+ * of a vertex is overwritten by the next one. */
 KERNEL void apply_powers(ConstInts offsets, ConstInts neighbours, Doubles terms, int64_t degree) {
     int64_t n = offsets.size - 1;
     for (int64_t k = 0; k < degree; k++) {
@@ -43,8 +43,8 @@ KERNEL void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDou
 KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbours, ConstDoubles2 positions, ConstDoubles weights,
                           Doubles scratch, Doubles2 smoothed) {
     int64_t n = offsets.size - 1;
-    if (!fits_graph(offsets, neighbours) || positions.rows != n || positions.columns != 3 || smoothed.rows != n || smoothed.columns != 3 ||
-        scratch.size < 6 * n + 2)
+    if (!fits_graph(offsets, neighbours) || positions.rows != n || positions.columns != 3 || smoothed.rows != n
+        || smoothed.columns != 3 || scratch.size < 6 * n + 2)
         return MISUSED;
     double *values = scratch.data, *result = scratch.data + 3 * n + 1;
     for (int64_t i = 0; i < 3 * n; i++) values[i] = smoothed.data[i] = positions.data[i];
@@ -92,8 +92,8 @@ int64_t find_rings(ConstInts offsets, ConstInts neighbours, Ints number, ConstIn
 
 /* The filter on the innermost of the rings `rows`; each power of K is known on one ring less than the last. `current`
  * has a row for each of `rows`, `following` for all but those of the outermost ring. */
-void filter_rows(ConstInts offsets, ConstInts neighbours, ConstInts number, ConstDoubles2 positions, ConstDoubles weights,
-                 ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed) {
+void filter_rows(ConstInts offsets, ConstInts neighbours, ConstInts number, ConstDoubles2 positions,
+    ConstDoubles weights, ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed) {
     int64_t degree = starts.size - 1, inner = starts.data[0];
     for (int64_t r = 0; r < rows.size; r++)
         for (int d = 0; d < 3; d++) current.data[3 * r + d] = positions.data[3 * (int64_t)rows.data[r] + d];

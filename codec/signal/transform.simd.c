@@ -1,7 +1,7 @@
 /* E = U^T V and V = U E (paper, section 4; specification, M 10.2).
  *
- * Every number is the sum of its terms in the order of rows, or of columns, each product rounded before it is added. Where
- * there are as many columns as a vector has, vectors lie along them.
+ * Every number is the sum of its terms in the order of rows, or of columns, each product rounded before it is added.
+ * Where there are as many columns as a vector has, vectors lie along them.
  */
 #include "codec/signal/signal.h"
 
@@ -37,7 +37,9 @@ INLINE void project_tile(const int vectors, const int axes, ConstSingles2 subspa
     }
     EACH(a, axes) EACH(v, vectors) EACH(i, WIDTH) {
         int64_t column = v * WIDTH + i;
-        if (column < columns) coefficients.data[(j + column) * coefficients.columns + d + a] = sums[a][v].part[i / REGISTER][i % REGISTER];
+        if (column < columns)
+            coefficients.data[(j + column) * coefficients.columns + d + a] =
+                sums[a][v].part[i / REGISTER][i % REGISTER];
     }
 }
 
@@ -98,8 +100,7 @@ static void reconstruct_wide(ConstSingles2 subspace, ConstDoubles2 coefficients,
     int64_t d = 0, columns = values.columns;
     for (; d + LANES <= columns; d += LANES)
         WITH_VECTORS(VECTORS, d, reconstruct_strip, subspace, coefficients, values);
-    if (d + WIDTH <= columns)
-        WITH_VECTORS((columns - d) / WIDTH, d, reconstruct_strip, subspace, coefficients, values);
+    if (d + WIDTH <= columns) WITH_VECTORS((columns - d) / WIDTH, d, reconstruct_strip, subspace, coefficients, values);
     if (columns % WIDTH) reconstruct_strip(1, columns - WIDTH, subspace, coefficients, values);
 }
 

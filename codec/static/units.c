@@ -8,7 +8,8 @@ KERNEL int64_t back_into_unit(ConstDoubles2 positions, double scale, ConstDouble
     int64_t size = positions.rows * AXES, i = 0;
     if (positions.columns != AXES || center.size != AXES || moved.rows != positions.rows || moved.columns != AXES)
         return MISUSED;
-    double middle[TOGETHER], spoiled[TOGETHER] = {0.0}; /* of a number that is not finite, what it is off itself is none */
+    /* of a number that is not finite, what it is off itself is none */
+    double middle[TOGETHER], spoiled[TOGETHER] = {0.0};
     for (int j = 0; j < TOGETHER; j++) middle[j] = center.data[j % AXES];
     for (; i + TOGETHER <= size; i += TOGETHER)
         for (int j = 0; j < TOGETHER; j++) {

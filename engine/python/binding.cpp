@@ -25,10 +25,10 @@ const struct {
     double bsmdec_limits::*field;
 } LIMITS[] = {
 #define LIMIT(name) {#name, &bsmdec_limits::name}
-    LIMIT(vertices), LIMIT(faces), LIMIT(blocks), LIMIT(block_size), LIMIT(coefficients), LIMIT(frames), LIMIT(gop_frames),
-    LIMIT(frame_bytes), LIMIT(metadata_bytes), LIMIT(attributes), LIMIT(attribute_values), LIMIT(sequence_bytes), LIMIT(field_bytes),
-    LIMIT(work), LIMIT(work_per_vertex), LIMIT(work_per_byte), LIMIT(most_work), LIMIT(memory), LIMIT(memory_per_vertex),
-    LIMIT(memory_per_byte), LIMIT(most_memory),
+    LIMIT(vertices), LIMIT(faces), LIMIT(blocks), LIMIT(block_size), LIMIT(coefficients), LIMIT(frames),
+    LIMIT(gop_frames), LIMIT(frame_bytes), LIMIT(metadata_bytes), LIMIT(attributes), LIMIT(attribute_values),
+    LIMIT(sequence_bytes), LIMIT(field_bytes), LIMIT(work), LIMIT(work_per_vertex), LIMIT(work_per_byte), LIMIT(most_work), LIMIT(memory),
+    LIMIT(memory_per_vertex), LIMIT(memory_per_byte), LIMIT(most_memory),
 #undef LIMIT
 };
 const char *const KINDS[] = {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"};
@@ -73,7 +73,8 @@ void run_tasks(void *, int count, void (*task)(void *context, int index), void *
 
 class Decoder {
   public:
-    Decoder(nb::object limits, int64_t threads, bool tolerant, int64_t start, int64_t layers) : given(std::move(limits)) {
+    Decoder(nb::object limits, int64_t threads, bool tolerant, int64_t start, int64_t layers)
+        : given(std::move(limits)) {
         bsmdec_limits bounds;
         bsmdec_default_limits(&bounds, sizeof bounds);
         for (const auto &[name, field] : LIMITS) bounds.*field = nb::cast<double>(nb::float_(given.attr(name)));
@@ -101,7 +102,7 @@ class Decoder {
         locked([&] { return bsmdec_finish(decoder); });
     }
 
-    // The next event whose type has its bit in `wanted`, as (type, index, count, vertices, faces); the stream's error is raised.
+    // The next event whose type is in `wanted`: type, index, count, vertices, faces. Raises the stream's error.
     nb::tuple next(uint32_t wanted) {
         const int AT_ONCE = 64;
         bsmdec_event event;
@@ -159,9 +160,8 @@ class Decoder {
         check(locked([&] { return bsmdec_metadata_at(decoder, index, &entry); }));
         const char *bytes = (const char *)entry.bytes;
         nb::object value = entry.type == BSMDEC_WHOLE ? nb::object(nb::int_(entry.whole))
-            : entry.type == BSMDEC_NUMBER             ? nb::object(nb::float_(entry.number))
-            : entry.type == BSMDEC_TEXT               ? nb::object(nb::str(bytes, entry.size))
-                                                      : nb::object(nb::bytes(bytes, entry.size));
+            : entry.type == BSMDEC_NUMBER             ? nb::object(nb::float_(entry.number)) : entry.type == BSMDEC_TEXT
+            ? nb::object(nb::str(bytes, entry.size)) : nb::object(nb::bytes(bytes, entry.size));
         return nb::make_tuple(nb::str(entry.name), value);
     }
 
@@ -173,7 +173,8 @@ class Decoder {
         if (locked([&] { return bsmdec_attribute_at(decoder, index, &shape); }) != BSMDEC_OK) return nb::none();
         Array made = array_of(KINDS[shape.kind], (size_t)shape.rows, (size_t)shape.components);
         check(locked([&] { return bsmdec_attribute_values(decoder, index, made.data, made.bytes); }));
-        return nb::make_tuple(shape.name, shape.domain, shape.semantic, made.numpy, indices(index, shape), shape.moves != 0);
+        return nb::make_tuple(shape.name, shape.domain, shape.semantic, made.numpy, indices(index, shape),
+            shape.moves != 0);
     }
 
     // The part that came last: (name, domain, semantic, indices or None, rows, values).
@@ -181,7 +182,8 @@ class Decoder {
         bsmdec_values found;
         check(locked([&] { return bsmdec_read_values(decoder, index, &found); }));
         const bsmdec_attribute &shape = found.attribute;
-        return nb::make_tuple(shape.name, shape.domain, shape.semantic, indices(index, shape), copy_of(found.rows, "int32", (size_t)found.count),
+        return nb::make_tuple(shape.name, shape.domain, shape.semantic, indices(index, shape),
+            copy_of(found.rows, "int32", (size_t)found.count),
             copy_of(found.values, KINDS[shape.kind], (size_t)found.count, (size_t)shape.components));
     }
 
@@ -225,7 +227,8 @@ class Decoder {
     nb::object indices(int index, const bsmdec_attribute &shape) {
         if (shape.indices == 0) return nb::none();
         Array made = array_of("int32", (size_t)shape.indices / 3, 3);
-        check(locked([&] { return bsmdec_attribute_indices(decoder, index, (uint32_t *)made.data, (size_t)shape.indices); }));
+        check(locked(
+            [&] { return bsmdec_attribute_indices(decoder, index, (uint32_t *)made.data, (size_t)shape.indices); }));
         return made.numpy;
     }
 
@@ -252,7 +255,8 @@ class Decoder {
 NB_MODULE(_engine, m) {
     m.attr("version") = BSM_VERSION;
     nb::class_<Decoder>(m, "Decoder")
-        .def(nb::init<nb::object, int64_t, bool, int64_t, int64_t>(), "limits"_a, "threads"_a = 1, "tolerant"_a = false, "start"_a = 0, "layers"_a = 0)
+        .def(nb::init<nb::object, int64_t, bool, int64_t, int64_t>(), "limits"_a, "threads"_a = 1,
+            "tolerant"_a = false, "start"_a = 0, "layers"_a = 0)
         .def("push", &Decoder::push, "bytes"_a)
         .def("finish", &Decoder::finish)
         .def("next", &Decoder::next, "wanted"_a,
@@ -263,9 +267,11 @@ NB_MODULE(_engine, m) {
         .def("positions", &Decoder::positions, "count"_a,
             nb::sig("def positions(self, count: int) -> numpy.typing.NDArray[numpy.float64]"))
         .def("changes", &Decoder::changes,
-            nb::sig("def changes(self) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool_]]"))
+            nb::sig("def changes(self) -> tuple[numpy.typing.NDArray[numpy.int32], "
+                    "numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool_]]"))
         .def("loose", &Decoder::loose,
-            nb::sig("def loose(self) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool_]]"))
+            nb::sig("def loose(self) -> tuple[numpy.typing.NDArray[numpy.int32], "
+                    "numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool_]]"))
         .def("losses", &Decoder::losses,
             nb::sig("def losses(self) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]"))
         .def("metadata", &Decoder::metadata, "index"_a,
@@ -274,11 +280,11 @@ NB_MODULE(_engine, m) {
         .def("attribute", &Decoder::attribute, "index"_a,
             nb::sig("def attribute(self, index: int) -> tuple[str, int, int, typing.Any, typing.Any, bool] | None"))
         .def("values", &Decoder::values, "index"_a,
-            nb::sig("def values(self, index: int) -> tuple[str, int, int, typing.Any, numpy.typing.NDArray[numpy.int32], typing.Any]"))
+            nb::sig("def values(self, index: int) -> tuple[str, int, int, typing.Any, "
+                    "numpy.typing.NDArray[numpy.int32], typing.Any]"))
         .def("header", &Decoder::header,
             nb::sig("def header(self) -> list[float]"))
         .def("state", &Decoder::state,
             nb::sig("def state(self) -> list[float]"))
-        .def("loss", &Decoder::loss,
-            nb::sig("def loss(self) -> typing.Any"));
+        .def("loss", &Decoder::loss, nb::sig("def loss(self) -> typing.Any"));
 }

@@ -4,8 +4,8 @@
 
 #include "engine/bsmdec.h"
 
-/* Bytes read, work charged and vertices of all faces so far; then what limits on work and memory count: vertices that are
- * present and of frames shown, vertices in memory, bytes received, and bytes of memory that are kept. */
+/* Bytes read, work charged and vertices of all faces so far; then what limits on work and memory count: vertices that
+ * are present and of frames shown, vertices in memory, bytes received, and bytes of memory that are kept. */
 enum { STATE_NUMBERS = 7 };
 void decoder_state(const bsmdec *decoder, double *state);
 /* The header of the present run, as engine/header.h has it. */

@@ -1,11 +1,12 @@
-/* What surrounds a face, as numbers in a frame of its own: filtered normals, how like its neighbours are, and how normals
- * and heights go about it on two circles. */
+/* What surrounds a face, as numbers in a frame of its own: filtered normals, how like its neighbours are, and how
+ * normals and heights go about it on two circles. */
 #include <math.h>
 
 #include "codec/denoise/denoise.h"
 #include "codec/denoise/vectors.h"
 
-enum { RANGES = 4, SCALES = 2, SECTORS = 8, RINGS = 2, FILTERED = SCALES * (2 * RANGES + 1), LIKE = SCALES * 2 * RANGES };
+enum { RANGES = 4, SCALES = 2, SECTORS = 8, RINGS = 2, FILTERED = SCALES * (2 * RANGES + 1),
+    LIKE = SCALES * 2 * RANGES };
 enum { DESCRIBED = 3 * (1 + FILTERED) + 4 * SECTORS * RINGS + LIKE + SCALES + 1 };
 /* Between the two circles, in distances of adjacent centroids. */
 static const double BETWEEN = 2.0;
@@ -133,7 +134,8 @@ KERNEL void describe_faces(ConstDoubles2 centroids, ConstDoubles areas, ConstDou
         }
         double *out = put_local(described.data + i * described.columns, &frame, own);
         for (int s = 0; s < SCALES; s++)
-            for (int r = 0; r <= 2 * RANGES; r++) out = put_local(out, &frame, direction(sums_of_eight(sums[s][r]), own));
+            for (int r = 0; r <= 2 * RANGES; r++)
+                out = put_local(out, &frame, direction(sums_of_eight(sums[s][r]), own));
         for (int ring = 0; ring < RINGS; ring++) {
             for (int sector = 0; sector < SECTORS; sector++) {
                 /* A circle that leaves the mesh goes on as the surface does at large. */

@@ -16,17 +16,15 @@ typedef struct {
 } Creases;
 
 int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, int64_t most,
-                        double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp,
-                        Doubles costs);
+    double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp, Doubles costs);
 int64_t hang_creases(ConstInts2 faces, ConstInts2 pairs, Ints starts, Ints members);
 
 bool fits_creases(const Creases *creases, int64_t vertices);
 double wrong_creases(const Creases *creases, const double *positions, int64_t vertex);
 
 int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, ConstDoubles2 losses, ConstDoubles2 steps,
-                      ConstDoubles reach, ConstInts starts, ConstInts members, ConstDoubles2 rates, double pull, int64_t fixed,
-                      Creases creases, ConstDoubles2 places, ConstDoubles2 frames, Doubles2 moved, Ints2 levels,
-                      Doubles2 counts);
+    ConstDoubles reach, ConstInts starts, ConstInts members, ConstDoubles2 rates, double pull, int64_t fixed,
+    Creases creases, ConstDoubles2 places, ConstDoubles2 frames, Doubles2 moved, Ints2 levels, Doubles2 counts);
 
 /* A mesh as it should be, and who is beside whom. */
 typedef struct {
@@ -49,11 +47,12 @@ typedef struct {
 
 int64_t collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Ints pending, Ints2 flaps);
 int64_t group_flaps(ConstInts2 flaps, Ints starts, Ints members);
-int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, ConstDoubles2 directions, ConstDoubles scales,
-                     double pull, Bytes open);
-int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps, ConstInts starts,
-                   ConstInts members, Ints2 bends, ConstDoubles rates, int64_t axes, Creases creases, Bytes open);
-int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions, Bytes open);
+int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
+    ConstDoubles scales, double pull, Bytes open);
+int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps,
+    ConstInts starts, ConstInts members, Ints2 bends, ConstDoubles rates, int64_t axes, Creases creases, Bytes open);
+int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
+    Bytes open);
 int64_t count_bends_on(ConstDoubles2 corners, double step, Ints2 counts);
 int64_t count_bends(ConstInts2 bends, int64_t stride, Ints2 counts);
 

@@ -1,10 +1,11 @@
 /* Levels chosen by what each error costs where it is, and by their bits. Encoder only: decoders see levels.
  *
- * Coordinate descent, vertex after vertex and axis after axis, over the levels that may be best: the nearest one, that of
- * the neighbours, none, and those beside the one at hand. */
+ * Coordinate descent, vertex after vertex and axis after axis, over the levels that may be best: the nearest one, that
+ * of the neighbours, none, and those beside the one at hand. */
 #include "codec/static/choice/choice.h"
 
-enum { TRIED = 5, AROUND = 10, SIZES = 16 }; /* levels that are compared; classes of surroundings; sizes of what is coded */
+/* levels that are compared; classes of surroundings; sizes of what is coded */
+enum { TRIED = 5, AROUND = 10, SIZES = 16 };
 
 INLINE double size(double x) { return x < 0.0 ? -x : x; }
 
@@ -27,8 +28,8 @@ INLINE int64_t size_of(int32_t level, int32_t centre) {
     return least(away < 0 ? -away : away, SIZES - 1);
 }
 
-/* What an error of a vertex costs: `across` by the square of its length, and `more` by that of its share along the surface's
- * normal; both in the axes of the levels. */
+/* What an error of a vertex costs: `across` by the square of its length, and `more` by that of its share along the
+ * surface's normal; both in the axes of the levels. */
 typedef struct {
     const double *normal;
     double across, more, error[3];
@@ -53,13 +54,14 @@ INLINE void place(const double *frame, const double *origin, const double *error
         to[d] = origin[d] + error[0] * frame[d] + error[1] * frame[3 + d] + error[2] * frame[6 + d];
 }
 
-/* One sweep over levels (n x axes), but for those of the first `fixed` axes: for each the least of its loss and its rate. `offsets` (n x 3) is what is wanted, along
- * axes of which a level moves a vertex by `steps` (n x 3); those that have no level keep it. An error costs `losses` (n x 2) times
- * the square of its length, and times that of its share along `normals` (n x 3, in the same axes). Rates have a row for
- * each axis and class of what is around (mean size of the neighbours' levels), and depend on the distance from `pull` times
- * the neighbours' mean. `creases` that are wrong add their costs: `moved` (n x 3) is room for where vertices come to lie, whose places are
- * `places` (n x 3), in the axes `frames` (n x 9). No vertex ends up farther from its place than its `reach`, unless it was. Counts, in the shape of
- * rates, are of the levels that were taken. Returns how often one moved. */
+/* One sweep over levels (n x axes), but for those of the first `fixed` axes: for each the least of its loss and its
+ * rate. `offsets` (n x 3) is what is wanted, along axes of which a level moves a vertex by `steps` (n x 3); those that
+ * have no level keep it. An error costs `losses` (n x 2) times the square of its length, and times that of its share
+ * along `normals` (n x 3, in the same axes). Rates have a row for each axis and class of what is around (mean size of
+ * the neighbours' levels), and depend on the distance from `pull` times the neighbours' mean. `creases` that are wrong
+ * add their costs: `moved` (n x 3) is room for where vertices come to lie, whose places are `places` (n x 3), in the
+ * axes `frames` (n x 9). No vertex ends up farther from its place than its `reach`, unless it was. Counts, in the shape
+ * of rates, are of the levels that were taken. Returns how often one moved. */
 KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, ConstDoubles2 losses, ConstDoubles2 steps,
                              ConstDoubles reach, ConstInts starts, ConstInts members, ConstDoubles2 rates, double pull,
                              int64_t fixed, Creases creases, ConstDoubles2 places, ConstDoubles2 frames, Doubles2 moved,
@@ -74,14 +76,16 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
     for (int64_t i = 0; i < 3 * n; i++)
         if (!(steps.data[i] > 0.0)) return MISUSED;
     for (int64_t v = 0; v < n; v++)
-        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > members.size) return MISUSED;
+        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > members.size)
+            return MISUSED;
     for (int64_t i = 0; i < members.size; i++)
         if (members.data[i] < 0 || members.data[i] >= n) return MISUSED;
     for (int64_t i = 0; i < counts.rows * counts.columns; i++) counts.data[i] = 0.0;
     for (int64_t v = 0; v < n; v++) {
         double error[3];
         for (int a = 0; a < 3; a++)
-            error[a] = (a < (int)axes ? steps.data[3 * v + a] * levels.data[v * axes + a] : 0.0) - offsets.data[3 * v + a];
+            error[a] = (a < (int)axes ? steps.data[3 * v + a] * levels.data[v * axes + a] : 0.0)
+                - offsets.data[3 * v + a];
         place(frames.data + 9 * v, places.data + 3 * v, error, moved.data + 3 * v);
     }
     for (int64_t v = 0; v < n; v++) {

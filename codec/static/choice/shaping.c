@@ -8,9 +8,9 @@
 enum { FAN = 32, MOVES = 32, LANES = 8 }; /* faces of one vertex that are looked at; moves; how many of them at once */
 enum { UNFOLDING = 8 };                   /* sweeps over what is turned over */
 
-/* The faces at a vertex, `padded` with some of no weight: twice the area times the normal, in coordinates along the wanted
- * normal and across it, in some unit of the vertex; and what a step in each direction adds to that, which is the same
- * wherever the vertex is. */
+/* The faces at a vertex, `padded` with some of no weight: twice the area times the normal, in coordinates along the
+ * wanted normal and across it, in some unit of the vertex; and what a step in each direction adds to that, which is the
+ * same wherever the vertex is. */
 typedef struct {
     int count, padded;
     double unit, frame[3][3][FAN], edge[3][FAN];
@@ -31,7 +31,8 @@ INLINE void gather(const Wanted *wanted, ConstDoubles2 moved, int32_t v, Fan *fa
     const double *x = moved.data + 3 * (int64_t)v;
     double u[3][FAN], w[3][FAN], normal[3][FAN], longest = 0.0;
     int count = 0;
-    for (int64_t i = wanted->around_starts.data[v]; i < wanted->around_starts.data[v + 1] && count < FAN; i++, count++) {
+    for (int64_t i = wanted->around_starts.data[v]; i < wanted->around_starts.data[v + 1] && count < FAN; i++,
+        count++) {
         int32_t f = wanted->around.data[i];
         const int32_t *face = wanted->faces.data + 3 * (int64_t)f;
         int corner = face[0] == v ? 0 : face[1] == v ? 1 : 2;
@@ -56,7 +57,8 @@ INLINE void gather(const Wanted *wanted, ConstDoubles2 moved, int32_t v, Fan *fa
         /* A frame of the wanted normal (Duff and others, Building an orthonormal basis, revisited, 2017). */
         double n0 = normal[0][k], n1 = normal[1][k], n2 = normal[2][k], sign = n2 < 0.0 ? -1.0 : 1.0;
         double c = -1.0 / (sign + n2), d = n0 * n1 * c;
-        double frame[3][3] = {{n0, n1, n2}, {1.0 + sign * n0 * n0 * c, sign * d, -sign * n0}, {d, sign + n1 * n1 * c, -n1}};
+        double frame[3][3] = {{n0, n1, n2}, {1.0 + sign * n0 * n0 * c, sign * d, -sign * n0},
+            {d, sign + n1 * n1 * c, -n1}};
         double u0 = unit * u[0][k], u1 = unit * u[1][k], u2 = unit * u[2][k];
         double w0 = unit * w[0][k], w1 = unit * w[1][k], w2 = unit * w[2][k];
         double now[3] = {u1 * w2 - u2 * w1, u2 * w0 - u0 * w2, u0 * w1 - u1 * w0};
@@ -148,9 +150,9 @@ static bool fits(const Wanted *wanted, Doubles2 moved, Ints2 levels, Bytes open)
            moved.columns == 3 && levels.rows == n && open.size == n;
 }
 
-/* Levels (n x axes) along `directions` (n x 3 axes, a level long); `moved` is where they bring the vertices, and kept in
- * step. A level costs its distance from `pull` times the mean of all neighbours', over the scale of its axis. Returns how
- * often a vertex moved. */
+/* Levels (n x axes) along `directions` (n x 3 axes, a level long); `moved` is where they bring the vertices, and kept
+ * in step. A level costs its distance from `pull` times the mean of all neighbours', over the scale of its axis.
+ * Returns how often a vertex moved. */
 KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
                             ConstDoubles scales, double pull, Bytes open) {
     int64_t axes = levels.columns, moves = 0;
@@ -202,9 +204,9 @@ KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels
     return moves;
 }
 
-/* Places on a grid (n x 3), `moved` their positions, kept in step. `flaps`: rows of four vertices, and `bends` the sum of
- * the first two places less that of the others; a vertex is in the flaps `members` / 2, on the second side where odd.
- * What a bend costs: `rates`. A vertex moves along at most `axes` axes at once. Returns how often one moved. */
+/* Places on a grid (n x 3), `moved` their positions, kept in step. `flaps`: rows of four vertices, and `bends` the sum
+ * of the first two places less that of the others; a vertex is in the flaps `members` / 2, on the second side where
+ * odd. What a bend costs: `rates`. A vertex moves along at most `axes` axes at once. Returns how often one moved. */
 KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, double step, ConstInts2 flaps,
                           ConstInts starts, ConstInts members, Ints2 bends, ConstDoubles rates, int64_t axes,
                           Creases creases, Bytes open) {
@@ -278,8 +280,11 @@ KERNEL int64_t shape_grid(Wanted wanted, Aim aim, Doubles2 moved, Ints2 places, 
     return moves;
 }
 
-/* Whether a normal with these coordinates is more than 60 degrees off: two faces that are may be folded onto each other. */
-INLINE bool is_over(float along, float across, float aside) { return along < 0.0f || across * across + aside * aside > 3.0f * along * along; }
+/* Whether a normal with these coordinates is more than 60 degrees off: two faces that are may be folded onto each
+ * other. */
+INLINE bool is_over(float along, float across, float aside) {
+    return along < 0.0f || across * across + aside * aside > 3.0f * along * along;
+}
 
 /* How bent the faces are with the vertex moved by a number of levels, and the cost of faces that turn over. */
 INLINE double folded_by(const Fan *fan, const float *by, double over) {
@@ -287,19 +292,20 @@ INLINE double folded_by(const Fan *fan, const float *by, double over) {
     for (int k = 0; k < fan->count; k++) {
         float at[3];
         for (int i = 0; i < 3; i++)
-            at[i] = fan->normal[i][k] + by[0] * fan->turn[0][i][k] + by[1] * fan->turn[1][i][k] + by[2] * fan->turn[2][i][k];
+            at[i] = fan->normal[i][k] + by[0] * fan->turn[0][i][k] + by[1] * fan->turn[1][i][k]
+                + by[2] * fan->turn[2][i][k];
         sum += fan->weight[k] * chord(at[0], at[1], at[2]) + (is_over(at[0], at[1], at[2]) ? over : 0.0);
     }
     return sum;
 }
 
-/* Moves levels (n x 3) by one along `directions` (n x 9, or one row for all; a level long) where that turns faces back, which
- * rounding has turned over, however small they are; `moved` is kept in step. No vertex ends up farther from its place than
- * its `reach`, unless it was. Returns how often one moved. */
+/* Moves levels (n x 3) by one along `directions` (n x 9, or one row for all; a level long) where that turns faces back,
+ * which rounding has turned over, however small they are; `moved` is kept in step. No vertex ends up farther from its
+ * place than its `reach`, unless it was. Returns how often one moved. */
 KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
                              Bytes open) {
-    if (!fits(&wanted, moved, levels, open) || levels.columns != 3 || directions.columns != 9 || reach.size != levels.rows ||
-        (directions.rows != levels.rows && directions.rows != 1))
+    if (!fits(&wanted, moved, levels, open) || levels.columns != 3 || directions.columns != 9
+        || reach.size != levels.rows || (directions.rows != levels.rows && directions.rows != 1))
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
     double over = 1.0 / (double)largest(wanted.faces.rows, 1);
@@ -353,8 +359,8 @@ KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, 
     return moves;
 }
 
-/* Two faces at an edge, as its ends and the two corners opposite: rows of `flaps`, at most one for each edge. `starts` and
- * `members` are the graph's rows, ascending; `pending` is scratch, as long as `members`. Returns how many. */
+/* Two faces at an edge, as its ends and the two corners opposite: rows of `flaps`, at most one for each edge. `starts`
+ * and `members` are the graph's rows, ascending; `pending` is scratch, as long as `members`. Returns how many. */
 int64_t collect_flaps(ConstInts2 faces, ConstInts starts, ConstInts members, Ints pending, Ints2 flaps) {
     if (faces.columns != 3 || flaps.columns != 4 || pending.size != members.size) return MISUSED;
     int64_t count = 0;

@@ -8,14 +8,15 @@ static uint64_t read_number(const uint8_t *bytes, int64_t width, bool big_endian
     return number;
 }
 
-/* Walk over as many rows as `starts` has entries. Returns where the last ends; negative, minus where the walk stopped, if
- * a row runs over the end. `widths`: for each property the bytes of its list's length (0: it is a number), and the bytes
- * of one item; `place` is the property whose lists are wanted. */
+/* Walk over as many rows as `starts` has entries. Returns where the last ends; negative, minus where the walk stopped,
+ * if a row runs over the end. `widths`: for each property the bytes of its list's length (0: it is a number), and the
+ * bytes of one item; `place` is the property whose lists are wanted. */
 int64_t walk_rows(
     ConstBytes raw, int64_t offset, ConstLongs2 widths, int64_t place, bool big_endian, Longs starts, Longs sizes) {
     if (offset < 0 || offset > raw.size || widths.columns != 2 || sizes.size != starts.size) return MISUSED;
     for (int64_t i = 0; i < widths.rows; i++)
-        if (widths.data[2 * i] < 0 || widths.data[2 * i] > 8 || widths.data[2 * i + 1] < 1 || widths.data[2 * i + 1] > 8)
+        if (widths.data[2 * i] < 0 || widths.data[2 * i] > 8 || widths.data[2 * i + 1] < 1
+            || widths.data[2 * i + 1] > 8)
             return MISUSED;
     int64_t cursor = offset;
     for (int64_t row = 0; row < starts.size; row++) {
