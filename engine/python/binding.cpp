@@ -27,8 +27,8 @@ const struct {
 #define LIMIT(name) {#name, &bsmdec_limits::name}
     LIMIT(vertices), LIMIT(faces), LIMIT(blocks), LIMIT(block_size), LIMIT(coefficients), LIMIT(frames),
     LIMIT(gop_frames), LIMIT(frame_bytes), LIMIT(metadata_bytes), LIMIT(attributes), LIMIT(attribute_values),
-    LIMIT(sequence_bytes), LIMIT(field_bytes), LIMIT(work), LIMIT(work_per_vertex), LIMIT(work_per_byte), LIMIT(most_work), LIMIT(memory),
-    LIMIT(memory_per_vertex), LIMIT(memory_per_byte), LIMIT(most_memory),
+    LIMIT(sequence_bytes), LIMIT(field_bytes), LIMIT(work), LIMIT(work_per_vertex), LIMIT(work_per_byte),
+    LIMIT(most_work), LIMIT(memory), LIMIT(memory_per_vertex), LIMIT(memory_per_byte), LIMIT(most_memory),
 #undef LIMIT
 };
 const char *const KINDS[] = {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"};

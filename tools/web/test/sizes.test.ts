@@ -10,8 +10,8 @@ import { VIEWER, WEB } from "./shared";
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [19750, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
     "static meshes": [68700, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
-    "sequences": [71500, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
-    "everything": [106900, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    "sequences": [71900, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
+    "everything": [107200, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8500, ["three.js", "pool.js"]],
 };
 
