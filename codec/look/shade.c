@@ -115,7 +115,7 @@ INLINE void draw_face(Face face, const float *normals, const double *light, int3
             float length = (float)(nx * nx + ny * ny + nz * nz);
             if (z == depth.data[pixel]) {
                 float facing_before = picture.data[pixel], length_before = lengths.data[pixel];
-                if (facing == facing_before && length == length_before) continue; /* soon told of faces drawn again */
+                if (facing == facing_before && length == length_before) continue; /* drawn again: skip */
                 if (!(shade_of(facing, length) > shade_of(facing_before, length_before))) continue;
             }
             owner.data[pixel] = number;

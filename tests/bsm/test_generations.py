@@ -77,7 +77,7 @@ def test_real_meshes_come_back_in_every_generation(name, preset, meshes):
     assert np.array_equal(*(np.unique(mesh.positions, axis=0) for mesh in kept))
 
 
-def said(capsys, *words):
+def printed(capsys, *words):
     capsys.readouterr()
     assert main([*map(str, words)]) == 0
     return capsys.readouterr()
@@ -86,19 +86,19 @@ def said(capsys, *words):
 def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_generation(tmp_path, capsys):
     source, stream, again = tmp_path / "a.ply", tmp_path / "a.bsm", tmp_path / "b.ply"
     bsm.save(torus(20, 12), source)
-    assert not said(capsys, "encode", source).err.count("generation")
+    assert not printed(capsys, "encode", source).err.count("generation")
     assert "provenance" not in bsm.decode(stream).metadata
-    said(capsys, "encode", source, "-f", "--provenance", "--max-error", "0.2%")
+    printed(capsys, "encode", source, "-f", "--provenance", "--max-error", "0.2%")
     made = bsm.decode(stream).metadata["provenance"]
     digest = sha256(source.read_bytes()).hexdigest()
     assert made == f"bsm {bsm.__version__} balanced farthest=0.2% look=1 sha256={digest}"
-    assert made in said(capsys, "info", stream).out
-    said(capsys, "decode", stream, "-o", again)
-    assert "is generation 2: errors add up" in said(capsys, "encode", again).err
+    assert made in printed(capsys, "info", stream).out
+    printed(capsys, "decode", stream, "-o", again)
+    assert "is generation 2: errors add up" in printed(capsys, "encode", again).err
     second = bsm.decode(tmp_path / "b.bsm").metadata["provenance"]
     assert second.startswith(f"bsm {bsm.__version__} balanced farthest=1% look=1 generation=2 sha256=")
-    said(capsys, "decode", tmp_path / "b.bsm", "-o", tmp_path / "c.ply")
-    third = said(capsys, "encode", tmp_path / "c.ply", "--preset", "lossless", "--no-provenance")
+    printed(capsys, "decode", tmp_path / "b.bsm", "-o", tmp_path / "c.ply")
+    third = printed(capsys, "encode", tmp_path / "c.ply", "--preset", "lossless", "--no-provenance")
     assert "is generation 3\n" in third.err
     assert "provenance" not in bsm.decode(tmp_path / "c.bsm").metadata
 
@@ -106,5 +106,5 @@ def test_a_stream_says_how_it_was_made_and_the_next_one_that_it_is_another_gener
 def test_frames_say_how_they_were_made(tmp_path, capsys):
     frames = np.stack([torus(12, 8).positions + 0.1 * t for t in range(3)])
     np.savez(tmp_path / "a.npz", positions=frames, faces=torus(12, 8).faces)
-    said(capsys, "encode", tmp_path / "a.npz", "--provenance")
-    assert " balanced farthest=1% look=1 sha256=" in said(capsys, "info", tmp_path / "a.bsm").out
+    printed(capsys, "encode", tmp_path / "a.npz", "--provenance")
+    assert " balanced farthest=1% look=1 sha256=" in printed(capsys, "info", tmp_path / "a.bsm").out

@@ -58,7 +58,7 @@ def rounded(prepared: Prepared, bits: int) -> Draft:
 
 
 def _made_on_grid(positions: Matrix, cells: int, kind: type[np.floating[Any]]) -> tuple[Grid, Levels] | None:
-    """The grid of so many cells that positions, shape (n, 3), were decoded from; None: they are on no such grid."""
+    """Return the grid with `cells` cells that positions, shape (n, 3), lie on, or None."""
     low = positions.min(axis=0)
     near = kind((positions - low).max() / cells)
     for step in map(float, (near, np.nextafter(near, kind(0)), np.nextafter(near, kind(np.inf)))):
