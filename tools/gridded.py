@@ -15,7 +15,6 @@ from bsm.bitstream.container.packets import PARSERS
 from bsm.bitstream.container.wire import FrameType, write_map, write_varint
 from bsm.bitstream.fields.corners import MOST_LARGEST, FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, light_field
-from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.mesh import TriangleMesh
 from tools.payloads import FieldDecoder, decode_connectivity
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
@@ -53,9 +52,7 @@ def lightened(stream: bytes, *counts: int) -> bytes:
     vertices, of_faces, largest = (header[HEADER_FIELDS[name].key] for name in ("vertices", "faces", "grid"))
     data = next(payload for kind, payload in frames if kind == FrameType.CONNECTIVITY)
     faces = decode_connectivity(data, vertices, of_faces)
-    chunks: list[Any] = [
-        PARSERS[FrameType.GRID](payload, DEFAULT_LIMITS) for kind, payload in frames if kind == FrameType.GRID
-    ]
+    chunks: list[Any] = [PARSERS[FrameType.GRID](payload) for kind, payload in frames if kind == FrameType.GRID]
     decoder, values = FieldDecoder(grid_field(faces, vertices, largest)), np.zeros((vertices, 3), np.int32)
     for chunk in chunks:
         known, coded = decoder.chunk(chunk.data, chunk.count)

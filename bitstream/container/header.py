@@ -7,7 +7,7 @@ import operator
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, TypeAlias, TypeVar
 
-from bsm.bitstream.errors import CorruptError, OptionError, UnsupportedError
+from bsm.bitstream.errors import CorruptError, OptionError
 
 COUNT = 2**31 - 1
 METHODS = 255
@@ -27,7 +27,7 @@ class Field:
     type: type
     low: float
     high: float
-    reserved: float = 0
+    reserved: float = 0  # for methods of later versions
     lengths: tuple[int, int] = (0, 0)
     item: Kind = float
 
@@ -48,12 +48,6 @@ class Field:
         if not all(self.low <= item <= self.high for item in items):
             return f"= {value} is outside its legal range {self.low:g}..{self.high:g}"
         return None
-
-    def accepts(self, value: Any) -> bool:
-        """Whether a value read from msgpack has the right type."""
-        if self.type is tuple:
-            return type(value) is list and all(type(item) is self.item for item in value)
-        return type(value) is self.type
 
 
 def _plain(kind: Kind, value: Any) -> Any:
@@ -314,38 +308,11 @@ def entries_of(record: Any) -> list[tuple[int, Any]]:
 
 def record_of(kind: type[Record], what: str, entries: list[tuple[Any, Any]]) -> Record:
     """The record that `entries_of` came from."""
-    declarations, defaults = fields_of(kind), defaults_of(kind)
-    names = {declared.key: name for name, declared in declarations.items()}
-    _refuse_unknown(entries, names, declarations, what)
-    values: dict[str, Any] = {}
-    for key, value in entries:
-        name, declared = names[key], declarations[names[key]]
-        if not declared.accepts(value):
-            raise CorruptError(f"{what} field {name} has type {type(value).__name__}")
-        values[name] = declared.normalise(value)
-        if name in defaults and values[name] == defaults[name]:
-            raise CorruptError(f"{what} field {name} is stored although it has its default value")
-    missing = [name for name in declarations if name not in defaults and name not in values]
-    if missing:
-        raise CorruptError(f"{what} lacks {', '.join(missing)}")
+    names = {declared.key: name for name, declared in fields_of(kind).items()}
     try:
-        return kind(**values)
-    except OptionError as error:
-        raise CorruptError(error.message) from error
-
-
-def _refuse_unknown(
-    entries: list[tuple[Any, Any]], names: dict[int, str], declarations: dict[str, Any], what: str
-) -> None:
-    """What is of a later version is refused as that, whatever else may seem to be wrong with it."""
-    for key, value in entries:
-        if type(key) is not int or key < 0:
-            raise CorruptError(f"{what} key {key!r} is not an unsigned integer")
-        if key not in names:
-            raise UnsupportedError(f"{what} key {key} is unknown to this decoder")
-        declared = declarations[names[key]]
-        if declared.type is int and declared.accepts(value) and declared.high < value <= declared.reserved:
-            raise UnsupportedError(f"{what} field {names[key]} names method {value}, unknown to this decoder")
+        return kind(**{names[key]: value for key, value in entries})
+    except (KeyError, TypeError, OptionError) as error:
+        raise CorruptError(f"{what} cannot be read: {error}") from error
 
 
 VERTEX, CORNER, FACE = range(3)  # what has a value in the stream

@@ -10,7 +10,6 @@ from bsm.bitstream.container.header import Header as Header
 from bsm.bitstream.container.header import entries_of, record_of
 from bsm.bitstream.container.wire import MAX_ENTRIES, Cursor, FrameType, parse_map, write_map, write_varint
 from bsm.bitstream.errors import CorruptError, OptionError
-from bsm.bitstream.limits import Limits
 
 MetadataValue: TypeAlias = str | int | float | bytes
 
@@ -119,21 +118,17 @@ Packet: TypeAlias = (
 
 MOST_HEADER = 1 << 16
 MOST_DECLARATION = 1 << 16  # bytes of their maps
-LIMITED_FIELDS = ("vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes")
 
 
 def write_header(header: Header) -> bytes:
     return write_map(entries_of(header))
 
 
-def parse_header(payload: bytes, limits: Limits) -> Header:
-    """Inverse of `write_header`; counts are checked against `limits`."""
+def parse_header(payload: bytes) -> Header:
+    """Inverse of `write_header`."""
     if len(payload) > MOST_HEADER:
         raise CorruptError(f"a header of {len(payload)} bytes, where {MOST_HEADER} are legal")
-    header = record_of(Header, "header", parse_map(payload))
-    for name in LIMITED_FIELDS:
-        limits.check(name, getattr(header, name))
-    return header
+    return record_of(Header, "header", parse_map(payload))
 
 
 def write_metadata(metadata: Metadata) -> bytes:
@@ -152,12 +147,11 @@ def write_metadata(metadata: Metadata) -> bytes:
         raise OptionError(f"metadata cannot be stored: {error}") from error
 
 
-def parse_metadata(payload: bytes, limits: Limits) -> Metadata:
-    limits.check("metadata_bytes", len(payload))
+def parse_metadata(payload: bytes) -> Metadata:
     try:
         return Metadata(dict(parse_map(payload)))
-    except OptionError as error:
-        raise CorruptError(error.message) from error
+    except (OptionError, TypeError) as error:
+        raise CorruptError(f"metadata cannot be read: {error}") from error
 
 
 def write_plain(packet: Any) -> bytes:
@@ -166,10 +160,10 @@ def write_plain(packet: Any) -> bytes:
     return bytes(b"".join(map(write_varint, numbers)) + data)
 
 
-def parse_plain(kind: type[Any]) -> Callable[[bytes, Limits], Any]:
+def parse_plain(kind: type[Any]) -> Callable[[bytes], Any]:
     numbers = len(fields(kind)) - 1
 
-    def parse(payload: bytes, limits: Limits) -> Any:
+    def parse(payload: bytes) -> Any:
         cursor = Cursor(payload)
         return kind(*(cursor.varint() for _ in range(numbers)), cursor.rest())
 
@@ -182,15 +176,13 @@ def write_attribute(attribute: Attribute) -> bytes:
     return write_varint(attribute.index) + write_varint(len(entries)) + entries + attribute.seams
 
 
-def parse_attribute(payload: bytes, limits: Limits) -> Attribute:
-    """Inverse of `write_attribute`; counts are checked against `limits`."""
+def parse_attribute(payload: bytes) -> Attribute:
+    """Inverse of `write_attribute`."""
     cursor = Cursor(payload)
     index, length = cursor.varint(), cursor.varint()
     if length > MOST_DECLARATION:
         raise CorruptError(f"a declaration of {length} bytes, where {MOST_DECLARATION} are legal")
-    declaration = record_of(Declaration, "attribute", parse_map(cursor.take(length)))
-    limits.check("attribute_values", declaration.rows * max(1, declaration.words))
-    return Attribute(index, declaration, cursor.rest())
+    return Attribute(index, record_of(Declaration, "attribute", parse_map(cursor.take(length))), cursor.rest())
 
 
 def write_end(end: End) -> bytes:
@@ -199,7 +191,7 @@ def write_end(end: End) -> bytes:
     return write_varint(end.frames) + b"".join(one.to_bytes(4, "little") for one in sums)
 
 
-def parse_end(payload: bytes, limits: Limits) -> End:
+def parse_end(payload: bytes) -> End:
     cursor = Cursor(payload)
     frames, crc = cursor.varint(), int.from_bytes(cursor.take(4), "little")
     positions = None if cursor.ended else int.from_bytes(cursor.take(4), "little")
@@ -217,7 +209,7 @@ _PLAIN: dict[FrameType, type[Any]] = {
     FrameType.REFINEMENT: Refinement,
     FrameType.VALUES: Values,
 }
-_OTHERS: dict[FrameType, tuple[type[Any], Callable[[Any], bytes], Callable[[bytes, Limits], Packet]]] = {
+_OTHERS: dict[FrameType, tuple[type[Any], Callable[[Any], bytes], Callable[[bytes], Packet]]] = {
     FrameType.HEADER: (Header, write_header, parse_header),
     FrameType.METADATA: (Metadata, write_metadata, parse_metadata),
     FrameType.ATTRIBUTE: (Attribute, write_attribute, parse_attribute),
@@ -226,4 +218,4 @@ _OTHERS: dict[FrameType, tuple[type[Any], Callable[[Any], bytes], Callable[[byte
 _LAYOUTS = {kind: (made, write_plain, parse_plain(made)) for kind, made in _PLAIN.items()} | _OTHERS
 FRAME_TYPES: dict[type, FrameType] = {made: kind for kind, (made, _, _) in _LAYOUTS.items()}
 WRITERS: dict[FrameType, Callable[[Any], bytes]] = {kind: write for kind, (_, write, _) in _LAYOUTS.items()}
-PARSERS: dict[FrameType, Callable[[bytes, Limits], Packet]] = {kind: parse for kind, (_, _, parse) in _LAYOUTS.items()}
+PARSERS: dict[FrameType, Callable[[bytes], Packet]] = {kind: parse for kind, (_, _, parse) in _LAYOUTS.items()}

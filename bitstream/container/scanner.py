@@ -58,7 +58,7 @@ class Scanner:
             if frame.type not in SKIPPABLE_TYPES:
                 if frame.type not in PARSERS:
                     raise UnsupportedError(f"frame type {frame.type} is unknown")
-                packet = PARSERS[FrameType(frame.type)](frame.payload, self._limits)
+                packet = PARSERS[FrameType(frame.type)](frame.payload)
                 self.ended = isinstance(packet, End)
                 yield packet, span
             self._frames += 1

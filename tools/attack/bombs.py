@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import get_type_hints
 
 from bsm.bitstream.container.gop import GopBody, GopField, GopMethod
-from bsm.bitstream.container.packets import LIMITED_FIELDS
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.limits import NAMED_LIMITS
 from tools.attack.streams import BOMBS
@@ -42,6 +41,8 @@ RATIO = 1.25
 """Seconds that a second charged may take."""
 YARDSTICK = "mesh-blocks"
 """Nearly all dictionaries."""
+LIMITED = {"vertices", "faces", "blocks", "block_size", "coefficients", "frames", "gop_frames", "attributes"}
+"""Fields of the header that limits bound."""
 LEAST_SECONDS = 0.05
 """Shorter CPU times are too noisy to judge."""
 
@@ -88,7 +89,7 @@ def things() -> set[str]:
     """Return what there can be many of: frames of each type but END, methods of GOPs, counts, and lists in GOPs."""
     again = {kind.name for kind in FrameType if kind is not FrameType.END}
     lists = {name for one in (GopBody, GopField) for name, kind in get_type_hints(one).items() if kind not in _SINGLE}
-    return again | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | set(LIMITED_FIELDS) | lists
+    return again | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | LIMITED | lists
 
 
 _SINGLE = (int, float, bool, GopMethod)

@@ -57,7 +57,7 @@ def scanner(data: bytes) -> None:
 def payloads(data: bytes) -> None:
     """The payload of each frame type, without frame and checksum."""
     kinds = list(PARSERS)
-    PARSERS[kinds[data[0] % len(kinds)]](data[1:], LIMITS)
+    PARSERS[kinds[data[0] % len(kinds)]](data[1:])
 
 
 def stream(data: bytes) -> None:

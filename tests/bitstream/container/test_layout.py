@@ -15,8 +15,7 @@ from bsm.bitstream.container.packets import (
     Partition,
 )
 from bsm.bitstream.container.wire import FrameType
-from bsm.bitstream.errors import LimitError, OptionError
-from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.bitstream.errors import OptionError
 
 CASES = [
     (Metadata({}), "80"),
@@ -34,8 +33,8 @@ def write(packet):
     return WRITERS[FRAME_TYPES[type(packet)]](packet)
 
 
-def parse(like, payload, limits=DEFAULT_LIMITS):
-    return PARSERS[FRAME_TYPES[type(like)]](payload, limits)
+def parse(like, payload):
+    return PARSERS[FRAME_TYPES[type(like)]](payload)
 
 
 @pytest.mark.parametrize(("packet", "expected"), CASES)
@@ -72,10 +71,3 @@ def test_metadata_of_too_many_entries():
         write(Metadata(many))
     many.popitem()
     assert parse(Metadata(), write(Metadata(many))) == Metadata(many)
-
-
-def test_metadata_limit():
-    payload = write(Metadata({"a": "x" * 100}))
-    with pytest.raises(LimitError, match="metadata_bytes = 105 is over the limit of 104"):
-        parse(Metadata(), payload, Limits(metadata_bytes=len(payload) - 1))
-    assert parse(Metadata(), payload, Limits(metadata_bytes=len(payload)))
