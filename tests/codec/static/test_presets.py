@@ -23,8 +23,10 @@ ROOMS, TOO_LARGE = ("assets", "hostile", "static"), "static/dragon_437645.ply"
 BY_CHANCE = (
     *("hostile/c3d_teapot.obj", "hostile/igl_truck.obj"),
     "hostile/draco_triangle_with_degenerate_tex_coords.obj",
+    *("hostile/trimesh_comments.off", "hostile/trimesh_whitespace.off"),
 )
-"""Out of order: balanced with a look of 0.77 after 0.76, and of 0.93 after 0.91; near-lossless with 0.23 after 0.16."""
+"""Out of order: balanced with a look of 0.77 after 0.76, and of 0.93 after 0.91; near-lossless with 0.23 after 0.16;
+near-lossless of a cube by 6 bytes, where all three are exact."""
 
 
 def encoded(mesh: TriangleMesh, preset: str) -> tuple[int, float]:
