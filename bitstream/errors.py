@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import json
-from pathlib import Path
 from typing import Any, TypeVar
 
 
@@ -219,7 +217,21 @@ class DependencyError(BsmError, ImportError):
     """
 
 
-for _error in (BsmError, *BsmError.__subclasses__()):
+class BsmWarning(UserWarning):
+    """What was left out of a mesh, or does not come back as it was; the command line prints it as a note.
+
+    Examples
+    --------
+    >>> import bsm, warnings
+    >>> with warnings.catch_warnings(record=True) as notes:
+    ...     warnings.simplefilter("always", bsm.BsmWarning)
+    ...     data = bsm.encode(([(0, 0, 0), (1, 0, 0), (0, 1, 0), (9, 9, 9)], [(0, 1, 2)]))
+    >>> [str(note.message) for note in notes]
+    ['left out 1 vertex that no face uses']
+    """
+
+
+for _error in (BsmError, BsmWarning, *BsmError.__subclasses__()):
     _error.__module__ = __name__.partition(".")[0]  # tracebacks show them by the name that users catch them by
 del _error
 
@@ -249,24 +261,5 @@ def imported(module: str, why: str, extra: str) -> Any:
 
 
 def how_to_install(extra: str) -> str:
-    """The command that installs an extra of this package from where the package itself came."""
-    from importlib import metadata
-
-    try:
-        origin = metadata.distribution(DISTRIBUTION).read_text("direct_url.json")
-    except metadata.PackageNotFoundError:  # run from a checkout that is not installed
-        checkout = Path(__file__).resolve().parents[1]
-        return f"pip install '{checkout}[{extra}]'"
-    if origin is None:
-        return f"pip install '{DISTRIBUTION}[{extra}]'"
-    source = json.loads(origin)
-    url = source["url"]
-    if "vcs_info" in source:
-        url = f"{source['vcs_info']['vcs']}+{url}@{source['vcs_info']['commit_id']}"
-    editable = "-e " if source.get("dir_info", {}).get("editable") else ""
-    if url.startswith("file://") and "dir_info" in source:
-        from urllib.parse import urlsplit
-        from urllib.request import url2pathname
-
-        return f"pip install {editable}'{url2pathname(urlsplit(url).path)}[{extra}]'"
-    return f"pip install '{DISTRIBUTION}[{extra}] @ {url}'"
+    """The command that installs an extra; of a package that is installed it takes nothing from elsewhere."""
+    return f"pip install '{DISTRIBUTION}[{extra}]'"

@@ -22,7 +22,7 @@ FLOORS = {
         ("console", "events", "lengths", "pictures"),
         ("decoding",),
         ("files",),
-        ("comparison", "evaluation", "exits", "options"),
+        ("comparison", "evaluation", "exits", "keywords", "options"),
         ("libraries",),
         ("jobs",),
         ("api",),
@@ -35,7 +35,7 @@ FLOORS = {
         ("__main__",),
     ),
     "bsm.codec": (
-        ("_kernels", "arrays", "choices", "threads"),
+        ("_kernels", "arrays", "choices", "progress", "threads"),
         # Encoders decode what they wrote: by the compiled decoder, which stands below everything.
         ("geometry",),
         ("decoded",),

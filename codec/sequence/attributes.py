@@ -12,8 +12,9 @@ from bsm.bitstream.container.gop import GopBody, GopField, GopMethod, still
 from bsm.bitstream.errors import NumericError, OptionError, TargetError
 from bsm.codec.arrays import Matrix
 from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.progress import silent
 from bsm.codec.sequence.frames import distinct_frames
-from bsm.codec.sequence.gop import GopDecoder, GopEncoder, silent
+from bsm.codec.sequence.gop import GopDecoder, GopEncoder
 from bsm.codec.sequence.tracks import Setting
 from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.attributes.levels import Values, restored

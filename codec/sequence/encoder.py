@@ -21,11 +21,12 @@ from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.progress import PARTS, Progress, silent
 from bsm.codec.sequence.attributes import Bound, Mover, moved, with_fields
 from bsm.codec.sequence.frames import Group, next_group, require_same
-from bsm.codec.sequence.gop import GopEncoder, silent
+from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.run_encoding import PARTS, EncodedGops, FirstFrame, RunEncoder, finest_step
+from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, RunEncoder, finest_step
 from bsm.codec.sequence.runs import Cutter, Frame, JoinedRun, Run, Shelf, joined_runs
 from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
 from bsm.codec.sequence.verification import ExpectedFrame, SequenceVerifier
@@ -36,7 +37,7 @@ from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepare
 from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
 from bsm.codec.static.verification import Original
-from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
+from bsm.codec.static.ways.block_coder import as_of_decoders
 from bsm.codec.static.work import Allowance
 
 
@@ -81,6 +82,8 @@ class SequenceEncoder:
         The decoder's face i is face `face_order[i]`.
     notes : tuple of str
         Changes that the encoder made to its input.
+    losses : tuple of str
+        Those notes that say what does not come back.
     run_starts : list of int
         The numbers of the first frames of all runs so far.
     samples : int
@@ -108,6 +111,7 @@ class SequenceEncoder:
         self.vertex_order: Order = np.empty(0, np.int64)
         self.face_order: Order = np.empty(0, np.int64)
         self.notes: tuple[str, ...] = ()
+        self.losses: tuple[str, ...] = ()
         self.run_starts: list[int] = []
         self.samples = 0
         self._faces = faces
@@ -206,7 +210,8 @@ class SequenceEncoder:
         if self._count and number != self._count:
             raise OptionError(f"{self._count} frames were announced and {number} came")
         changes = (f"{name} changes at frame {first}, but stays as before" for name, first in cutter.changed.items())
-        self.notes = (*self.notes, *changes)
+        self.losses = (*self.losses, *changes)
+        self.notes = tuple(dict.fromkeys((*self.notes, *self.losses)))
         yield verifier.take(writer.end(self._checksum), last=True)
 
     def _dressed(self, cutter: Cutter) -> Iterator[Run]:
@@ -312,6 +317,7 @@ class SequenceEncoder:
         """What comes before the GOPs of a run with a mesh of its own."""
         notes = (one.note for one in carried if not one.declaration.moves)
         order = (f"the order of vertices and faces takes {len(one.data)} of the bytes" for one in prepared.order)
+        self.losses = tuple(dict.fromkeys((*self.losses, *run.joined.losses)))
         self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *notes, *order)))
         body = (*prepared.before_blocks, *(block.packet for block in first.blocks))
         draft = Draft(replace(first.header, run=(index,) if index else ()), body, run.given.positions)
@@ -405,13 +411,18 @@ def encode_sequence(
     options: SequenceOptions | None = None,
     metadata: Metadata = MappingProxyType({}),
     attributes: Sequence[Attribute] = (),
-    progress: Progress | None = None,
 ) -> bytes:
     """Encode frames, `positions` of shape (T, n, 3), to a complete stream; other arguments as of `SequenceEncoder`."""
+    frames = frames_of(positions)
+    return b"".join(SequenceEncoder(faces, options, len(frames), metadata, attributes).chunks(frames))
+
+
+def frames_of(positions: npt.ArrayLike) -> Positions:
+    """Positions of frames, shape (T, n, 3), checked."""
     try:
         frames = np.asarray(positions, np.float64)
     except (TypeError, ValueError) as error:
         raise MeshError(f"the positions of a sequence are not an array of numbers: {error}") from error
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")
-    return b"".join(SequenceEncoder(faces, options, len(frames), metadata, attributes).chunks(frames, progress))
+    return frames

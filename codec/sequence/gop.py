@@ -19,12 +19,12 @@ from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMeth
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
 from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Levels, Matrix, sum_in_order
+from bsm.codec.progress import Progress
 from bsm.codec.sequence import temporal
 from bsm.codec.sequence.dictionaries import Part
 from bsm.codec.sequence.row_prediction import ROUNDS, WEIGHT, LevelWriter, Loop
 from bsm.codec.sequence.temporal import time_cosines
 from bsm.codec.sequence.tracks import INHERITED, Setting, Track, lags, split_columns
-from bsm.codec.static.ways.block_coder import Progress
 
 
 class Inherited:
@@ -135,10 +135,6 @@ def decode_basis(field: GopField, frames: int) -> Matrix:
     references = level_references(list(levels), field.components)
     decode_levels(make_level_bank(), field.basis, list(levels), references, temporal.basis_leads(field.width))
     return temporal.basis_of(levels, field.exponents)
-
-
-def silent(done: int, blocks: int) -> None:
-    """No progress is reported."""
 
 
 class GopEncoder:

@@ -12,8 +12,9 @@ from bsm.bitstream.container.header import LAW_OF_SEQUENCES, Header
 from bsm.bitstream.errors import OptionError
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Matrix, Order, Positions
+from bsm.codec.progress import Nearing, Progress, silent
 from bsm.codec.sequence.frames import Group, distinct_frames
-from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Inherited, silent
+from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Inherited
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL, ROUNDS
 from bsm.codec.sequence.step_search import StepSearch
@@ -22,7 +23,7 @@ from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, Progress, as_of_decoders, blended, encode_blocks
+from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, as_of_decoders, blended, encode_blocks
 from bsm.codec.static.work import Allowance, mesh_memory
 
 FIRST_STEP = 0.3
@@ -38,7 +39,10 @@ TOGETHER = 4
 
 FINEST_STEP = 2e-5  # below, a search does not look
 
-PASS, PARTS = 0.4, 1000  # of what is left of a search, the share of the next pass, as far as anybody knows; of a search
+PASSES, LATER = (0.5, 0.0015, 0.2), 0.35
+"""Of what is left of a search, the share of its next pass, of the first less for each frame; measured."""
+SEARCH = 0.8  # of the time of a GOP; then frames in doubt are drawn
+BASIS, LEVELS = 0.6, 0.15  # of a pass, the shares of its basis and of its levels; the rest looks at frames
 
 NEAR = 0.8, 1.15  # a first frame is reused for steps within these factors of its own
 
@@ -189,21 +193,25 @@ class RunEncoder:
         prepared, options, promise = self._prepared, self._options, self._options.promise
         if promise is None:
             return encode(_Pass(options.step if step is None else step), self._progress)
-        search = StepSearch(frames, prepared.mesh.faces, promise, prepared.units.scale, options.threads)
-        cut, left = None, 1.0
-
-        def heard(done: int, blocks: int) -> None:
-            self._progress(int(PARTS * (1.0 - left * (1.0 - PASS * done / blocks))), PARTS)
+        cut, near = None, Nearing(self._progress)
+        share, part = 0.0, max(PASSES[0] - PASSES[1] * len(frames), PASSES[2])
+        scale, threads = prepared.units.scale, options.threads
+        search = StepSearch(frames, prepared.mesh.faces, promise, scale, threads, lambda share: near.at(0.98 * share))
 
         def attempt(step: float, weights: Matrix | None, rounds: int) -> EncodedGops:
-            nonlocal cut, left
+            nonlocal cut, share, part
+            near.at(SEARCH * share)
+            begin, share, part = share, share + part * (1.0 - share), LATER
+
+            def heard(done: int, blocks: int) -> None:
+                near.at(SEARCH * (begin + (share - begin) * (BASIS + LEVELS * done / blocks)))
+
             found = encode(_Pass(step, weights, cut, rounds), heard)
-            left *= 1.0 - PASS
             cut = len(found.bodies) > 1  # as the first attempt was, so are the others
             return found
 
         found = search.run(attempt, step or promise.first_step, finest_step(frames, options))
-        self._progress(PARTS, PARTS)
+        near.to(1.0)
         return found
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import count
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -22,6 +24,7 @@ from bsm.codec.static.targets import COARSEST_STEP
 from bsm.codec.threads import ordered_map
 
 KNOTS = 10  # frames, evenly over a GOP, that small pictures are drawn of at every attempt, beside those that were large
+LOOKS = 0.5  # what a frame that is in doubt takes: what is seen of one settles others
 SMALL = 256  # pixels of the side of these
 COARSENESS = 0.03  # how far what is seen in them is off at least, in logarithms, scaled by what is seen in large ones
 MORE = 1  # frames that seem the worst, drawn large at every attempt
@@ -93,7 +96,16 @@ def secant(excess: Callable[[float], float], first: float, finest: float, slack:
 class StepSearch:
     """Looks for the widest step with which the frames of a GOP keep a promise."""
 
-    def __init__(self, frames: Positions, faces: Faces, promise: Promise, scale: float, threads: int | None) -> None:
+    def __init__(
+        self,
+        frames: Positions,
+        faces: Faces,
+        promise: Promise,
+        scale: float,
+        threads: int | None,
+        drawn: Callable[[float], None] = lambda share: None,
+    ) -> None:
+        self._drawn, self._begun = drawn, time.perf_counter()
         self._frames, self._faces, self._promise, self._threads = frames, faces, promise, threads
         self._reach = promise.reach(scale)
         self._metrics: dict[tuple[int, int], LookMetric | None] = {}
@@ -189,12 +201,17 @@ class StepSearch:
     def _draw_doubtful(self, measured: Measured, decoded: Positions) -> None:
         """Draw frames that may be worse than the bound: small, and large where that leaves a doubt."""
         small, usual = set(self._knots), sum(self._scales.values()) / max(len(self._scales), 1)
-        while measured.excess <= 0.0 and (index := measured.doubtful) is not None and measured.most[index] > 1.0:
+        begin = time.perf_counter()
+        for looks in count(1):
+            if measured.excess > 0.0 or (index := measured.doubtful) is None or not measured.most[index] > 1.0:
+                break
             if index in small or len(decoded) == 1:
                 measured.drawn[index] = self._look(index, decoded)
             else:
                 small.add(index)
                 measured.glimpsed[index] = self._look(index, decoded, SMALL) * math.exp(usual)
+            now, left = time.perf_counter(), LOOKS * np.count_nonzero(measured.most > 1.0)
+            self._drawn((now - self._begun) / (now - self._begun + left * (now - begin) / looks))
         self._knots = sorted(small | set(measured.drawn))
 
     def _look(self, index: int, decoded: Positions, most_pixels: int = MOST_PIXELS) -> float:

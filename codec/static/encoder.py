@@ -13,6 +13,7 @@ from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Order
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Comparison, Reference
+from bsm.codec.progress import Nearing, Progress
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.choice.attributes import Input, smallest
 from bsm.codec.static.choice.blocks import Spectral
@@ -21,7 +22,7 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
 from bsm.codec.static.verification import Original, verify
-from bsm.codec.static.ways.block_coder import Progress, as_of_decoders
+from bsm.codec.static.ways.block_coder import as_of_decoders
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +53,8 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
+PREPARED, TRY = 0.04, 0.3  # of the time, what preparing takes; of what is left, a try
+VERIFIED, VERIFIED_GRID = 0.1, 0.4  # of the time, what the check takes
 SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
 """Of meshes, in their own unit: what numbers of the format hold; and where bounds are numbers of single precision."""
 
@@ -91,8 +94,13 @@ class Encoder:
         sent = {one.name for one, _ in self._input.wanted}
         left = [one.name for one in self._input.given.attributes if one.name not in sent]
         said = (*(one.note for one in self._input.carried), *([f"left out: {', '.join(left)}"] if left else []))
+        return (*self._input.joined.notes, *said, *self.losses[len(self._input.joined.losses) :])
+
+    @property
+    def losses(self) -> tuple[str, ...]:
+        """The notes that say what does not come back, though nobody asked to leave it out."""
         doubt = [f"the preset's bound holds, and no other: {self._doubt}"] if self._doubt else []
-        return (*self._input.joined.notes, *said, *doubt)
+        return (*self._input.joined.losses, *doubt)
 
     @property
     def mesh(self) -> TriangleMesh:
@@ -131,7 +139,8 @@ class Encoder:
         Parameters
         ----------
         progress : callable, optional
-            Called with how much is done, and of how much in all; again from the beginning where blocks are coded again.
+            Called with how much is done, as far as anybody can tell, and of how much in all. An exception of it ends
+            the work.
 
         Raises
         ------
@@ -147,12 +156,18 @@ class Encoder:
     def draft(self, progress: Progress | None = None) -> Draft:
         """What the options ask for, without a target."""
         _ = self._input.carried  # what is wrong with attributes is said first
-        promise, given = self.options.promise, self._input
+        promise, given, near = self.options.promise, self._input, self._begun(progress)
         return self._verified(
-            given.dressed(self._bare(progress)) if promise is None else smallest(given, promise, progress)
+            given.dressed(self._bare(near)) if promise is None else smallest(given, promise, near), near
         )
 
-    def _bare(self, progress: Progress | None) -> Draft:
+    def _begun(self, progress: Progress | None) -> Nearing:
+        """Prepare, and return what reports the rest."""
+        near = Nearing(progress)
+        near.by(PREPARED if self._input.prepared.graph.size else 0.0)
+        return near
+
+    def _bare(self, near: Nearing) -> Draft:
         options = self.options
         if options.exact:
             return exact(self._input.prepared)
@@ -161,7 +176,7 @@ class Encoder:
         if options.grid_cell is not None:
             return rounded_to_cells(self._input.prepared, options.grid_cell, options.grid_origin or (0.0, 0.0, 0.0))
         with as_of_decoders(options.limits):
-            return self._spectral.base(options.first_step, progress).draft
+            return self._spectral.base(options.first_step, near.within(0.8)).draft
 
     def result(self, progress: Progress | None = None) -> Attempt:
         """What `encode` gives, with a comparison of what it decodes to."""
@@ -179,36 +194,37 @@ class Encoder:
         if target is None:
             raise OptionError("there is no target to search for")
         _ = self._input.carried  # what is wrong with attributes is said first
+        near = self._begun(progress)
         if self.options.says_how:
-            found = self._as_said(target, progress)
+            found = self._as_said(target, near)
         else:
-            found = self._sized(target, progress) if target.shrinks_with_step else self._bounded(target, progress)
-        self._verified(found.draft)
+            found = self._sized(target, near) if target.shrinks_with_step else self._bounded(target, near)
+        self._verified(found.draft, near)
         return found
 
-    def _bounded(self, target: Target, progress: Progress | None) -> Attempt:
+    def _bounded(self, target: Target, near: Nearing) -> Attempt:
         """The smallest stream within a bound on its error, and whatever else is promised."""
         promise = self.options.promise or Contract(WIDEST)
         if target.kind == "theta_deg":
             contract = replace(promise, angle=target.value, alike=True)
         else:
             contract = replace(promise, visual=max(10.0 ** (target.value / 10.0), sys.float_info.min))
-        return self._judged(smallest(self._input, contract, progress))
+        return self._judged(smallest(self._input, contract, near))
 
-    def _sized(self, target: Target, progress: Progress | None) -> Attempt:
+    def _sized(self, target: Target, near: Nearing) -> Attempt:
         """The best stream of a size, which keeps whatever is promised."""
         promise = self.options.promise
         anything = Contract(WIDEST)
         most = target.bytes_of(self._input.prepared.graph.size)
-        found = self._input.search(promise or anything, progress).best(promise or anything, most)
+        found = self._input.search(promise or anything, near).best(promise or anything, most)
         if found is not None:
             return self._judged(self._input.dressed(found))
-        asked, none = f"{target.worded(target.value)} at most cannot be", self._input.search(anything, progress)
+        asked, none = f"{target.worded(target.value)} at most cannot be", self._input.search(anything, near)
         if promise is None:
             least = self._judged(self._input.dressed(none.smallest(anything)))
             error = TargetError(f"{asked} reached; the least possible is {target.worded(target.reached(least))}")
         else:
-            least = self._judged(self._input.dressed(self._input.search(promise, progress).smallest(promise)))
+            least = self._judged(self._input.dressed(self._input.search(promise, near).smallest(promise)))
             other = none.best(anything, most)
             advice = "no preset reaches it" if other is None else f"--preset none gives {none.seen(other)} in it"
             error = TargetError(
@@ -217,11 +233,11 @@ class Encoder:
         error.best = target.reached(least)
         raise error
 
-    def _as_said(self, target: Target, progress: Progress | None) -> Attempt:
+    def _as_said(self, target: Target, near: Nearing) -> Attempt:
         """Blocks, coded as the options say, at the step that meets a target."""
 
         def attempt(step: float) -> Attempt:
-            draft = self._spectral.base(step, progress).draft
+            draft = self._spectral.base(step, near.within(TRY)).draft
             return self._judged(self._input.dressed(draft) if target.shrinks_with_step else draft)
 
         with as_of_decoders(self.options.limits):
@@ -241,12 +257,14 @@ class Encoder:
         decoded = self._input.prepared.units.into(draft.decoded)
         return Attempt(draft, self._reference.compare(decoded))
 
-    def _verified(self, draft: Draft) -> Draft:
+    def _verified(self, draft: Draft, near: Nearing) -> Draft:
         """The draft, once the decoder has given back what it promises."""
+        near.to(1.0 - (VERIFIED_GRID if self.options.is_grid else VERIFIED))
         original = Original(self._input.given, self._input.joined, self._input.prepared)
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
             verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
+        near.to(1.0)
         return draft
 
     @cached_property

@@ -24,6 +24,8 @@ from bsm.codec.geometry.welding import weld
 from bsm.codec.signal.transform import MeasuredSpectrum
 from bsm.codec.static.units import Units, checksum_of, units_of
 
+MERGED = "merged"
+
 
 @dataclass(frozen=True, eq=False)
 class JoinedMesh:
@@ -35,6 +37,11 @@ class JoinedMesh:
     kept: Order
     splits: Splits | None
     notes: tuple[str, ...]
+
+    @property
+    def losses(self) -> tuple[str, ...]:
+        """The notes that say what does not come back; a vertex that was merged does, at its place."""
+        return tuple(note for note in self.notes if not note.startswith(MERGED))
 
 
 def join(mesh: TriangleMesh, *, keep: bool, exact: bool = False) -> JoinedMesh:
@@ -78,7 +85,7 @@ def joined(mesh: TriangleMesh, index: Indices, *, keep: bool, keep_loose: bool =
     elif keep and merged:
         splits = Splits(index[given], (np.cumsum(given) - 1)[mesh.faces].astype(np.int32), np.zeros((0, 3)))
     if merged and not keep:
-        notes.append(f"merged {counted(vertices=merged)} with others at the same position")
+        notes.append(f"{MERGED} {counted(vertices=merged)} with others at the same position")
     if collapsed.any():
         notes.append(f"left out {counted(faces=int(collapsed.sum()))} without area")
     if loose and not (keep and keep_loose):

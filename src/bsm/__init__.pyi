@@ -14,6 +14,7 @@ from bsm.api import look as look
 from bsm.api import save as save
 from bsm.bitstream.errors import ArgumentError as ArgumentError
 from bsm.bitstream.errors import BsmError as BsmError
+from bsm.bitstream.errors import BsmWarning as BsmWarning
 from bsm.bitstream.errors import CorruptError as CorruptError
 from bsm.bitstream.errors import DependencyError as DependencyError
 from bsm.bitstream.errors import FormatError as FormatError

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, Unpack
 
 from bsm import options as keywords_to
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError
@@ -21,22 +21,31 @@ from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, writte
 from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.lengths import in_own_unit
-from bsm.libraries import as_mesh, read_any, with_metadata
+from bsm.libraries import as_mesh, read_any, warn, with_metadata
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from bsm.codec.denoise import DenoiseOptions
     from bsm.codec.look.measure import Look
+    from bsm.codec.sequence.encoder import SequenceEncoder
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.codec.static.options import EncodeOptions
     from bsm.comparison import MeshComparison
+    from bsm.keywords import DenoiseKeywords, EncodeKeywords, OptionKeywords, SequenceKeywords
 
+Heard: TypeAlias = Callable[[int, int], None] | None
 _Options = TypeVar("_Options")
 
 
 def encode(
-    mesh: Any, options: EncodeOptions | None = None, /, *, metadata: Metadata | None = None, **keywords: Any
+    mesh: Any,
+    options: EncodeOptions | None = None,
+    /,
+    *,
+    metadata: Metadata | None = None,
+    progress: Heard = None,
+    **keywords: Unpack[OptionKeywords],
 ) -> bytes:
     """Compress a mesh.
 
@@ -48,6 +57,9 @@ def encode(
         Instead of keywords.
     metadata : mapping from str to str, int, float or bytes, optional
         Added to the metadata of the mesh.
+    progress : callable, optional
+        Called in this thread with how much is done, and how much there is in all; the first number never falls. If it
+        raises an exception, the work ends, the exception reaches the caller, and no unfinished file stays.
     **keywords
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none"),
         one target (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`,
@@ -58,6 +70,11 @@ def encode(
     bytes
         A stream. Unless `keep_order` is true, vertices and faces have the coder's order, which `Encoder.vertex_order`
         returns.
+
+    Warns
+    -----
+    BsmWarning
+        Of whatever the file or the mesh has and does not come back. `Encoder.notes` says more.
 
     Raises
     ------
@@ -79,11 +96,14 @@ def encode(
 
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
     check_mapping("metadata", {} if metadata is None else metadata)
-    told = with_metadata(as_mesh(mesh), chosen, metadata or {})
-    if lengths := in_own_unit(keywords, told.metadata):
-        chosen = keywords_to.encode_options(**{**keywords, **lengths})
-    with watched("encoding") as progress:
-        return b"".join(Encoder(told, chosen).chunks(progress))
+    with watched("encoding", progress) as reported:
+        told = with_metadata(as_mesh(mesh), chosen, metadata or {})
+        if lengths := in_own_unit(keywords, told.metadata):
+            chosen = keywords_to.encode_options(**{**keywords, **lengths})
+        encoder = Encoder(told, chosen)
+        data = b"".join(encoder.chunks(reported))
+    warn(encoder.losses)
+    return data
 
 
 def encode_many(
@@ -97,7 +117,8 @@ def encode_many(
     resume: bool = False,
     overwrite: bool = False,
     metadata: Mapping[str, str] | None = None,
-    **keywords: Any,
+    progress: Heard = None,
+    **keywords: Unpack[OptionKeywords],
 ) -> list[dict[str, Any]]:
     """Compress mesh files, as ``bsm encode`` does. A file that fails does not stop the others.
 
@@ -120,6 +141,8 @@ def encode_many(
         Whether to replace existing files.
     metadata : mapping from str to str, optional
         Added to the metadata of each mesh.
+    progress : callable, optional
+        As in `encode`, for all files together. Files that are finished stay.
     **keywords
         As in `encode`.
 
@@ -155,13 +178,16 @@ def encode_many(
     run = Run(jobs=jobs, dask=dask, report=None if report is None else _name(report), resume=resume)
     folder = None if target is None else _name(target).rstrip("/") + "/"
     planned = plan(names, folder, lambda _: ".bsm")
-    threads = keywords.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
+    options: dict[str, Any] = {**keywords}
+    threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
     told = metadata or {}
-    job = EncodeJob(force=overwrite, quiet=True, metadata=told, options=keywords, threads=threads, compared=False)
-    return run_many(run, job, Console(quiet=True), encode_one, planned)
+    job = EncodeJob(force=overwrite, quiet=True, metadata=told, options=options, threads=threads, compared=False)
+    return run_many(run, job, Console(quiet=True, heard=progress), encode_one, planned)
 
 
-def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None) -> TriangleMesh:
+def decode(
+    stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, progress: Heard = None
+) -> TriangleMesh:
     """Restore a mesh.
 
     Parameters
@@ -172,6 +198,8 @@ def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | No
         What the stream may ask for.
     threads : int, optional
         None: one per core.
+    progress : callable, optional
+        As in `encode`.
 
     Returns
     -------
@@ -191,7 +219,8 @@ def decode(stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | No
     >>> mesh.positions.dtype, mesh.faces.shape[1]
     (dtype('float64'), 3)
     """
-    return decode_whole(read_chunks(stream), limits, threads)
+    with watched("decoding", progress) as reported:
+        return decode_whole(read_chunks(stream), limits, threads, progress=reported if progress else None)
 
 
 def encode_sequence(
@@ -202,7 +231,8 @@ def encode_sequence(
     *,
     metadata: Metadata | None = None,
     mesh_attributes: Sequence[Attribute] = (),
-    **keywords: Any,
+    progress: Heard = None,
+    **keywords: Unpack[SequenceKeywords],
 ) -> bytes:
     """Compress an animated mesh.
 
@@ -219,6 +249,8 @@ def encode_sequence(
     mesh_attributes : sequence of Attribute
         Attributes that do not change; `SequenceDecoder.attributes` returns them. The option `attributes` sets their
         quality, as for a mesh.
+    progress : callable, optional
+        As in `encode`.
     **keywords
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless": promises for every frame),
         `low_delay`, bounds (`look`, `max_error`), one target (`kg`, `bpvf`, `theta`, `nmsve_db`), and fields of
@@ -244,14 +276,21 @@ def encode_sequence(
     >>> bsm.decode_sequence(data)[0].shape == frames.shape
     True
     """
-    from bsm.codec.sequence.encoder import encode_sequence as encode_frames
+    from bsm.codec.sequence.encoder import SequenceEncoder, frames_of
     from bsm.codec.sequence.options import SequenceOptions
 
     told = {} if metadata is None else metadata
     check_mapping("metadata", told)
     chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
-    with watched("encoding") as progress:
-        return encode_frames(positions, faces, chosen, told, mesh_attributes, progress)
+    frames = frames_of(positions)
+    return _joined(SequenceEncoder(faces, chosen, len(frames), told, mesh_attributes), frames, progress)
+
+
+def _joined(encoder: SequenceEncoder, frames: Iterable[Any], progress: Heard) -> bytes:
+    with watched("encoding", progress) as reported:
+        data = b"".join(encoder.chunks(frames, reported))
+    warn(encoder.losses)
+    return data
 
 
 def encode_frames(
@@ -260,7 +299,8 @@ def encode_frames(
     /,
     *,
     metadata: Metadata | None = None,
-    **keywords: Any,
+    progress: Heard = None,
+    **keywords: Unpack[SequenceKeywords],
 ) -> bytes:
     """Compress an animation whose faces may change from frame to frame, as in volumetric capture.
 
@@ -273,6 +313,8 @@ def encode_frames(
         As in `encode_sequence`. Faces may change unless `runs` is false.
     metadata : mapping of str, optional
         What belongs to the whole sequence.
+    progress : callable, optional
+        As in `encode`, where `meshes` is a list.
     **keywords
         Fields of the options. Targets need frames that share their faces.
 
@@ -303,7 +345,7 @@ def encode_frames(
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
     told = {} if metadata is None else metadata
     check_mapping("metadata", told)
-    given = {"runs": True, **keywords} if options is None else keywords
+    given: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
     chosen = _chosen(options, SequenceOptions, given, keywords_to.sequence_options)
     frames = map(as_mesh, meshes)
     first = next(frames, None)
@@ -312,7 +354,7 @@ def encode_frames(
     attributes = [one for one in first.attributes if one.semantic != "normal"]
     count = len(meshes) if isinstance(meshes, Sequence) else 0
     encoder = SequenceEncoder(first.faces, chosen, count, told, attributes)
-    return b"".join(encoder.chunks(chain([first], frames)))
+    return _joined(encoder, chain([first], frames), progress)
 
 
 def decode_frames(
@@ -351,7 +393,7 @@ def decode_frames(
 
 
 def decode_sequence(
-    stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
+    stream: Source, *, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, progress: Heard = None
 ) -> tuple[Positions, Faces]:
     """Restore an animated mesh.
 
@@ -359,6 +401,8 @@ def decode_sequence(
     ----------
     stream, limits, threads
         As in `decode`. The function reads the whole stream; a `SequenceDecoder` returns frames while bytes arrive.
+    progress : callable, optional
+        As in `encode`.
 
     Returns
     -------
@@ -380,7 +424,8 @@ def decode_sequence(
     """
     from bsm.decoding import decode_sequence as decode_frames
 
-    return decode_frames(read_bytes(stream), limits, threads)
+    with watched("decoding", progress) as reported:
+        return decode_frames(read_bytes(stream), limits, threads, reported)
 
 
 def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None = None) -> TriangleMesh:
@@ -417,7 +462,9 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
     return read_any(Input(source), limits=limits, reader=reader)
 
 
-def save(mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **keywords: Any) -> tuple[str, ...]:
+def save(
+    mesh: Any, path: str | os.PathLike[str], *, overwrite: bool = True, **keywords: Unpack[EncodeKeywords]
+) -> tuple[str, ...]:
     """Write a mesh to a file in the format of its name. If it fails, no partial file remains.
 
     Images and, for OBJ, the material library are written beside it, under names that begin with its own.
@@ -476,7 +523,8 @@ def denoise(
     goal: str = "shading",
     strength: float = 1.0,
     force: bool = False,
-    **keywords: Any,
+    progress: Heard = None,
+    **keywords: Unpack[DenoiseKeywords],
 ) -> TriangleMesh:
     """Remove noise from the positions of a mesh; the faces stay.
 
@@ -494,6 +542,8 @@ def denoise(
         Fraction of every movement, from 0 to 1.
     force : bool
         Return the result even if it removes more than noise.
+    progress : callable, optional
+        As in `encode`.
 
     Returns
     -------
@@ -515,8 +565,8 @@ def denoise(
     from bsm.codec.denoise import denoise as denoise_mesh
 
     chosen = _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options)
-    with watched("denoising") as progress:
-        return denoise_mesh(as_mesh(mesh), chosen, goal=goal, strength=strength, force=force, progress=progress.stage)
+    with watched("denoising", progress) as heard:
+        return denoise_mesh(as_mesh(mesh), chosen, goal=goal, strength=strength, force=force, progress=heard.stage)
 
 
 def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:
@@ -603,7 +653,7 @@ def _opened(mesh: Any) -> Any:
 
 
 def _chosen(
-    options: _Options | None, kind: type[_Options], keywords: dict[str, Any], build: Callable[..., _Options | None]
+    options: _Options | None, kind: type[_Options], keywords: Mapping[str, Any], build: Callable[..., _Options | None]
 ) -> _Options | None:
     if options is None:
         return build(**keywords)

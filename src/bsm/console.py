@@ -10,15 +10,18 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Mapping
-from contextlib import suppress
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
 from typing import Any
+
+from bsm.codec.progress import PARTS
 
 _PATIENCE, _SECOND = 0.5, 1.0
 _RUNNING = "{desc}: {elapsed}"  # of a line of which nobody knows how long it will be
-_KNOWN, _NEARLY = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<LEFT", 0.99
-_TYPICAL_ROUNDS = 6
+_KNOWN = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<LEFT"
+_LEAST_LEFT, _MOST_SHARE, _BACK = 1.0, 0.99, 0.1  # shown before the end; and how far a bar goes back at most
+_PRIOR = 0.1  # of a job, the share that its expected seconds count as
 _USUAL_SHAPE = (80, 24)
 
 
@@ -27,6 +30,8 @@ class Console:
     quiet: bool = False
     kept: list[str] | None = None
     json: bool = False
+    heard: Callable[[int, int], None] | None = None
+    _running: list[Progress] = field(default_factory=list, compare=False)
 
     def note(self, text: str) -> None:
         text = printable(text)
@@ -35,25 +40,51 @@ class Console:
         elif not self.quiet:
             say(text, "note" if self.json else None)
 
-    def progress(self, what: str, unit: str = "blocks") -> Progress:
+    @contextmanager
+    def progress(self, what: str = "", until: float = 1.0, seconds: float = 0.0) -> Iterator[Progress]:
+        """Report a job, which may take so many seconds; within one, its part up to a share of the time of all."""
+        if self._running:
+            with self._running[0].part(what, until) as progress:
+                yield progress
+            return
         told = not self.quiet and self.kept is None
-        return Progress(what, unit, shown=told and sys.stderr.isatty() and not self.json, lines=told and self.json)
+        shown = told and sys.stderr.isatty() and not self.json
+        with Progress(what, shown=shown, lines=told and self.json, heard=self.heard, seconds=seconds) as progress:
+            self._running.append(progress)
+            try:
+                yield progress
+            finally:
+                self._running.pop()
+
+    def stopped_by(self, error: BaseException) -> bool:
+        """Whether an error came from the function that hears of progress."""
+        return any(progress.stopped is error for progress in self._running)
 
 
 class Progress:
     """A line on the terminal, from half a second on: what goes on and for how long, and where that is known how much is
-    done, with the time left; or lines of JSON that say the same to programs."""
+    done, with the time left; or lines of JSON that say the same to programs; or calls of a function.
 
-    def __init__(self, what: str, unit: str, *, shown: bool, lines: bool = False) -> None:
-        self._what = what
-        self._unit = unit
-        self._shown = shown
-        self._lines = lines
+    What is left follows from the share of the time that is done, which parts and steps report, and from the time that
+    this took; before the first report from the seconds that the job is expected to take.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        *,
+        shown: bool = False,
+        lines: bool = False,
+        heard: Callable[[int, int], None] | None = None,
+        seconds: float = 0.0,
+    ) -> None:
+        self._parts = [(what, 0.0, 1.0)]  # what goes on, and which share of the time it is, from the whole inwards
+        self._shown, self._lines, self._heard, self._expected = shown, lines, heard, seconds
         self._begun = self._said = time.monotonic()
-        self._share, self._whole, self._seen = 0.0, 0.0, 0.0  # for certain; all, in seconds, 0: unknown; what is shown
+        self._share, self._when, self._seen = 0.0, 0.0, 0.0  # as reported, and after how many seconds; as shown
+        self._told = 0
+        self.stopped: BaseException | None = None
         self._bar: Any = None
-        self._round = 0
-        self._last = 0
         self._over = threading.Event()
         self._opening = threading.Lock()
         self._clock: threading.Thread | None = None
@@ -64,53 +95,86 @@ class Progress:
             self._clock.start()
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: object, *_: object) -> None:
         self._over.set()
         if self._clock is not None:
             self._clock.join()
         if self._bar is not None:
             self._bar.clear()  # which closing alone leaves out where nothing but refreshes have drawn it
             self._bar.close()
+        if kind is None:
+            self._tell_listener(1.0)
 
-    def stage(self, name: str, share: float = 0.0) -> None:
+    @contextmanager
+    def part(self, what: str, until: float = 1.0) -> Iterator[Progress]:
+        """Report a part of the innermost part, up to a share of its time."""
+        _, low, high = self._parts[-1]
+        end = max(low + until * (high - low), self._share)
+        self._parts.append((what, self._share, end))
+        try:
+            yield self
+        finally:
+            self._parts.pop()
+        self._at(end)
+
+    def stage(self, name: str, share: float | None = None) -> None:
         """Name what begins; what is done before it, if that is known."""
-        self._what, self._round, self._last = name, 0, 0
-        self._at(share)
-        if self._bar is not None:
-            self._draw(name)
+        _, low, high = self._parts[-1]
+        self._parts[-1] = name, low, high
+        if share is not None:
+            self._at(max(low + share * (high - low), self._share))
 
-    def __call__(self, done: int, total: int) -> None:
-        self._round += done < self._last
-        self._last = done
-        rounds = max(_TYPICAL_ROUNDS, self._round + 1) if self._round else 1
-        self._at((self._round + done / max(total, 1)) / rounds)
-        if self._lines and time.monotonic() - self._said >= _SECOND:
-            self._tell()
-        if self._shown and time.monotonic() - self._begun >= _PATIENCE and self._opened() is not None:
-            self._draw(f"{self._what}, attempt {self._round + 1}" if self._round else self._what)
+    def __call__(self, done: float, total: float) -> None:
+        """Report how much of the innermost part is done."""
+        _, low, high = self._parts[-1]
+        self._at(low + (high - low) * done / max(total, 1))
 
     def _at(self, share: float) -> None:
-        if share > 0.0:
-            self._share, self._whole = share, (time.monotonic() - self._begun) / share
+        self._share, self._when = share, time.monotonic() - self._begun
+        self._tell_listener(share)
+        if self._lines and time.monotonic() - self._said >= _SECOND:
+            self._tell()
+        if self._shown and self._when >= _PATIENCE and self._opened() is not None:
+            self._draw()
+
+    def _tell_listener(self, share: float) -> None:
+        """Tell a listener, to whom nothing goes back."""
+        if self._heard is None or int(PARTS * share) <= self._told:
+            return
+        self._told = int(PARTS * share)
+        try:
+            self._heard(self._told, PARTS)
+        except BaseException as error:
+            self.stopped = error
+            raise
+
+    @property
+    def _what(self) -> str:
+        return ": ".join(what for what, _, _ in self._parts if what)
 
     def _now(self) -> tuple[float, float, float | None]:
         """The share that is done, as far as time tells; seconds since the beginning, and to the end if known."""
-        since = time.monotonic() - self._begun
-        if not self._whole:
-            return self._share, since, None
-        self._seen = max(self._seen, self._share, min(since / self._whole, _NEARLY))  # and never goes back
-        return self._seen, since, self._whole * (1.0 - self._seen)
+        since, prior = time.monotonic() - self._begun, _PRIOR if self._expected else 0.0
+        if not self._share + prior:
+            return 0.0, since, None
+        # Since the last report work went on as before it, but hardly beyond the part that it was in.
+        passed = (since - self._when) * (self._share + prior) / (self._when + prior * self._expected or 1e-3)
+        rest = max(self._parts[-1][2] - self._share, 1e-3)
+        share = min(self._share + rest * (1.0 - math.exp(-passed / rest)), 1.0)
+        left = (since + prior * self._expected) / (share + prior) * (1.0 - share)
+        shown = max(min(share, _MOST_SHARE), self._seen - _BACK)
+        self._seen = max(self._seen, shown)
+        return shown, since, max(left, _LEAST_LEFT)
 
     def _tell(self) -> None:
         self._said = time.monotonic()
         share, since, left = self._now()
         line = {"stage": self._what, "share": share, "seconds": since, "seconds_left": left}
-        print(json.dumps(line), file=sys.stderr, flush=True)
+        _say_json(line)
 
-    def _draw(self, what: str = "") -> None:
+    def _draw(self) -> None:
         share, _, left = self._now()
-        if what:
-            self._bar.set_description_str(what, refresh=False)
+        self._bar.set_description_str(self._what, refresh=False)
         if left is not None:
             self._bar.total, self._bar.n = 100, int(100 * share)
             self._bar.bar_format = _KNOWN.replace("LEFT", f"{int(left) // 60:02d}:{int(left) % 60:02d}")
@@ -135,7 +199,7 @@ class Progress:
                     with suppress(OSError, ValueError):
                         size = os.get_terminal_size(sys.stderr.fileno())
                     more["ncols"], more["nrows"] = size[0] or _USUAL_SHAPE[0], size[1] or _USUAL_SHAPE[1]
-                self._bar = bars.tqdm(desc=self._what, unit=f" {self._unit}", **more)
+                self._bar = bars.tqdm(desc=self._what, **more)
             return self._bar
 
     def _tick(self) -> None:
@@ -155,7 +219,7 @@ def printable(text: str) -> str:
 def say(text: str, key: str | None = None) -> None:
     """Write a text to standard error, above any bar; with `key` as a line of JSON."""
     if key:
-        print(json.dumps({key: text}), file=sys.stderr, flush=True)
+        _say_json({key: text})
         return
     text = "\n".join(map(printable, text.split("\n")))
     bars = sys.modules.get("tqdm")
@@ -163,6 +227,12 @@ def say(text: str, key: str | None = None) -> None:
         print(text, file=sys.stderr)
     else:
         bars.tqdm.write(text, file=sys.stderr)
+
+
+def _say_json(line: Mapping[str, Any]) -> None:
+    """Write a line at once, since the clock of a bar writes, too."""
+    sys.stderr.write(json.dumps(line) + "\n")
+    sys.stderr.flush()
 
 
 def finite(value: float) -> float | None:
@@ -184,6 +254,6 @@ def in_notebook() -> bool:
     return shell is not None and "IPKernelApp" in shell.config
 
 
-def watched(what: str) -> Progress:
-    """A bar for a function that takes long: in notebooks, where it goes away when the function is done."""
-    return Progress(what, "blocks", shown=in_notebook())
+def watched(what: str, heard: Callable[[int, int], None] | None = None) -> Progress:
+    """A bar for a function that takes long, in notebooks, where it goes away when the function is done."""
+    return Progress(what, shown=in_notebook(), heard=heard)

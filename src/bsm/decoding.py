@@ -19,6 +19,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.progress import Progress, silent
 from bsm.codec.threads import threads_of
 from bsm.events import (
     END_OF_STREAM,
@@ -72,7 +73,7 @@ class StreamDecoder:
         self._tolerant = tolerant
         self._finished = False
         self._error: BsmError | None = None
-        self._entries = 0
+        self._entries = self._received = 0
         self._state = [0.0] * 7
         self.metadata: Mapping[str, MetadataValue] = {}
         """Metadata of the mesh, as far as it has arrived."""
@@ -111,6 +112,7 @@ class StreamDecoder:
             raise OptionError("bytes were given to a decoder after receive_eof")
         with view:
             if view.nbytes:
+                self._received += view.nbytes
                 plain = view if view.c_contiguous and view.nbytes == len(view) else view.tobytes()
                 self._open.push(np.frombuffer(plain, np.uint8))
 
@@ -252,8 +254,13 @@ class Decoder(StreamDecoder):
         super().__init__(limits, threads, tolerant=tolerant, layers=0 if layers is None else min(int(layers), 2))
         self._sizes: tuple[int, int] | None = None
 
-    def finish(self) -> TriangleMesh:
+    def finish(self, progress: Progress | None = None) -> TriangleMesh:
         """Decode the rest of a complete stream and return the mesh; faster than asking for events.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            Called with how many bytes are decoded, and how many there are.
 
         Raises
         ------
@@ -261,9 +268,12 @@ class Decoder(StreamDecoder):
             Also `TruncatedError`, if bytes are missing.
         """
         self.receive_eof()
-        while (event := self._next(mask_of(END)))[0] != OVER:
+        wanted = mask_of(END) if progress is None else mask_of(END, BLOCK, REFINEMENT, ATTRIBUTE, VALUES)
+        while (event := self._next(wanted))[0] != OVER:
             if event[0] == END:
                 self._sizes = event[3:]
+            elif progress is not None:
+                progress(int(self._open.state()[0]), self._received)
         assert self._sizes is not None
         vertices, faces = self._sizes
         engine = self._open
@@ -413,7 +423,7 @@ def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = N
 
 
 def decode_sequence(
-    data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None
+    data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, progress: Progress = silent
 ) -> tuple[Positions, Faces]:
     """Decode a complete sequence."""
     frames: list[Positions] = []
@@ -431,4 +441,5 @@ def decode_sequence(
                     faces, vertices = received, count
                 case FrameEvent(_, positions):
                     frames.append(positions)
+                    progress(len(frames), decoder._header.frames)
     return np.array(frames).reshape(-1, vertices, 3), faces

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.container.header import Header
-from bsm.bitstream.errors import BsmError, public
+from bsm.bitstream.errors import BsmError, counted, public
 from bsm.codec.arrays import Faces, Indices, Mask, Positions
 from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 
@@ -52,6 +52,11 @@ class HeaderEvent:
     """
 
     header: Header
+
+    def __repr__(self) -> str:
+        header = self.header
+        frames = {"frames": header.frames} if header.sequence else {}
+        return f"HeaderEvent({counted(vertices=header.vertices, faces=header.faces, **frames)})"
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,6 +207,9 @@ class AttributeEvent:
     indices: Indices | None
     rows: Indices
     values: npt.NDArray[Any]
+
+    def __repr__(self) -> str:
+        return f"AttributeEvent({self.name!r}, {self.semantic} of each {self.domain}, {counted(values=len(self.rows))})"
 
 
 @public

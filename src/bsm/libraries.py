@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+import sys
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -11,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import ArgumentError, MeshError
+from bsm.bitstream.errors import ArgumentError, BsmWarning, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
@@ -31,6 +33,17 @@ _FACES = ("faces", "triangles")
 _SURFACES = ("triangle", "quad", "polygon")
 _NO_SURFACES = ("vertex", "line")
 _NOTHING: Metadata = MappingProxyType({})
+
+
+def warn(notes: Iterable[str]) -> None:
+    """Warn of what was changed or left out, where a user called us; commands have notes of their own."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and (name := frame.f_globals.get("__name__", "")).partition(".")[0] == "bsm":
+        if name.startswith("bsm.commands."):
+            return
+        frame, level = frame.f_back, level + 1
+    for note in notes:
+        warnings.warn(note, BsmWarning, stacklevel=level)
 
 
 def as_mesh(mesh: Any) -> TriangleMesh:
@@ -69,7 +82,9 @@ def read_any(source: Input, **reading: Any) -> TriangleMesh:
     """The mesh in a stream or a mesh file; `reading` are arguments of `read_mesh`."""
     if is_stream(source):
         return decode_whole(source.chunks(), reading.get("limits", DEFAULT_LIMITS))
-    return read_mesh(source, **reading).mesh
+    found = read_mesh(source, **reading)
+    warn(f"{source.name}: {note}" if source.name else note for note in found.notes)
+    return found.mesh
 
 
 def _attribute(mesh: Any, names: tuple[str, ...]) -> Any:

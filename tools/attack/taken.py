@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import faulthandler
 import gc
 import json
 import os
@@ -179,6 +180,7 @@ def _told_by_child(works: Sequence[Callable[[], Work]], seconds: int) -> list[Ta
         os.close(reading)
         gc.freeze()  # what was there before is not looked through for each
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # where libraries complain
+        faulthandler.disable()  # pytest's writes to another copy of standard error
         # Of our own arithmetic none may be heard of.
         warnings.filterwarnings("error", category=RuntimeWarning, module=r"bsm\.")
         resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))

@@ -5,6 +5,7 @@ attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
 targets     bytes with a target beside the preset, over the larger of what either takes alone
 speed       links on which it is there first
+bar         how true the time left is that the bar shows
 sequences   moving meshes, against Draco frame by frame and principal components
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
 denoise     the scoreboard of denoising; `tables` writes it into docs/measured.md
@@ -28,6 +29,7 @@ COMMANDS = {
     "encoding": "encoding:encoding_command",
     "targets": "encoding:targets_command",
     "speed": "speed:main",
+    "bar": "bar:main",
     "house": "house:main",
     "paper": "paper:main",
 }

@@ -61,7 +61,7 @@ def _ways(keep: Callable[[Any], bool], plain: bool = False) -> Any:
     def ways(self: Any, bounds: Any, look: float) -> Iterator[Any]:
         for way in original(self, bounds, look):
             if plain and isinstance(way, blocks.Refined):
-                yield blocks.Plain(self._prepared, self._options, bounds, self._progress)
+                yield blocks.Plain(self._prepared, self._options, bounds)
             elif keep(way):
                 yield way
 

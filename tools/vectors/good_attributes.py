@@ -14,6 +14,7 @@ from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.geometry.attributes import Attribute, Domain
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
+from bsm.codec.progress import Nearing
 from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.static.attributes.encoding import ranges
 from bsm.codec.static.choice.blocks import Spectral
@@ -119,7 +120,7 @@ def worn(mesh: TriangleMesh, *make: Callable[[TriangleMesh], Attribute]) -> Tria
 def in_chunks(mesh: TriangleMesh, options: EncodeOptions, size: int) -> bytes:
     """Return values in chunks of this many."""
     encoder = Encoder(mesh, options)
-    return with_values(encoder, encoder._bare(None), size)
+    return with_values(encoder, encoder._bare(Nearing(None)), size)
 
 
 def on_layers(mesh: TriangleMesh, count: int) -> bytes:

@@ -18,6 +18,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
 from bsm.codec.look.measure import Worn, is_worn, own_normals
 from bsm.codec.look.pictures import FEW, Normals
+from bsm.codec.progress import Nearing
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
 from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, Quality, qualities
 from bsm.codec.static.choice.bounds import Measures
@@ -25,7 +26,6 @@ from bsm.codec.static.choice.search import Search
 from bsm.codec.static.options import LARGE_BLOCKS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
 from bsm.codec.static.targets import SLACK, TRIES, Contract
-from bsm.codec.static.ways.block_coder import Progress
 
 OF_PAINT = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
 
@@ -83,18 +83,16 @@ class Input:
             return draft
         return with_attributes(draft, self.carried, self.given.metadata)
 
-    def search(self, contract: Contract, progress: Progress | None) -> Search:
-        measures = Measures(self.prepared, self.options.threads, self.normals, alike=contract.alike)
-        # About as long as blocks take, drawing and weighing take behind them.
-        half = None if progress is None else lambda done, blocks: progress(done, 2 * blocks)
-        return Search(measures, self.coded, half, lambda draft: self.dressed(draft).size)
+    def search(self, contract: Contract, near: Nearing | None) -> Search:
+        measures = Measures(self.prepared, self.options.threads, self.normals, alike=contract.alike, near=near)
+        return Search(measures, self.coded, lambda draft: self.dressed(draft).size)
 
 
-def smallest(given: Input, contract: Contract, progress: Progress | None) -> Draft:
+def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
     """The smallest stream that keeps a contract, in colours and under a checker where it has them, too."""
     if given.options.effort == "best":
         _choose_blocks(given, contract)
-    search = given.search(contract, progress)
+    search = given.search(contract, near)
     worn = _roughened(given, contract.look) if search.metric is not None and contract.look < math.inf else []
     asked = contract
     for _ in range(TRIES):

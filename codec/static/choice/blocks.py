@@ -12,6 +12,7 @@ from bsm.bitstream.errors import OptionError
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Indices, Levels, Matrix
 from bsm.codec.geometry.metrics import Reference
+from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
 from bsm.codec.signal.transform import MeasuredSpectrum, packed_range, project, smallest_step
@@ -23,12 +24,13 @@ from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import ANY_ANGLE, secant
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import Progress, admit, blended, encode_blocks, patience
+from bsm.codec.static.ways.block_coder import admit, blended, encode_blocks, patience
 from bsm.codec.static.ways.grid import encode_layer
 from bsm.codec.threads import ordered_map
 
 PAPER_FRACTION = 0.10  # coefficients of a block, as a fraction of its vertices, with a fixed number of bits
 SMOOTHING_FACES = 1 << 12  # on more faces than these, smoothing is not tried
+BLOCKS = 0.3  # of the time that is left before them, what blocks take
 SMOOTHING_STEPS = tuple(2.0**k for k in range(-3, 7))
 """Amounts that are tried, in this order, while they help; a factor of sqrt 2 between them is worth 0.1 %."""
 
@@ -262,10 +264,9 @@ class Spectral:
 class Plain:
     """Blocks alone; vertices that are out of reach are brought back by a layer of levels for these."""
 
-    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, progress: Progress | None) -> None:
+    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds) -> None:
         self._bounds = bounds
         self._spectral = Spectral(prepared, options, WIDEST)
-        self._progress = progress
         self.least, self.most = 1.01 * smallest_step(prepared.size), COARSEST
         self.first = ALONE * bounds.first_step
 
@@ -277,7 +278,7 @@ class Plain:
 
     def at(self, step: float) -> Candidate:
         """What a step of coefficients comes to."""
-        base = self._spectral.base(step, self._progress)
+        base = self._spectral.base(step, self._bounds.measures.near.within(BLOCKS))
         reaches = self._bounds.reaches
         out = np.square(base.positions - base.prepared.positions).sum(axis=1) > reaches**2
         if not out.any():
@@ -290,12 +291,9 @@ class Plain:
 class Refined:
     """Blocks and a layer of refinement, by the step of the refinement."""
 
-    def __init__(
-        self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, progress: Progress | None, look: float
-    ) -> None:
+    def __init__(self, prepared: Prepared, options: EncodeOptions, bounds: Bounds, look: float) -> None:
         self._prepared, self._bounds, self._look = prepared, bounds, look
         self._spectral = Spectral(prepared, options, WIDEST)
-        self._progress = progress
         self.least, self.most = FINEST_LAYER, COARSEST
 
     def under(self, bounds: Bounds) -> "Refined":
@@ -356,7 +354,8 @@ class Refined:
     def _base(self) -> Base:
         """The blocks of all steps: those of about the right one."""
         return self._spectral.base(
-            max(BASE * math.sqrt(self.first), smallest_step(self._prepared.size)), self._progress
+            max(BASE * math.sqrt(self.first), smallest_step(self._prepared.size)),
+            self._bounds.measures.near.within(BLOCKS),
         )
 
     def _shaped(self, base: Base, layer: Layer) -> Levels:

@@ -15,6 +15,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original, Reference, distances_to_surface
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.look.pictures import Normals
+from bsm.codec.progress import Nearing
 from bsm.codec.static.choice.shaping import Shaper
 from bsm.codec.static.preamble_encoding import Draft, Prepared
 from bsm.codec.static.targets import ANY_ANGLE, SLACK, Contract
@@ -27,6 +28,7 @@ MARGIN = 1e-9  # of a bound on distances, for what rounding may add
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
 pixel in a picture of 512."""
+DRAWN, TRY = 0.12, 0.25  # of the time that is left, what drawing an original takes, and a try
 LEAST_GAP, MOST_PARTS = 2e-4, 64
 """Parts nearer to each other than this, in BSM units, touch, so that none is before the other; and of more parts than
 these, none is asked how near it is to others."""
@@ -36,13 +38,20 @@ class Measures:
     """What is measured of an original once, whatever is asked for; `alike`: angles count all faces alike."""
 
     def __init__(
-        self, prepared: Prepared, threads: int | None, normals: Normals | None = None, *, alike: bool = False
+        self,
+        prepared: Prepared,
+        threads: int | None,
+        normals: Normals | None = None,
+        *,
+        alike: bool = False,
+        near: Nearing | None = None,
     ) -> None:
         self.prepared = prepared
         self.original = Original(prepared.positions, prepared.mesh.faces, by_area=not alike)
         self.shaper = Shaper(self.original, prepared.graph)
         self._threads = threads
         self._normals = normals
+        self.near = near or Nearing(None)
 
     @cached_property
     def reference(self) -> Reference:
@@ -57,6 +66,8 @@ class Measures:
             return LookMetric(mesh, threads=self._threads)
         except MeshError:
             return None
+        finally:
+            self.near.by(DRAWN)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +111,7 @@ class Bounds:
                 near = math.exp(-SLACK), math.exp(SLACK / 2.0)  # about what the search ends with
                 skew = max(whole, LEAST) / max(few, LEAST)
             look = skew * few if whole is None else whole
+            self.measures.near.by(TRY)
             return math.log(max(*shares, look / self.contract.look, LEAST)), whole
 
         return excess

@@ -23,7 +23,6 @@ from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import SLACK, STEEPEST, TRIES, Contract, secant
-from bsm.codec.static.ways.block_coder import Progress
 
 DEARER = 1.08  # give up a way whose first step takes this many times the bytes of the best result
 GUESSED = 1.25  # and a grid that is guessed to: of smooth surfaces it takes less than that
@@ -75,15 +74,10 @@ class Search:
     """Looks for the best stream of a mesh among all ways to code it."""
 
     def __init__(
-        self,
-        measures: Measures,
-        options: EncodeOptions,
-        progress: Progress | None = None,
-        size: Callable[[Draft], int] = attrgetter("size"),
+        self, measures: Measures, options: EncodeOptions, size: Callable[[Draft], int] = attrgetter("size")
     ) -> None:
         self._measures, self._prepared = measures, measures.prepared
         self._options = options
-        self._progress = progress
         self._size = size
         self._before: Found | None = None
 
@@ -226,9 +220,9 @@ class Search:
         grids = [Gridded(prepared, bounds, worth) for worth in (1.0, 0.0)]
         blocks: list[Way] = []
         if prepared.has_low_frequencies and not options.quick and not (character.is_model and seen):
-            blocks += [Refined(prepared, options, bounds, self._progress, look)]
+            blocks += [Refined(prepared, options, bounds, look)]
             if not seen:
-                blocks += [Plain(prepared, options, bounds, self._progress)]
+                blocks += [Plain(prepared, options, bounds)]
         yield from (*blocks, *grids)  # the smaller ones first, nearly always: the others are left alone sooner
 
     def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:

@@ -13,6 +13,7 @@ from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.arrays import Indices, Matrix
 from bsm.codec.basis.orthogonal_iteration import DynamicSize
 from bsm.codec.blocks.overlap import Blend, degree_weights
+from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import Chain
 from bsm.codec.static.coding import Ground, Scheme
 from bsm.codec.static.preamble_encoding import Prepared
@@ -20,7 +21,6 @@ from bsm.codec.static.work import block_cost, block_memory, ground_cost, mesh_me
 from bsm.codec.threads import ordered_map
 
 FRAME = 5  # bytes of a block's frame besides its levels, at least
-Progress = Callable[[int, int], None]
 Spend = Callable[[float], None]
 """Takes the work in nanoseconds before it is done, and may refuse it by raising `LimitError`."""
 

@@ -172,7 +172,7 @@ def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh
 
 def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
     paths, changing = (args.original, args.decoded), Wanted(runs=True)
-    with console.progress("reading", "frames") as progress:
+    with console.progress("reading") as progress:
         sides = [_load_sequence(path, args, changing if names_many(path) else None) for path in paths]
         if sides == [None, None]:
             return False

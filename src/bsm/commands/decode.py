@@ -29,6 +29,7 @@ from bsm.jobs.task import Facts, Task, anywhere, came_to
 
 @dataclass(frozen=True, kw_only=True)
 class DecodeJob(Task):
+    seconds_of_megabyte = 10.0
     given: str | None = None
     many: bool = False
     format: str | None = None
@@ -95,7 +96,7 @@ def decode_one(args: DecodeJob, console: Console) -> Facts:
     refuse_to_overwrite(output, args.may_replace(output))
     begin = time.perf_counter()
     limits = limits_of(args.limits)
-    with console.progress("decoding") as progress:
+    with console.progress("decoding", until=0.6) as progress:
         if args.tolerant:
             mesh = decode_what_is_left(chunks, lambda text: console.note(f"{args.input}: {text}"), limits)
         elif args.blocks is None:
@@ -147,7 +148,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     count = vertices = 0
     with (
         sequence_writer(output, kind, faces, expected, overwrite=args.may_replace(output), shared=shared) as write,
-        console.progress("decoding", "frames") as progress,
+        console.progress("decoding") as progress,
     ):
         present = stream.faces
         for number, frame in chain(ahead, frames):

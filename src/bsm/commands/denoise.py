@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 import time
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -43,6 +44,8 @@ _OPTIONS = ("fine", "hand_over", "iterations", "keep", "block_size")
 class DenoiseJob(Task):
     """What `bsm denoise` is asked for: formats, the goal of the automatic mode, and options instead of it."""
 
+    seconds_of_megabyte = 5.0
+    of_kinds: ClassVar[Mapping[str, float]] = {**Task.of_kinds, ".npz": 0.2}
     format: str | None = None
     reader: str | None = None
     goal: str = GOALS[0]
@@ -133,13 +136,13 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     from bsm.api import encode, look
     from bsm.codec.denoise import FrameDenoiser
 
-    with console.progress("reading"):
+    with console.progress("reading", until=0.05):
         source = read_mesh(args.input, args.format, reader=args.reader)
     for note in source.notes:
         console.note(f"{args.input}: {note}")
     mesh = source.mesh
     begin = time.perf_counter()
-    with console.progress("denoising") as progress:
+    with console.progress("denoising", until=0.95) as progress:
         ways: dict[str, Any] = {"goal": args.goal, "strength": args.strength, "force": args.force}
         denoiser = FrameDenoiser(mesh.positions, mesh.faces, options, **ways, progress=progress.stage)
         (positions,) = denoiser([mesh.positions])
@@ -181,7 +184,7 @@ def _denoise_sequence(
     denoiser = FrameDenoiser(first, source.faces, options, goal=args.goal, strength=args.strength, force=args.force)
     count = 0
     writer = sequence_writer(args.output, kind, source.faces, source.count, overwrite=args.may_replace(args.output))
-    with writer as write, console.progress("denoising", "frames") as progress:
+    with writer as write, console.progress("denoising") as progress:
         for frame in denoiser(chain([first], source.frames)):
             write(frame)
             count += 1

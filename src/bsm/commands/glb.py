@@ -50,7 +50,7 @@ def run(args: argparse.Namespace, console: Console) -> None:
     quick = count_primitives(document) >= MANY if args.quick is None else args.quick
     coder = partial(encode, preset=args.preset, quick=quick)
     beside = Path(args.output).with_suffix(".fallback.bin") if args.fallback else None
-    with console.progress("encoding", "primitives") as progress:
+    with console.progress("encoding") as progress:
         found = compress(document, coder, rule, beside.name if beside else None, progress)
     if beside and found.fallback:
         write_output(str(beside), found.fallback, overwrite=args.force)

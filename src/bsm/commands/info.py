@@ -20,6 +20,7 @@ from bsm.tiles.shards import is_tiles, open_tiles
 
 @dataclass(frozen=True, kw_only=True)
 class InfoJob(Task):
+    seconds_of_megabyte = 0.05
     limits: str = "default"
     loops: bool = False
 
@@ -43,7 +44,7 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
     summary = summarise(inspect_stream(iter(chunks), limits))
     if args.loops and summary["header"]["sequence"]:
         found, stream = Loops(), SequenceStream(iter(chunks), limits=limits)
-        with console.progress("looking for loops", "frames") as progress:
+        with console.progress("looking for loops") as progress:
             for number, frame in stream.changing_frames():
                 found.take(frame)
                 if stream.header.frames:

@@ -77,6 +77,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         if args.work or is_url(args.output):
             work.mkdir(parents=True, exist_ok=True)
             folders.enter_context(held(work, args.force or args.resume))
+        folders.enter_context(console.progress(seconds=TileJob().seconds_of(args.input)))
         return _run(args, console, work)
 
 
@@ -112,7 +113,8 @@ def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
     state.tiles.update(len(name) - 1 for name in names)
     many = asked(Run, args, report=str(work / "tiles.json"), resume=True)
     try:
-        done = run_many(many, asked_for, console, tile_one, list(map(job_of, names)), ended)
+        with console.progress(until=0.5 if args.tileset else 0.96):
+            done = run_many(many, asked_for, console, tile_one, list(map(job_of, names)), ended)
     finally:
         state.update(sys.float_info.max)
     if failed := [facts for facts in done if "error" in facts]:
@@ -155,7 +157,7 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
         console.note(
             f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colours, normals"
         )
-    with console.progress("cutting"):
+    with console.progress("cutting", until=0.3):
         plan = cut(
             raw, chosen_lattice(raw, args.grid_cell, args.grid_origin, args.jobs or available_threads()), args.triangles
         )

@@ -75,8 +75,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
         if Path(args.output).suffix.lower() == ".bsm":
             import bsm
 
-            cell, origin = tiles.lattice.cell, tiles.lattice.origin
-            bsm.save(mesh, args.output, grid_cell=cell, grid_origin=origin)
+            x, y, z = tiles.lattice.origin
+            bsm.save(mesh, args.output, grid_cell=tiles.lattice.cell, grid_origin=(x, y, z))
         else:
             write_mesh(args.output, mesh, overwrite=args.force)
     console.note(f"{args.input} -> {args.output}: {said['vertices']} vertices, {said['faces']} faces")

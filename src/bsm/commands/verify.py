@@ -20,6 +20,7 @@ from bsm.tiles.shards import is_tiles, open_tiles
 class VerifyJob(Task):
     """What `bsm verify` is asked for: the limits, and whether only structure is checked."""
 
+    seconds_of_megabyte = 10.0
     limits: str = "default"
     quick: bool = False
 

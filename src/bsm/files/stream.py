@@ -16,6 +16,7 @@ from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
+from bsm.codec.progress import Progress
 from bsm.files.pipes import Source, as_input, is_pipe
 
 
@@ -25,14 +26,19 @@ def is_stream(source: Source) -> bool:
 
 
 def decode_whole(
-    chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, layers: int | None = None
+    chunks: Iterator[bytes],
+    limits: Limits = DEFAULT_LIMITS,
+    threads: int | None = None,
+    *,
+    layers: int | None = None,
+    progress: Progress | None = None,
 ) -> TriangleMesh:
     from bsm.decoding import Decoder
 
     with Decoder(limits, threads, layers=layers) as decoder:
         for chunk in chunks:
             decoder.receive_data(chunk)
-        return decoder.finish()
+        return decoder.finish(progress)
 
 
 Note = Callable[[str], None]

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from bsm.codec.sequence.options import SequenceOptions
     from bsm.events import FrameEvent
 
+READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
 """Options that only a sequence has: a GLB is then one."""
 
@@ -75,7 +76,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
         if given is not None:
             raise OptionError(f"--{name} is for sequences, and this is one mesh")
     chosen = encode_options(**job.options, threads=job.threads)
-    with console.progress("reading"):
+    with console.progress("reading", until=READ):
         source = read_mesh(job.input, job.format, reader=job.reader)
     mesh = with_metadata(source.mesh, chosen, job.metadata)
     if lengths := in_own_unit(job.options, mesh.metadata):

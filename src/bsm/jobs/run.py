@@ -2,7 +2,7 @@
 
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
@@ -37,7 +37,7 @@ def run_jobs(
 ) -> int:
     """Do all jobs of a command and say what came of them; returns the exit code."""
     if len(jobs) == 1 and run.dask is None and run.report is None and not run.resume:
-        with pipes.about(jobs[0].input):
+        with pipes.about(jobs[0].input), console.progress(seconds=Costs(asked, jobs, NOTHING).left()):
             facts = work(task_of(asked, jobs[0]), console)
         if run.json:
             print_json(facts)
@@ -90,6 +90,7 @@ def run_many(
     elif run.resume:
         raise OptionError("--resume needs --report FILE.json")
     done: list[Facts] = [{} for _ in jobs]
+    costs = Costs(asked, jobs, earlier)
     waiting: dict[int, Outcome] = {}
     following = 0
     needs, users = [len(job.after) for job in jobs], dict[int, list[int]]()
@@ -108,11 +109,13 @@ def run_many(
 
     try:
         with (
-            console.progress("files", "files") as progress,
-            closing(_outcomes(run, console, work, given(), len(jobs))) as outcomes,
+            console.progress(seconds=costs.left() / _processes(run, len(jobs))) as progress,
+            closing(_outcomes(run, console, work, given(), costs, len(jobs))) as outcomes,
         ):
-            for count, (number, outcome) in enumerate(outcomes, 1):
+            for number, outcome in outcomes:
                 done[number] = outcome.facts
+                costs.end(number, outcome.facts.get("seconds"))
+                progress(costs.done, costs.done + costs.left())
                 if outcome.error is not None:
                     failed = {"error": worded(outcome.error), "exit": exit_of(outcome.error).code}
                     done[number] = {"input": jobs[number].input, "output": jobs[number].output, **failed}
@@ -127,7 +130,6 @@ def run_many(
                 while following in waiting:
                     ended(jobs[following], waiting.pop(following))
                     following += 1
-                progress(count, len(jobs))
         for number in sorted(waiting):  # behind one that lacks what it needs
             ended(jobs[number], waiting[number])
     finally:
@@ -157,15 +159,62 @@ def task_of(asked: Task, job: Job, earlier: Earlier = NOTHING) -> Task:
     )
 
 
-def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, count: int) -> Outcomes:
+class Costs:
+    """What jobs cost, in seconds: by their bytes and kinds, and by what others of a kind took."""
+
+    def __init__(self, asked: Task, jobs: Sequence[Job], earlier: Earlier) -> None:
+        whole = {name for name, facts in earlier.files.items() if "error" not in facts}
+        self._kinds = [os.path.splitext(job.input)[1].lower() for job in jobs]
+        self._open = {
+            number: asked.overhead + (0.0 if job.output in whole else asked.seconds_of(job.input))
+            for number, job in enumerate(jobs)
+        }
+        self._ended: dict[
+            str, tuple[float, float]
+        ] = {}  # of a kind, the seconds of those that ended, foreseen and true
+        self.took = dict[int, float]()  # of what was done here
+        self.done = 0.0
+
+    def end(self, number: int, seconds: float | None) -> None:
+        """Take note of what a job took, if that is known."""
+        foreseen, kind = self._open.pop(number), self._kinds[number]
+        before = self._ended.get(kind, (0.0, 0.0))
+        spent = self.took.pop(number, foreseen if seconds is None else seconds)
+        self._ended[kind] = before[0] + foreseen, before[1] + spent
+        self.done += spent
+
+    def left(self, numbers: Collection[int] = ()) -> float:
+        """What is left, of some jobs or of all."""
+        foreseen, spent = map(sum, zip((1e-3, 1e-3), *self._ended.values()))
+        rates = {kind: (true + spent / foreseen) / (expected + 1.0) for kind, (expected, true) in self._ended.items()}
+        usual = spent / foreseen
+        return sum(self._open[n] * rates.get(self._kinds[n], usual) for n in numbers or self._open)
+
+
+def _processes(run: Run, count: int) -> int:
     if run.jobs < 0:
         raise OptionError(f"-j {run.jobs}: it must be 0 or more")
     from bsm.codec.threads import available_threads
 
-    processes = min(run.jobs or available_threads(), count) or 1
+    return min(run.jobs or available_threads(), count) or 1
+
+
+def _outcomes(run: Run, console: Console, work: Work, tasks: Tasks, costs: Costs, count: int) -> Outcomes:
+    processes = _processes(run, count)
     if run.dask is None and processes == 1:
-        return ((number, outcome_of(work, task, console)) for number, task in iter(partial(next, tasks), None))
+        return _one_by_one(console, work, tasks, costs, count)
     # Where there is one process there is no need to load this.
     from bsm.jobs.workers import in_processes, on_cluster
 
     return in_processes(work, tasks, processes) if run.dask is None else on_cluster(work, tasks, run.dask)
+
+
+def _one_by_one(console: Console, work: Work, tasks: Tasks, costs: Costs, count: int) -> Outcomes:
+    """Do one job after the other here, each as a part of all."""
+    for number, task in iter(partial(next, tasks), None):
+        after = costs.done + costs.left([number])
+        with console.progress(f"{number + 1} of {count}" if count > 1 else "", after / (costs.done + costs.left())):
+            begin = time.perf_counter()
+            outcome = outcome_of(work, task, console)
+            costs.took[number] = time.perf_counter() - begin
+        yield number, outcome

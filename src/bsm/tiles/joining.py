@@ -50,7 +50,7 @@ def write_joined(
         counts: list[tuple[int, int]] = []
         outside, single = [tiles.decoded(*chosen[0])[0][:0]], True
         width = outside[0].shape[1]
-        with console.progress("decoding", "tiles") as progress:
+        with console.progress("decoding") as progress:
             for number, (shard, tile) in enumerate(chosen, 1):
                 table, triangles = tiles.decoded(shard, tile)
                 tables.write(table.data)
@@ -144,7 +144,7 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
             below.setdefault(name[: size - 1], set()).add(name[:size])
     if not is_url(folder):
         os.makedirs(os.path.join(folder, _CONTENT), exist_ok=True)
-    with console.progress("writing", "tiles") as progress:
+    with console.progress("writing") as progress:
         for number, (name, (shard, tile)) in enumerate(known.items(), 1):
             table, faces = tiles.decoded(shard, tile)
             moved = ((table[:, :3] - ends[name][0]) * tiles.lattice.cell).astype(np.float32)

@@ -82,7 +82,7 @@ def read_big(name: str, file_format: str | None, folder: Path, console: Console)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     largest, files = 0, dict[str, BinaryIO]()
     left_out: LeftOut = {}
-    with closing(given), console.progress("reading"), ExitStack() as opened:
+    with closing(given), console.progress("reading", until=0.1), ExitStack() as opened:
         for what, piece in _READERS[kind](given, left_out):
             if not len(piece):
                 continue

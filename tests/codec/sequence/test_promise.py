@@ -136,7 +136,8 @@ def test_what_is_told_of_a_search_grows_to_the_whole(promise: Promise | None) ->
     options = SequenceOptions(block_size=100, promise=promise, threads=1, gop=3)
     chunks = SequenceEncoder(faces, options, 6).chunks(positions, lambda done, count: told.append(done / count))
     assert b"".join(chunks)
-    assert told == sorted(told) and told[0] < 0.4 and told[-1] == 1.0 and len(set(told)) > 3
+    assert told[0] < 0.4 and told[-1] == max(told) == 1.0 and len(set(told)) > 3
+    assert promise or told == sorted(told)  # frames in doubt may be more than a search let expect
 
 
 def test_a_moving_look_is_what_pictures_differ_by() -> None:

@@ -182,14 +182,15 @@ def test_a_rough_mesh_is_refined_and_every_way_decodes_to_what_was_checked() -> 
         assert np.abs(decode(b"".join(draft.frames)).positions - draft.decoded).max() < 1e-9
 
 
-def test_a_search_tells_of_the_blocks_that_it_codes() -> None:
+def test_a_search_reports_its_blocks_and_tries() -> None:
     told: list[tuple[int, int]] = []
     encoder = Encoder(
         noisy(torus(80, 40), 0.003), EncodeOptions(block_size=300, contract=Contract(0.004, 4.0), threads=1)
     )
     encoder.draft(lambda done, total: told.append((done, total)))
-    assert {total for _, total in told} == {22}  # of which drawing and weighing are half
-    assert told[-1] == (11, 22)
+    shares = [done for done, _ in told]
+    assert {total for _, total in told} == {1000} and shares == sorted(shares) and shares[-1] == 1000
+    assert len(set(shares)) >= 11 + 3  # blocks, a picture, tries, and the check at the end
 
 
 @pytest.mark.parametrize("bits", [1, 4, 11, 16, 20])

@@ -1,5 +1,6 @@
 """GLB, glTF, 3MF, DAE and whatever else trimesh reads: the parts of a scene, placed where it has them, as one mesh."""
 
+import importlib.util
 import io
 import json
 import re
@@ -50,8 +51,9 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         raise FormatError(f".{kind} files hold files: unpack it, and read what is in it")
     trimesh = import_trimesh(f"{f'.{kind}' if kind else 'such'} files are read")
     if kind not in trimesh.available_formats():
-        more = f"trimesh reads more of them, 3MF and DAE among them, after: {how_to_install('formats')}"
-        raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here ({more})")
+        complete = all(map(importlib.util.find_spec, ("lxml", "networkx", "collada")))
+        more = "" if complete else f" (trimesh reads 3MF, DAE and others after: {how_to_install('formats')})"
+        raise FormatError(f"{f'.{kind} is' if kind else 'this is'} no mesh format that is known here{more}")
     try:
         tree, up = {}, re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
         if kind in ("glb", "gltf"):

@@ -1,0 +1,35 @@
+"""How far work is, as far as anybody can tell."""
+
+from collections.abc import Callable
+
+Progress = Callable[[int, int], None]
+"""Is called with how much is done, and of how much in all."""
+
+PARTS = 1000
+
+
+def silent(done: int, total: int) -> None:
+    """No progress is reported."""
+
+
+class Nearing:
+    """Reports work of unknown length: each step takes its usual part of what is left."""
+
+    def __init__(self, progress: Progress | None) -> None:
+        self._progress, self._share = progress or silent, 0.0
+
+    def at(self, share: float) -> None:
+        """Report a share, which may be less than before."""
+        self._share = share
+        self._progress(int(PARTS * share), PARTS)
+
+    def to(self, share: float) -> None:
+        self.at(max(self._share, share))
+
+    def by(self, part: float) -> None:
+        self.to(self._share + part * (1.0 - self._share))
+
+    def within(self, part: float) -> Progress:
+        """Report a step of known length."""
+        begin = self._share
+        return lambda done, total: self.to(begin + part * (1.0 - begin) * done / max(total, 1))

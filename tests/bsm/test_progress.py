@@ -1,0 +1,147 @@
+"""What functions report while they work, how they are stopped, what they warn of, and which keywords they have."""
+
+import subprocess
+import sys
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm import keywords, options
+from bsm.codec.static.options import Paper
+from bsm.files.mesh import write_mesh
+from tools.noise import gaussian_along_normals
+from tools.vectors.meshes import torus
+
+LOOSE = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (9, 9, 9)], [(0, 1, 2)])
+
+
+class Stopped(Exception):
+    """What a listener raises."""
+
+
+MESH = torus(40, 30)
+MESH = MESH.moved(gaussian_along_normals(MESH.positions, MESH.faces, 0.2, 1))[0]
+FRAMES = np.stack([MESH.positions * (1 + 0.01 * k) for k in range(6)])
+
+
+@pytest.fixture(scope="module")
+def streams():
+    return bsm.encode(MESH), bsm.encode_sequence(FRAMES, MESH.faces)
+
+
+WORKS = {
+    "encode": lambda streams, heard: bsm.encode(MESH, progress=heard),
+    "quick": lambda streams, heard: bsm.encode(MESH, quick=True, progress=heard),
+    "target": lambda streams, heard: bsm.encode(MESH, size="3kB", progress=heard),
+    "decode": lambda streams, heard: bsm.decode(streams[0], progress=heard),
+    "encode_sequence": lambda streams, heard: bsm.encode_sequence(FRAMES, MESH.faces, progress=heard),
+    "encode_frames": lambda streams, heard: bsm.encode_frames([MESH, MESH], progress=heard),
+    "decode_sequence": lambda streams, heard: bsm.decode_sequence(streams[1], progress=heard),
+    "denoise": lambda streams, heard: bsm.denoise(MESH, progress=heard),
+}
+
+
+@pytest.mark.parametrize("name", WORKS)
+def test_a_listener_hears_how_much_is_done_and_nothing_goes_back(name, streams):
+    heard = []
+    WORKS[name](streams, lambda done, total: heard.append((done, total)))
+    done = [done for done, _ in heard]
+    assert {total for _, total in heard} == {1000} and done[-1] == 1000
+    assert done == sorted(set(done)) and len(done) >= 2
+
+
+@pytest.mark.parametrize("name", WORKS)
+def test_what_a_listener_raises_ends_the_work(name, streams):
+    def heard(done, total):
+        raise Stopped
+
+    with pytest.raises(Stopped):
+        WORKS[name](streams, heard)
+
+
+@pytest.mark.parametrize("jobs", [1, pytest.param(2, marks=pytest.mark.slow)])
+def test_a_batch_that_is_stopped_leaves_whole_files_alone(jobs, tmp_path):
+    given, out = tmp_path / "given", tmp_path / "out"
+    for folder in (given, out):
+        folder.mkdir()
+    for number in range(4):
+        write_mesh(given / f"{number}.ply", MESH)
+    heard = []
+
+    def stop(done, total):
+        heard.append(done)
+        if done > 300:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        bsm.encode_many(sorted(map(str, given.iterdir())), f"{out}/", jobs=jobs, progress=stop)
+    left = list(out.iterdir())
+    assert heard == sorted(heard) and 0 < len(left) < 4
+    assert all(len(bsm.decode(path).positions) == len(MESH.positions) for path in left)
+
+
+def test_a_save_that_is_stopped_leaves_what_was_there(tmp_path):
+    def stop(done, total):
+        raise Stopped
+
+    path = tmp_path / "mesh.bsm"
+    path.write_bytes(b"before")
+    with pytest.raises(Stopped):
+        bsm.save(MESH, path, progress=stop)
+    assert path.read_bytes() == b"before" and list(tmp_path.iterdir()) == [path]
+
+
+def test_what_is_left_out_is_a_warning_at_the_line_of_the_call(tmp_path):
+    with pytest.warns(bsm.BsmWarning, match="left out 1 vertex that no face uses") as found:
+        bsm.encode(LOOSE)
+    assert found[0].filename == __file__
+    quads = tmp_path / "quads.obj"
+    quads.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nmtllib none.mtl\n")
+    with pytest.warns(bsm.BsmWarning, match=r"quads.obj: polygons were cut into triangles: 1") as found:
+        bsm.load(quads)
+    assert {one.filename for one in found} == {__file__}
+    with pytest.warns(bsm.BsmWarning, match="no face uses"):
+        bsm.encode_sequence(np.array([LOOSE[0]] * 2, float), LOOSE[1])
+
+
+def test_keywords_are_those_of_the_options():
+    def named(kind):
+        return {item.name for item in fields(kind)}
+
+    meshes = named(bsm.EncodeOptions) | named(Paper) | {*options.TARGETS, *options.BOUNDS, "preset"}
+    sequences = named(bsm.SequenceOptions) | {*options.SEQUENCE_TARGETS, *options.BOUNDS, "preset", "quick", "effort"}
+    assert set(keywords.OptionKeywords.__annotations__) == meshes
+    assert set(keywords.EncodeKeywords.__annotations__) == meshes | {"progress"}
+    assert set(keywords.SequenceKeywords.__annotations__) == sequences
+    assert set(keywords.DenoiseKeywords.__annotations__) == named(bsm.DenoiseOptions)
+
+
+@pytest.mark.slow
+def test_a_type_checker_finds_keywords_that_there_are_not(tmp_path):
+    pytest.importorskip("mypy")
+    (tmp_path / "right.py").write_text(
+        "import bsm\n\n\ndef heard(done: int, total: int) -> None:\n    print(done / total)\n\n\n"
+        'data: bytes = bsm.encode("x.ply", preset="fine", max_error="0.1mm", size="3kB", progress=heard)\n'
+        'bsm.save("x.ply", "x.bsm", theta=5.0)\nbsm.encode_many(["x.ply"], threads=1, progress=heard)\n'
+        "positions, faces = bsm.decode_sequence(data, progress=heard)\n"
+        'bsm.encode_sequence(positions, faces, kg=0.1)\nbsm.denoise("x.ply", iterations=3, progress=heard)\n'
+    )
+    wrong = [
+        'encode("x", presett="fine")',
+        'encode("x", max_eror=3)',
+        'save("x", "y", treads=1)',
+        'encode("x", step="1")',
+    ]
+    wrong += ["encode_sequence([], [], bpv=1)", 'denoise("x", iteration=3)', 'decode("x", progress=3)']
+    lines = [f"bsm.{call}\n" for call in wrong]
+    (tmp_path / "wrong.py").write_text("import bsm\n" + "".join(lines))
+    command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache")]
+    right, found = (
+        subprocess.run([*command, f"{name}.py"], cwd=tmp_path, capture_output=True, text=True, check=False)
+        for name in ("right", "wrong")
+    )
+    assert right.returncode == 0, right.stdout
+    told = {int(line.split(":")[1]) for line in found.stdout.splitlines() if ": error:" in line}
+    assert told == set(range(2, 2 + len(wrong))), found.stdout
