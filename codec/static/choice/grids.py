@@ -61,6 +61,8 @@ def _made_on_grid(positions: Matrix, cells: int, kind: type[np.floating[Any]]) -
     """Return the grid with `cells` cells that positions, shape (n, 3), lie on, or None."""
     low = positions.min(axis=0)
     near = kind((positions - low).max() / cells)
+    if not near > 0:
+        return None
     for step in map(float, (near, np.nextafter(near, kind(0)), np.nextafter(near, kind(np.inf)))):
         if step > 0.0 and np.isfinite(step):
             places = np.rint((positions - low) / step)

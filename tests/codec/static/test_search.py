@@ -71,7 +71,7 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, lis
 def _asked(mesh: TriangleMesh, options: EncodeOptions) -> tuple[Search, Bounds, float]:
     encoder, contract = Encoder(mesh, options), options.promise
     assert contract is not None
-    search = encoder._search(contract, None)
+    search = encoder._input.search(contract, None)
     return search, Bounds(search._measures, contract), contract.look
 
 
