@@ -102,7 +102,7 @@ class Limits:
     attribute_values: int = 1 << 28
 
     def __repr__(self) -> str:
-        own = [(one.name, getattr(self, one.name)) for one in fields(self) if getattr(self, one.name) != one.default]
+        own = [(f.name, getattr(self, f.name)) for f in fields(self) if getattr(self, f.name) != f.default]
         return f"Limits({', '.join(f'{name}={value!r}' for name, value in own)})"
 
     def __post_init__(self) -> None:

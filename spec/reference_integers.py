@@ -769,7 +769,7 @@ class GridReader(Field):
         base = [rounded(sum(p[j] for p in across), len(flaps)) for j in range(3)] if flaps else mean
         shape, closing = self.shape(v, flaps), self.closing(near, base)
         normals = [normal(x[a], x[b], x[c]) for a, b, c, _ in flaps]  # V 8.5
-        planes, main = [Plane(one) for one in normals[:2]], Plane([sum(one[j] for one in normals) for j in range(3)])
+        planes, main = [Plane(n) for n in normals[:2]], Plane([sum(normal[j] for normal in normals) for j in range(3)])
         f, hits, first_gap = min(len(flaps), 3), 0, 0
         for step, j in enumerate(sorted(range(3), key=lambda j: (abs(main.n[j]), j))):
             far, tilt = 16 * self.largest[j], main.tilt(j)

@@ -48,7 +48,7 @@ def packets_of(data: bytes) -> list[tuple[Any, int, int]]:
 
 def without(data: bytes, packet: type, index: int, how: str) -> bytes:
     """A stream whose packet number `index` of a kind is "removed" or "changed"."""
-    _, offset, length = [one for one in packets_of(data) if isinstance(one[0], packet)][index]
+    _, offset, length = [kept_packet for kept_packet in packets_of(data) if isinstance(kept_packet[0], packet)][index]
     middle = offset + length // 2
     if how == "removed":
         return data[:offset] + data[offset + length :]

@@ -190,7 +190,7 @@ def test_a_service_goes_on_whatever_hangs_dies_or_never_comes(server):
         os.kill(pid, signal.SIGSTOP)
     with ThreadPoolExecutor(2) as clients:
         hanging = [clients.submit(post, f"{service}/encode", off(knot(200))) for _ in range(2)]
-    answers = [one.result() for one in hanging]  # the second one may find a process that took the place of the first's
+    answers = [c.result() for c in hanging]  # the second one may find a process that took the place of the first's
     assert any(said.startswith(b"TimeoutError: ") for _, said in answers)
     assert {status for status, _ in answers} <= {200, 503}
     for pid in workers_of(process):

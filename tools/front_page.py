@@ -47,7 +47,7 @@ def scan(path: Path) -> tuple[list[tuple[str, Image]], dict[str, str]]:
     figures = {"file": f"{path.stat().st_size / 1000:,.0f} kB", "balanced": f"{len(data) / 1000:.1f} kB"}
     rows = ((f"scan: {figures['file']}", mesh), (f"BSM, default: {figures['balanced']}", bsm.decode(data)))
     last = (f"Draco at that size: {len(theirs) / 1000:.1f} kB", decode_draco(theirs))
-    return [(name, _drawn(one.positions @ upright.T, one.faces, bounds)) for name, one in (*rows, last)], figures
+    return [(name, _drawn(f.positions @ upright.T, f.faces, bounds)) for name, f in (*rows, last)], figures
 
 
 def _fits(file: bytes, size: int) -> int:

@@ -188,7 +188,7 @@ def parse_attribute(payload: bytes) -> Attribute:
 def write_end(end: End) -> bytes:
     """Varint number of frames, CRC-32 of bytes and, if it is known, of positions, little-endian."""
     sums = [end.crc] if end.positions is None else [end.crc, end.positions]
-    return write_varint(end.frames) + b"".join(one.to_bytes(4, "little") for one in sums)
+    return write_varint(end.frames) + b"".join(each_sum.to_bytes(4, "little") for each_sum in sums)
 
 
 def parse_end(payload: bytes) -> End:

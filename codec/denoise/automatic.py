@@ -202,9 +202,9 @@ def _persist(positions: Positions, finding: Finding, patient: Patient) -> Automa
 def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tuple[Recipe, ...]:
     """The recipes to try: those that let vertices slide along the surface only where noise has moved them there, or
     drowns the surface."""
-    sliding = tuple(replace(one, hand_over="positions") for one in recipes if one.hand_over == "heights")
+    sliding = tuple(replace(recipe, hand_over="positions") for recipe in recipes if recipe.hand_over == "heights")
     if level.tangential > SLIDING * level.normal:
-        return (*(one for one in recipes if one.hand_over != "heights"), *sliding)
+        return (*(recipe for recipe in recipes if recipe.hand_over != "heights"), *sliding)
     return (*recipes, *sliding) if level.normal > DROWNED * edge else recipes
 
 

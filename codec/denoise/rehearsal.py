@@ -164,7 +164,7 @@ class Rehearsal:
         alone.sort(key=lambda outcome: outcome.error)
         chosen, error = [alone[0]], alone[0].error
         while len(chosen) < members:
-            errors = [self._goal(self.truth, blend([member.result for member in (*chosen, one)])) for one in alone]
+            errors = [self._goal(self.truth, blend([member.result for member in (*chosen, steps)])) for steps in alone]
             best = int(np.argmin(errors))
             if errors[best] > GAIN * error:
                 break

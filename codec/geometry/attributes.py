@@ -137,13 +137,13 @@ def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
     return np.ascontiguousarray(values)
 
 
-def has(attributes: Iterable[Attribute], one: Attribute) -> bool:
+def has(attributes: Iterable[Attribute], attribute: Attribute) -> bool:
     """Whether an attribute is among others, with the same values."""
     return any(
-        (one.name, one.domain, one.semantic, one.values.dtype)
+        (attribute.name, attribute.domain, attribute.semantic, attribute.values.dtype)
         == (other.name, other.domain, other.semantic, other.values.dtype)
-        and np.array_equal(one.values, other.values)
-        and (one.indices is other.indices or np.array_equal(one.indices, other.indices))  # type: ignore[arg-type]
+        and np.array_equal(attribute.values, other.values)
+        and (attribute.indices is other.indices or np.array_equal(attribute.indices, other.indices))  # type: ignore[arg-type]
         for other in attributes
     )
 

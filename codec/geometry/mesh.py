@@ -56,7 +56,7 @@ class TriangleMesh:
 
     def __post_init__(self) -> None:
         attributes: object = self.attributes
-        if not isinstance(attributes, (tuple, list)) or not all(isinstance(one, Attribute) for one in attributes):
+        if not isinstance(attributes, (tuple, list)) or not all(isinstance(a, Attribute) for a in attributes):
             raise ArgumentError("the attributes of a mesh must be a list of Attribute")
         if not isinstance(self.metadata, Mapping):
             raise ArgumentError(f"metadata must be a mapping from names, not {type(self.metadata).__name__}")
@@ -108,8 +108,8 @@ class TriangleMesh:
 
     def moved(self, positions: Positions) -> tuple[TriangleMesh, tuple[str, ...]]:
         """The mesh with its vertices elsewhere, shape (n, 3), and the names of its normals, which are left out."""
-        normals = tuple(one.name for one in self.attributes if one.semantic == "normal")
-        kept = tuple(one for one in self.attributes if one.semantic != "normal")
+        normals = tuple(attribute.name for attribute in self.attributes if attribute.semantic == "normal")
+        kept = tuple(attribute for attribute in self.attributes if attribute.semantic != "normal")
         return replace(self, positions=positions, attributes=kept), normals
 
     @property

@@ -380,17 +380,17 @@ def own_normals(mesh: TriangleMesh) -> Normals | None:
 
 def worn(mesh: TriangleMesh, semantic: Semantic) -> Matrix | None:
     """The arguments of `Worn` for the first attribute that means colors, or texture coordinates, or None."""
-    found = (one for one in mesh.attributes if one.semantic == semantic and is_worn(one))
-    return next((painted(semantic, at_corners(one, mesh.faces)) for one in found), None)
+    found = (attribute for attribute in mesh.attributes if attribute.semantic == semantic and is_worn(attribute))
+    return next((painted(semantic, at_corners(attribute, mesh.faces)) for attribute in found), None)
 
 
-def is_worn(one: Attribute) -> bool:
+def is_worn(attribute: Attribute) -> bool:
     """Whether an attribute is seen in pictures: texture coordinates of a plane; and colours, if floats from 0 to 1."""
-    kind = one.values.dtype.kind
-    if one.semantic == "color":
-        return kind == "u" or (kind == "f" and bool(np.abs(one.values - 0.5).max(initial=0.0) <= 0.5))
-    plane = one.semantic == "texcoord" and one.components == 2 and one.domain != "face"
-    return plane and kind == "f" and float(np.abs(one.values).max(initial=0.0)) <= MOST_TILES
+    kind = attribute.values.dtype.kind
+    if attribute.semantic == "color":
+        return kind == "u" or (kind == "f" and bool(np.abs(attribute.values - 0.5).max(initial=0.0) <= 0.5))
+    plane = attribute.semantic == "texcoord" and attribute.components == 2 and attribute.domain != "face"
+    return plane and kind == "f" and float(np.abs(attribute.values).max(initial=0.0)) <= MOST_TILES
 
 
 def painted(semantic: Semantic, corners: npt.NDArray[Any]) -> Matrix:

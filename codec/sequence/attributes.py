@@ -144,8 +144,8 @@ class Expected:
     bound: Bound
 
 
-def moved(one: PreparedAttribute) -> PreparedAttribute:
-    return replace(one, declaration=replace(one.declaration, moves=1))
+def moved(prepared: PreparedAttribute) -> PreparedAttribute:
+    return replace(prepared, declaration=replace(prepared.declaration, moves=1))
 
 
 class Mover:

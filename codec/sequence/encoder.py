@@ -116,7 +116,7 @@ class SequenceEncoder:
         self.samples = 0
         self._faces = faces
         self._count = frames
-        if not isinstance(attributes, Sequence) or not all(isinstance(one, Attribute) for one in attributes):
+        if not isinstance(attributes, Sequence) or not all(isinstance(a, Attribute) for a in attributes):
             raise ArgumentError("the attributes of a sequence must be a list of Attribute")
         check_mapping("metadata", metadata)
         self._attributes = tuple(attributes)
@@ -217,7 +217,7 @@ class SequenceEncoder:
     def _dressed(self, cutter: Cutter) -> Iterator[Run]:
         """Runs with the attributes that each is sent with."""
         for run in cutter.runs():
-            attributes = tuple(one for one in run.mesh.attributes if one.semantic != "normal")
+            attributes = tuple(attribute for attribute in run.mesh.attributes if attribute.semantic != "normal")
             own = attributes if run.first or not self._attributes else self._attributes
             yield replace(run, mesh=replace(run.mesh, attributes=own))
 
@@ -254,7 +254,7 @@ class SequenceEncoder:
         for track, mover in enumerate(movers, 1):
             mover.begin(gops.encoder, first_frame.setting, track)
         numbers = [mover.number for mover in movers]
-        still = {name: values[0] for name, values in group.moving.items() if name not in {one.name for one in movers}}
+        still = {name: values[0] for name, values in group.moving.items() if name not in {m.name for m in movers}}
         while len(group):
             bodies = with_fields(gops.bodies, movers, group.moving)
             for number, frame in enumerate(gops.decoded_frames()):
@@ -287,27 +287,29 @@ class SequenceEncoder:
     ) -> tuple[tuple[PreparedAttribute, ...], tuple[Mover, ...]]:
         """The attributes of a run with a mesh of its own, and what encodes those that move, or may if `more` comes."""
         given, asked = run.given, dict(options.attributes)
-        move = {one.name for one in given.attributes if one.name in group.moving and group.moves(one.name)}
+        move = {a.name for a in given.attributes if a.name in group.moving and group.moves(a.name)}
         may = move | (set(group.moving) if more else set())
         bounds = {
-            one.name: Bound(quality, one) for one, quality in qualities(given.attributes, asked, "balanced", moving=may)
+            a.name: Bound(quality, a) for a, quality in qualities(given.attributes, asked, "balanced", moving=may)
         }
         wanted = []
-        for one, quality in qualities(given.attributes, asked, "balanced", moving=move):
-            if one.name in move:
-                bounds[one.name] = bounds[one.name].over(group.moving[one.name])
-                quality = bounds[one.name].of_first
+        for attribute, quality in qualities(given.attributes, asked, "balanced", moving=move):
+            if attribute.name in move:
+                bounds[attribute.name] = bounds[attribute.name].over(group.moving[attribute.name])
+                quality = bounds[attribute.name].of_first
             elif quality.way == "recompute":
-                raise OptionError(f"{one.name!r}: normals of a sequence cannot be recomputed; ask for 2deg or none")
-            elif one.name not in may or (quality.way == "exact" and one.values.dtype.kind == "f"):
-                del bounds[one.name]
-            wanted.append((one, quality))
+                raise OptionError(
+                    f"{attribute.name!r}: normals of a sequence cannot be recomputed; ask for 2deg or none"
+                )
+            elif attribute.name not in may or (quality.way == "exact" and attribute.values.dtype.kind == "f"):
+                del bounds[attribute.name]
+            wanted.append((attribute, quality))
         carried = carry(place_of(given, run.joined, prepared), wanted)
-        carried = tuple(moved(one) if one.declaration.name in bounds else one for one in carried)
+        carried = tuple(moved(a) if a.declaration.name in bounds else a for a in carried)
         movers = tuple(
-            Mover(number, one, group.moving[one.declaration.name][0], bounds[one.declaration.name])
-            for number, one in enumerate(carried)
-            if one.declaration.moves
+            Mover(number, attribute, group.moving[attribute.declaration.name][0], bounds[attribute.declaration.name])
+            for number, attribute in enumerate(carried)
+            if attribute.declaration.moves
         )
         return carried, movers
 
@@ -315,8 +317,8 @@ class SequenceEncoder:
         self, run: JoinedRun, index: int, prepared: Prepared, first: FirstFrame, carried: tuple[PreparedAttribute, ...]
     ) -> Iterator[packets.Packet]:
         """What comes before the GOPs of a run with a mesh of its own."""
-        notes = (one.note for one in carried if not one.declaration.moves)
-        order = (f"the order of vertices and faces takes {len(one.data)} of the bytes" for one in prepared.order)
+        notes = (attribute.note for attribute in carried if not attribute.declaration.moves)
+        order = (f"the order of vertices and faces takes {len(turn.data)} of the bytes" for turn in prepared.order)
         self.losses = tuple(dict.fromkeys((*self.losses, *run.joined.losses)))
         self.notes = tuple(dict.fromkeys((*self.notes, *run.joined.notes, *notes, *order)))
         body = (*prepared.before_blocks, *(block.packet for block in first.blocks))
@@ -350,8 +352,8 @@ class Meshes:
         opened = self._shelf.take(run)
         if opened is not None:
             moving = {mover.name for mover in opened.movers}
-            others = (one for one in before.attributes if one.name not in moving)
-            opened = opened if all(has(begun.given.attributes, one) for one in others) else None
+            others = (attribute for attribute in before.attributes if attribute.name not in moving)
+            opened = opened if all(has(begun.given.attributes, attribute) for attribute in others) else None
         if opened is None:
             self._shelf.make_room()
             return None
@@ -370,13 +372,17 @@ class Meshes:
 
 def _digest(run: JoinedRun) -> bytes:
     """What runs of the same faces, joins and attributes have in common, whatever the values of those that can move."""
-    mesh, moving = run.given, {one.name for one in run.moving}
+    mesh, moving = run.given, {attribute.name for attribute in run.moving}
     found = sha256(len(mesh.positions).to_bytes(8, "little") + mesh.faces.tobytes() + run.joined.index.tobytes())
-    for one in mesh.attributes:
-        found.update(repr((one.name, one.domain, one.semantic, one.values.dtype, one.values.shape)).encode())
-        found.update(b"" if one.name in moving else one.values.tobytes())
-        if one.indices is not None:
-            found.update(one.indices.tobytes())
+    for attribute in mesh.attributes:
+        found.update(
+            repr(
+                (attribute.name, attribute.domain, attribute.semantic, attribute.values.dtype, attribute.values.shape)
+            ).encode()
+        )
+        found.update(b"" if attribute.name in moving else attribute.values.tobytes())
+        if attribute.indices is not None:
+            found.update(attribute.indices.tobytes())
     return found.digest()
 
 

@@ -39,21 +39,21 @@ class Group:
 
 def next_group(frames: Iterator[Matrix], longest: int, prepared: Prepared, moving: Sequence[Attribute]) -> Group:
     """The next frames, shapes (n, 3 + ...), as many as a GOP may have; none behind the last."""
-    widths = [one.components for one in moving]
+    widths = [attribute.components for attribute in moving]
     ends = np.cumsum([3, *widths])[:-1]
     found: list[list[Values]] = [[] for _ in moving]
 
     def positions() -> Iterator[Matrix]:
         for frame in islice(frames, longest):
             first, *others = np.split(frame, ends, axis=1) if moving else [frame]
-            for own, one, values in zip(found, moving, others, strict=True):
-                own.append(values.astype(one.values.dtype))
+            for own, attribute, values in zip(found, moving, others, strict=True):
+                own.append(values.astype(attribute.values.dtype))
             yield prepared.units.into(first)
 
     # Not a list first, which would hold them twice.
     kind = np.dtype((np.float64, (len(prepared.positions), 3)))
     group: Positions = np.fromiter(positions(), kind)
-    return Group(group, {one.name: np.array(own) for one, own in zip(moving, found, strict=True)})
+    return Group(group, {attribute.name: np.array(own) for attribute, own in zip(moving, found, strict=True)})
 
 
 def require_same(still: Mapping[str, Values], group: Group) -> None:

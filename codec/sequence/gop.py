@@ -388,8 +388,8 @@ def _nothing(field: GopField, body: GopBody) -> Matrix:
     return np.empty((field.width * body.coded, 0))
 
 
-def _apart(one: Matrix, other: Matrix) -> float:
-    return float(np.square(one - other).sum())
+def _apart(first: Matrix, second: Matrix) -> float:
+    return float(np.square(first - second).sum())
 
 
 def _energy(field: Matrix, basis: Matrix) -> float:

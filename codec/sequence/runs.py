@@ -45,7 +45,7 @@ class Cutter:
         self._frames = iter(frames)
         self._faces = faces
         self._allowed = allowed
-        self._names = {one.name for one in attributes}
+        self._names = {attribute.name for attribute in attributes}
         self._ahead: Frame | None = next(self._frames, None)
         self._number = 0
         self.changed: dict[str, int] = {}
@@ -56,7 +56,7 @@ class Cutter:
             mesh = (
                 ahead if isinstance(ahead, TriangleMesh) else TriangleMesh(np.asarray(ahead), np.asarray(self._faces))
             )
-            moving = tuple(one for one in mesh.attributes if can_move(one) and one.name in (self._names or {one.name}))
+            moving = tuple(a for a in mesh.attributes if can_move(a) and a.name in (self._names or {a.name}))
             yield Run(mesh, self._of(mesh, moving), self._number, moving)
 
     def _of(self, mesh: TriangleMesh, moving: tuple[Attribute, ...]) -> Iterator[npt.ArrayLike]:
@@ -79,12 +79,12 @@ class Cutter:
     def _frame(self, first: TriangleMesh, moving: tuple[Attribute, ...], mesh: TriangleMesh) -> npt.ArrayLike:
         """A frame of the run that begins with `first`."""
         columns = [mesh.positions]
-        for one in first.attributes:
-            now = moved_to(one, mesh.attributes) if one in moving else None
-            if one in moving:
-                columns.append((now or one).values.astype(np.float64))
-            if one.semantic != "normal" and now is None and not has(mesh.attributes, one):
-                self.changed.setdefault(one.name, self._number)
+        for attribute in first.attributes:
+            now = moved_to(attribute, mesh.attributes) if attribute in moving else None
+            if attribute in moving:
+                columns.append((now or attribute).values.astype(np.float64))
+            if attribute.semantic != "normal" and now is None and not has(mesh.attributes, attribute):
+                self.changed.setdefault(attribute.name, self._number)
         return np.hstack(columns) if moving else mesh.positions
 
 
@@ -99,15 +99,15 @@ def moved_to(attribute: Attribute, others: Iterable[Attribute]) -> Attribute | N
     return next(same, None)
 
 
-def _kind(one: Attribute) -> tuple[object, ...]:
-    return one.name, one.domain, one.semantic, one.values.dtype, one.values.shape
+def _kind(attribute: Attribute) -> tuple[object, ...]:
+    return attribute.name, attribute.domain, attribute.semantic, attribute.values.dtype, attribute.values.shape
 
 
 def other_faces(mesh: TriangleMesh, other: TriangleMesh) -> str:
     """How the faces of two meshes differ; nothing if they do not."""
-    for what, one, two in (("vertices", mesh.positions, other.positions), ("faces", mesh.faces, other.faces)):
-        if len(one) != len(two):
-            return f"{len(two)} {what} where there were {len(one)}"
+    for what, own, others in (("vertices", mesh.positions, other.positions), ("faces", mesh.faces, other.faces)):
+        if len(own) != len(others):
+            return f"{len(others)} {what} where there were {len(own)}"
     if np.array_equal(mesh.faces, other.faces):
         return ""
     row = int(np.argmax((mesh.faces != other.faces).any(axis=1)))
@@ -179,9 +179,9 @@ def joined_runs(
                 if (frame := next(frames, None)) is None:
                     break
                 beginning.add(frame)
-            one = joined(mesh, beginning.index, keep=keep_order, keep_loose=False)
-            later = frames.while_together(one, may_part=keep_order or allowed)
-            yield JoinedRun(mesh, one, chain(beginning.taken(one.first), later), first, run.moving)
+            joined_mesh = joined(mesh, beginning.index, keep=keep_order, keep_loose=False)
+            later = frames.while_together(joined_mesh, may_part=keep_order or allowed)
+            yield JoinedRun(mesh, joined_mesh, chain(beginning.taken(joined_mesh.first), later), first, run.moving)
 
 
 class _Frames:
@@ -190,7 +190,7 @@ class _Frames:
     def __init__(self, run: Run) -> None:
         self.number = run.first
         self._frames = iter(run.frames)
-        self._shape = len(run.mesh.positions), 3 + sum(one.components for one in run.moving)
+        self._shape = len(run.mesh.positions), 3 + sum(attribute.components for attribute in run.moving)
         self._ahead: Matrix | None = None
 
     def __iter__(self) -> _Frames:
@@ -203,18 +203,18 @@ class _Frames:
         self.number += 1
         return positions
 
-    def while_together(self, one: JoinedMesh, *, may_part: bool) -> Iterator[Matrix]:
+    def while_together(self, mesh: JoinedMesh, *, may_part: bool) -> Iterator[Matrix]:
         """The vertices of `one.mesh`, shape (k, 3), frame by frame until some of those that it joins part."""
-        used = np.flatnonzero(one.index >= 0)
-        merged = len(used) > len(one.first)
+        used = np.flatnonzero(mesh.index >= 0)
+        merged = len(used) > len(mesh.first)
         for positions in self:
-            found = positions[one.first]
-            apart = (positions[used] != found[one.index[used]]).any(axis=1) if merged else np.zeros(0, np.bool_)
+            found = positions[mesh.first]
+            apart = (positions[used] != found[mesh.index[used]]).any(axis=1) if merged else np.zeros(0, np.bool_)
             if apart.any():
                 if not may_part:
                     vertex = used[np.argmax(apart)]
                     raise MeshError(
-                        f"vertices {one.first[one.index[vertex]]} and {vertex} part at frame {self.number - 1}; with "
+                        f"vertices {mesh.first[mesh.index[vertex]]} and {vertex} part at frame {self.number - 1}; with "
                         "keep_order = True (--keep-order), or runs = True (--runs), they may"
                     )
                 self.number -= 1

@@ -312,8 +312,8 @@ def _power_of(errors: Matrix, shares: Matrix) -> float:
     seen = shares > 0.0
     if np.count_nonzero(seen) < 3:
         return 1.0
-    one, other = (np.log(values[seen]) - np.log(values[seen]).mean() for values in (errors, shares))
-    return float(np.clip((one @ other + PRIOR) / (one @ one + PRIOR), *POWERS))
+    log_errors, log_shares = (np.log(values[seen]) - np.log(values[seen]).mean() for values in (errors, shares))
+    return float(np.clip((log_errors @ log_shares + PRIOR) / (log_errors @ log_errors + PRIOR), *POWERS))
 
 
 def _evening(shares: Matrix) -> Matrix:

@@ -144,7 +144,7 @@ def make_setting(
     pairs = list(dictionaries.each(known))
     tracks = []
     for track, width in enumerate((3, *widths)):
-        known_of, around_of = ([np.ascontiguousarray(one[track]) for one in each] for each in zip(*pairs, strict=True))
+        known_of, around_of = ([np.ascontiguousarray(m[track]) for m in each] for each in zip(*pairs, strict=True))
         first = [np.vstack((ends, part))[:, :width] for ends, part in zip(around_of, known_of, strict=True)]
         start = [np.zeros_like(part) for part in first] if track else first
         kept = LEAST_KEPT if track else frames_kept(len(first_frame))

@@ -91,9 +91,9 @@ class Encoder:
     @property
     def notes(self) -> tuple[str, ...]:
         """What was changed on the way in, and what becomes of attributes."""
-        sent = {one.name for one, _ in self._input.wanted}
-        left = [one.name for one in self._input.given.attributes if one.name not in sent]
-        said = (*(one.note for one in self._input.carried), *([f"left out: {', '.join(left)}"] if left else []))
+        sent = {attribute.name for attribute, _ in self._input.wanted}
+        left = [attribute.name for attribute in self._input.given.attributes if attribute.name not in sent]
+        said = (*(p.note for p in self._input.carried), *([f"left out: {', '.join(left)}"] if left else []))
         return (*self._input.joined.notes, *said, *self.losses[len(self._input.joined.losses) :])
 
     @property

@@ -92,7 +92,7 @@ class Paper:
         check_options(self, CHOICES, RANGES)
         doi: object = self.doi
         if doi is not None and not (
-            isinstance(doi, tuple) and len(doi) == 2 and all(isinstance(one, (int, float)) for one in doi)
+            isinstance(doi, tuple) and len(doi) == 2 and all(isinstance(bound, (int, float)) for bound in doi)
         ):
             raise ArgumentError(f"doi must be two thresholds, not {doi!r}")
         if self.doi is not None and not 0.0 < self.doi[0] < self.doi[1]:
@@ -275,7 +275,7 @@ def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
     if "effort" in changes or "quick" in changes:
         quick = changes.get("quick", False)
         changes = {"quick": quick, "effort": "normal", **changes}
-    of_paper = {one.name: changes.pop(one.name) for one in fields(Paper) if one.name in changes}
+    of_paper = {field.name: changes.pop(field.name) for field in fields(Paper) if field.name in changes}
     if of_paper:
         changes["paper"] = replace(changes.get("paper", options.paper), **of_paper)
     return replace(options, **changes)

@@ -227,8 +227,8 @@ def secant(
             slope = min(max(found, 1.0 / STEEPEST), STEEPEST) if math.isfinite(found) else slope
         before = at, value
         tried.append(before)
-        good = max((one for one in tried if one[1] <= 0.0), default=None)
-        bad = min((one for one in tried if one[1] > 0.0 and (good is None or one[0] > good[0])), default=None)
+        good = max((step for step in tried if step[1] <= 0.0), default=None)
+        bad = min((step for step in tried if step[1] > 0.0 and (good is None or step[0] > good[0])), default=None)
         if good is None and len(tried) > 2 and value > tried[0][1] - abs(at - tried[0][0]) / STEEPEST**2:
             return  # what breaks a bound is not the step
         if (-slack < value <= 0.0) or (bad is None and at >= high) or (good is None and at <= low):
@@ -261,7 +261,7 @@ def search_step(
         secant(lambda fineness: tried(1.0 / fineness), 1.0 / first, 1.0 / COARSEST_STEP, 1.0 / finest, 2 * TRIES)
     else:
         secant(tried, first, finest, COARSEST_STEP, 2 * TRIES, rise)
-    met = [one for one in seen if one[0] <= 0.0]
+    met = [outcome for outcome in seen if outcome[0] <= 0.0]
     if met:
         return max(met, key=itemgetter(0))[1]
     best = min(target.reached(outcome) for _, outcome in seen)

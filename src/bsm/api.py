@@ -351,7 +351,7 @@ def encode_frames(
     first = next(frames, None)
     if first is None:
         raise MeshError("a sequence needs at least one frame")
-    attributes = [one for one in first.attributes if one.semantic != "normal"]
+    attributes = [attribute for attribute in first.attributes if attribute.semantic != "normal"]
     count = len(meshes) if isinstance(meshes, Sequence) else 0
     encoder = SequenceEncoder(first.faces, chosen, count, told, attributes)
     return _joined(encoder, chain([first], frames), progress)

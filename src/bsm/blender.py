@@ -180,7 +180,7 @@ def materials_of(slots: Any) -> dict[str, str | int | float | bytes]:
         if shader is None:
             continue
         color = [*shader.inputs["Base Color"].default_value][:3]
-        found[f"material.{number}.baseColorFactor"] = " ".join(f"{one:.6g}" for one in (*color, 1.0))
+        found[f"material.{number}.baseColorFactor"] = " ".join(f"{component:.6g}" for component in (*color, 1.0))
         for name, socket in (("metallicFactor", "Metallic"), ("roughnessFactor", "Roughness")):
             found[f"material.{number}.{name}"] = float(shader.inputs[socket].default_value)
         links = shader.inputs["Base Color"].links

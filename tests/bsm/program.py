@@ -25,7 +25,7 @@ def bsm(*arguments, input=b"", text=False):
         except SystemExit as ended:
             code = ended.code
     found = [stream.buffer.getvalue() for stream in (out, err)]
-    return subprocess.CompletedProcess(words, code, *([one.decode() for one in found] if text else found))
+    return subprocess.CompletedProcess(words, code, *([line.decode() for line in found] if text else found))
 
 
 def process(*arguments, **keywords):

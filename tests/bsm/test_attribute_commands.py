@@ -77,7 +77,7 @@ def test_the_shape_alone_brings_no_images():
     assert not kept.attributes
     assert set(kept.metadata) == {"author", "name", "unit"}
     some = bsm.decode(bsm.encode(painted(), attributes={"*": "none", "texcoord": "12bits"}, grid=12))
-    assert [one.name for one in some.attributes] == ["texcoord"]
+    assert [attribute.name for attribute in some.attributes] == ["texcoord"]
     assert some.metadata["image.0.data"] == png()
 
 

@@ -51,11 +51,11 @@ def test_a_bench_of_a_small_mesh_is_complete_and_fit_for_json(tmp_path):
     path.write_bytes(format_mesh(patch(30, 30), "ply"))
     result = run_bench([str(path)], sample=1, repeats=1, note=print)
     (row,) = result["meshes"]
-    exact, ours = ([one for one in row["dictionaries"] if one["exact"] is kind] for kind in (True, False))
+    exact, ours = ([timing for timing in row["dictionaries"] if timing["exact"] is kind] for kind in (True, False))
     assert len(exact) == 4 * len(EXACT) and len(ours) == 4 * len(POWERS)
     for found in ours:
-        rivals = [one for one in exact if one["keep"] == found["keep"]]
-        assert found["against_fastest"] == min(one["seconds"] for one in rivals) / found["seconds"]
+        rivals = [timing for timing in exact if timing["keep"] == found["keep"]]
+        assert found["against_fastest"] == min(timing["seconds"] for timing in rivals) / found["seconds"]
         assert found["nmsve_db"] > rivals[0]["nmsve_db"] - 0.1
     assert set(row["files"]) == {f"{who} {what}" for who in ("ours", "draco") for what in ("encode", "decode")}
     json.dumps(result, allow_nan=False)

@@ -55,7 +55,7 @@ def test_an_output_never_replaces_an_input(tmp_path, monkeypatch, form):
                 os.link(precious, tmp_path / "hard")
                 named = form.format(precious if "file:" in form else precious.name)
                 others = [
-                    word for one in reads if one is not reading and one.required for word in words(one, "other.ply")
+                    word for path in reads if path is not reading and path.required for word in words(path, "other.ply")
                 ]
                 line = [command, "-f", *words(reading, str(precious)), *others, *words(writing, named)]
                 done = bsm(*line, text=True)
@@ -74,7 +74,7 @@ def test_two_outputs_never_have_one_name(tmp_path, monkeypatch):
             for second in writes[:number]:
                 for names in (("same", "./same"), ("-", "/dev/stdout"), ("sub/../same", "same")):
                     (tmp_path / "sub").mkdir(exist_ok=True)
-                    line = [command, "-f", *(word for one in reads if one.required for word in words(one, "in.ply"))]
+                    line = [command, "-f", *(word for path in reads if path.required for word in words(path, "in.ply"))]
                     line += [*words(first, names[0]), *words(second, names[1])]
                     done = bsm(*line, text=True)
                     assert done.returncode == 2 and "two outputs would have the name" in done.stderr, (

@@ -265,7 +265,7 @@ def test_primitives_of_a_mesh_share_a_stream(source, tmp_path):
     after = read_document(str(tmp_path / "small.glb"))
     first, second = after.tree["meshes"][0]["primitives"]
     assert first["attributes"] == second["attributes"] and first["indices"] != second["indices"]
-    accessors = [after.tree["accessors"][one["indices"]] for one in (first, second)]
+    accessors = [after.tree["accessors"][primitive["indices"]] for primitive in (first, second)]
     assert accessors[0]["bufferView"] == accessors[1]["bufferView"]
     told = after.tree["bufferViews"][accessors[0]["bufferView"]]["extensions"][EXTENSION]
     pieces = pieces_of(after, told["stream"])
@@ -292,7 +292,7 @@ def test_fallback_holds_what_decoders_fill_in(source, tmp_path):
     mesh = bsm.decode(after.view(told["stream"]))
     for view in after.tree["bufferViews"]:
         view.pop("extensions", None)  # as loaders see it that do not know them
-    plain = {one["attribute"]: after.array(n) for n, (one, _) in coded.items() if one["stream"] == told["stream"]}
+    plain = {s["attribute"]: after.array(n) for n, (s, _) in coded.items() if s["stream"] == told["stream"]}
     np.testing.assert_array_equal(
         plain["POSITION"][plain["indices"].ravel()], mesh.positions[mesh.faces.ravel()].astype("f4")
     )
@@ -355,7 +355,7 @@ def test_a_sequence_becomes_a_scene_that_moves(tmp_path, capsys):
     first = bsm.decode_sequence(stream)[0][0].astype(np.float32)
     found = {told["attribute"]: accessor for told, accessor in coded_of(document).values()}
     assert found["POSITION"]["max"] == first.max(axis=0).tolist() and found["indices"]["count"] == 3 * 40 * 24 * 2
-    assert {name: one["type"] for name, one in found.items() if one["count"] == len(first)} == {
+    assert {name: value["type"] for name, value in found.items() if value["count"] == len(first)} == {
         "POSITION": "VEC3",
         "NORMAL": "VEC3",
         "TEXCOORD_0": "VEC2",

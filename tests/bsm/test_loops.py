@@ -41,7 +41,7 @@ def test_the_program_says_loops_and_errors_of_frames(tmp_path, capsys):
     assert "frames 5 to 9 repeat 0 to 4" in capsys.readouterr().err
     assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "a.bsm"), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    each = [one["max_error_relative"] for one in found["frames"]]
+    each = [frame["max_error_relative"] for frame in found["frames"]]
     assert len(each) == 10 and max(each) == pytest.approx(found["max_error_relative"])
     assert found["loops"] == ["frames 5 to 9 repeat 0 to 4"]
     assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "a.bsm")]) == 0

@@ -95,6 +95,6 @@ print(sorted(set(drawn)))
 """
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell)])
     nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
-    said = "".join(one.get("text", "") for one in notebook.cells[0].outputs if one.get("name") == "stdout")
+    said = "".join(output.get("text", "") for output in notebook.cells[0].outputs if output.get("name") == "stdout")
     assert "'encoding" in said
     assert not bsm.console.in_notebook()

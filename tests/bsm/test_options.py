@@ -61,8 +61,8 @@ def test_targets(keyword, kind):
 
 
 def test_the_command_line_has_the_same_targets():
-    assert [one.field for one in flags.TARGETS] == list(TARGETS)
-    assert [one.field for one in flags.BOUNDS] == list(BOUNDS)
+    assert [target.field for target in flags.TARGETS] == list(TARGETS)
+    assert [target.field for target in flags.BOUNDS] == list(BOUNDS)
 
 
 def test_sequences():

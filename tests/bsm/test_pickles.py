@@ -14,7 +14,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from tests.streams import events_of
 from tools.vectors.meshes import torus
 
-TWICE = pytest.mark.parametrize("twice", [lambda one: pickle.loads(pickle.dumps(one)), copy.deepcopy])
+TWICE = pytest.mark.parametrize("twice", [lambda value: pickle.loads(pickle.dumps(value)), copy.deepcopy])
 
 
 @cache
@@ -49,8 +49,8 @@ def test_events(twice):
 @TWICE
 def test_options_comparisons_limits_and_errors(twice):
     mesh = bsm.decode(stream())
-    for one in (bsm.EncodeOptions(step=0.01), bsm.compare(mesh, mesh), bsm.Limits.service()):
-        assert twice(one) == one
+    for value in (bsm.EncodeOptions(step=0.01), bsm.compare(mesh, mesh), bsm.Limits.service()):
+        assert twice(value) == value
     error = twice(bsm.CorruptError("wrong", offset=3, block=1))
     assert str(error) == "wrong [byte 3, block 1]"
 

@@ -101,7 +101,7 @@ def test_what_is_left_out_is_a_warning_at_the_line_of_the_call(tmp_path):
     quads.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nmtllib none.mtl\n")
     with pytest.warns(bsm.BsmWarning, match=r"quads.obj: polygons were cut into triangles: 1") as found:
         bsm.load(quads)
-    assert {one.filename for one in found} == {__file__}
+    assert {attribute.filename for attribute in found} == {__file__}
     with pytest.warns(bsm.BsmWarning, match="no face uses"):
         bsm.encode_sequence(np.array([LOOSE[0]] * 2, float), LOOSE[1])
 

@@ -59,7 +59,7 @@ def examined(found):
 def described(text):
     """Names of parameters and attributes that a docstring describes, or only lists."""
     heads = re.findall(r"^(\*{0,2}\w+(?:, \w+)*)(?: :.*)?$", text, re.MULTILINE)
-    return {one.strip("* ") for head in heads for one in head.split(",")}
+    return {name.strip("* ") for head in heads for name in head.split(",")}
 
 
 def check_alone(found):
@@ -75,15 +75,15 @@ def check_alone(found):
 
 def _signature(found):
     if dataclasses.is_dataclass(found):
-        inherited = {one.name for base in found.__bases__ if dataclasses.is_dataclass(base) for one in _own(base)}
-        return [one.name for one in _own(found) if one.name not in inherited]
+        inherited = {name.name for base in found.__bases__ if dataclasses.is_dataclass(base) for name in _own(base)}
+        return [name.name for name in _own(found) if name.name not in inherited]
     if inspect.isclass(found) and "__init__" not in vars(found):
         return []
     return [name for name in inspect.signature(found).parameters if name != "self"]
 
 
 def _own(kind):
-    return [one for one in dataclasses.fields(kind) if one.init]
+    return [field for field in dataclasses.fields(kind) if field.init]
 
 
 def run(found, folder, monkeypatch):

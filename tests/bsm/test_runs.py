@@ -148,7 +148,7 @@ def test_info_tells_of_runs(stream, capsys):
     assert "run 2: 2 frames from 7 on, 60 vertices, 120 faces, the mesh of run 0 again" in said
     assert run("info", stream, "--json") == 0
     found = json.loads(capsys.readouterr().out)
-    assert [one["mesh"] for one in found["runs"]] == [0, 1, 0]
+    assert [run["mesh"] for run in found["runs"]] == [0, 1, 0]
     samples = 60 * 6 + 42 * 3
     assert found["bpvf_total"] == pytest.approx(8 * stream.stat().st_size / samples)
 

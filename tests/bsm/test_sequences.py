@@ -195,7 +195,7 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
     np.savez(tmp_path / "again.npz", **again)
     assert bsm("encode", tmp_path / "again.npz", "-o", tmp_path / "again.bsm", "--set", "step=0.01") == 0
     assert bsm("decode", stream, "-o", f"{tmp_path / 'ply'}/", "--format", "ply") == 0
-    colors = {one.name: one.values for one in read_mesh(tmp_path / "ply" / "00003.ply").mesh.attributes}
+    colors = {a.name: a.values for a in read_mesh(tmp_path / "ply" / "00003.ply").mesh.attributes}
     np.testing.assert_array_equal(colors["color"], arrays["color"][3])
     capsys.readouterr()
     assert bsm("decode", stream, "-o", tmp_path / "back.pc2") == 0
@@ -205,11 +205,11 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
     assert "how heat changes" in left_out and "how color changes" not in left_out
     frames = open_sequence(tmp_path / "back.glb", wanted=Wanted()).meshes
     for mesh, shades in zip(frames, arrays["color"], strict=True):
-        (color,) = (one.values for one in mesh.attributes if one.semantic == "color")
+        (color,) = (attribute.values for attribute in mesh.attributes if attribute.semantic == "color")
         np.testing.assert_array_equal(np.unique(color[:, :3], axis=0), np.unique(shades, axis=0))
     assert bsm("info", stream) == 0
     assert "uint8 per vertex, color" in capsys.readouterr().out
-    last = {one.name: one.values for one in list(decode_frames(stream))[4].attributes}
+    last = {attribute.name: attribute.values for attribute in list(decode_frames(stream))[4].attributes}
     np.testing.assert_array_equal(last["color"], arrays["color"][4])
 
 
@@ -363,7 +363,7 @@ def test_attributes_that_stay_go_along(tmp_path, capsys):
     assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "out"), "--format", "obj", "-q"]) == 0
     for number in range(4):
         found = read_mesh(tmp_path / "out" / f"{number:05}.obj").mesh
-        assert [one.name for one in found.attributes] == ["texcoord"]
+        assert [attribute.name for attribute in found.attributes] == ["texcoord"]
         again = found.attributes[0]
         assert np.abs(again.values[again.indices].reshape(-1, 2) - corners).max() < 2e-4
     assert main(["decode", str(tmp_path / "run.bsm"), "-o", str(tmp_path / "out.npz")]) == 0

@@ -91,9 +91,9 @@ def test_a_map_shows_where_vertices_are_off(tmp_path, capsys):
     words = ["compare", str(tmp_path / "a.ply"), str(tmp_path / "b.ply"), "--map"]
     for name in ("map.ply", "map.obj"):
         assert main([*words, str(tmp_path / name)]) == 0
-        color = next(one for one in bsm.load(tmp_path / name).attributes if one.semantic == "color").values
+        color = next(a for a in bsm.load(tmp_path / name).attributes if a.semantic == "color").values
         assert color[0, 0] > color[0, 2] and color[-1, 2] > color[-1, 0], "red where it moved, blue where not"
-    distance = next(one for one in bsm.load(tmp_path / "map.ply").attributes if one.name == "distance")
+    distance = next(a for a in bsm.load(tmp_path / "map.ply").attributes if a.name == "distance")
     np.testing.assert_allclose(distance.values[[0, -1], 0], [0.25, 0], atol=1e-6)
     assert main([*words, str(tmp_path / "map.png")]) == 0
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")

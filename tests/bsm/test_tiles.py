@@ -61,7 +61,7 @@ def sets(mesh, lattice=Lattice(CELL)):  # noqa: B008
 
 
 def same(first, second):
-    return all(np.array_equal(one, other) for one, other in zip(sets(first), sets(second)))
+    return all(np.array_equal(first_set, second_set) for first_set, second_set in zip(sets(first), sets(second)))
 
 
 def edges(faces):
@@ -93,8 +93,8 @@ def test_polygons_and_other_orders_of_obj(tmp_path):
 def test_tiles_that_meet_have_the_same_bits_there(mesh, folder):
     tiles = bsm.open_tiles(str(folder))
     seen, faces = {}, 0
-    for shard, one in tiles.chosen(0.0):
-        decoded = bsm.decode(tiles.data(shard, one))
+    for shard, tile in tiles.chosen(0.0):
+        decoded = bsm.decode(tiles.data(shard, tile))
         faces += len(decoded.faces)
         for place, position in zip(tiles.lattice.places(decoded.positions), decoded.positions):
             seen.setdefault(place.tobytes(), set()).add(position.tobytes())
@@ -104,13 +104,13 @@ def test_tiles_that_meet_have_the_same_bits_there(mesh, folder):
 
 def test_levels_meet_without_a_crack_and_are_as_near_as_they_say(mesh, folder):
     tiles = bsm.open_tiles(str(folder))
-    nodes = {one.name: (shard, one) for shard in tiles.manifest["shards"] for one in tiles.index(shard)}
+    nodes = {tile.name: (shard, tile) for shard in tiles.manifest["shards"] for tile in tiles.index(shard)}
     inner = [name for name in nodes if name + "0" <= max(nodes) and any(other[:-1] == name for other in nodes)]
-    leaves = [one.name for _, one in tiles.chosen(0.0)]
+    leaves = [tile.name for _, tile in tiles.chosen(0.0)]
     coarse = [name for name in inner if len(name) > 1]
     assert len(coarse) > 2 and all(nodes[name][1].error > 0 for name in coarse)
     for name in ("r", *coarse):
-        parts = [tiles.decoded(*nodes[one]) for one in (name, *(leaf for leaf in leaves if not leaf.startswith(name)))]
+        parts = [tiles.decoded(*nodes[n]) for n in (name, *(leaf for leaf in leaves if not leaf.startswith(name)))]
         offsets = np.cumsum([0, *(len(places) for places, _ in parts)])
         _, numbers, _ = welded(np.concatenate([places for places, _ in parts]))
         corners = numbers[np.concatenate([faces + first for (_, faces), first in zip(parts, offsets)])]
@@ -166,15 +166,15 @@ def test_colours_and_normals_go_along(mesh, tmp_path, suffix):
     back = bsm.load(tmp_path / "back.ply")
     assert same(bsm.load(tmp_path / f"mesh.{suffix}"), back) and len(back.positions) == len(mesh.positions)
     places = Lattice(CELL).places
-    order, other = (np.lexsort(places(one.positions).T) for one in (mesh, back))
-    found = {one.name: one.values[other] for one in back.attributes}
+    order, other = (np.lexsort(places(shown.positions).T) for shown in (mesh, back))
+    found = {attribute.name: attribute.values[other] for attribute in back.attributes}
     assert np.array_equal(found["color"], colour[order])
     if suffix != "obj":
         assert np.abs(found["normal"] - normal[order]).max() < 0.01
     assert program("untile", output, "-o", tmp_path / "coarse.bsm", "--level", 0).returncode == 0
     coarse = bsm.load(tmp_path / "coarse.bsm")
     nearest = np.argmin(((coarse.positions[:, None] - mesh.positions) ** 2).sum(axis=2), axis=1)
-    told = next(one.values for one in coarse.attributes if one.name == "color").astype(int)
+    told = next(attribute.values for attribute in coarse.attributes if attribute.name == "color").astype(int)
     assert len(coarse.faces) < 0.4 * len(mesh.faces) and np.abs(told - colour[nearest]).mean() < 4
 
 
@@ -249,9 +249,9 @@ def test_contents_that_are_compressed(folder, tmp_path, content):
         (tmp_path / "plain").mkdir()
         assert program("untile", folder, "-o", tmp_path / "plain" / "tileset.json").returncode == 0
         for path in (tmp_path / "glb").iterdir():
-            coded, plain = (read_document(str(one)) for one in (path, tmp_path / "plain" / "glb" / path.name))
+            coded, plain = (read_document(str(file)) for file in (path, tmp_path / "plain" / "glb" / path.name))
             views = coded.items("bufferViews")
-            stream = next(one["extensions"][EXTENSION]["stream"] for one in views if "extensions" in one)
+            stream = next(view["extensions"][EXTENSION]["stream"] for view in views if "extensions" in view)
             primitive = next(plain.primitives())
             corners = plain.array(primitive["indices"]).reshape(-1, 3).astype(np.int32)
             positions = plain.array(primitive["attributes"]["POSITION"]).astype(float)
@@ -355,10 +355,12 @@ def test_a_full_disk_is_told(mesh, folder, tmp_path, most):
     assert (done.returncode == 0) == (whole.returncode == 0)
     assert done.returncode == 0 or "these tiles are unfinished; complete so far: " in whole.stderr
     assert (back.returncode == 0) == (tmp_path / "back.ply").exists()
-    for one in (done, back):
-        assert one.returncode == 0 or (one.returncode == 9 and one.stderr.strip().endswith(": File too large"))
-        assert one.returncode == 0 or "/" in one.stderr.splitlines()[-1]
-        assert ".work: " not in one.stderr, "the file that there is no room for is named"
+    for process in (done, back):
+        assert process.returncode == 0 or (
+            process.returncode == 9 and process.stderr.strip().endswith(": File too large")
+        )
+        assert process.returncode == 0 or "/" in process.stderr.splitlines()[-1]
+        assert ".work: " not in process.stderr, "the file that there is no room for is named"
 
 
 def test_a_run_that_was_interrupted_goes_on(mesh, folder, tmp_path, monkeypatch):
@@ -547,5 +549,5 @@ def test_a_scan_comes_back(meshes, tmp_path):
     tile(source, tmp_path / "out", "--triangles", 2000, "--finest")
     assert program("untile", tmp_path / "out", "-o", tmp_path / "back.ply").returncode == 0
     lattice = bsm.open_tiles(str(tmp_path / "out")).lattice
-    for one, other in zip(sets(bsm.load(source), lattice), sets(bsm.load(tmp_path / "back.ply"), lattice)):
-        assert np.array_equal(one, other)
+    for first, other in zip(sets(bsm.load(source), lattice), sets(bsm.load(tmp_path / "back.ply"), lattice)):
+        assert np.array_equal(first, other)

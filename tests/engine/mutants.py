@@ -71,11 +71,11 @@ def loss_difference(found: Decoded, stream: bytes, *, exact: bool) -> str | None
     return unlike(found, outcome, in_sequence=True, exact=exact)
 
 
-def _alike(one: np.ndarray, other: np.ndarray, *, exact: bool) -> bool:
-    if exact or one.dtype.kind != "f":
-        return np.array_equal(one, other)
+def _alike(attribute: np.ndarray, other: np.ndarray, *, exact: bool) -> bool:
+    if exact or attribute.dtype.kind != "f":
+        return np.array_equal(attribute, other)
     size = float(np.abs(other).max(initial=1.0))
-    return bool(np.allclose(one, other, rtol=1e-5, atol=1e-5 * size))
+    return bool(np.allclose(attribute, other, rtol=1e-5, atol=1e-5 * size))
 
 
 def compare(
@@ -92,7 +92,7 @@ def compare(
     end = time.monotonic() + seconds
     random, seeds = Random(seed), vector_seeds()
     if sequences:
-        seeds = [one for one in seeds if is_sequence(one)]
+        seeds = [seed for seed in seeds if is_sequence(seed)]
     tally, found = Counter[str](), list[str]()
     for number in range(count):
         if time.monotonic() > end:

@@ -28,7 +28,7 @@ def test_every_build_gives_the_same_bits(compiler: str, wanted: tuple[str, ...] 
 
     No flag says that nothing may be fused.
     """
-    flags = ["-DKERNEL_ONE_TARGET", *(f"-m{one}" for one in wanted)] if wanted is not None else []
+    flags = ["-DKERNEL_ONE_TARGET", *(f"-m{build}" for build in wanted)] if wanted is not None else []
     if shutil.which(compiler) is None or not has(*(wanted or ())):
         pytest.skip(f"no {compiler} here, or a processor without {' '.join(wanted or ())}")
     library = build("-O1", *flags, compiler=compiler)

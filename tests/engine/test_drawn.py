@@ -43,10 +43,12 @@ class Mesh(Structure):
 
     def vertex(self, field: int) -> npt.NDArray[Any]:
         """The numbers of all vertices in a field."""
-        one = self.fields[field]
-        kind = np.dtype(KINDS[one.kind])
+        field_values = self.fields[field]
+        kind = np.dtype(KINDS[field_values.kind])
         data = np.frombuffer(ctypes.string_at(self.vertex_data, self.vertex_bytes), np.uint8)
-        rows = data.reshape(self.vertices, self.stride)[:, one.offset : one.offset + one.components * kind.itemsize]
+        rows = data.reshape(self.vertices, self.stride)[
+            :, field_values.offset : field_values.offset + field_values.components * kind.itemsize
+        ]
         return np.ascontiguousarray(rows).view(kind)
 
     @property
@@ -120,8 +122,8 @@ def test_split_vertices_are_what_corners_are(decoder: ctypes.CDLL, name: str) ->
     stream = (VECTORS / f"{name}.bsm").read_bytes()
     expected = bsm.decode(stream)
     with drawn(decoder, stream) as mesh:
-        carried = [one for one in expected.attributes if one.domain != "face"]
-        rows = [expected.faces, *(one.indices for one in carried if one.indices is not None)]
+        carried = [attribute for attribute in expected.attributes if attribute.domain != "face"]
+        rows = [expected.faces, *(attribute.indices for attribute in carried if attribute.indices is not None)]
         distinct = len(np.unique(np.stack(rows, -1).reshape(-1, len(rows)), axis=0))
         alone = len(expected.positions) - len(np.unique(expected.faces))
         assert mesh.vertices == distinct + alone

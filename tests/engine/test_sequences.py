@@ -33,10 +33,10 @@ def test_frames_from_a_start_on_are_those_of_the_whole(library: ctypes.CDLL, nam
     expected, shown = whole.frames[start:], whole.shown
     found = decode(library, stream, start=start, pieces=101)
     assert [index for index, _ in found.frames] == [index for index, _ in expected]
-    for (_, one), (_, other) in zip(found.frames, expected, strict=True):
-        assert np.array_equal(one, other)
-    for one, other in zip(found.shown[::-1], shown[::-1], strict=False):
-        assert all(np.array_equal(one[key], other[key]) for key in other)
+    for (_, frame), (_, other) in zip(found.frames, expected, strict=True):
+        assert np.array_equal(frame, other)
+    for frame, other in zip(found.shown[::-1], shown[::-1], strict=False):
+        assert all(np.array_equal(frame[key], other[key]) for key in other)
 
 
 @pytest.mark.parametrize("name", ["good-sequence-long", "good-sequence-low-delay-long", "good-sequence-runs-many"])

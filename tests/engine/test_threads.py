@@ -15,11 +15,11 @@ VECTORS = ROOT / "spec/vectors"
 NAMES = ("good-refined-steep", "good-keys", "good-layer-chunks", "good-independent-predicted", "bad-refinement-short")
 
 
-def same(one: Decoded, other: Decoded) -> bool:
+def same(first: Decoded, other: Decoded) -> bool:
     """Return whether two decoders reported the same."""
-    assert one.arrays.keys() == other.arrays.keys()
-    assert all(np.array_equal(one.arrays[key], other.arrays[key], equal_nan=True) for key in one.arrays)
-    return (one.status, one.message, one.losses) == (other.status, other.message, other.losses)
+    assert first.arrays.keys() == other.arrays.keys()
+    assert all(np.array_equal(first.arrays[key], other.arrays[key], equal_nan=True) for key in first.arrays)
+    return (first.status, first.message, first.losses) == (other.status, other.message, other.losses)
 
 
 def damaged(stream: bytes, step: int) -> Iterator[bytes]:

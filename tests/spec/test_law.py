@@ -28,7 +28,7 @@ def rules() -> set[str]:
         for line in text.splitlines():
             if line.startswith("## ") and (sections := re.findall(r"\b([FMCVASD]) (\d+)", line)):
                 letter = sections[0][0]
-                found |= {f"{one} {number}" for one, number in sections}
+                found |= {f"{section} {number}" for section, number in sections}
             for other, number in re.findall(r"\*\*(?:([FMCVASD]) )?(\d+\.\d+)\*\*", line):
                 found |= {f"{other or letter} {number}", f"{other or letter} {number.split('.')[0]}"}
     return found

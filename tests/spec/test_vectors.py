@@ -61,7 +61,7 @@ def triangles(positions, faces):
 
 
 @pytest.mark.parametrize(
-    "vector", [pytest.param(one, id=one.name, marks=[pytest.mark.slow] * (one.name in LONG)) for one in VECTORS]
+    "vector", [pytest.param(v, id=v.name, marks=[pytest.mark.slow] * (v.name in LONG)) for v in VECTORS]
 )
 def test_reference_decoder(vector, reference):
     """All of the core as the manifest says; of extensions that it says it lacks, and shapes without what it skips."""
@@ -130,7 +130,7 @@ def test_threads_and_events_change_nothing(vector):
     whole = decode(data, threads=1)
     assert np.array_equal(decode(data, threads=2).positions, whole.positions)
     positions = np.full_like(whole.positions, np.nan)
-    arrays, places = arrays_of(whole.attributes), {one.name: i for i, one in enumerate(whole.attributes)}
+    arrays, places = arrays_of(whole.attributes), {attribute.name: i for i, attribute in enumerate(whole.attributes)}
     with Decoder(threads=2) as decoder:
         decoder.receive_data(data)
         decoder.receive_eof()

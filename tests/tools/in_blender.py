@@ -77,7 +77,7 @@ def runs():
     """Frames of other faces: objects that take turns, also in a project that has lost their caches."""
     fresh()
     scene, shown = bpy.context.scene, []
-    names = [one.name for one in bsm.blender.import_file(str(folder / "runs.bsm"))]
+    names = [made.name for made in bsm.blender.import_file(str(folder / "runs.bsm"))]
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "project" / "runs.blend"))
     for path in (folder / "bsm_cache").glob("runs*"):
         path.unlink()
@@ -86,7 +86,7 @@ def runs():
     scene = bpy.context.scene
     for number in range(scene.frame_start, scene.frame_end + 1):
         scene.frame_set(number)
-        (now,) = [one for one in bpy.data.objects if not one.hide_viewport]
+        (now,) = [object for object in bpy.data.objects if not object.hide_viewport]
         assert not now.hide_render
         shown.append(np.ptp(seen(now), axis=0).tolist())
     found["turns"] = shown
@@ -96,11 +96,9 @@ def static():
     """A mesh with attributes and a material, in and out."""
     fresh()
     (made,) = bsm.blender.import_file(str(folder / "still.bsm"))
-    found["still"] = sorted(
-        f"{one.name} {one.data_type} {one.domain}" for one in made.data.attributes if one.name[0] != "."
-    )
+    found["still"] = sorted(f"{a.name} {a.data_type} {a.domain}" for a in made.data.attributes if a.name[0] != ".")
     found["material"] = [slot.material.name for slot in made.material_slots]
-    found["color"] = [round(one, 3) for one in shader(made).inputs["Base Color"].default_value]
+    found["color"] = [round(component, 3) for component in shader(made).inputs["Base Color"].default_value]
     bsm.blender.export_object(str(folder / "still_again.bsm"), made, animation=False, preset="near-lossless")
 
 

@@ -58,7 +58,7 @@ def folder(tmp_path_factory):
             ["encode", f"rig.{kind}", "-o", f"{kind}.bsm", "--up", "y"],
             ["decode", f"{kind}.bsm", "-o", f"out.{kind}"],
         )
-        assert not any(cli([str(folder / word) if "." in word else word for word in one]) for one in words)
+        assert not any(cli([str(folder / word) if "." in word else word for word in word]) for word in words)
         (folder / "out.obj").unlink()
     return folder
 
@@ -98,11 +98,11 @@ def test_a_mesh_keeps_what_it_carries(found, folder):
     assert {"color BYTE_COLOR POINT", "heat FLOAT POINT"} <= set(found["still"])
     assert found["material"] == ["red"] and found["color"] == [1, 0.25, 0, 1]
     again, still = bsm.decode(folder / "still_again.bsm"), bsm.decode(folder / "still.bsm")
-    attributes = {one.name: one for one in again.attributes}
+    attributes = {attribute.name: attribute for attribute in again.attributes}
     turned = np.stack([still.positions[:, 0], -still.positions[:, 2], still.positions[:, 1]], axis=1)
     distance, same = cKDTree(again.positions).query(turned)
     assert distance.max() < 0.01 and again.metadata["up"] == "z"
-    colors = next(one for one in still.attributes if one.name == "color").values
+    colors = next(attribute for attribute in still.attributes if attribute.name == "color").values
     assert np.array_equal(attributes["color"].values[same][:, :3], colors[:, :3])
     assert again.metadata["material.0.name"] == "red"
 

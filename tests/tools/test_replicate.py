@@ -145,9 +145,9 @@ class TestTables:
 
 def test_enough_meshes_are_listed_each_with_what_tells_it():
     rows = list(listed())
-    assert sum(one["group"] == "unseen" for one in rows) >= 100 and any(one["group"] == "tuned" for one in rows)
-    assert len({one["name"] for one in rows}) == len({one["sha256"] for one in rows}) == len(rows)
-    assert all(len(one["sha256"]) == 64 and one["licence"] and one["package"] for one in rows)
+    assert sum(a["group"] == "unseen" for a in rows) >= 100 and any(attribute["group"] == "tuned" for attribute in rows)
+    assert len({attribute["name"] for attribute in rows}) == len({a["sha256"] for a in rows}) == len(rows)
+    assert all(len(attribute["sha256"]) == 64 and attribute["licence"] and attribute["package"] for attribute in rows)
 
 
 def test_only_the_file_of_the_list_is_taken_and_what_is_missing_is_named(tmp_path, monkeypatch):
@@ -186,7 +186,7 @@ def test_what_ablation_replaces_is_there_and_comes_back():
         before = [getattr(owner, name) for owner, name, _ in tool.patches]
         with tool.left_out():
             now = [getattr(owner, name) for owner, name, _ in tool.patches]
-        assert all(one is not other for one, other in zip(before, now, strict=True))
+        assert all(attribute is not other for attribute, other in zip(before, now, strict=True))
         assert [getattr(owner, name) for owner, name, _ in tool.patches] == before
 
 

@@ -88,7 +88,7 @@ THINGS = {
 def things() -> set[str]:
     """Return what there can be many of: frames of each type but END, methods of GOPs, counts, and lists in GOPs."""
     again = {kind.name for kind in FrameType if kind is not FrameType.END}
-    lists = {name for one in (GopBody, GopField) for name, kind in get_type_hints(one).items() if kind not in _SINGLE}
+    lists = {name for r in (GopBody, GopField) for name, kind in get_type_hints(r).items() if kind not in _SINGLE}
     return again | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | LIMITED | lists
 
 
@@ -149,7 +149,7 @@ def walk_problems(streams: Mapping[str, bytes], hows: Sequence[str]) -> Iterator
                     yield f"{name} ({how}): {problem}"
             continue
         for limits in ("default", "service"):
-            decodes = [partial(partial, decode_all, one, how, NAMED_LIMITS[limits]()) for one in streams.values()]
+            decodes = [partial(partial, decode_all, stream, how, NAMED_LIMITS[limits]()) for stream in streams.values()]
             for name, taken in zip(streams, taken_by_each(decodes), strict=True):
                 if problem := taken.problem(*bounds(limits, taken)):
                     yield f"{name} ({how}, {limits}): {problem}"

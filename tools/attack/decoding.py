@@ -110,7 +110,7 @@ def _of_runs(frames: list[np.ndarray], runs: list[tuple[int, int, np.ndarray]], 
 def _completed(decoder: Decoder | SequenceDecoder, told: dict[str, Attribute]) -> list[Attribute]:
     """Return attributes from events, in the order of the mesh, and recomputed normals, which have no event."""
     mesh = decoder if isinstance(decoder, SequenceDecoder) else decoder.finish()
-    return [told.get(one.name, one) for one in mesh.attributes if one.name in told or one.semantic == "normal"]
+    return [told.get(a.name, a) for a in mesh.attributes if a.name in told or a.semantic == "normal"]
 
 
 def _with_values(known: Attribute | None, event: AttributeEvent, rows: int) -> Attribute:

@@ -155,7 +155,7 @@ def work() -> None:
         run(target, data)
     instrument()
 
-    def one(data: bytes) -> None:
+    def path(data: bytes) -> None:
         before = _peak()
         seconds = _seconds(target, data)
         if _peak() - before > MEMORY:
@@ -168,7 +168,7 @@ def work() -> None:
         return mutate_stream(data, max_size, seed, atheris.Mutate)
 
     options = {"custom_mutator": mutate} if name in WHOLE_STREAMS else {}
-    atheris.Setup([sys.argv[0], *sys.argv[2:]], one, **options)
+    atheris.Setup([sys.argv[0], *sys.argv[2:]], path, **options)
     atheris.Fuzz()
 
 

@@ -586,9 +586,9 @@ def _grown_gltf(size: int) -> dict[str, Callable[[], Sample]]:
         t["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}] * (size // 24)
 
     def materials(t: Tree) -> None:
-        (one,) = t["meshes"][0]["primitives"]
+        (primitive,) = t["meshes"][0]["primitives"]
         t["materials"] = [{"name": str(number)} for number in range(size // 120)]
-        t["meshes"][0]["primitives"] = [one | {"material": number} for number in range(size // 120)]
+        t["meshes"][0]["primitives"] = [primitive | {"material": number} for number in range(size // 120)]
 
     def sparse(t: Tree) -> None:
         nothing(0, 1 << 24)(t)
@@ -644,9 +644,9 @@ def _grown_usd(size: int) -> dict[str, Callable[[], Sample]]:
     def stage(inside: bytes) -> Sample:
         return Sample("usda", head + b'def Mesh "a"\n{\n' + inside + tail)
 
-    def many(head: bytes, one: bytes, count: int, tail: bytes = b"") -> Sample:
+    def many(head: bytes, entry: bytes, count: int, tail: bytes = b"") -> Sample:
         return Sample(
-            "usda", b"#usda 1.0\n" + head + b"".join(one.replace(b"#", b"%d" % n) for n in range(count)) + tail
+            "usda", b"#usda 1.0\n" + head + b"".join(entry.replace(b"#", b"%d" % n) for n in range(count)) + tail
         )
 
     subset = (

@@ -208,15 +208,15 @@ def _stored(path: Path) -> Outcome:
 def agree(shard: Shard, stream: bytes, outcome: Outcome) -> None:
     """Threads, pieces and tolerance must not change what becomes of a stream."""
     shard.found(stream, shard.tally.hold(stream, whole(stream, threads=2), outcome, exact=True))
-    one, _losses = piecewise(stream, shard.random, threads=1)
+    mesh, _losses = piecewise(stream, shard.random, threads=1)
     two, _losses = piecewise(stream, shard.random, threads=2)
-    shard.found(stream, shard.tally.hold(stream, one, outcome, exact=True))
-    shard.found(stream, shard.tally.hold(stream, two, one, exact=True))
+    shard.found(stream, shard.tally.hold(stream, mesh, outcome, exact=True))
+    shard.found(stream, shard.tally.hold(stream, two, mesh, exact=True))
     if not isinstance(outcome, BsmError):
         tolerant, losses = piecewise(stream, shard.random, tolerant=True)
         shard.found(
             stream,
-            shard.tally.hold(stream, tolerant, one, exact=True) or (losses and "losses in a whole stream") or None,
+            shard.tally.hold(stream, tolerant, mesh, exact=True) or (losses and "losses in a whole stream") or None,
         )
 
 

@@ -158,10 +158,10 @@ def with_normals(mesh: TriangleMesh, sharp: float) -> TriangleMesh:
     low, high = np.where(flipped, after, corner), np.where(flipped, corner, after)
     order = np.lexsort(np.sort(ends, axis=1).T)
     same = (np.sort(ends, axis=1)[order][1:] == np.sort(ends, axis=1)[order][:-1]).all(axis=1)
-    one, two = order[:-1][same], order[1:][same]
-    smooth = (unit[one // 3] * unit[two // 3]).sum(axis=1) > np.cos(np.radians(sharp))
-    one, two = one[smooth], two[smooth]
-    pairs = np.concatenate([low[one], high[one]]), np.concatenate([low[two], high[two]])
+    first, second = order[:-1][same], order[1:][same]
+    smooth = (unit[first // 3] * unit[second // 3]).sum(axis=1) > np.cos(np.radians(sharp))
+    first, second = first[smooth], second[smooth]
+    pairs = np.concatenate([low[first], high[first]]), np.concatenate([low[second], high[second]])
     count, group = connected_components(coo_array((np.ones(len(pairs[0])), pairs), (len(corner), len(corner))), False)
     sides = np.roll(places, -1, axis=1) - places, np.roll(places, 1, axis=1) - places
     lengths = [np.linalg.norm(side, axis=2) for side in sides]

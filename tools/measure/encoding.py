@@ -78,7 +78,7 @@ def share_of_checks(encode: Callable[[], Any]) -> float:
 def by_turns(ours: Callable[[], Any], theirs: Callable[[], Any], repeat: int) -> tuple[float, float]:
     """The least times of two works."""
     turns = [(seconds(ours), seconds(theirs)) for _ in range(repeat)]
-    return min(one for one, _ in turns), min(other for _, other in turns)
+    return min(work for work, _ in turns), min(other for _, other in turns)
 
 
 def measured(path: Path, options: dict[str, Any], repeat: int) -> tuple[int, float, float, float]:
@@ -132,7 +132,7 @@ def targets(args: argparse.Namespace) -> None:
         mesh = read_mesh(str(path)).mesh.bare
         look = len(bsm.encode(mesh, **dict(args.options)))
         for name, value in map(keyword, args.targets):
-            both, alone = (len(bsm.encode(mesh, preset=one, **{name: value})) for one in ("balanced", "none"))
+            both, alone = (len(bsm.encode(mesh, preset=preset, **{name: value})) for preset in ("balanced", "none"))
             ratios.append(both / max(alone, look))
             print(
                 f"{path.stem[:28]:28} {name}={value!s:6} both {both:7d} alone {alone:7d} look {look:7d} "

@@ -28,12 +28,12 @@ def cloth(frames: int = 120, rows: int = 60, columns: int = 80) -> tuple[Positio
         speed, before = 0.999 * (place - before), place.copy()
         place = place + speed + step**2 * _pull(place, time)
         for _ in range(RELAXATIONS):
-            for one, other, length in springs:
-                apart = place[other] - place[one]
+            for first, second, length in springs:
+                apart = place[second] - place[first]
                 now = np.maximum(np.linalg.norm(apart, axis=-1), 1e-9)
                 move = 0.25 * (1.0 - length / now)[..., None] * apart
-                place[one] += move
-                place[other] -= move
+                place[first] += move
+                place[second] -= move
             for column, side, until in corners:
                 if time <= until:
                     sway = (0.2 * np.sin(0.07 * time) * side, 0.0, 0.1 * np.sin(0.13 * time))
@@ -46,9 +46,9 @@ def cloth(frames: int = 120, rows: int = 60, columns: int = 80) -> tuple[Positio
 def _spring(place: Matrix, down: int, right: int) -> tuple[tuple[slice, slice], tuple[slice, slice], Matrix]:
     """Both ends and the lengths, in the plane, of springs between vertices so far apart in the grid."""
     rows, columns = place.shape[:2]
-    one = slice(max(0, -down), rows - max(0, down)), slice(max(0, -right), columns - max(0, right))
-    other = slice(max(0, down), rows + min(0, down)), slice(max(0, right), columns + min(0, right))
-    return one, other, np.linalg.norm((place[other] - place[one])[..., :2], axis=-1)
+    first = slice(max(0, -down), rows - max(0, down)), slice(max(0, -right), columns - max(0, right))
+    second = slice(max(0, down), rows + min(0, down)), slice(max(0, right), columns + min(0, right))
+    return first, second, np.linalg.norm((place[second] - place[first])[..., :2], axis=-1)
 
 
 def _pull(place: Matrix, time: float) -> Matrix:
@@ -86,10 +86,10 @@ def violent(frames: int = 90, rows: int = 96, columns: int = 60) -> tuple[Positi
 
 def _turned(positions: Positions, axis: int, angles: Matrix) -> Positions:
     """Each position by an angle of its own about an axis."""
-    one, other = (axis + 1) % 3, (axis + 2) % 3
+    first, second = (axis + 1) % 3, (axis + 2) % 3
     turned = positions.copy()
-    turned[:, one] = np.cos(angles) * positions[:, one] - np.sin(angles) * positions[:, other]
-    turned[:, other] = np.sin(angles) * positions[:, one] + np.cos(angles) * positions[:, other]
+    turned[:, first] = np.cos(angles) * positions[:, first] - np.sin(angles) * positions[:, second]
+    turned[:, second] = np.sin(angles) * positions[:, first] + np.cos(angles) * positions[:, second]
     return turned
 
 

@@ -83,9 +83,9 @@ def decoders(mesh: TriangleMesh, repeats: int) -> str:
             start = time.perf_counter()
             call()
             least[way] = min(least[way], time.perf_counter() - start)
-    draco, one, *two = least
-    threads = f"two threads {two[0] / one:.2f}" if two else "two threads not measured: pinned to one core"
-    return f"C {1e3 * one:.1f} ms, Draco {1e3 * draco:.2f} ms: {one / draco:.2f} x; {threads}"
+    draco, alone, *pair = least
+    threads = f"two threads {pair[0] / alone:.2f}" if pair else "two threads not measured: pinned to one core"
+    return f"C {1e3 * alone:.1f} ms, Draco {1e3 * draco:.2f} ms: {alone / draco:.2f} x; {threads}"
 
 
 def work(args: argparse.Namespace, console: Console) -> None:

@@ -66,7 +66,7 @@ def main() -> None:
     if args.twice:
         with tempfile.TemporaryDirectory() as folder:
             again = make(Path(folder), version, commit, args.only, None)
-            differ = [one.name for one, other in zip(made, again, strict=True) if digest(one) != digest(other)]
+            differ = [first.name for first, second in zip(made, again, strict=True) if digest(first) != digest(second)]
         if differ:
             raise SystemExit(f"made again, {', '.join(differ)} is not the same")
         print(f"made again: {len(made)} files, the same bytes")

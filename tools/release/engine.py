@@ -70,7 +70,7 @@ def make_crate(sources: Path, version: str, output: Path) -> Path:
 def make_suite(sources: Path, version: str, output: Path) -> Path:
     """All vectors, their list and what it means, by which any decoder can be judged."""
     vectors = sources / "spec/vectors"
-    listed = [one for each in vectors.glob("*/manifest.json") for one in json.loads(each.read_text())["vectors"]]
+    listed = [vector for each in vectors.glob("*/manifest.json") for vector in json.loads(each.read_text())["vectors"]]
     names = [str(path.relative_to(vectors)) for path in vectors.rglob("*") if path.is_file()]
     if len(listed) != sum(name.endswith(".bsm") for name in names):
         raise SystemExit("the lists of vectors do not name all streams")

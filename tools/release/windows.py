@@ -69,7 +69,7 @@ def compare(folder: Path, dll: Path, sources: Path, wine: str) -> None:
     quiet = clean() | {"WINEPREFIX": str(folder / "wine"), "WINEDEBUG": "-all", "HOME": str(folder)}
     found = _output([wine, "digests.exe", *(f"Z:{stream}" for stream in streams)], folder, quiet)
     expected = _output([str(folder / "native"), *streams], folder, clean())
-    differ = [name for name, one, other in zip(streams, found, expected, strict=True) if one != other]
+    differ = [name for name, own, wanted in zip(streams, found, expected, strict=True) if own != wanted]
     if differ or len(expected) < 500:
         raise SystemExit(
             f"the DLL decodes {', '.join(differ) or 'too few vectors'} otherwise than the library for Linux"

@@ -81,10 +81,10 @@ def dihedral_angles(positions: Positions, faces: Faces, pairs: Any = None) -> tu
         twice = same & ~np.append(same[1:], False) & ~np.insert(same[:-1], 0, False)
         first, second = order[:-1][twice], order[1:][twice]
         pairs = first // 3, second // 3, faces[second // 3, (second % 3 + 2) % 3], faces[first // 3, first % 3]
-    one, other, apex, foot = pairs
+    left, right, apex, foot = pairs
     normals = face_normals(positions, faces)
-    cosines = np.clip(np.einsum("ij,ij->i", normals[one], normals[other]), -1.0, 1.0)
-    side = np.einsum("ij,ij->i", normals[one], positions[apex] - positions[foot])
+    cosines = np.clip(np.einsum("ij,ij->i", normals[left], normals[right]), -1.0, 1.0)
+    side = np.einsum("ij,ij->i", normals[left], positions[apex] - positions[foot])
     return np.arccos(cosines) * np.where(side < 0, -1.0, 1.0), pairs
 
 
@@ -113,8 +113,8 @@ def sted(original: Positions, decoded: Positions, faces: Faces) -> float:
     edges = mesh_edges(faces, original.shape[1])
     diagonal = float(np.linalg.norm(np.ptp(original.reshape(-1, 3), axis=0)))
     spatial, temporal = [], []
-    for own, other in zip(original, decoded, strict=True):
-        lengths, changed = (np.linalg.norm(np.subtract(*frame[edges.T]), axis=1) for frame in (own, other))
+    for own, right in zip(original, decoded, strict=True):
+        lengths, changed = (np.linalg.norm(np.subtract(*frame[edges.T]), axis=1) for frame in (own, right))
         spatial.append(_deviation((changed - lengths) / np.maximum(lengths, 1e-12), edges, len(own)))
     for frames in zip(original, original[1:], decoded, decoded[1:]):
         lengths, changed = (

@@ -53,9 +53,9 @@ class Gallery:
     def facets(self, mesh: TriangleMesh) -> float:
         """1 - SSIM over what is covered, in facets."""
         drawn = [self.drawn(mesh, side, flat=True) for side in SIDES]
-        sums = np.sum([difference(one, other) for one, other in zip(self._facets, drawn, strict=True)], axis=0)
+        sums = np.sum([difference(first, second) for first, second in zip(self._facets, drawn, strict=True)], axis=0)
         return float(sums[0] / sums[2])
 
 
-def _across(one: Matrix, other: Matrix) -> Matrix:
-    return np.asarray(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])
+def _across(first: Matrix, second: Matrix) -> Matrix:
+    return np.asarray(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])

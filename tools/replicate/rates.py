@@ -133,7 +133,7 @@ def summary(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     found = []
     for name in what:
         for measure, label in MEASURES.items():
-            values = [(one[name], mesh) for one, mesh in each[measure] if name in one]
+            values = [(result[name], mesh) for result, mesh in each[measure] if name in result]
             if values:
                 found.append(spread(name, label, values))
     return found

@@ -64,7 +64,7 @@ def _medians(rows: Sequence[Row], words: str) -> Table:
     for name in WHAT:
         cells = []
         for measure in MEASURES:
-            values = [one[name] for one in each[measure] if name in one]
+            values = [entry[name] for entry in each[measure] if name in entry]
             low, middle, high = np.quantile(values, (0.25, 0.5, 0.75)) if values else (np.nan,) * 3
             cells.append(f"{middle:.2f} ({low:.2f}-{high:.2f})" if values else "-")
         lines.append((name, *cells))
@@ -83,7 +83,7 @@ def figures(results: dict[str, list[Row]]) -> Iterator[Picture]:
     rows = [row for row in results.get("rates", []) if row["group"] == "unseen"]
     if rows:
         values = {
-            label: [one["BD-rate"] for row in rows if "BD-rate" in (one := ratios(row, measure))]
+            label: [entry["BD-rate"] for row in rows if "BD-rate" in (entry := ratios(row, measure))]
             for measure, label in MEASURES.items()
         }
         yield _boxes("rates", values, "bytes over Draco's at equal quality (BD-rate)")
@@ -94,7 +94,7 @@ def figures(results: dict[str, list[Row]]) -> Iterator[Picture]:
         yield _boxes("times", values, "time over Draco's", logarithmic=True)
     if results.get("ablation"):
         every = [row["tools"] for row in results["ablation"]]
-        values = {name: [one[name]["bytes"] for one in every if "bytes" in one[name]] for name in every[0]}
+        values = {name: [entry[name]["bytes"] for entry in every if "bytes" in entry[name]] for name in every[0]}
         yield _boxes("ablation", values, "bytes without the tool over those with it")
     if results.get("motion"):
         yield Picture("motion", lambda figure: _motion(figure, results["motion"]), 7.0, 2.6)
@@ -138,11 +138,11 @@ def _motion(figure: Any, rows: Sequence[Row]) -> None:
 
 def write(results: dict[str, list[Row]], folder: Path, note: Callable[[str], None]) -> None:
     """All tables and figures into a folder."""
-    for name, one in tables(results).items():
-        words = f"{one.note}\n\n" if one.note else ""
-        text = f"## {one.title}\n\n{words}{table(one.columns, one.rows)}\n"
+    for name, entry in tables(results).items():
+        words = f"{entry.note}\n\n" if entry.note else ""
+        text = f"## {entry.title}\n\n{words}{table(entry.columns, entry.rows)}\n"
         (folder / f"{name}.md").write_text(text, encoding="utf-8")
-        (folder / f"{name}.tex").write_text(latex(one.columns, one.rows) + "\n", encoding="utf-8")
+        (folder / f"{name}.tex").write_text(latex(entry.columns, entry.rows) + "\n", encoding="utf-8")
     for picture in figures(results):
         picture.save(folder, ("pdf", "png"))
     note(f"{folder}: tables, figures and results.json")
@@ -153,8 +153,12 @@ def write_page(results: dict[str, list[Row]], facts: dict[str, Any]) -> None:
     page = PAGE.read_text(encoding="utf-8")
     before, _, behind = page.partition(BEGIN)
     made = [f"`python -m tools.replicate`, commit {facts['commit']}, {facts['processor']}, {facts['date']}."]
-    for one in tables(results).values():
-        made += [f"### {one.title}", *([fill(one.note, 120)] if one.note else []), table(one.columns, one.rows)]
+    for entry in tables(results).values():
+        made += [
+            f"### {entry.title}",
+            *([fill(entry.note, 120)] if entry.note else []),
+            table(entry.columns, entry.rows),
+        ]
     PAGE.write_text(
         f"{before}{BEGIN}\n\n" + "\n\n".join(made) + f"\n\n{END}{behind.partition(END)[2]}", encoding="utf-8"
     )

@@ -35,11 +35,11 @@ def run_stage(
         waiting: dict[Future[Row], Source] = {}
         todo = iter([source for source in sources if source.name not in found])
         while True:
-            while len(waiting) < workers and (one := next(todo, None)) is not None:
+            while len(waiting) < workers and (job := next(todo, None)) is not None:
                 if time.monotonic() > deadline:
-                    left.append(one.name)
+                    left.append(job.name)
                 else:
-                    waiting[pool.submit(work, one, *more)] = one
+                    waiting[pool.submit(work, job, *more)] = job
             if not waiting:
                 break
             done = next(as_completed(waiting))

@@ -116,7 +116,7 @@ def _without_header(frames: Frames) -> Frames:
 
 def _with_connectivity(frames: Frames) -> Frames:
     place = _headers_of(frames)[2] + 1
-    return [*frames[:place], next(one for one in frames if one[0] == FrameType.CONNECTIVITY), *frames[place:]]
+    return [*frames[:place], next(frame for frame in frames if frame[0] == FrameType.CONNECTIVITY), *frames[place:]]
 
 
 _FIELD = struct.pack("<fBB", 1.0, 0, 0)

@@ -114,7 +114,7 @@ def _textured() -> TriangleMesh:
 
 def worn(mesh: TriangleMesh, *make: Callable[[TriangleMesh], Attribute]) -> TriangleMesh:
     """A mesh with attributes."""
-    return replace(mesh, attributes=tuple(one(mesh) for one in make))
+    return replace(mesh, attributes=tuple(maker(mesh) for maker in make))
 
 
 def in_chunks(mesh: TriangleMesh, options: EncodeOptions, size: int) -> bytes:
@@ -140,11 +140,11 @@ def with_values(encoder: Encoder, draft: Draft, size: int) -> bytes:
     prepared, carried = encoder._input.prepared, encoder._input.carried
     declared: list[Packet] = []
     values: list[Packet] = []
-    for index, one in enumerate(carried):
-        leans = draft.places is not None and one.declaration.semantic in (2, 3)
-        declaration = replace(one.declaration, leans=int(leans))
-        declared.append(Declared(index, declaration, one.seams))
-        chunks = one.chunks(draft.places if leans else None, size)
+    for index, attribute in enumerate(carried):
+        leans = draft.places is not None and attribute.declaration.semantic in (2, 3)
+        declaration = replace(attribute.declaration, leans=int(leans))
+        declared.append(Declared(index, declaration, attribute.seams))
+        chunks = attribute.chunks(draft.places if leans else None, size)
         parts = zip(ranges(declaration.rows, size), chunks, strict=True)
         values += [Values(index, start, count, data) for (start, count), data in parts]
     before = len(prepared.before_blocks if draft.places is None else prepared.before_grid)
@@ -162,10 +162,10 @@ def _split() -> TriangleMesh:
     """Vertices split where corners differ, and two in no face."""
     mesh = split_by_attributes(worn(torus(8, 7), charts, creases, colors, groups))
     loose = np.array([[9.0, 9.0, 9.0], [8.0, 8.0, 8.0]])
-    values = [np.concatenate([one.values, one.values[3:5]]) for one in mesh.attributes]
+    values = [np.concatenate([attribute.values, attribute.values[3:5]]) for attribute in mesh.attributes]
     attributes = [
-        replace(one, values=more) if one.domain == "vertex" else one
-        for one, more in zip(mesh.attributes, values, strict=True)
+        replace(attribute, values=more) if attribute.domain == "vertex" else attribute
+        for attribute, more in zip(mesh.attributes, values, strict=True)
     ]
     return TriangleMesh(np.concatenate([mesh.positions, loose]), mesh.faces, tuple(attributes))
 

@@ -85,10 +85,10 @@ class Vector:
 def arrays_of(attributes: Iterable[Attribute]) -> Arrays:
     """Attributes as the arrays that spec/vectors/README.md tells of."""
     arrays: Arrays = {}
-    for index, one in enumerate(attributes):
-        arrays[f"attribute {index} {one.semantic} {one.domain} {one.name}"] = one.values
-        if one.indices is not None:
-            arrays[f"indices {index}"] = one.indices
+    for index, attribute in enumerate(attributes):
+        arrays[f"attribute {index} {attribute.semantic} {attribute.domain} {attribute.name}"] = attribute.values
+        if attribute.indices is not None:
+            arrays[f"indices {index}"] = attribute.indices
     return arrays
 
 
@@ -119,8 +119,8 @@ def read_manifest() -> list[Vector]:
         If a stream or an expected mesh is missing.
     """
     manifests = sorted(FOLDER.parent.glob(f"*/{MANIFEST}"))
-    entries = [(each.parent, one) for each in manifests for one in json.loads(each.read_text())["vectors"]]
-    vectors = [Vector(**one, folder=folder) for folder, one in entries]
+    entries = [(each.parent, vector) for each in manifests for vector in json.loads(each.read_text())["vectors"]]
+    vectors = [Vector(**vector, folder=folder) for folder, vector in entries]
     for vector in vectors:
         for path in [vector.stream] if vector.error else [vector.stream, vector.expected]:
             if not path.is_file():
@@ -160,5 +160,5 @@ def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, 
         left = path.suffix == ".bsm" and path not in {vector.stream for vector in streams}
         if left or (path.suffix == ".npz" and path not in {vector.expected for vector in meshes}):
             path.unlink()
-    said = [{"name": one.name, "probes": one.probes} | ({"error": one.error} if one.error else {}) for one in streams]
+    said = [{"name": v.name, "probes": v.probes} | ({"error": v.error} if v.error else {}) for v in streams]
     (NEXT / MANIFEST).write_text(json.dumps({"version": NEXT.name, "vectors": said}, indent=1) + "\n")

@@ -69,7 +69,7 @@ def _trace(stream: bytes) -> Iterator[dict[str, Any]]:
 def _lines(number: int, block: dict[str, Any]) -> Iterator[str]:
     order = block["order"]
     by_order = [[block["inverse"][:, None]], [block["first"]], [block["orthonormal"][0]]]
-    columns = [block["start"][order][:, :COLUMNS], *(one[0][:, :COLUMNS] for one in by_order)]
+    columns = [block["start"][order][:, :COLUMNS], *(entry[0][:, :COLUMNS] for entry in by_order)]
     columns.append(block["dictionary"][order][:, :COLUMNS])
     yield f"Block {number}. Row r is the vertex at place r:"
     yield ""
@@ -78,13 +78,13 @@ def _lines(number: int, block: dict[str, Any]) -> Iterator[str]:
     if block["springs"].any():
         yield "Stiffness s_r of its springs:"
         yield ""
-        yield "    " + " ".join(f"{one:g}" for one in block["springs"])
+        yield "    " + " ".join(f"{entry:g}" for entry in block["springs"])
         yield ""
     yield "Its rows in the order of elimination, with columns 0 and 1 of U(0), d_k, the same columns of R U(0), of"
     yield "U(1) = Onorm(R U(0)), and of U:"
     yield ""
     for place, row in enumerate(order):
-        yield f"    {row:2}  " + "  ".join(" ".join(map(_hex, one[place])) for one in columns)
+        yield f"    {row:2}  " + "  ".join(" ".join(map(_hex, entry[place])) for entry in columns)
     yield ""
 
 

@@ -271,7 +271,7 @@ def one_axis(positions: Positions, evidence: Evidence) -> Finding | None:
         return None
     # Cameras look along an axis of their own coordinates, which often are the file's.
     found = [_along(axis, positions, evidence) for axis in (vectors[:, 2], *np.eye(3))]
-    best = min(found, key=lambda one: one.spread)
+    best = min(found, key=lambda finding: finding.spread)
     if best.spread > UNEVEN or best.level < AXIS_LEVEL or best.calm > AXIS_CALM * best.level:
         return None
     facing_it = np.abs(evidence.normals @ best.axis)

@@ -84,9 +84,9 @@ class PreparedAttribute:
     @property
     def at_corners(self) -> Matrix:
         """What `Worn` is given: the values of a decoder at corners, shape (m, 3 c)."""
-        values, one = restored(self.declaration, self.levels), self.declaration
-        corners = values[:, None].repeat(3, axis=1) if one.domain == FACE else values[self.surface.faces]
-        return painted(SEMANTICS[one.semantic], corners)
+        values, declaration = restored(self.declaration, self.levels), self.declaration
+        corners = values[:, None].repeat(3, axis=1) if declaration.domain == FACE else values[self.surface.faces]
+        return painted(SEMANTICS[declaration.semantic], corners)
 
     def normals(self, positions: Matrix) -> Normals:
         """What normals a decoder will have at corners, shape (m, 9), where it has these positions, shape (n, 3)."""
@@ -119,10 +119,10 @@ def carry(place: Place, wanted: Iterable[tuple[Attribute, Quality]]) -> tuple[Pr
     carried: list[PreparedAttribute] = []
     known: list[tuple[int, Joins]] = []
     for attribute, quality in wanted:
-        one, joins = _carry(place, attribute, quality, known)
-        if one.declaration.domain == CORNER and not one.declaration.seams_of and joins is not None:
+        prepared, joins = _carry(place, attribute, quality, known)
+        if prepared.declaration.domain == CORNER and not prepared.declaration.seams_of and joins is not None:
             known.append((len(carried), joins))
-        carried.append(one)
+        carried.append(prepared)
     return tuple(carried)
 
 
@@ -197,22 +197,22 @@ def with_attributes(draft: Draft, carried: tuple[PreparedAttribute, ...], metada
     values: list[Packet] = []
     header = draft.header
     if carried:
-        for index, one in enumerate(carried):
-            declaration, chunks = cheaper(one, draft.places)
-            declared.append(packets.Attribute(index, declaration, one.seams))
+        for index, prepared in enumerate(carried):
+            declaration, chunks = cheaper(prepared, draft.places)
+            declared.append(packets.Attribute(index, declaration, prepared.seams))
             for (first, count), data in zip(ranges(declaration.rows, CHUNK), chunks, strict=True):
                 values.append(packets.Values(index, first, count, data))
         header = replace(header, attributes=len(carried))
     return replace(draft, header=header, body=(*early_metadata, *head, *declared, *body, *values, *images))
 
 
-def cheaper(one: PreparedAttribute, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
+def cheaper(prepared: PreparedAttribute, places: Levels | None) -> tuple[Declaration, tuple[bytes, ...]]:
     """What an attribute declares, and its chunks."""
-    if places is not None and leans(one.declaration):
-        chunks = one.chunks(places, CHUNK)
-        if sum(map(len, chunks)) < sum(map(len, one.plain)):
-            return replace(one.declaration, leans=1), chunks
-    return one.declaration, one.plain
+    if places is not None and leans(prepared.declaration):
+        chunks = prepared.chunks(places, CHUNK)
+        if sum(map(len, chunks)) < sum(map(len, prepared.plain)):
+            return replace(prepared.declaration, leans=1), chunks
+    return prepared.declaration, prepared.plain
 
 
 def ranges(rows: int, size: int) -> list[tuple[int, int]]:

@@ -85,27 +85,29 @@ def qualities(
     moving: Collection[str] = (),
 ) -> list[tuple[Attribute, Quality]]:
     """Attributes, and what is asked of each, but for those that are left out; `moving` change from frame to frame."""
-    unknown = sorted(set(asked) - {one.name for one in attributes} - {"*"})
+    unknown = sorted(set(asked) - {attribute.name for attribute in attributes} - {"*"})
     if unknown:
-        there = ", ".join(one.name for one in attributes) or "none"
+        there = ", ".join(attribute.name for attribute in attributes) or "none"
         raise OptionError(f"the mesh has no attribute {unknown[0]!r}; there are: {there}")
 
-    def quality(one: Attribute) -> Quality:
-        if one.name in asked:
-            return parse_quality(asked[one.name])
-        floats = one.values.dtype.kind == "f" and one.components == 3
-        if normals == "recompute" and one.semantic == "normal" and floats:
+    def quality(attribute: Attribute) -> Quality:
+        if attribute.name in asked:
+            return parse_quality(asked[attribute.name])
+        floats = attribute.values.dtype.kind == "f" and attribute.components == 3
+        if normals == "recompute" and attribute.semantic == "normal" and floats:
             return Quality("recompute")
         if "*" in asked:
             return parse_quality(asked["*"])
-        if one.name in moving:
-            return Quality("rms", MOVING[one.semantic])
+        if attribute.name in moving:
+            return Quality("rms", MOVING[attribute.semantic])
         bits = {"normal": NORMAL_BITS, "color": COLOR_BITS, "texcoord": TEXCOORD_BITS, "generic": GENERIC_BITS}
-        return Quality("bits", bits[one.semantic][grade]) if one.values.dtype.kind == "f" else Quality("exact")
+        return (
+            Quality("bits", bits[attribute.semantic][grade]) if attribute.values.dtype.kind == "f" else Quality("exact")
+        )
 
-    def meant(one: Attribute) -> Quality:
-        asked_for = quality(one)
-        still = asked_for.way == "rms" and one.name not in moving
+    def meant(attribute: Attribute) -> Quality:
+        asked_for = quality(attribute)
+        still = asked_for.way == "rms" and attribute.name not in moving
         return Quality("share", asked_for.amount) if still else asked_for
 
-    return [(one, wanted) for one in attributes if (wanted := meant(one)).way != "none"]
+    return [(attribute, wanted) for attribute in attributes if (wanted := meant(attribute)).way != "none"]

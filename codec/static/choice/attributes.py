@@ -63,12 +63,12 @@ class Input:
 
     def carry_with(self, index: int, quality: Quality) -> tuple[PreparedAttribute, ...]:
         """All attributes, one of them with another quality."""
-        return self.carry([(one, quality if at == index else asked) for at, (one, asked) in enumerate(self.wanted)])
+        return self.carry([(a, quality if at == index else asked) for at, (a, asked) in enumerate(self.wanted)])
 
     @cached_property
     def normals(self) -> Normals | None:
         """Normals that the mesh is sent with, of its corners in the order of coding, shape (m, 9)."""
-        sent = any(one.semantic == "normal" for one, _ in self.wanted)
+        sent = any(attribute.semantic == "normal" for attribute, _ in self.wanted)
         own = own_normals(self.given) if sent else None
         if own is None:
             return None
@@ -100,7 +100,7 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
             given.carried = given.carry(given.wanted)
         kept = _shaded(given, search, asked)
         positions = given.prepared.units.into(kept.decoded)
-        seen = max((one.distance(positions, given.carried[at].at_corners) for at, one in worn), default=0.0)
+        seen = max((look.distance(positions, given.carried[at].at_corners) for at, look in worn), default=0.0)
         if seen <= contract.look:
             break
         asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
@@ -124,28 +124,28 @@ def _choose_blocks(given: Input, contract: Contract) -> None:
 def _roughened(given: Input, look: float) -> list[tuple[int, Worn]]:
     """Make colors and texture coordinates without a requested quality as coarse as the look allows; return these."""
     found = []
-    for at, (one, quality) in enumerate(given.wanted):
-        asked = {"*", one.name} & {*dict(given.options.attributes)}
-        if not asked and quality.way in ("bits", "exact") and is_worn(one):
-            found.append((at, _roughen(given, at, one, OF_PAINT[one.semantic] * look)))
+    for at, (attribute, quality) in enumerate(given.wanted):
+        asked = {"*", attribute.name} & {*dict(given.options.attributes)}
+        if not asked and quality.way in ("bits", "exact") and is_worn(attribute):
+            found.append((at, _roughen(given, at, attribute, OF_PAINT[attribute.semantic] * look)))
     return found
 
 
-def _roughen(given: Input, at: int, one: Attribute, most: float) -> Worn:
+def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Worn:
     """Make an attribute as coarse as takes at most some of the look."""
     steps = [Quality("bits", bits) for bits in range(1, MOST_BITS + 1)]
-    if one.semantic == "color":
-        rough = range(0 if kept_whole(one) else 15)
+    if attribute.semantic == "color":
+        rough = range(0 if kept_whole(attribute) else 15)
         steps = [*(Quality("share", 25.0 * 0.5 ** (k / 2)) for k in rough), Quality("exact")]
     mesh = TriangleMesh(given.prepared.positions, given.prepared.mesh.faces)
-    worn = Worn(mesh, one.semantic, given.carry_with(at, steps[-1])[at].at_corners, threads=given.options.threads)
+    worn = Worn(mesh, attribute.semantic, given.carry_with(at, steps[-1])[at].at_corners, threads=given.options.threads)
 
     def near(step: int) -> bool:
         return worn.distance(mesh.positions, given.carry_with(at, steps[step])[at].at_corners, FEW) <= most
 
     step = steps[_first(near, 0, len(steps) - 1)]
-    if one.semantic == "texcoord" or given.carry_with(at, step)[at].size < given.carried[at].size:
-        given.wanted[at] = one, step
+    if attribute.semantic == "texcoord" or given.carry_with(at, step)[at].size < given.carried[at].size:
+        given.wanted[at] = attribute, step
     return worn
 
 
@@ -194,10 +194,10 @@ def _free_normals(given: Input) -> int | None:
     options = given.options
     if options.normals != "look" or "*" in dict(options.attributes) or given.normals is None:
         return None
-    first = next(at for at, (one, _) in enumerate(given.wanted) if one.semantic == "normal")
-    one, quality = given.wanted[first]
-    asked = one.name in dict(options.attributes) or not np.isfinite(given.normals).all()
-    return None if asked or one.domain == "face" or quality.way != "bits" else first
+    first = next(at for at, (attribute, _) in enumerate(given.wanted) if attribute.semantic == "normal")
+    attribute, quality = given.wanted[first]
+    asked = attribute.name in dict(options.attributes) or not np.isfinite(given.normals).all()
+    return None if asked or attribute.domain == "face" or quality.way != "bits" else first
 
 
 def kept_whole(colours: Attribute) -> bool:

@@ -103,13 +103,13 @@ class Search:
             found = widest(way, bounds, first=before.step * contract.look / before.contract.look)
             if found is not None:
                 return self._noted(unfolded(found, way, bounds), way, contract)
-        kept = [one for one in Gridded(self._prepared, bounds, 0.0).made() if bounds.keeps(one.positions)]
-        least, made = min((one.draft.size for one in kept), default=math.inf), list[Candidate]()
+        kept = [c for c in Gridded(self._prepared, bounds, 0.0).made() if bounds.keeps(c.positions)]
+        least, made = min((candidate.draft.size for candidate in kept), default=math.inf), list[Candidate]()
         ways = dict[int, Way]()
         for way in self._ways(bounds, contract.look):
             if made and self._spent:
                 break
-            on_grid = any(one.draft.places is not None for one in (*kept, *made))
+            on_grid = any(candidate.draft.places is not None for candidate in (*kept, *made))
             if isinstance(way, Gridded) and not on_grid and way.guess() > GUESSED * least:
                 continue
             # A good first step of blocks alone is unknown, so their first result says little about their bytes.
@@ -129,7 +129,7 @@ class Search:
                     least = candidate.draft.size
         if not kept:
             kept += self._last_resort(bounds)
-        best = min(kept, key=lambda one: self._size(one.draft))
+        best = min(kept, key=lambda candidate: self._size(candidate.draft))
         way = ways.get(id(best), Gridded(self._prepared, bounds, 0.0))
         return self._noted(best if best.draft.places is None else self._flatter(best, bounds), way, contract)
 
@@ -154,15 +154,20 @@ class Search:
         faces = np.ascontiguousarray(first_of(index)[faces], np.int32)
         most = folded_edges(self._prepared.positions, faces) - -len(faces) // 10_000
 
-        def folds(one: Candidate) -> int:
-            return max(folded_edges(one.positions, faces), most)
+        def folds(candidate: Candidate) -> int:
+            return max(folded_edges(candidate.positions, faces), most)
 
         least, dearest = folds(best), DEARER * best.draft.size
         if least > most:
             way = Unfolding(Gridded(self._prepared, bounds, 0.0), best.step)
-            for one in map(way.at, np.geomspace(best.step, best.step / 2.0, 9).tolist()):
-                if not self._spent and folds(one) < least and one.draft.size < dearest and bounds.keeps(one.positions):
-                    best, least = one, folds(one)
+            for candidate in map(way.at, np.geomspace(best.step, best.step / 2.0, 9).tolist()):
+                if (
+                    not self._spent
+                    and folds(candidate) < least
+                    and candidate.draft.size < dearest
+                    and bounds.keeps(candidate.positions)
+                ):
+                    best, least = candidate, folds(candidate)
         return best
 
     def _last_resort(self, bounds: Bounds) -> list[Candidate]:
@@ -198,8 +203,8 @@ class Search:
                 secant(excess, 1.0 / way.first, 1.0 / way.most, 1.0 / way.least)
             found += [fitting[finest] for finest in sorted(fitting)[-1:]]
         found += self._made_on(bounds, found)
-        found = [one for one in found if self._size(one.draft) <= most_bytes and bounds.keeps(one.positions)]
-        return min(found, key=lambda one: bounds.quality(one.positions)).draft if found else None
+        found = [c for c in found if self._size(c.draft) <= most_bytes and bounds.keeps(c.positions)]
+        return min(found, key=lambda candidate: bounds.quality(candidate.positions)).draft if found else None
 
     @property
     def _spent(self) -> bool:
@@ -227,7 +232,7 @@ class Search:
 
     def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""
-        prepared, steps = self._prepared, [one.step for one in found if one.draft.places is not None]
+        prepared, steps = self._prepared, [candidate.step for candidate in found if candidate.draft.places is not None]
         if prepared.graph.size < FEW_VERTICES:
             yield from takewhile(lambda _: not self._spent, Gridded(prepared, bounds, 0.0).fitting())
         elif steps and self._measures.shaper.character.is_sharp:
@@ -267,5 +272,5 @@ def widest(
 
     with suppress(LimitError):  # blocks that decoders would refuse
         secant(at, begin, way.least, way.most, *((3 * TRIES, 1.0, SLACK / 4.0) if patient else ()))
-    kept.sort(key=lambda one: one[0].draft.size)
-    return next((one for one, look in kept if bounds.keeps(one.positions, look)), None)
+    kept.sort(key=lambda candidate: candidate[0].draft.size)
+    return next((candidate for candidate, look in kept if bounds.keeps(candidate.positions, look)), None)

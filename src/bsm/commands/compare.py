@@ -180,8 +180,8 @@ def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
         sides = [_load_sequence(path, args, changing) if side is None else side for path, side in zip(paths, sides)]
         original, decoded = sides
         if original is None or decoded is None:
-            one, other = reversed(paths) if original is None else paths
-            raise MeshError(f"{one} is a sequence and {other} one mesh")
+            moving, still = reversed(paths) if original is None else paths
+            raise MeshError(f"{moving} is a sequence and {still} one mesh")
         if args.map:
             raise OptionError("--map shows one mesh; of sequences, --picture draws the errors of each frame")
         progress.stage("comparing")
@@ -248,7 +248,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     if Path(args.decoded).is_file() and is_stream(args.decoded):
         samples = sum(frames[..., 0].size for frames, _ in decoded)
         result["bpvf_total"] = 8 * Path(args.decoded).stat().st_size / samples
-    of_frames = [found for one, two, _ in runs for found in _of_frames(one, two)]
+    of_frames = [found for first, second, _ in runs for found in _of_frames(first, second)]
     if args.picture:
         from bsm.evaluation.curve import frame_errors
 
@@ -267,9 +267,9 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     return "\n".join([*lines, *repeats])
 
 
-def _of_frames(one: Positions, two: Positions) -> list[dict[str, float]]:
-    diagonal = float(np.linalg.norm(np.ptp(one[0], axis=0))) or 1.0
-    distances = np.linalg.norm(one - two, axis=2) / diagonal
+def _of_frames(original: Positions, decoded: Positions) -> list[dict[str, float]]:
+    diagonal = float(np.linalg.norm(np.ptp(original[0], axis=0))) or 1.0
+    distances = np.linalg.norm(original - decoded, axis=2) / diagonal
     rms, farthest = np.sqrt(np.square(distances).mean(axis=1)), distances.max(axis=1)
     return [{"rms_relative": float(a), "max_error_relative": float(b)} for a, b in zip(rms, farthest, strict=True)]
 
@@ -279,11 +279,11 @@ def _looks(runs: Runs, progress: Callable[[int, int], None]) -> dict[str, float]
     from bsm.codec.look.measure import LookMetric
 
     found = []
-    pairs = [(one, other, faces) for first, second, faces in runs for one, other in zip(first, second, strict=True)]
-    for number, (one, other, faces) in enumerate(pairs):
+    pairs = [(shown, other, faces) for first, second, faces in runs for shown, other in zip(first, second, strict=True)]
+    for number, (shown, other, faces) in enumerate(pairs):
         progress(number, len(pairs))
         with suppress(MeshError):
-            found.append(LookMetric(TriangleMesh(one, faces)).look(other))
+            found.append(LookMetric(TriangleMesh(shown, faces)).look(other))
     if not found:
         raise MeshError("the sequence cannot be looked at: its faces have no area in any frame")
     return {

@@ -70,8 +70,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if not results:
         raise OptionError(f"{folder} holds no results; name meshes to run")
     draco = {result["mesh"]["name"]: result for result in results if result["codec"] == "draco"}
-    tested = [one for one in results if one["codec"] != "draco" and one["mesh"]["name"] in draco]
-    comparisons = [compare_curves(draco[one["mesh"]["name"]], one) for one in tested]
+    tested = [result for result in results if result["codec"] != "draco" and result["mesh"]["name"] in draco]
+    comparisons = [compare_curves(draco[result["mesh"]["name"]], result) for result in tested]
     tables = {"points": _measured(results)} | ({"draco": _compared(comparisons)} if comparisons else {})
     if args.json:
         print_json({"comparisons": comparisons})

@@ -164,7 +164,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
                 progress(count, expected)
         if count == 0:
             raise OptionError("the stream has none of these frames")
-    lost = [one.name for one in stream.attributes] if args.permutation else shared.left_out
+    lost = [attribute.name for attribute in stream.attributes] if args.permutation else shared.left_out
     if lost:
         because = " with --permutation" if args.permutation else ""
         console.note(f"{args.input}: left out: {', '.join(lost)}, which {kind} does not hold{because}")

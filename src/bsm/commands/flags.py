@@ -33,9 +33,9 @@ class HelpAll(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
         parser.print_help()
         print("\nsettings, --set NAME=VALUE:")
-        width = max(len(f"{one.field}={one.metavar}") for one in SETTINGS)
-        for one in SETTINGS:
-            print(f"  {f'{one.field}={one.metavar}':{width}}  {one.help}")
+        width = max(len(f"{setting.field}={setting.metavar}") for setting in SETTINGS)
+        for setting in SETTINGS:
+            print(f"  {f'{setting.field}={setting.metavar}':{width}}  {setting.help}")
         parser.exit()
 
 
@@ -47,14 +47,14 @@ def thresholds(text: str) -> tuple[float, float]:
 def named_setting(text: str) -> tuple[str, Any]:
     """NAME=VALUE as a field of `EncodeOptions` and its value."""
     name, _, value = text.partition("=")
-    known = {one.field: one for one in SETTINGS}
+    known = {setting.field: setting for setting in SETTINGS}
     name = name.strip().replace("-", "_")
-    if (one := known.get(name)) is None:
+    if (setting := known.get(name)) is None:
         raise argparse.ArgumentTypeError(f"there is no setting {name!r}{suggestion(name, known)}; see --help-all")
     try:
-        return name, one.type(value.strip())
+        return name, setting.type(value.strip())
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{name}={one.metavar} is expected, not {text!r}") from None
+        raise argparse.ArgumentTypeError(f"{name}={setting.metavar} is expected, not {text!r}") from None
 
 
 def point(text: str) -> tuple[float, ...]:

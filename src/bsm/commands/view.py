@@ -51,7 +51,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     with console.progress("reading and comparing") as progress:
         served = [_opened(name, path, args, console, progress) for name, path in _named(args.inputs).items()]
     if args.save:
-        contents = [one for one in served if isinstance(one, Content)]
+        contents = [content for content in served if isinstance(content, Content)]
         write_output(args.save, page_with(contents).encode(), overwrite=args.force)
         console.note(f"{args.save}: open it in a browser")
         return 0
@@ -74,7 +74,7 @@ def _opened(
     """An input; a damaged stream is for the page to tell, unless it is to be compared."""
     if is_tiles(path):
         manifest = open_tiles(path, limits_of(args.limits)).manifest
-        shards = {one["file"]: Ranged(path, one["file"], one["size"]) for one in manifest["shards"]}
+        shards = {shard["file"]: Ranged(path, shard["file"], shard["size"]) for shard in manifest["shards"]}
         return Tiled(name, {MANIFEST: json.dumps(manifest).encode(), **shards})
     if args.follow or (path == "-" and not args.save and not args.original):
         return _growing(name, path)
@@ -110,5 +110,5 @@ def _named(paths: list[str]) -> dict[str, str]:
     for path in paths:
         name = Path(path).name
         others = (f"{name} ({number})" for number in itertools.count(2))
-        named[next(one for one in itertools.chain([name], others) if one not in named)] = path
+        named[next(candidate for candidate in itertools.chain([name], others) if candidate not in named)] = path
     return named

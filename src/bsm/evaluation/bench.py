@@ -178,12 +178,12 @@ def bench_tables(result: Result) -> str:
             continue
         rows = [
             (
-                f"{one['solver']}, c = {one['keep']:.0%}",
-                number(1e3 * one["seconds"], 1),
-                number(one["nmsve_db"], 2),
-                *(number(one.get(f"against_{rival}"), 1) for rival in ("svd", "fastest")),
+                f"{timing['solver']}, c = {timing['keep']:.0%}",
+                number(1e3 * timing["seconds"], 1),
+                number(timing["nmsve_db"], 2),
+                *(number(timing.get(f"against_{rival}"), 1) for rival in ("svd", "fastest")),
             )
-            for one in row["dictionaries"]
+            for timing in row["dictionaries"]
         ]
         columns = ("dictionaries of all blocks, one thread", "CPU ms", "NMSVE, dB", "times SVD", "times fastest exact")
         parts.append(f"\n{table(columns, rows)}")

@@ -203,7 +203,7 @@ def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) 
     """The lines of the paper's rate-distortion figure: full SVD, orthogonal iterations of several kinds, and DOI."""
 
     def line(name: str, label: str, settings: Sequence[dict[str, Any]]) -> Curve:
-        return Curve(name, label, tuple(Spectral(paper_options(block_size=block_size, **one)) for one in settings))
+        return Curve(name, label, tuple(Spectral(paper_options(block_size=block_size, **c)) for c in settings))
 
     dynamic = [{"keep": 0.4, "doi": (0.9 * threshold, threshold)} for threshold in PAPER_THRESHOLDS]
     fixed = (line(name, label, [{"keep": keep, **own} for keep in keeps]) for name, label, own in PAPER_LINES)
@@ -216,7 +216,7 @@ def our_curve(*, fine: bool = False, **changes: Any) -> Curve:
     if fine:
         targets = [Target(kind, value) for kind, values in OUR_TARGETS.items() for value in values]
         settings = [{"contract": None, "target": target} for target in targets]
-    return Curve("ours", "ours", tuple(Spectral(changed(EncodeOptions(), **{"threads": 1, **one})) for one in settings))
+    return Curve("ours", "ours", tuple(Spectral(changed(EncodeOptions(), **{"threads": 1, **c})) for c in settings))
 
 
 def draco_curve() -> Curve:
@@ -618,7 +618,7 @@ def draw_all(results: Iterable[Result]) -> Iterator[Picture]:
 def lines_of(results: Sequence[Result], measure: str) -> dict[str, Line]:
     """The lines of one mesh for one of `MEASURES`, by codec; labels tell the range of targets, where there are any."""
     lines = {}
-    for result in sorted(results, key=lambda one: list(STYLES).index(one["codec"])):
+    for result in sorted(results, key=lambda changed_options: list(STYLES).index(changed_options["codec"])):
         points = points_of(result["points"], measure)
         targets = [p["settings"]["target"]["value"] for p in points if "target" in p["settings"]]
         unit = {"theta_deg": "°", "nmsve_db": " dB"}[measure]

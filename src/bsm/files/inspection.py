@@ -134,7 +134,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
             runs[-1] = replace(runs[-1], frames=runs[-1].frames + frames)
             gops.append(GopInfo(packet.index, frames, frame.offset, frame.length))
     attributes = tuple(_attribute_info(packet, lengths[packet.index]) for packet in declared)
-    sizes["attributes"] = sum(one.bytes for one in attributes)
+    sizes["attributes"] = sum(attribute.bytes for attribute in attributes)
     sizes |= {"framing": total - sum(sizes.values()), "total": total}
     numbers, known = tuple(coefficients), tuple(runs) if headers[0].gop_frames else ()
     return StreamInfo(headers[0], metadata, numbers, tuple(gops), attributes, sizes, known, checksum, scanner.version)

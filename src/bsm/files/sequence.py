@@ -115,7 +115,7 @@ def sequence_writer(
                 yield write_changing
             return
         if kind == "npy":
-            shared.loses([one.name for one in shared.attributes()])
+            shared.loses([attribute.name for attribute in shared.attributes()])
 
 
 def _of_one_mesh(write: Callable[[Positions], None], kind: str) -> FrameWriter:
@@ -139,7 +139,7 @@ def _of_first(write: FrameWriter, shared: Shared) -> FrameWriter:
 
     def take(frame: Positions, faces: Faces | None = None) -> None:
         write(frame, faces)
-        shared.loses(f"how {one.name} changes" for one in shared.moved(anew=faces is not None))
+        shared.loses(f"how {attribute.name} changes" for attribute in shared.moved(anew=faces is not None))
 
     return take
 
@@ -196,8 +196,10 @@ def _plays(path: str, faces: Faces) -> bool:
         known = read_mesh(path).mesh.faces if os.path.isfile(path) else faces[:0]
     except (BsmError, OSError):
         return False
-    one, other = (np.unique(np.sort(some[some[:, 0] != some[:, 1]], axis=1), axis=0) for some in (known, faces))
-    return np.array_equal(one, other)
+    own_edges, other_edges = (
+        np.unique(np.sort(some[some[:, 0] != some[:, 1]], axis=1), axis=0) for some in (known, faces)
+    )
+    return np.array_equal(own_edges, other_edges)
 
 
 def _is_folder(path: str) -> bool:

@@ -57,7 +57,7 @@ def arrays_of(primitive: gltf.Tree) -> dict[str, int]:
 def like(document: gltf.Document, primitive: gltf.Tree) -> str:
     """A key that is equal for primitives which one stream can hold."""
     told = [(name, document.tree["accessors"][index]) for name, index in sorted(arrays_of(primitive).items())]
-    kinds = [(name, one["componentType"], one["type"], one.get("normalized", False)) for name, one in told]
+    kinds = [(name, a["componentType"], a["type"], a.get("normalized", False)) for name, a in told]
     return str((kinds, primitive.get("mode", _TRIANGLES)))
 
 
@@ -338,18 +338,18 @@ def compress(
             progress(begun, total)
         found: dict[int, BundleStream] = {}
         for number in together:
-            one = code_bundle(document, bundles[number], coder)
-            if isinstance(one, BundleStream):
-                found[number] = one
+            coded = code_bundle(document, bundles[number], coder)
+            if isinstance(coded, BundleStream):
+                found[number] = coded
             else:
-                left[one] += size_of(bundles[number])
+                left[coded] += size_of(bundles[number])
             begun += size_of(bundles[number])
         freed = [index for index, theirs in users.items() if theirs <= found.keys()]
         primitives = sum(size_of(bundles[number]) for number in found)
         if scene.would_shrink(list(found.values()), freed):
             done += primitives
-            for number, one in found.items():
-                scene.put(bundles[number], one)
+            for number, coded in found.items():
+                scene.put(bundles[number], coded)
         elif found:
             left["a stream would not be smaller"] += primitives
     if images:
@@ -390,21 +390,21 @@ class _Scene:
             accessor = self._document.tree["accessors"][index]
             array = self._document.array(index)
             before += _length(accessor) + (0 if array is None else array.nbytes)
-        after = sum(len(one.stream) for one in found)
-        for one in found:
-            entries = [self._view(0, name, array, one) for name, array in self._arrays(one)]
-            entries += [{"buffer": 0, "byteOffset": 0, "byteLength": len(one.stream)}]
-            entries += [self._accessor(0, name, array, one) for name, array in one.shape.arrays.items()]
-            entries += [self._corners(0, piece) for piece in one.shape.pieces]
+        after = sum(len(coded.stream) for coded in found)
+        for coded in found:
+            entries = [self._view(0, name, array, coded) for name, array in self._arrays(coded)]
+            entries += [{"buffer": 0, "byteOffset": 0, "byteLength": len(coded.stream)}]
+            entries += [self._accessor(0, name, array, coded) for name, array in coded.shape.arrays.items()]
+            entries += [self._corners(0, piece) for piece in coded.shape.pieces]
             after += sum(map(_length, entries))
         return bool(found) and after < before
 
-    def put(self, bundle: Bundle, one: BundleStream) -> None:
+    def put(self, bundle: Bundle, coded: BundleStream) -> None:
         """Put a stream in the place of the accessors of a bundle."""
-        stream = self._add_bytes(one.stream)
+        stream = self._add_bytes(coded.stream)
         views = {}
-        for name, array in self._arrays(one):
-            view = self._view(stream, name, array, one)
+        for name, array in self._arrays(coded):
+            view = self._view(stream, name, array, coded)
             if self._fallback:
                 view["byteOffset"] = self._virtual
                 self.plain.append(array.tobytes() + b"\0" * (-array.nbytes % 4))
@@ -412,9 +412,11 @@ class _Scene:
             else:
                 self._virtual = max(self._virtual, array.nbytes)
             views[name] = self._add("bufferViews", view)
-        arrays = one.shape.arrays
-        places = {name: self._add("accessors", self._accessor(views[name], name, arrays[name], one)) for name in arrays}
-        for same, piece in zip(bundle, one.shape.pieces, strict=True):
+        arrays = coded.shape.arrays
+        places = {
+            name: self._add("accessors", self._accessor(views[name], name, arrays[name], coded)) for name in arrays
+        }
+        for same, piece in zip(bundle, coded.shape.pieces, strict=True):
             indices = self._add("accessors", self._corners(views["indices"], piece))
             for primitive in same:
                 primitive["indices"] = indices
@@ -423,21 +425,21 @@ class _Scene:
                     target |= {name: places[f"{number}/{name}"] for name in target}
 
     @staticmethod
-    def _arrays(one: BundleStream) -> list[tuple[str, npt.NDArray[Any]]]:
-        found = [(name, _stored(array, one.accessors[name][0])) for name, array in one.shape.arrays.items()]
-        return [*found, ("indices", one.shape.index)]
+    def _arrays(coded: BundleStream) -> list[tuple[str, npt.NDArray[Any]]]:
+        found = [(name, _stored(array, coded.accessors[name][0])) for name, array in coded.shape.arrays.items()]
+        return [*found, ("indices", coded.shape.index)]
 
     @staticmethod
-    def _view(stream: int, name: str, array: npt.NDArray[Any], one: BundleStream) -> gltf.Tree:
+    def _view(stream: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> gltf.Tree:
         usual = _UINT if name == "indices" else _FLOAT
-        component, _ = one.accessors.get(name, (_UINT, False))
+        component, _ = coded.accessors.get(name, (_UINT, False))
         told: gltf.Tree = {"stream": stream, "attribute": name}
         told |= {"componentType": component} if component != usual else {}
         return {"buffer": 1, "byteLength": array.nbytes, "extensions": {gltf.EXTENSION: told}}
 
     @staticmethod
-    def _accessor(view: int, name: str, array: npt.NDArray[Any], one: BundleStream) -> gltf.Tree:
-        component, normalized = one.accessors[name]
+    def _accessor(view: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> gltf.Tree:
+        component, normalized = coded.accessors[name]
         accessor: gltf.Tree = {"bufferView": view, "componentType": component, "count": len(array)}
         accessor |= {"type": _TYPES[array.shape[1]], **({"normalized": True} if normalized else {})}
         return accessor | (gltf.bounds_of(array) if name.rpartition("/")[2] == "POSITION" else {})

@@ -292,5 +292,5 @@ def _depths(nodes: list[Tree]) -> dict[int, int]:
             depths[at] = 0
             path.append(at)
             at = parents.get(at, -1)
-        depths.update((one, steps) for steps, one in enumerate(reversed(path), depths.get(at, 0) + 1))
+        depths.update((node, steps) for steps, node in enumerate(reversed(path), depths.get(at, 0) + 1))
     return depths

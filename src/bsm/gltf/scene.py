@@ -41,20 +41,20 @@ class Curve:
         before, after = max(after - 1, 0), min(after, len(self.times) - 1)
         span = float(self.times[after] - self.times[before])
         part = min(max((time - float(self.times[before])) / span, 0.0), 1.0) if span > 0 else 0.0
-        one: Doubles = self.values[before]
-        two: Doubles = self.values[after]
+        earlier: Doubles = self.values[before]
+        later: Doubles = self.values[after]
         if self.way == "CUBICSPLINE":
             keys = self.values.reshape(len(self.times), 3, -1)
             square, cube = part * part, part * part * part
             mixed: Doubles = (2 * cube - 3 * square + 1) * keys[before, 1] + (3 * square - 2 * cube) * keys[after, 1]
             mixed += span * ((cube - 2 * square + part) * keys[before, 2] + (cube - square) * keys[after, 0])
         elif self.way == "STEP" or part == 0.0:
-            return one
-        elif not self.turns or abs(cosine := float(one @ two)) > 1 - 1e-9:
-            mixed = one + part * ((-two if self.turns and cosine < 0 else two) - one)
+            return earlier
+        elif not self.turns or abs(cosine := float(earlier @ later)) > 1 - 1e-9:
+            mixed = earlier + part * ((-later if self.turns and cosine < 0 else later) - earlier)
         else:  # between two quaternions, along the shorter arc
             angle = float(np.arccos(abs(cosine)))
-            mixed = np.sin((1 - part) * angle) * one + np.sign(cosine) * np.sin(part * angle) * two
+            mixed = np.sin((1 - part) * angle) * earlier + np.sign(cosine) * np.sin(part * angle) * later
         return mixed / (float(np.linalg.norm(mixed)) or 1.0) if self.turns else mixed
 
 
@@ -376,8 +376,8 @@ class Scene:
                 raise FormatError(f"{name} has {values.shape} numbers for {count} vertices")
             later = number if number not in ("", "0") else ""
             if kind == "COLOR":
-                one = shapes.color_column(values, "corner")
-                found.append(replace(one, name=f"color{later}", indices=corners))
+                column = shapes.color_column(values, "corner")
+                found.append(replace(column, name=f"color{later}", indices=corners))
             elif kind == "TEXCOORD":
                 upright = values.astype(np.float32)
                 upright[:, 1] = 1 - upright[:, 1]  # glTF counts from the top, we from the bottom
@@ -436,8 +436,7 @@ def _painted(scene: Scene, mesh: TriangleMesh, time: float) -> TriangleMesh:
     """The mesh at a time, its colours, too."""
     color = shapes.color_column(scene.colors(time), "vertex")
     now = [
-        replace(one, values=color.values) if one.name == "color" and one.domain == "vertex" else one
-        for one in mesh.attributes
+        replace(a, values=color.values) if a.name == "color" and a.domain == "vertex" else a for a in mesh.attributes
     ]
     return replace(mesh, positions=scene.at(time), attributes=tuple(now))
 
@@ -446,7 +445,7 @@ def _chosen(document: Document, wish: str) -> tuple[int, Tree]:
     animations = document.items("animations")
     if not animations:
         raise FormatError("this glTF has no animation; leave out --animation to encode it as one mesh")
-    names = [str(one.get("name", "")) for one in animations]
+    names = [str(animation.get("name", "")) for animation in animations]
     if wish in names:
         return names.index(wish), animations[names.index(wish)]
     if not wish.isdecimal() and wish:
@@ -462,7 +461,7 @@ def _rate(keys: Doubles) -> float:
     if 5 <= rate <= 240:
         return rate
     since = keys - keys[0]
-    fits = [one for one in LIKELY_RATES if np.abs(since * one - np.rint(since * one)).max() < 0.02]
+    fits = [rate for rate in LIKELY_RATES if np.abs(since * rate - np.rint(since * rate)).max() < 0.02]
     return float(fits[0]) if fits else USUAL_RATE
 
 
@@ -518,8 +517,8 @@ def _materials(document: Document, used: list[int]) -> tuple[dict[int, Material]
                 words[number][name] = int(value)
             elif isinstance(value, str | int | float):
                 words[number][name] = value
-            elif isinstance(value, list) and all(isinstance(one, int | float) for one in value):
-                words[number][name] = " ".join(f"{one:.6g}" for one in value)
+            elif isinstance(value, list) and all(isinstance(item, int | float) for item in value):
+                words[number][name] = " ".join(f"{item:.6g}" for item in value)
     images: dict[str, Value] = {}
     for source, number in numbers.items():
         name, data = document.image(source)

@@ -107,7 +107,7 @@ class _Still(_Scene):
         origin = numbers_of(split.positions)
         split = replace(split, positions=mesh.positions[origin])
         material, part = formats.face_numbers(split, "material"), formats.face_numbers(split, "part")
-        sorting = [np.zeros(len(split.faces), np.int64) if one is None else one.values for one in (part, material)]
+        sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]
         kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, held = _at_vertices(split)
         names, taken, said = formats.names_in(mesh.metadata, "part"), set[str](), {"part.names", "up"}
@@ -219,7 +219,7 @@ def write_frames(file: IO[bytes], path: str, first: Faces, shared: Shared) -> It
             else:
                 moving.add_frame(shared.mesh(frame, moving.faces, with_metadata=False))
             moved = shared.moved(anew=faces is not None)
-            shared.loses(f"how {one.name} changes" for one in moved if one is not moving.painted)
+            shared.loses(f"how {attribute.name} changes" for attribute in moved if attribute is not moving.painted)
 
         yield write
         assert moving is not None
@@ -249,7 +249,7 @@ class _Moving(_Still):
 
     def begin(self, first: TriangleMesh, stem: str) -> None:
         normals = _vertex_normals(first.positions, first.faces)
-        kept = [one for one in first.attributes if one.semantic != "normal"]
+        kept = [attribute for attribute in first.attributes if attribute.semantic != "normal"]
         normal = Attribute("normal", normals.astype(np.float32), "vertex", "normal")
         begin = len(self.tree.get("nodes", ()))
         super().begin(replace(first, attributes=(*kept, normal)), stem)
@@ -277,7 +277,7 @@ class _Moving(_Still):
             )
         now = (frame, _vertex_normals(frame, run.faces), *self._painted(mesh))
         with np.errstate(over="ignore"):
-            deltas = [(one - other).astype(np.float32) for one, other in zip(now, run.first, strict=True)]
+            deltas = [(values - first).astype(np.float32) for values, first in zip(now, run.first, strict=True)]
         if not all(np.isfinite(delta).all() for delta in deltas):
             raise MeshError(f"frame {self.frames} is beyond single precision, which GLB has")
         self.frames += 1

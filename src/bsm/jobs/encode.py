@@ -64,7 +64,7 @@ def encode_one(job: EncodeJob, console: Console) -> Facts:
         return _encode_sequence(job, console, open_frames(job.members, job.format, job.reader, runs=runs))
     asked = (job.animation, job.cache_mesh, *(job.options.get(name) for name in _OF_SEQUENCES))
     wanted = Wanted(job.options.get("frame_rate") or 0.0, job.animation or "", job.cache_mesh, runs)
-    plain = all(one is None for one in asked)
+    plain = all(choice is None for choice in asked)
     sequence = open_sequence(job.input, job.format, job.reader, None if plain else wanted)
     return _encode_sequence(job, console, sequence) if sequence else _encode_mesh(job, console)
 

@@ -162,7 +162,7 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
         told["boundingVolume"] = {"box": [*half.tolist(), *np.diag(half).ravel().tolist()]}
         told["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *moved.tolist(), 1]
         told |= {"content": {"uri": f"{_CONTENT}/{name}.glb"}} if name in known else {}
-        return told | ({"children": [node(one, low) for one in children]} if children else {})
+        return told | ({"children": [node(child, low) for child in children]} if children else {})
 
     root = node("r", ends["r"][0])
     root["transform"][12:15] = tiles.lattice.positions(ends["r"][0]).tolist()

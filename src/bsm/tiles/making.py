@@ -49,7 +49,7 @@ def tile_one(job: TileJob, console: Console) -> Facts:
     places = np.asarray(mesh.positions, np.int32)
     if not job.finest:
         with open_output(folder / f"{name}.mesh", overwrite=True) as file:
-            for table in (np.array(error), places, mesh.faces, *(_of_vertices(one, mesh) for one in mesh.attributes)):
+            for table in (np.array(error), places, mesh.faces, *(_of_vertices(a, mesh) for a in mesh.attributes)):
                 write_npy(file, table)
     options = EncodeOptions(grid_cell=plan.lattice.cell, grid_origin=plan.lattice.origin, threads=1)  # type: ignore[arg-type]
     data = Encoder(replace(mesh, positions=plan.lattice.positions(places)), options).encode()
@@ -76,12 +76,12 @@ def _leaf(plan: Plan, name: str, folder: Path) -> TriangleMesh:
     return TriangleMesh(places.astype(np.float64), numbers[corners], tuple(map(carried, plan.carried)))
 
 
-def _of_vertices(one: Attribute, mesh: TriangleMesh) -> npt.NDArray[Any]:
+def _of_vertices(attribute: Attribute, mesh: TriangleMesh) -> npt.NDArray[Any]:
     """One value for each vertex."""
-    if one.indices is None:
-        return one.values
-    found = np.zeros((len(mesh.positions), one.components), one.values.dtype)
-    found[mesh.faces[::-1]] = one.values[one.indices[::-1]]
+    if attribute.indices is None:
+        return attribute.values
+    found = np.zeros((len(mesh.positions), attribute.components), attribute.values.dtype)
+    found[mesh.faces[::-1]] = attribute.values[attribute.indices[::-1]]
     return found
 
 
@@ -120,10 +120,10 @@ def _coarser(plan: Plan, name: str, folder: Path, most: int) -> tuple[TriangleMe
             for what, table in zip(plan.carried, tables)
         )
 
-    faces, one = solid(numbers[corners]), numbers[corners[:1]]
+    faces, first_face = solid(numbers[corners]), numbers[corners[:1]]
     del together, corners, numbers
     if not len(faces):
-        return TriangleMesh(places.astype(np.float64), one, carried(np.arange(len(places)))), before
+        return TriangleMesh(places.astype(np.float64), first_face, carried(np.arange(len(places)))), before
     locked = plan.outside(name, places)
     outside = mapped(folder, "outside", plan.kinds)
     begin, end = plan.ends(name)

@@ -84,7 +84,7 @@ def read_manifest(path: str, limits: Limits) -> Manifest:
             raise FormatError(f"{name}: these tiles are of version {given['version']!r}; this program knows 1")
         require_major(f"{name}: these tiles are", given.get("stream", 0))  # version 0 had no such entry
         if given.get("complete") is False:
-            levels = [tuple(whole(one[key]) for key in ("whole", "tiles", "level")) for one in given["levels"]]
+            levels = [tuple(whole(entry[key]) for key in ("whole", "tiles", "level")) for entry in given["levels"]]
             counts = ", ".join("{} of {} tiles of level {}".format(*level) for level in levels) or "nothing"
             again = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
             said = f"these tiles are unfinished; complete so far: {counts}; with its other options, {again} goes on"
@@ -127,7 +127,7 @@ def _checked(given: Facts) -> Manifest:
 def parse_index(name: str, data: bytes, shard: Mapping[str, Any], root: Root) -> list[Tile]:
     """Return the tiles that an index, of a shard as the manifest describes it, names."""
     try:
-        tiles = [Tile(**{**one, **dict(zip(("low", "high"), ends(one)))}) for one in parsed(data)]
+        tiles = [Tile(**{**row, **dict(zip(("low", "high"), ends(row)))}) for row in parsed(data)]
         if len(tiles) != shard["tiles"] or len({tile.name for tile in tiles}) < len(tiles):
             raise ValueError(f"{len(tiles)} tiles")
         for tile in tiles:
@@ -157,7 +157,7 @@ def real(value: Any, least: float = -_LARGEST) -> float:
 
 def places(given: Any) -> tuple[int, ...]:
     """Return a place on the lattice."""
-    return tuple(whole(one, -_FARTHEST_PLACE, _FARTHEST_PLACE) for one in _three(given))
+    return tuple(whole(number, -_FARTHEST_PLACE, _FARTHEST_PLACE) for number in _three(given))
 
 
 def ends(given: Mapping[str, Any]) -> tuple[tuple[int, ...], tuple[int, ...]]:

@@ -151,7 +151,7 @@ def _read_ply(given: Input, left_out: LeftOut) -> Pieces:
         raise FormatError("the PLY file has no vertices, or no faces")
     names = {column.name for element in header.elements for column in element.properties}
     images = {IMAGE for _, line in header.comments if line.startswith(f"{IMAGE} ")}
-    _refuse_textures(images | {one[0] for one in _TEXTURES if names.issuperset(one)})
+    _refuse_textures(images | {properties[0] for properties in _TEXTURES if names.issuperset(properties)})
     left_out |= dict.fromkeys(f"lines of {keyword}" for keyword, _ in header.comments)
     for element in header.elements:
         if not element.properties and element.name not in ("vertex", "face"):

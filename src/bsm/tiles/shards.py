@@ -54,7 +54,7 @@ class Unfinished:
 
     def write(self) -> None:
         begin = time.perf_counter()
-        levels = [{"level": one, "whole": self.whole[one], "tiles": self.tiles[one]} for one in sorted(self.tiles)]
+        levels = [{"level": tile, "whole": self.whole[tile], "tiles": self.tiles[tile]} for tile in sorted(self.tiles)]
         head = {"format": "bsm tiles", "version": 1, "stream": MAJOR, "source": self.source, "complete": False}
         write_output(inside(self.folder, MANIFEST), json.dumps({**head, "levels": levels}).encode(), overwrite=True)
         end = time.perf_counter()
@@ -298,7 +298,7 @@ class Tiles:
         if not ((cells >= tile.low) & (cells <= tile.high)).all():
             raise CorruptError(f"{name} is not where the index says that it is")
         columns = [cells.astype(np.int32)]
-        carried = {one.name: one.values for one in mesh.attributes}
+        carried = {attribute.name: attribute.values for attribute in mesh.attributes}
         for what, (kind, size) in self.kinds.items():
             values = carried.get(what)
             if values is None or values.shape[1] != size or values.dtype != np.dtype(kind):

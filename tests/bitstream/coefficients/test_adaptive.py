@@ -106,8 +106,8 @@ def test_the_shipped_experience_is_that_of_the_format() -> None:
     shipped = shipped_experience()
     assert hashlib.sha256(shipped.to_bytes()).hexdigest() == HASH
     again = Experience.from_bytes(shipped.to_bytes())
-    for one, other in zip(vars(shipped).values(), vars(again).values()):
-        np.testing.assert_array_equal(one, other)
+    for first, other in zip(vars(shipped).values(), vars(again).values()):
+        np.testing.assert_array_equal(first, other)
     assert (shipped.first_slots >> 20 == shipped.slots >> 4).all()
 
 

@@ -208,9 +208,9 @@ def test_a_first_vertex_of_a_light_grid_by_hand():
 
     1, 0, 0: not the guess, not below, no farther (0, 0, 0: the last eighth); the guess; the guess (its first quarter).
     """
-    one = light_field(NOTHING, 1, (9, 9, 9))
-    assert encode(one, [[1, 0, 0]]) == [(b"\xe0", 1)]
-    assert decode(one, [(b"\xe0", 1)]).tolist() == [[1, 0, 0]]
+    field = light_field(NOTHING, 1, (9, 9, 9))
+    assert encode(field, [[1, 0, 0]]) == [(b"\xe0", 1)]
+    assert decode(field, [(b"\xe0", 1)]).tolist() == [[1, 0, 0]]
 
 
 @pytest.mark.parametrize("name", ["light", "levels"])

@@ -350,7 +350,7 @@ KEPT = {
 
 def by_material(mesh):
     order = np.argsort(attribute(mesh, "material").values[:, 0], kind="stable")
-    taken = [one.taken(np.arange(len(mesh.positions)), order) for one in mesh.attributes]
+    taken = [attribute.taken(np.arange(len(mesh.positions)), order) for attribute in mesh.attributes]
     return TriangleMesh(mesh.positions, mesh.faces[order], taken, mesh.metadata)
 
 

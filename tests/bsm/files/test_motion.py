@@ -68,7 +68,7 @@ def test_frames_are_those_that_blender_shows(name, kind):
     assert len(set(same)) == len(same) and distance.max() < 1e-5
     assert np.abs(frames - shown[:, same]).max() < 1e-5
     assert source.metadata["up"] == ("y" if kind == "glb" else "z")
-    assert any(one.semantic == "texcoord" and one.domain == "corner" for one in source.attributes)
+    assert any(attribute.semantic == "texcoord" and attribute.domain == "corner" for attribute in source.attributes)
 
 
 def test_an_animation_is_sampled_at_the_rate_that_is_asked_for():
@@ -109,11 +109,11 @@ def test_there_and_back(tmp_path, kind):
     assert np.abs(frames - positions[:, same]).max() < 1e-6
     assert np.array_equal(np.sort(same[source.faces]), np.sort(faces))
     holds = {"ply": {"color"}, "off": {"color"}, "npz": set(), "obj": {"texcoord", "color"}}
-    assert {one.semantic for one in source.attributes} >= holds.get(kind, {"texcoord", "color"}) - {
+    assert {attribute.semantic for attribute in source.attributes} >= holds.get(kind, {"texcoord", "color"}) - {
         "color" * (kind == "off")
     }
     assert source.frame_rate == (25 if kind in ("mdd", "glb", "usda", "usdc", "usdz") else 0)
-    texcoord = next((one for one in source.attributes if one.semantic == "texcoord"), None)
+    texcoord = next((attribute for attribute in source.attributes if attribute.semantic == "texcoord"), None)
     if texcoord is not None:
         shown = texcoord.values[texcoord.indices] if texcoord.indices is not None else texcoord.values[source.faces]
         assert np.allclose(shown, positions[0][same[source.faces]][:, :, :2] * 0.3 + 0.5, atol=1e-5)
@@ -183,8 +183,8 @@ def stage_of(path, points, times, counts=(3, 3), corners=(0, 1, 2, 0, 2, 3), pla
     mesh = UsdGeom.Mesh.Define(stage, "/above/mesh")
     mesh.CreateFaceVertexCountsAttr(list(counts))
     mesh.CreateFaceVertexIndicesAttr(list(corners))
-    for time, one in zip(times, points):
-        mesh.CreatePointsAttr().Set([Gf.Vec3f(*map(float, point)) for point in one], time)
+    for time, places in zip(times, points):
+        mesh.CreatePointsAttr().Set([Gf.Vec3f(*map(float, point)) for point in places], time)
     if hand:
         mesh.CreateOrientationAttr(hand)
     if place is not None:
@@ -575,7 +575,7 @@ def test_colours_that_change_come_in(tmp_path, kind, capsys):
 def test_colours_are_of_the_kind_that_they_are_first():
     mesh = torus(6, 5)
     colors = [np.full((30, 3), value) for value in (np.uint8(255), np.float32(0.5))]
-    whole, part = (replace(mesh, attributes=(Attribute("color", one, "vertex", "color"),)) for one in colors)
+    whole, part = (replace(mesh, attributes=(Attribute("color", color, "vertex", "color"),)) for color in colors)
     for first, other, value in ((whole, part, 128), (part, whole, 1.0)):
         (now,) = painted_like(first, other).attributes
         assert now.values.dtype == first.attributes[0].values.dtype and (now.values == value).all()

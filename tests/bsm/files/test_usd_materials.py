@@ -23,7 +23,7 @@ def found_in(path):
 
 
 def of_faces(source, name):
-    return next(one for one in source.attributes if one.name == name).values[:, 0]
+    return next(attribute for attribute in source.attributes if attribute.name == name).values[:, 0]
 
 
 def materials_of(source):
@@ -52,7 +52,7 @@ def test_materials_of_blender_come_in():
     assert told["Red"] == (EXPECTED["Red"], 64 + 4)
     assert told["Painted"] == (EXPECTED["Painted"] | {"baseColorTexture": image}, 8)
     assert len(set(of_faces(source, "part"))) == 2
-    texcoord = next(one for one in source.attributes if one.semantic == "texcoord")
+    texcoord = next(attribute for attribute in source.attributes if attribute.semantic == "texcoord")
     assert texcoord.indices is not None and texcoord.indices.shape == (76, 3)
     assert read_mesh(PAINTED).mesh.metadata == source.metadata
 
@@ -93,9 +93,9 @@ def test_materials_there_and_back(kind, tmp_path, capsys):
     valid, why = UsdGeom.Subset.ValidateFamily(mesh, UsdGeom.Tokens.face, UsdShade.Tokens.materialBind)
     assert valid, why
     subsets = UsdShade.MaterialBindingAPI(mesh).GetMaterialBindSubsets()
-    bound = {str(UsdShade.MaterialBindingAPI(one).ComputeBoundMaterial()[0].GetPrim().GetName()) for one in subsets}
+    bound = {str(UsdShade.MaterialBindingAPI(s).ComputeBoundMaterial()[0].GetPrim().GetName()) for s in subsets}
     assert bound == {"Red", "Painted"}
-    assert sum(len(one.GetIndicesAttr().Get()) for one in subsets) == 76
+    assert sum(len(subset.GetIndicesAttr().Get()) for subset in subsets) == 76
 
 
 def test_one_material_needs_no_subsets(tmp_path):
@@ -119,4 +119,4 @@ def test_one_material_needs_no_subsets(tmp_path):
     found = read_mesh(path).mesh
     assert found.metadata["material.0.baseColorFactor"] == "1 1 0.5 0.25"
     assert "material.0.emissiveFactor" not in found.metadata
-    assert not any(one.name == "material" for one in found.attributes)
+    assert not any(attribute.name == "material" for attribute in found.attributes)

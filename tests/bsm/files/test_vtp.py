@@ -15,10 +15,10 @@ WAYS = list(
 )
 
 
-def equal(one, other):
-    assert np.allclose(one.positions, other.positions, atol=1e-6) and np.array_equal(one.faces, other.faces)
-    assert [a.name for a in one.attributes] == [a.name for a in other.attributes]
-    for ours, theirs in zip(one.attributes, other.attributes, strict=True):
+def equal(first, second):
+    assert np.allclose(first.positions, second.positions, atol=1e-6) and np.array_equal(first.faces, second.faces)
+    assert [a.name for a in first.attributes] == [a.name for a in second.attributes]
+    for ours, theirs in zip(first.attributes, second.attributes, strict=True):
         assert (ours.domain, ours.semantic) == (theirs.domain, theirs.semantic)
         assert np.allclose(ours.values, theirs.values, atol=1e-6)
 

@@ -66,8 +66,8 @@ def test_weights_make_little_of_little(length: float, flatness: float) -> None:
     change = 1e-10
     for seed in range(8):
         moved = triangle + change * np.random.default_rng(seed).choice([-1.0, 1.0], (3, 3))
-        one, other = weights_of(triangle, faces), weights_of(moved, faces)
-        assert max(abs(one[edge] - other[edge]) for edge in one) < 2**13 * change
+        weights, other = weights_of(triangle, faces), weights_of(moved, faces)
+        assert max(abs(weights[edge] - other[edge]) for edge in weights) < 2**13 * change
 
 
 def test_a_part_hangs_on_what_is_known_before_it_and_on_nothing_else() -> None:

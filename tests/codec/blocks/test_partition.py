@@ -92,5 +92,5 @@ def test_a_bisection_keeps_neighbours_together():
 def test_two_threads_cut_as_one_does(parts):
     graph = graph_of_faces(grid_faces(100, 99), 9900)
     assert graph.size >= WORTH_A_THREAD
-    for one, two in zip(bisect(graph, parts), bisect(graph, parts, threads=2), strict=True):
-        assert np.array_equal(one, two)
+    for first, second in zip(bisect(graph, parts), bisect(graph, parts, threads=2), strict=True):
+        assert np.array_equal(first, second)

@@ -85,7 +85,7 @@ def test_weights_are_small_and_written_as_they_are_read(tmp_path: Path) -> None:
     again = read_networks(tmp_path / "again.npz")
     numbers = np.random.default_rng(0).normal(size=(7, NUMBERS)).astype(np.float32)
     assert len(again) == len(networks)
-    assert all((one(numbers) == other(numbers)).all() for one, other in zip(networks, again, strict=True))
+    assert all((network(numbers) == other(numbers)).all() for network, other in zip(networks, again, strict=True))
 
 
 def test_weights_for_other_numbers_are_refused(tmp_path: Path) -> None:

@@ -260,8 +260,8 @@ def test_pictures_of_few_faces_are_small_however_short_edges_are():
 
 
 def test_the_work_of_a_picture_is_bounded_however_often_its_pixels_are_covered():
-    one, many = (Size.of(*planes(count)) for count in (1, 3000))
-    assert one.pixels == LEAST_PIXELS
+    single, many = (Size.of(*planes(count)) for count in (1, 3000))
+    assert single.pixels == LEAST_PIXELS
     assert many.pixels < LEAST_PIXELS / 4
     assert many.work < 10 * LEAST_PIXELS**2 + 16 * 3000
     copies = Size.of(planes(1)[0], np.tile([[0, 1, 2]], (3000, 1)))
@@ -312,8 +312,8 @@ def test_what_vanishes_or_flies_away_is_seen():
 
 
 def test_one_face_is_a_mesh():
-    one = TriangleMesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    assert look(one, one).distance < 1e-3
+    mesh = TriangleMesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    assert look(mesh, mesh).distance < 1e-3
 
 
 def test_the_side_that_differs_most_is_drawn():

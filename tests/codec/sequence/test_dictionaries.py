@@ -88,7 +88,7 @@ def test_what_there_is_no_room_for_is_made_again() -> None:
     ample = dictionaries(mesh, 12, 1000)
     ample.reserve()
     wanted = [part.basis for part in ample.each(lambda _, part: part)]
-    assert all(one is two.basis for one, two in zip(wanted, ample.each(lambda _, part: part), strict=True))
+    assert all(expected is f.basis for expected, f in zip(wanted, ample.each(lambda _, part: part), strict=True))
 
     def bases(_: int, part: Part) -> Matrix:
         return part.basis
@@ -100,10 +100,10 @@ def test_what_there_is_no_room_for_is_made_again() -> None:
     allowance.keep(allowance.room() - largest - SPARE - 0.4 * needed)
     narrow.reserve()
     first, second = list(narrow.each(bases)), list(narrow.each(bases))
-    for one, two, three in zip(wanted, first, second, strict=True):
-        np.testing.assert_array_equal(one, two)
-        np.testing.assert_array_equal(one, three)
-    again = [one is not two for one, two in zip(first, second, strict=True)]
+    for expected, found, repeated in zip(wanted, first, second, strict=True):
+        np.testing.assert_array_equal(expected, found)
+        np.testing.assert_array_equal(expected, repeated)
+    again = [expected is not found for expected, found in zip(first, second, strict=True)]
     assert 0 < sum(again) < 12
     assert again == sorted(again)  # the first ones are kept
     with pytest.raises(LimitError, match="memory"):

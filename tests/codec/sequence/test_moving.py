@@ -39,7 +39,7 @@ FRAMES = [worn(t) for t in range(9)]
 
 def extent(name: str) -> float:
     """The range of an attribute's values in all frames."""
-    values = np.concatenate([one.values for frame in FRAMES for one in frame.attributes if one.name == name])
+    values = np.concatenate([a.values for frame in FRAMES for a in frame.attributes if a.name == name])
     return float(np.ptp(values.astype(float), axis=0).max())
 
 
@@ -58,15 +58,19 @@ def errors(frames: Sequence[TriangleMesh], encoder: SequenceEncoder, found: Sequ
     assert len(frames) == len(found)
     worst: dict[str, float] = {}
     for given, event in zip(frames, found, strict=True):
-        own = {one.name: one for one in event.attributes}
-        assert set(own) == {one.name for one in given.attributes}
-        for one in given.attributes:
-            back = own[one.name]
-            assert (back.values.dtype, back.domain, back.semantic) == (one.values.dtype, one.domain, one.semantic)
-            wanted = one.values[encoder.vertex_order].astype(float)
+        own = {attribute.name: attribute for attribute in event.attributes}
+        assert set(own) == {attribute.name for attribute in given.attributes}
+        for attribute in given.attributes:
+            back = own[attribute.name]
+            assert (back.values.dtype, back.domain, back.semantic) == (
+                attribute.values.dtype,
+                attribute.domain,
+                attribute.semantic,
+            )
+            wanted = attribute.values[encoder.vertex_order].astype(float)
             off = np.abs(back.values - wanted)
-            worst[one.name] = max(worst.get(one.name, 0.0), float(off.max()))
-            mean = f"{one.name} rms"
+            worst[attribute.name] = max(worst.get(attribute.name, 0.0), float(off.max()))
+            mean = f"{attribute.name} rms"
             worst[mean] = max(worst.get(mean, 0.0), float(np.sqrt(np.square(off).mean())))
     return worst
 
@@ -121,8 +125,8 @@ def test_frames_can_be_had_from_any_on() -> None:
         data, _ = encoded(FRAMES, **options)
         every, some = decoded(data), decoded(data, start=5)
         assert [event.index for event in some] == [5, 6, 7, 8]
-        for one, other in zip(every[5:], some, strict=True):
-            for own, same in zip(one.attributes, other.attributes, strict=True):
+        for frame, other in zip(every[5:], some, strict=True):
+            for own, same in zip(frame.attributes, other.attributes, strict=True):
                 np.testing.assert_array_equal(own.values, same.values)
 
 
@@ -132,9 +136,9 @@ def test_a_lost_attribute_costs_those_behind_it(kind: type) -> None:
     broken = without(data, kind, 1, "changed")
     whole, found = decoded(data), decoded(broken, tolerant=True)
     assert len(found) == len(whole)
-    for one, other in zip(whole, found, strict=True):
-        np.testing.assert_array_equal(one.positions, other.positions)
-        own = {each.name: each.values for each in one.attributes}
+    for frame, other in zip(whole, found, strict=True):
+        np.testing.assert_array_equal(frame.positions, other.positions)
+        own = {each.name: each.values for each in frame.attributes}
         assert [each.name for each in other.attributes] == ["color"]
         for each in other.attributes:
             np.testing.assert_array_equal(each.values, own[each.name])

@@ -57,5 +57,5 @@ def test_processors_agree(tmp_path: Path) -> None:
         with np.load(out) as arrays:
             found.append([arrays[f"arr_{number}"] for number in range(len(names))])
     for other in found[1:]:
-        for one, two in zip(found[0], other, strict=True):
-            assert np.array_equal(two, one)
+        for stream, two in zip(found[0], other, strict=True):
+            assert np.array_equal(two, stream)

@@ -91,7 +91,7 @@ def test_a_promise_holds_in_every_run():
     frames = meshes((10, 3), (7, 2), (10, 2))
     _, errors = restored(frames, promise=Promise(0.004), gop=4)
     for error, frame in zip(errors, frames, strict=True):
-        first = next(one for one in frames if len(one.positions) == len(frame.positions))
+        first = next(mesh for mesh in frames if len(mesh.positions) == len(frame.positions))
         assert error <= 0.004 * np.linalg.norm(np.ptp(first.positions, axis=0))
 
 
@@ -138,8 +138,8 @@ def test_every_run_has_its_attributes():
         decoder.receive_data(chunk)
         while not isinstance(event := decoder.next_event(), Signal):
             if isinstance(event, FrameEvent):
-                (one,) = decoder.attributes
-                values.append((one.name, int(one.values[0, 0]), len(one.values)))
+                (attribute,) = decoder.attributes
+                values.append((attribute.name, int(attribute.values[0, 0]), len(attribute.values)))
     assert values == [("colour", 7, 60)] * 2 + [("colour", 90, 42)] * 2 + [("colour", 7, 60)]
 
 
@@ -292,8 +292,8 @@ def test_unwelded_frames_of_many_components_and_flat_ones():
 def test_attributes_of_faces_that_change_in_a_run_are_told() -> None:
     frames = meshes((10, 4))
     heats = [np.float32(t // 2) + np.zeros(len(frames[0].faces), np.float32) for t in range(4)]
-    hot = [replace(one, attributes=(Attribute("heat", heat, "face"),)) for one, heat in zip(frames, heats, strict=True)]
-    steady = [replace(one, attributes=(Attribute("heat", heats[0], "face"),)) for one in frames]
+    hot = [replace(f, attributes=(Attribute("heat", heat, "face"),)) for f, heat in zip(frames, heats, strict=True)]
+    steady = [replace(frame, attributes=(Attribute("heat", heats[0], "face"),)) for frame in frames]
     options = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
     for given, said in ((hot, ["heat changes at frame 2, but stays as before"]), (steady, [])):
         encoder = SequenceEncoder(frames[0].faces, options, 4, attributes=given[0].attributes)

@@ -42,7 +42,7 @@ def encoded(positions, faces, **changes):
 
 def gops_of(data):
     """GOPs, and offset and length of the frame of each."""
-    return [one for one in packets_of(data) if isinstance(one[0], Gop)]
+    return [packet for packet in packets_of(data) if isinstance(packet[0], Gop)]
 
 
 def diagonal(frame):

@@ -35,7 +35,7 @@ def decoded(stream: bytes, *, tolerant: bool = False) -> tuple[dict[str, Attribu
             frames += isinstance(event, FrameEvent)
             losses += isinstance(event, LossEvent)
             order.append(type(event).__name__)
-        return {one.name: one for one in decoder.attributes}, frames, losses, order
+        return {attribute.name: attribute for attribute in decoder.attributes}, frames, losses, order
 
 
 def test_they_come_back_before_the_second_frame():
@@ -65,7 +65,7 @@ def test_what_is_lost_of_one_spoils_none_before_it():
         broken = without(stream, packets.Values, which, "changed")
         found, frames, losses, _ = decoded(broken, tolerant=True)
         assert frames == 6 and losses == 1
-        assert set(found) == {one.name for one in worn()[: packet.attribute]}
+        assert set(found) == {attribute.name for attribute in worn()[: packet.attribute]}
         with pytest.raises(BsmError):
             decoded(broken)
 

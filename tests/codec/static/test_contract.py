@@ -120,9 +120,9 @@ def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -
         Encoder(torus(80, 40), changed(EncodeOptions(), quick=quick, **option)).draft() for quick in (False, True)
     )
     assert light.header == replace(plain.header, light=1) and not plain.header.light
-    one, other = (decode(b"".join(draft.frames)) for draft in (plain, light))
-    np.testing.assert_array_equal(one.positions, other.positions)
-    np.testing.assert_array_equal(one.faces, other.faces)
+    first, other = (decode(b"".join(draft.frames)) for draft in (plain, light))
+    np.testing.assert_array_equal(first.positions, other.positions)
+    np.testing.assert_array_equal(first.faces, other.faces)
 
 
 def test_the_smallest_is_in_blocks_where_nothing_is_said() -> None:

@@ -20,7 +20,7 @@ def stream(**options):
 
 def blocks_of(data):
     """Blocks, and offset and length of the frame of each."""
-    return [one for one in packets_of(data) if isinstance(one[0], Block)]
+    return [packet for packet in packets_of(data) if isinstance(packet[0], Block)]
 
 
 def lost_blocks(events):

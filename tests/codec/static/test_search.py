@@ -59,10 +59,10 @@ def sizes(mesh: TriangleMesh, monkeypatch: pytest.MonkeyPatch) -> tuple[int, lis
     found = [Encoder(mesh, options).draft().size]
     for alone in range(len(list(everything(*_asked(mesh, options))))):
 
-        def one(search: Search, bounds: Bounds, look: float, alone: int = alone) -> Iterator[Way]:
+        def size(search: Search, bounds: Bounds, look: float, alone: int = alone) -> Iterator[Way]:
             yield from (way for number, way in enumerate(everything(search, bounds, look)) if number == alone)
 
-        monkeypatch.setattr(Search, "_ways", one)
+        monkeypatch.setattr(Search, "_ways", size)
         found.append(Encoder(mesh, options).draft().size)
         monkeypatch.setattr(Search, "_ways", everything)
     return found[0], found[1:]

@@ -53,7 +53,7 @@ class BSM_OT_import(bpy.types.Operator, ImportHelper):
         from bsm.bitstream.errors import BsmError
         from bsm.blender import import_file
 
-        names = [os.path.join(self.directory, one.name) for one in self.files if one.name] or [self.filepath]
+        names = [os.path.join(self.directory, file.name) for file in self.files if file.name] or [self.filepath]
         given = {"frame_start": self.frame_start, "set_scene": self.set_scene, "up": self.up}
         with progress_of(context) as progress:
             for name in names:
@@ -141,8 +141,8 @@ CLASSES = (BSM_OT_import, BSM_OT_export, BSM_FH_import)
 
 def register():
     """What Blender calls when the extension is enabled."""
-    for one in CLASSES:
-        bpy.utils.register_class(one)
+    for kind in CLASSES:
+        bpy.utils.register_class(kind)
     bpy.types.TOPBAR_MT_file_import.append(add_import)
     bpy.types.TOPBAR_MT_file_export.append(add_export)
     bpy.app.handlers.load_post.append(restore)
@@ -153,5 +153,5 @@ def unregister():
     bpy.app.handlers.load_post.remove(restore)
     bpy.types.TOPBAR_MT_file_export.remove(add_export)
     bpy.types.TOPBAR_MT_file_import.remove(add_import)
-    for one in reversed(CLASSES):
-        bpy.utils.unregister_class(one)
+    for kind in reversed(CLASSES):
+        bpy.utils.unregister_class(kind)

@@ -388,29 +388,29 @@ class _Waiting:
     def _take(self) -> None:
         now = self._attributes()
         self._first = now if self._frames == 0 else self._first
-        for first, one in zip(self._first, now, strict=True):
-            if one is not first and one.name not in self._moved:
-                self._moved[one.name] = tempfile.TemporaryFile()  # noqa: SIM115
+        for first, attribute in zip(self._first, now, strict=True):
+            if attribute is not first and attribute.name not in self._moved:
+                self._moved[attribute.name] = tempfile.TemporaryFile()  # noqa: SIM115
                 for _ in range(self._frames):
-                    self._moved[one.name].write(first.values.tobytes())
-            if one.name in self._moved:
-                self._moved[one.name].write(one.values.tobytes())
+                    self._moved[attribute.name].write(first.values.tobytes())
+            if attribute.name in self._moved:
+                self._moved[attribute.name].write(attribute.values.tobytes())
         self._frames += 1
 
     def finish(self, archive: zipfile.ZipFile, count: int) -> None:
-        for one in self._first:
-            with archive.open(f"{one.domain}/{one.name}.npy", "w", force_zip64=True) as entry:
-                if one.name in self._moved:
-                    kind, shape = one.values.dtype.str, (count, *one.values.shape)
+        for attribute in self._first:
+            with archive.open(f"{attribute.domain}/{attribute.name}.npy", "w", force_zip64=True) as entry:
+                if attribute.name in self._moved:
+                    kind, shape = attribute.values.dtype.str, (count, *attribute.values.shape)
                     header = {"descr": kind, "fortran_order": False, "shape": shape}
                     np.lib.format.write_array_header_1_0(entry, header)
-                    self._moved[one.name].seek(0)
-                    shutil.copyfileobj(self._moved[one.name], entry)
+                    self._moved[attribute.name].seek(0)
+                    shutil.copyfileobj(self._moved[attribute.name], entry)
                 else:
-                    np.lib.format.write_array(entry, one.values)
-            if one.indices is not None:
-                with archive.open(f"corner/{one.name}/indices.npy", "w") as entry:
-                    np.lib.format.write_array(entry, one.indices)
+                    np.lib.format.write_array(entry, attribute.values)
+            if attribute.indices is not None:
+                with archive.open(f"corner/{attribute.name}/indices.npy", "w") as entry:
+                    np.lib.format.write_array(entry, attribute.indices)
 
     def close(self) -> None:
         for file in self._moved.values():
@@ -458,8 +458,8 @@ def _dressed(
         for number, (positions, *values) in enumerate(zip(npz_frames(archive), *arrays, strict=True)):
             with about(f"frame {number}"):
                 own = (
-                    Attribute(name, one.astype(one.dtype.newbyteorder("=")), semantic=meaning_of(name))
-                    for name, one in zip(moving, values, strict=True)
+                    Attribute(name, column.astype(column.dtype.newbyteorder("=")), semantic=meaning_of(name))
+                    for name, column in zip(moving, values, strict=True)
                 )
                 mesh = TriangleMesh(positions, faces, (*still, *own))
             yield mesh

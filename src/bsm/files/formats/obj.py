@@ -219,7 +219,7 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     corner = "{}/{}/{}" if texcoord and normal else "{}//{}" if normal else "{}/{}" if texcoord else "{}"
     columns = np.stack(indices, axis=2).reshape(len(mesh.faces), -1) + 1
     nothing = np.zeros(len(mesh.faces), np.int64)
-    states = {what: nothing if one is None else one.values[:, 0] for what, one in numbers.items() if names[what]}
+    states = {what: nothing if a is None else a.values[:, 0] for what, a in numbers.items() if names[what]}
     order = _grouped(list(states.values()), len(mesh.faces))
     faces = map(f"f {corner} {corner} {corner}\n".format, *columns[order].T.tolist())
     before = np.full(len(mesh.faces), "", dtype=object)

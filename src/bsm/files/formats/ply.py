@@ -80,7 +80,7 @@ class Header:
             own = [line for line in lines if line and not line.startswith(f"{IMAGE} ") and not parse_remarks([line])]
             if own:
                 found.setdefault(keyword, "\n".join(own))
-        told = [one for material in materials_in(found).values() for one in material.items()]
+        told = [item for material in materials_in(found).values() for item in material.items()]
         shown = {value for name, value in told if refers_to_image(name)}
         for number, name in enumerate(images):
             found[f"image.{number}.name"] = name
@@ -360,7 +360,7 @@ def read_ply(data: bytes, limits: Limits) -> Polygons:
 def _columns(table: Table, domain: Domain, needed: Sequence[str]) -> Iterator[Column]:
     """The properties that are numbers, those together that are one value."""
     properties = table.element.properties
-    plain = (place for place, one in enumerate(properties) if one.length is None and one.name not in needed)
+    plain = (place for place, p in enumerate(properties) if p.length is None and p.name not in needed)
     places = {properties[place].name: place for place in plain}
     for semantic, names in _GROUPS:
         types = {properties[places[name]].type for name in names if name in places}
@@ -368,7 +368,7 @@ def _columns(table: Table, domain: Domain, needed: Sequence[str]) -> Iterator[Co
             values = np.column_stack([table.numbers(places.pop(name)) for name in names])
             yield color_column(values, domain) if semantic == "color" else Column(semantic, values, domain, semantic)
     for name, together in _series({name: properties[place].type for name, place in places.items()}):
-        values = np.column_stack([table.numbers(places[one]) for one in together])
+        values = np.column_stack([table.numbers(places[member]) for member in together])
         yield Column(_NAMES.get(name, name), values, domain)
 
 
@@ -378,11 +378,11 @@ def _series(types: dict[str, str]) -> Iterator[tuple[str, list[str]]]:
     while left:
         name = next(iter(left))
         stem = name.removesuffix("_0")
-        like_it = {one for one, kind in left.items() if kind == types[name]}
+        like_it = {member for member, kind in left.items() if kind == types[name]}
         run = list(takewhile(like_it.__contains__, (f"{stem}_{i}" for i in count())))
         together = run if name.endswith("_0") and 2 <= len(run) <= MOST_COMPONENTS else [name]
         yield (stem if len(together) > 1 else name), together
-        left = {one: kind for one, kind in left.items() if one not in together}
+        left = {member: kind for member, kind in left.items() if member not in together}
 
 
 def _wedges(table: Table, corners: int, sizes: Ints) -> tuple[list[Column], list[str]]:

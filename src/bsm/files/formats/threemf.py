@@ -87,7 +87,7 @@ def placed_triangles(data: bytes, limits: Limits) -> int:
             used = [(times, sizes[other]) for other, times in model.uses.get(name, Counter()).items()]
             totals = (sum(times * size[place] for times, size in used) for place in range(3))
             mine = (own["vertex"], own["triangle"], 1)
-            sizes[name] = tuple(min(_MOST, one + more) for one, more in zip(mine, totals))  # type: ignore[assignment]
+            sizes[name] = tuple(min(_MOST, n + more) for n, more in zip(mine, totals))  # type: ignore[assignment]
     except CycleError:
         raise MeshError("an object of this 3MF file is a component of itself") from None
     vertices, triangles, parts = sizes.get("", (0, 0, 0))

@@ -218,9 +218,9 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     require_count("faces", polygons, limits)
     numbers = _Numbers(document, behind, encoding.decode(), limits, len(data))
     shape = {
-        (one.around, one.says.get("Name", "") if one.around == "Polys" else ""): one
-        for one in document.arrays
-        if one.around in ("Points", "Polys")
+        (array.around, array.says.get("Name", "") if array.around == "Polys" else ""): array
+        for array in document.arrays
+        if array.around in ("Points", "Polys")
     }
     try:
         coordinates, corners, ends = (
@@ -344,5 +344,5 @@ def _active(mesh: TriangleMesh, domain: Domain) -> str:
     if domain == "vertex":
         chosen["Normals"] = first(mesh, "normal", (3,), domain)
         chosen["TCoords"] = first(mesh, "texcoord", (2,), domain)
-    named = [(tag, one.name) for tag, one in chosen.items() if one is not None]
+    named = [(tag, attribute.name) for tag, attribute in chosen.items() if attribute is not None]
     return "".join(f" {tag}={_quoted(name)}" for tag, name in named)

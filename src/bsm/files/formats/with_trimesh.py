@@ -81,7 +81,7 @@ def _absent_images(tree: dict[str, Any], path: str | None) -> list[str]:
     notes = []
     for kind in ("buffer", "image"):
         # trimesh takes for a name what is not base64.
-        uris = [one.get("uri", "base64,") for one in tree.get(f"{kind}s", [])]
+        uris = [entry.get("uri", "base64,") for entry in tree.get(f"{kind}s", [])]
         for name in (unquote(uri) for uri in uris if "base64," not in uri):
             try:
                 if path is None:

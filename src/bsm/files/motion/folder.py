@@ -79,7 +79,7 @@ def look_like_frames(names: Sequence[str]) -> bool:
 def common_name(names: Sequence[str]) -> str:
     """One name for many files: what they begin and end with."""
     first, last = min(names), max(names)
-    same = [one == other for one, other in zip(first, last)]
+    same = [letter == other for letter, other in zip(first, last)]
     head = len(same) if all(same) else same.index(False)
     return f"{first[:head]}*{Path(first).suffix}"
 
@@ -110,10 +110,10 @@ def read_files(
 
     first = read(0)
     if runs:
-        moving = [one.name for one in first.attributes if one.semantic == "normal"]
-        kept = tuple(one for one in first.attributes if one.semantic != "normal")
+        moving = [attribute.name for attribute in first.attributes if attribute.semantic == "normal"]
+        kept = tuple(attribute for attribute in first.attributes if attribute.semantic != "normal")
         notes = [f"left out, for they move: {', '.join(moving)}"] if moving else []
-        if same := [one.name for one in kept if not can_move(one)]:
+        if same := [attribute.name for attribute in kept if not can_move(attribute)]:
             notes.append(f"{', '.join(same)}: as the first frame of each run has them")
         every = chain([first], (read(number) for number in range(1, len(names))))
         return Frames(first.faces, len(names), iter(()), kept, tuple(notes), metadata=first.metadata, meshes=every)
@@ -129,11 +129,17 @@ def read_files(
                     "itself, name the files, or the folder with -r, and write to a folder, -o FOLDER/"
                 )
             own = []
-            for one in kept:
-                now = moved_to(one, mesh.attributes) if can_move(one) else one if has(mesh.attributes, one) else None
+            for attribute in kept:
+                now = (
+                    moved_to(attribute, mesh.attributes)
+                    if can_move(attribute)
+                    else attribute
+                    if has(mesh.attributes, attribute)
+                    else None
+                )
                 if now is None:
                     raise MeshError(
-                        f"{one.name} is another at {name} (frame {number}), and as before in the last frame; "
+                        f"{attribute.name} is another at {name} (frame {number}), and as before in the last frame; "
                         "only colours and numbers of vertices may change: --runs keeps others as the first "
                         "frame has them"
                     )
@@ -141,12 +147,12 @@ def read_files(
             yield replace(mesh, attributes=tuple(own))
 
     last = read(len(names) - 1) if first.attributes and len(names) > 1 else first
-    can = [one for one in first.attributes if can_move(one) and moved_to(one, last.attributes)]
-    still = [one for one in first.attributes if one.semantic != "normal" and has(last.attributes, one)]
-    kept = tuple(one for one in first.attributes if one in can or one in still)
-    left = [one.name for one in first.attributes if one not in kept]
+    can = [attribute for attribute in first.attributes if can_move(attribute) and moved_to(attribute, last.attributes)]
+    still = [a for a in first.attributes if a.semantic != "normal" and has(last.attributes, a)]
+    kept = tuple(attribute for attribute in first.attributes if attribute in can or attribute in still)
+    left = [attribute.name for attribute in first.attributes if attribute not in kept]
     notes = [f"left out, for they move or change: {', '.join(left)}"] if left else []
-    if len(names) > 1 and (same := [one.name for one in kept if one not in can]):
+    if len(names) > 1 and (same := [attribute.name for attribute in kept if attribute not in can]):
         notes.append(f"{', '.join(same)}: as the first frame has them")
     frames = (mesh.positions for mesh in meshes())
     given = meshes() if can else None

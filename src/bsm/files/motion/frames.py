@@ -40,10 +40,10 @@ class Frames:
         order = np.lexsort(np.sort(faces, axis=1).T)
         corners = (np.argmin(faces, axis=1)[:, None] + np.arange(3))[order] % 3
         given = np.where(order < len(self.faces), order, 0)
-        attributes = [one.taken(np.arange(self.rigged), given) for one in self.attributes]
+        attributes = [attribute.taken(np.arange(self.rigged), given) for attribute in self.attributes]
         turned = [
-            one if one.indices is None else replace(one, indices=np.take_along_axis(one.indices, corners, axis=1))
-            for one in attributes
+            a if a.indices is None else replace(a, indices=np.take_along_axis(a.indices, corners, axis=1))
+            for a in attributes
         ]
         return replace(self, faces=np.take_along_axis(faces[order], corners, axis=1), attributes=tuple(turned))
 
@@ -85,7 +85,7 @@ class Shared:
         if anew:
             self._begun.clear()
         now = self.attributes()
-        return tuple(one for one in now if self._begun.setdefault(one.name, one) is not one)
+        return tuple(a for a in now if self._begun.setdefault(a.name, a) is not a)
 
     def loses(self, names: Iterable[str]) -> None:
         self.left_out.extend(name for name in dict.fromkeys(names) if name not in self.left_out)
@@ -93,14 +93,14 @@ class Shared:
 
 def painted_like(first: TriangleMesh, mesh: TriangleMesh) -> TriangleMesh:
     """A frame whose colours are of the kind of the first one's: bytes, or floats from 0 to 1."""
-    kinds = {one.name: one.values.dtype for one in first.attributes if one.semantic == "color"}
+    kinds = {attribute.name: attribute.values.dtype for attribute in first.attributes if attribute.semantic == "color"}
 
-    def same(one: Attribute) -> Attribute:
-        kind = kinds.get(one.name, one.values.dtype)
-        if kind == one.values.dtype or one.semantic != "color":
-            return one
-        shades = one.values / (255.0 if one.values.dtype == np.uint8 else 1.0)
-        return replace(one, values=(np.rint(255.0 * shades) if kind == np.uint8 else shades).astype(kind))
+    def same(attribute: Attribute) -> Attribute:
+        kind = kinds.get(attribute.name, attribute.values.dtype)
+        if kind == attribute.values.dtype or attribute.semantic != "color":
+            return attribute
+        shades = attribute.values / (255.0 if attribute.values.dtype == np.uint8 else 1.0)
+        return replace(attribute, values=(np.rint(255.0 * shades) if kind == np.uint8 else shades).astype(kind))
 
     return replace(mesh, attributes=tuple(map(same, mesh.attributes)))
 

@@ -64,7 +64,7 @@ class Materials:
         packed: dict[str, formats.Value] = {}
         with zipfile.ZipFile(self._path) as package, suppress(zipfile.BadZipFile, NotImplementedError, RuntimeError):
             for key, name in names.items():
-                image = next((one for one in package.infolist() if one.filename == name.removeprefix("./")), None)
+                image = next((entry for entry in package.infolist() if entry.filename == name.removeprefix("./")), None)
                 if image is not None and image.compress_type == zipfile.ZIP_STORED and image.file_size <= most:
                     data = package.read(image)
                     packed |= {key.replace(".name", ".data"): data} if formats.kind_of_image(data) else {}
@@ -146,12 +146,12 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
         bound[number] = shade.Material.Define(stage, place)
         told = _Surface(pxr, bound[number], files).write(formats.gltf_values(known))
         said |= {
-            f"material.{number}.{one}"
-            for one in known
-            if one == "name" or set(formats.as_gltf({one: known[one]})) & told
+            f"material.{number}.{key}"
+            for key in known
+            if key == "name" or set(formats.as_gltf({key: known[key]})) & told
         }
         if {"Kd", "d"} & known.keys() and "baseColorFactor" in told:
-            said |= {f"material.{number}.{one}" for one in ("Kd", "d")}
+            said |= {f"material.{number}.{key}" for key in ("Kd", "d")}
     bind_materials(pxr, mesh, shown, bound)
     return bound, said
 
@@ -240,7 +240,7 @@ class _Surface:
 
 PER_COMMA = 350.0  # bytes that a number of a text takes in usd-core while it is read
 MOST_NESTED = 256  # prims, lists and dictionaries in each other in a text
-_OPENING, _CLOSING = ([ord(one) for one in ones] for ones in ("([{", ")]}"))
+_OPENING, _CLOSING = ([ord(bracket) for bracket in brackets] for brackets in ("([{", ")]}"))
 _PIECE = 1 << 18
 _UNITS = {1.0: "meters", 0.1: "decimeters", 0.01: "centimeters", 0.001: "millimeters", 0.0254: "inches", 0.3048: "feet"}
 
@@ -284,7 +284,7 @@ class _Part:
     def painted(self) -> list[Any]:
         """The primvars of vertices that change."""
         found = self._pxr.UsdGeom.PrimvarsAPI(self.prim).GetPrimvars()
-        at_vertices = (one.GetAttr() for one in found if _DOMAINS.get(one.GetInterpolation()) == "vertex")
+        at_vertices = (primvar.GetAttr() for primvar in found if _DOMAINS.get(primvar.GetInterpolation()) == "vertex")
         return [attr for attr in at_vertices if attr.GetNumTimeSamples() > 1]
 
     def at(self, time: float, cache: Any) -> Doubles:
@@ -387,7 +387,7 @@ class _Stage:
         return np.concatenate([part.at(time, cache) for part in self.parts])
 
     def changes(self) -> bool:
-        return any(one.GetNumTimeSamples() > 1 for part in self.parts for one in (part.counts_attr, part.corners_attr))
+        return any(a.GetNumTimeSamples() > 1 for part in self.parts for a in (part.counts_attr, part.corners_attr))
 
     def require_counts(self) -> None:
         require_count("vertices", sum(part.vertices for part in self.parts), self._limits)
@@ -501,11 +501,11 @@ def write_usd(file: BinaryIO, kind: str, faces: Faces, shared: Shared) -> Iterat
                     _set_mesh(pxr, mesh, materials, still, 0)
                 _set_mesh(pxr, mesh, materials, shared.mesh(frame, other), taken)
                 still = None
-            for one in shared.moved():
-                if still is not None and one.name not in keyed:
-                    _written(pxr, mesh, next(own for own in still.attributes if own.name == one.name), taken - 1)
-                keyed.add(one.name)
-                _written(pxr, mesh, one, taken)
+            for attribute in shared.moved():
+                if still is not None and attribute.name not in keyed:
+                    _written(pxr, mesh, next(own for own in still.attributes if own.name == attribute.name), taken - 1)
+                keyed.add(attribute.name)
+                _written(pxr, mesh, attribute, taken)
             if not single_suffices(frame):
                 raise MeshError(f"frame {taken} needs double precision, which points of USD do not have; write npz")
             points = np.ascontiguousarray(frame, np.float32)
@@ -551,7 +551,7 @@ def _begun(
     mesh.CreatePointsAttr()
     mesh.CreateExtentAttr()
     materials, said = write_materials(pxr, mesh, first, images)
-    shared.loses(one.name for one in _others(first, materials) if not _written(pxr, mesh, one))
+    shared.loses(attribute.name for attribute in _others(first, materials) if not _written(pxr, mesh, attribute))
     said |= {"up", "name", "frame_rate"} | ({"unit"} if size else set())
     shared.loses(name for name in first.metadata if name not in said)
     return mesh, materials
@@ -559,7 +559,7 @@ def _begun(
 
 def _others(frame: TriangleMesh, materials: dict[int, Any]) -> list[Attribute]:
     shown = formats.face_numbers(frame, "material") if materials else None
-    return [one for one in frame.attributes if one is not shown]
+    return [attribute for attribute in frame.attributes if attribute is not shown]
 
 
 def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMesh, time: int) -> None:
@@ -568,8 +568,8 @@ def _set_mesh(pxr: Any, mesh: Any, materials: dict[int, Any], frame: TriangleMes
     corners = np.ascontiguousarray(frame.faces.reshape(-1))
     mesh.GetFaceVertexIndicesAttr().Set(pxr.Vt.IntArray.FromNumpy(corners), time)
     bind_materials(pxr, mesh, frame, materials, time)
-    for one in _others(frame, materials):
-        _written(pxr, mesh, one, time)
+    for attribute in _others(frame, materials):
+        _written(pxr, mesh, attribute, time)
 
 
 def _written(pxr: Any, mesh: Any, attribute: Attribute, time: int | None = None) -> bool:

@@ -75,7 +75,7 @@ def compared(given: TriangleMesh, decoded: TriangleMesh, encoder: Encoder) -> di
     errors = {}
     order = encoder.vertex_order
     for attribute in given.attributes:
-        found = next(one for one in decoded.attributes if one.name == attribute.name)
+        found = next(found for found in decoded.attributes if found.name == attribute.name)
         assert (found.semantic, found.values.dtype) == (attribute.semantic, attribute.values.dtype)
         wanted, had = at_corners(given, attribute)[encoder.face_order], at_corners(decoded, found)
         # corners of a face may have been turned
@@ -110,10 +110,10 @@ def test_everything_comes_back(shape, options):
     assert errors["heat"] <= 2.0 / (2 ** (20 if fine else 16) - 1)
     assert errors["wild"] <= 8.0 / (2**16 - 1)
     assert dict(decoded.metadata) == dict(mesh.metadata)
-    assert [one.name for one in decoded.attributes] == [one.name for one in mesh.attributes]
+    assert [attribute.name for attribute in decoded.attributes] == [attribute.name for attribute in mesh.attributes]
     if options.keep_order:
         assert (decoded.faces == mesh.faces).all()
-        assert [one.domain for one in decoded.attributes] == [one.domain for one in mesh.attributes]
+        assert [attribute.domain for attribute in decoded.attributes] == [a.domain for a in mesh.attributes]
     assert any("uv: texcoord per corner" in note for note in encoder.notes)
 
 
@@ -126,8 +126,8 @@ def test_split_files_come_back_split():
     assert max(compared(mesh, decoded, encoder).values()) < 0.002
     again = split_by_attributes(decoded)
     sent = {"color", "uv", "normal", "heat", "wild"}
-    assert len(again.positions) <= len(mesh.positions) and {one.name for one in again.attributes} >= sent
-    assert all(one.domain != "corner" for one in again.attributes)
+    assert len(again.positions) <= len(mesh.positions) and {attribute.name for attribute in again.attributes} >= sent
+    assert all(attribute.domain != "corner" for attribute in again.attributes)
 
 
 def test_split_files_come_back_with_their_indices():
@@ -136,15 +136,15 @@ def test_split_files_come_back_with_their_indices():
         np.concatenate([mesh.positions, [[7.0, 7, 7], [8, 8, 8]]]),
         mesh.faces,
         tuple(
-            replace(one, values=np.concatenate([one.values, one.values[:2]])) if one.domain == "vertex" else one
-            for one in mesh.attributes
+            replace(a, values=np.concatenate([a.values, a.values[:2]])) if a.domain == "vertex" else a
+            for a in mesh.attributes
         ),
     )
     options = replace(PRESETS["grid14"], keep_order=True, attributes={"*": "exact"})
     decoded = decode(encode(loose, options))
     assert (decoded.faces == loose.faces).all() and len(decoded.positions) == len(loose.positions)
-    for one, found in zip(loose.attributes, decoded.attributes, strict=True):
-        assert one.domain == found.domain and (one.values == found.values).all()
+    for attribute, found in zip(loose.attributes, decoded.attributes, strict=True):
+        assert attribute.domain == found.domain and (attribute.values == found.values).all()
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -205,7 +205,7 @@ def test_angles_of_normals_are_kept(degrees):
 def test_attributes_can_be_left_out():
     mesh = dressed(torus())
     encoder = Encoder(mesh, replace(QUICK, attributes={"*": "none", "uv": "10bits"}))
-    assert [one.name for one in decode(encoder.encode()).attributes] == ["uv"]
+    assert [attribute.name for attribute in decode(encoder.encode()).attributes] == ["uv"]
     assert "left out: color, normal, heat, group, wild" in encoder.notes
 
 
@@ -331,7 +331,7 @@ def test_what_makes_no_sense_is_refused(asked, error):
 def test_values_come_as_events():
     mesh = dressed(torus())
     stream = encode(mesh, replace(QUICK, keep_order=True))
-    whole = {one.name: one for one in decode(stream).attributes}
+    whole = {attribute.name: attribute for attribute in decode(stream).attributes}
     seen: dict[str, np.ndarray] = {}
     with Decoder() as decoder:
         decoder.receive_data(stream)
@@ -345,7 +345,7 @@ def test_values_come_as_events():
                     assert (event.indices == whole[event.name].indices).all()
         assert dict(decoder.metadata) == dict(mesh.metadata)
     assert {name: values.tobytes() for name, values in seen.items()} == {
-        name: one.values.tobytes() for name, one in whole.items()
+        name: attribute.values.tobytes() for name, attribute in whole.items()
     }
 
 
@@ -376,7 +376,7 @@ def test_what_is_lost_of_one_attribute_spoils_none_before_it():
         name = mesh.attributes[packet.attribute].name
         names, *lost = tolerated(without(stream, packets.Values, which, "changed"))
         assert lost == [1, 0]
-        assert names - {name} == {one.name for one in mesh.attributes[: packet.attribute]}
+        assert names - {name} == {attribute.name for attribute in mesh.attributes[: packet.attribute]}
         frames = frames_of(stream)
         short = [(kind, data[:-2] if data[0] == packet.attribute and kind == 0 else data) for kind, data in frames]
         with pytest.raises(BsmError, match=f"attribute '{name}'"):
@@ -392,7 +392,7 @@ def test_a_lost_declaration_loses_those_behind_it():
         broken = without(stream, packets.Attribute, packet.index, "changed")
         names, losses, missing = tolerated(broken)
         assert losses >= 1 and missing == 0
-        assert names == {one.name for one in mesh.attributes[: packet.index]}
+        assert names == {attribute.name for attribute in mesh.attributes[: packet.index]}
         with pytest.raises(BsmError):
             decode(broken)
 
@@ -418,7 +418,7 @@ def test_meshes_without_attributes_are_as_they_were():
 def test_targets_count_attributes(kind, value):
     mesh = dressed(torus())
     attempt = Encoder(mesh, EncodeOptions(target=Target(kind, value))).result()
-    assert [one.name for one in decode(b"".join(attempt.frames)).attributes] == [one.name for one in mesh.attributes]
+    assert [a.name for a in decode(b"".join(attempt.frames)).attributes] == [a.name for a in mesh.attributes]
     assert attempt.size == len(b"".join(attempt.frames))
     assert attempt.size <= value if kind == "size" else attempt.comparison.theta_deg <= value
 
@@ -443,12 +443,12 @@ def test_any_triangles_keep_what_they_carry(seed, vertices, faces, ordered):
     decoded = decode(encoder.encode())
     if ordered:
         assert (decoded.faces == mesh.faces).all()
-        for one, found in zip(mesh.attributes, decoded.attributes, strict=True):
-            assert found.domain == one.domain
-            assert (at_corners(decoded, found) == at_corners(mesh, one)).all()
-            assert one.domain != "vertex" or (found.values == one.values).all()
+        for given, found in zip(mesh.attributes, decoded.attributes, strict=True):
+            assert found.domain == given.domain
+            assert (at_corners(decoded, found) == at_corners(mesh, given)).all()
+            assert given.domain != "vertex" or (found.values == given.values).all()
     assert max(compared(mesh, decoded, encoder).values()) == 0.0
     split = split_by_attributes(decoded)
     for attribute in split.attributes:
-        before = next(one for one in decoded.attributes if one.name == attribute.name)
+        before = next(result for result in decoded.attributes if result.name == attribute.name)
         assert (at_corners(split, attribute) == at_corners(decoded, before)).all()
