@@ -29,22 +29,22 @@ def main() -> None:
         rows.append(row(path, target, args.preset))
         print(*rows[-1].values(), sep="  ")
     with (args.out / "report.csv").open("w", newline="") as file:
-        writer = csv.DictWriter(file, ("file", "bytes", "stream", "moved", "said"))
+        writer = csv.DictWriter(file, ("file", "bytes", "stream", "moved", "status"))
         writer.writeheader()
         writer.writerows(rows)
 
 
 def row(path: Path, target: Path, preset: str) -> dict[str, object]:
     """What came of one scan."""
-    made: dict[str, object] = {"file": path.name, "bytes": path.stat().st_size, "stream": "", "moved": "", "said": ""}
+    made: dict[str, object] = {"file": path.name, "bytes": path.stat().st_size, "stream": "", "moved": "", "status": ""}
     if target.exists():
-        return made | {"stream": target.stat().st_size, "said": "was there"}
+        return made | {"stream": target.stat().st_size, "status": "was there"}
     try:
         scan = bsm.load(path)
         clean = bsm.denoise(scan)
         bsm.save(clean, target, preset=preset)
     except bsm.BsmError as error:
-        return made | {"said": str(error)}
+        return made | {"status": str(error)}
     moved = bsm.compare(scan, clean).max_error_relative
     return made | {"stream": target.stat().st_size, "moved": f"{100 * moved:.3f} %"}
 

@@ -205,7 +205,7 @@ def parse_header(payload):
 
 def read_frames(stream, packets):
     """F 3.5 to F 3.14, F 5: what frames hold, by their types, put into `packets` up to the first fault."""
-    header, last, told, told_bytes, covered = None, None, set(), 0, 0
+    header, last, metadata_names, metadata_bytes, covered = None, None, set(), 0, 0
     for number, (kind, payload, offset) in enumerate(frames_of(stream)):
         if header is None:
             require(kind == HEADER, "the first frame must be HEADER")  # F 3.7
@@ -220,10 +220,10 @@ def read_frames(stream, packets):
             require_limit(len(payload), MOST_METADATA_BYTES, "metadata")
             entries = canonical_map(payload)
             require(all(type(key) is str and type(v) is not list for key, v in entries), "metadata of a wrong type")
-            names, told_bytes = {key for key, _ in entries}, told_bytes + len(payload)
-            require(not names & told, "METADATA speaks of a name again")
-            require_limit(told_bytes, MOST_METADATA_BYTES, "metadata")
-            told |= names
+            names, metadata_bytes = {key for key, _ in entries}, metadata_bytes + len(payload)
+            require(not names & metadata_names, "METADATA speaks of a name again")
+            require_limit(metadata_bytes, MOST_METADATA_BYTES, "metadata")
+            metadata_names |= names
             continue
         parsed = payload
         if kind == HEADER:
@@ -742,8 +742,8 @@ def decode_packets(packets, fault):
         raise fault
     if not np.isfinite(positions).all():
         raise NumericError("positions are not finite")
-    (told,) = packets[END]
-    require(not told or int.from_bytes(told, "little") == zlib.crc32((positions + 0.0).astype("<f8")), "F 5.10")
+    (checksum,) = packets[END]
+    require(not checksum or int.from_bytes(checksum, "little") == zlib.crc32((positions + 0.0).astype("<f8")), "F 5.10")
     return positions, np.array(faces, np.int32).reshape(-1, 3)
 
 

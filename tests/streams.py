@@ -15,16 +15,16 @@ from tools.surgery import scan
 def events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any) -> list[Any]:
     """Everything that a decoder says of a mesh, which comes in pieces."""
     with Decoder(**options) as decoder:
-        return list(told(decoder, pieces or [data]))
+        return list(all_events(decoder, pieces or [data]))
 
 
 def moving_events_of(data: bytes, pieces: Sequence[bytes] | None = None, **options: Any) -> list[Any]:
     """Everything that a decoder says of a sequence, which comes in pieces."""
     with SequenceDecoder(**{"threads": 1, **options}) as decoder:
-        return list(told(decoder, pieces or [data]))
+        return list(all_events(decoder, pieces or [data]))
 
 
-def told(decoder: Decoder | SequenceDecoder, pieces: Sequence[bytes]) -> Iterator[Any]:
+def all_events(decoder: Decoder | SequenceDecoder, pieces: Sequence[bytes]) -> Iterator[Any]:
     """The events of a decoder, each as early as it can be had."""
     for piece in pieces:
         decoder.receive_data(piece)

@@ -285,13 +285,13 @@ def test_the_table_of_exit_codes_is_that_of_the_program():
 def test_the_first_picture_says_what_the_table_says():
     """`python -m tools.front_page` writes both figures of the bunny into the picture's text."""
     data = (ROOT / "tools" / "front.png").read_bytes()
-    said, at = {}, 8
+    figures, at = {}, 8
     while at < len(data):
         size = int.from_bytes(data[at : at + 4], "big")
         if data[at + 4 : at + 8] == b"tEXt":
             name, _, value = data[at + 8 : at + 8 + size].decode("latin-1").partition("\0")
-            said[name] = value
+            figures[name] = value
         at += size + 12
     row = next(line for line in (ROOT / "README.md").read_text("utf-8").splitlines() if line.startswith("| bunny"))
     cells = [cell.strip() for cell in row.split("|")]
-    assert (said["file"], said["balanced"]) == (cells[2], cells[4]), "run python -m tools.front_page MESHES"
+    assert (figures["file"], figures["balanced"]) == (cells[2], cells[4]), "run python -m tools.front_page MESHES"

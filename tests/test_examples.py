@@ -156,10 +156,10 @@ def test_a_service_that_takes_uploads(service):
     assert status == 200 and bsm.compare(mesh, stream).max_error_relative < 0.05
     status, ply = post(f"{service}/decode", stream)
     assert status == 200 and ply.startswith(b"ply")
-    status, said = post(f"{service}/encode", b"this is no mesh")
-    assert status == 422 and said.startswith(b"FormatError: ")
-    status, said = post(f"{service}/decode", stream[: len(stream) // 2])
-    assert status == 422 and said.startswith(b"TruncatedError: ") and b"/" not in said
+    status, answer = post(f"{service}/encode", b"this is no mesh")
+    assert status == 422 and answer.startswith(b"FormatError: ")
+    status, answer = post(f"{service}/decode", stream[: len(stream) // 2])
+    assert status == 422 and answer.startswith(b"TruncatedError: ") and b"/" not in answer
     assert post(f"{service}/other", b"")[0] == 404
     many = off(bsm.TriangleMesh(np.zeros((3, 3)), [[0, 1, 2]])).replace(b"3 1 0", b"99999999999 1 0")
     assert post(f"{service}/encode", many)[0] in (413, 422)
@@ -191,7 +191,7 @@ def test_a_service_goes_on_whatever_hangs_dies_or_never_comes(server):
     with ThreadPoolExecutor(2) as clients:
         hanging = [clients.submit(post, f"{service}/encode", off(knot(200))) for _ in range(2)]
     answers = [c.result() for c in hanging]  # the second one may find a process that took the place of the first's
-    assert any(said.startswith(b"TimeoutError: ") for _, said in answers)
+    assert any(status.startswith(b"TimeoutError: ") for _, status in answers)
     assert {status for status, _ in answers} <= {200, 503}
     for pid in workers_of(process):
         os.kill(pid, signal.SIGKILL)
@@ -200,9 +200,9 @@ def test_a_service_goes_on_whatever_hangs_dies_or_never_comes(server):
     silent = [send(service, words, more=True) for words in (head, head + b"OFF", b"POST /enc")]
     waits.append(answered_in(service))
     assert max(waits) < soon, waits
-    for connection, said in zip(silent, (b" 408 ", b" 408 ", b"")):
+    for connection, status in zip(silent, (b" 408 ", b" 408 ", b"")):
         with connection, connection.makefile("rb") as file:
-            assert said in file.read(), "it is let go of"
+            assert status in file.read(), "it is let go of"
     assert answered_in(service) < soon
     crowd = [send(service, b"POST", more=True) for _ in range(40)]
     answers = [connection.makefile("rb").readline() for connection in crowd[20:]]

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Mapping
 
 from bsm.console import Console
-from bsm.exits import behind, exit_of, is_expected, tell
+from bsm.exits import behind, exit_of, is_expected, report_error
 
 
 def run_command(parser: argparse.ArgumentParser, work: Callable[[argparse.Namespace, Console], None]) -> None:
@@ -19,7 +19,7 @@ def run_command(parser: argparse.ArgumentParser, work: Callable[[argparse.Namesp
         error = behind(raised)
         if not is_expected(error):
             raise
-        tell(error)
+        report_error(error)
         sys.exit(exit_of(error).code)
 
 

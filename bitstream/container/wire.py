@@ -66,8 +66,8 @@ def parse_preamble(data: bytes) -> bool:
 def require_major(what: str, major: int, offset: int | None = None) -> None:
     if major != MAJOR:
         older = "encode the source again, or decode it with the release that wrote it"
-        said = f"{what} written by version {major} of the format, and this reads {MAJOR}: "
-        raise UnsupportedError(said + (older if major < MAJOR else "a later release reads it"), offset=offset)
+        message = f"{what} written by version {major} of the format, and this reads {MAJOR}: "
+        raise UnsupportedError(message + (older if major < MAJOR else "a later release reads it"), offset=offset)
 
 
 def write_varint(value: int) -> bytes:

@@ -81,7 +81,7 @@ class Encoder:
 
     def __init__(self, mesh: TriangleMesh, options: EncodeOptions | None = None) -> None:
         self.options = options or EncodeOptions()
-        if not (self.options.target or self.options.promise or self.options.is_grid or self.options.says_how):
+        if not (self.options.target or self.options.promise or self.options.is_grid or self.options.sets_coding):
             raise OptionError("nothing to reach: give a bound or a target, or a preset other than none")
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._input = Input(mesh, self.options)
@@ -93,8 +93,8 @@ class Encoder:
         """What was changed on the way in, and what becomes of attributes."""
         sent = {attribute.name for attribute, _ in self._input.wanted}
         left = [attribute.name for attribute in self._input.given.attributes if attribute.name not in sent]
-        said = (*(p.note for p in self._input.carried), *([f"left out: {', '.join(left)}"] if left else []))
-        return (*self._input.joined.notes, *said, *self.losses[len(self._input.joined.losses) :])
+        notes = (*(p.note for p in self._input.carried), *([f"left out: {', '.join(left)}"] if left else []))
+        return (*self._input.joined.notes, *notes, *self.losses[len(self._input.joined.losses) :])
 
     @property
     def losses(self) -> tuple[str, ...]:
@@ -195,7 +195,7 @@ class Encoder:
             raise OptionError("there is no target to search for")
         _ = self._input.carried  # what is wrong with attributes is said first
         near = self._begun(progress)
-        if self.options.says_how:
+        if self.options.sets_coding:
             found = self._as_said(target, near)
         else:
             found = self._sized(target, near) if target.shrinks_with_step else self._bounded(target, near)

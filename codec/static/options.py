@@ -219,23 +219,23 @@ class EncodeOptions:
             raise OptionError("a grid with a given origin needs the length of its cells, too: grid_cell")
         if self.grid_origin is not None and not all(map(math.isfinite, self.grid_origin)):
             raise OptionError(f"the origin of a grid must be finite, not {self.grid_origin}")
-        if self.is_grid and (self.target is not None or self.says_how):
+        if self.is_grid and (self.target is not None or self.sets_coding):
             raise OptionError("a grid excludes targets and options of blocks")
 
-        if self.quick and self.says_how:
+        if self.quick and self.sets_coding:
             raise OptionError("quick uses a grid; it excludes options of blocks")
 
     @property
     def promise(self) -> Contract | None:
         """The contract, where it counts."""
-        if self.is_grid or self.says_how:
+        if self.is_grid or self.sets_coding:
             return None
         return self.contract
 
     @property
     def looks_as_it_comes(self) -> bool:
         """Whether a bound or a target alone is asked for, and no look."""
-        return not self.is_grid and not self.says_how and (self.promise is None or self.promise.look == math.inf)
+        return not self.is_grid and not self.sets_coding and (self.promise is None or self.promise.look == math.inf)
 
     @property
     def grade(self) -> Grade:
@@ -260,7 +260,7 @@ class EncodeOptions:
         return STEP
 
     @property
-    def says_how(self) -> bool:
+    def sets_coding(self) -> bool:
         """Whether any option of `CODING` is given."""
         return any(getattr(self, name, getattr(self.paper, name, None)) is not None for name in CODING)
 

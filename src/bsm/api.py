@@ -97,10 +97,10 @@ def encode(
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
     check_mapping("metadata", {} if metadata is None else metadata)
     with watched("encoding", progress) as reported:
-        told = with_metadata(as_mesh(mesh), chosen, metadata or {})
-        if lengths := in_own_unit(keywords, told.metadata):
+        source = with_metadata(as_mesh(mesh), chosen, metadata or {})
+        if lengths := in_own_unit(keywords, source.metadata):
             chosen = keywords_to.encode_options(**{**keywords, **lengths})
-        encoder = Encoder(told, chosen)
+        encoder = Encoder(source, chosen)
         data = b"".join(encoder.chunks(reported))
     warn(encoder.losses)
     return data
@@ -180,8 +180,8 @@ def encode_many(
     planned = plan(names, folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}
     threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
-    told = metadata or {}
-    job = EncodeJob(force=overwrite, quiet=True, metadata=told, options=options, threads=threads, compared=False)
+    entries = metadata or {}
+    job = EncodeJob(force=overwrite, quiet=True, metadata=entries, options=options, threads=threads, compared=False)
     return run_many(run, job, Console(quiet=True, heard=progress), encode_one, planned)
 
 
@@ -279,11 +279,11 @@ def encode_sequence(
     from bsm.codec.sequence.encoder import SequenceEncoder, frames_of
     from bsm.codec.sequence.options import SequenceOptions
 
-    told = {} if metadata is None else metadata
-    check_mapping("metadata", told)
+    entries = {} if metadata is None else metadata
+    check_mapping("metadata", entries)
     chosen = _chosen(options, SequenceOptions, keywords, keywords_to.sequence_options)
     frames = frames_of(positions)
-    return _joined(SequenceEncoder(faces, chosen, len(frames), told, mesh_attributes), frames, progress)
+    return _joined(SequenceEncoder(faces, chosen, len(frames), entries, mesh_attributes), frames, progress)
 
 
 def _joined(encoder: SequenceEncoder, frames: Iterable[Any], progress: Heard) -> bytes:
@@ -343,8 +343,8 @@ def encode_frames(
 
     if isinstance(meshes, (str, bytes)) or not isinstance(meshes, Iterable):
         raise ArgumentError(f"a mesh for each frame is expected, not {type(meshes).__name__}")
-    told = {} if metadata is None else metadata
-    check_mapping("metadata", told)
+    entries = {} if metadata is None else metadata
+    check_mapping("metadata", entries)
     given: dict[str, Any] = {"runs": True, **keywords} if options is None else {**keywords}
     chosen = _chosen(options, SequenceOptions, given, keywords_to.sequence_options)
     frames = map(as_mesh, meshes)
@@ -353,7 +353,7 @@ def encode_frames(
         raise MeshError("a sequence needs at least one frame")
     attributes = [attribute for attribute in first.attributes if attribute.semantic != "normal"]
     count = len(meshes) if isinstance(meshes, Sequence) else 0
-    encoder = SequenceEncoder(first.faces, chosen, count, told, attributes)
+    encoder = SequenceEncoder(first.faces, chosen, count, entries, attributes)
     return _joined(encoder, chain([first], frames), progress)
 
 

@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 
 from bsm import __version__
 from bsm.console import Console
-from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, tell
+from bsm.exits import USAGE, behind, exit_of, exit_table, is_expected, report_error
 from bsm.files.output import Terminated, refuse_collisions
 
 COMMANDS = {
@@ -59,7 +59,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         error = behind(raised)
         if not is_expected(error):
             raise
-        tell(error, as_json=as_json)
+        report_error(error, as_json=as_json)
         return exit_of(error).code
 
 

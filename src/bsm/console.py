@@ -47,9 +47,9 @@ class Console:
             with self._running[0].part(what, until) as progress:
                 yield progress
             return
-        told = not self.quiet and self.kept is None
-        shown = told and sys.stderr.isatty() and not self.json
-        with Progress(what, shown=shown, lines=told and self.json, heard=self.heard, seconds=seconds) as progress:
+        reports = not self.quiet and self.kept is None
+        shown = reports and sys.stderr.isatty() and not self.json
+        with Progress(what, shown=shown, lines=reports and self.json, heard=self.heard, seconds=seconds) as progress:
             self._running.append(progress)
             try:
                 yield progress
@@ -80,7 +80,7 @@ class Progress:
     ) -> None:
         self._parts = [(what, 0.0, 1.0)]  # what goes on, and which share of the time it is, from the whole inwards
         self._shown, self._lines, self._heard, self._expected = shown, lines, heard, seconds
-        self._begun = self._said = time.monotonic()
+        self._begun = self._reported_at = time.monotonic()
         self._share, self._when, self._seen = 0.0, 0.0, 0.0  # as reported, and after how many seconds; as shown
         self._told = 0
         self.stopped: BaseException | None = None
@@ -132,8 +132,8 @@ class Progress:
     def _at(self, share: float) -> None:
         self._share, self._when = share, time.monotonic() - self._begun
         self._tell_listener(share)
-        if self._lines and time.monotonic() - self._said >= _SECOND:
-            self._tell()
+        if self._lines and time.monotonic() - self._reported_at >= _SECOND:
+            self._report()
         if self._shown and self._when >= _PATIENCE and self._opened() is not None:
             self._draw()
 
@@ -166,8 +166,8 @@ class Progress:
         self._seen = max(self._seen, shown)
         return shown, since, max(left, _LEAST_LEFT)
 
-    def _tell(self) -> None:
-        self._said = time.monotonic()
+    def _report(self) -> None:
+        self._reported_at = time.monotonic()
         share, since, left = self._now()
         line = {"stage": self._what, "share": share, "seconds": since, "seconds_left": left}
         _say_json(line)
@@ -205,8 +205,8 @@ class Progress:
     def _tick(self) -> None:
         """Draw and tell anew each second, so that nobody takes silence for the end."""
         while not self._over.wait(_PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)):
-            if self._lines and time.monotonic() - self._said >= _SECOND / 2:
-                self._tell()
+            if self._lines and time.monotonic() - self._reported_at >= _SECOND / 2:
+                self._report()
             if self._shown and self._opened() is not None:
                 self._draw()
 

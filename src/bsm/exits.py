@@ -74,14 +74,14 @@ def behind(error: BaseException) -> BaseException:
     return error
 
 
-def tell(error: BaseException, *, as_json: bool = False) -> None:
+def report_error(error: BaseException, *, as_json: bool = False) -> None:
     """Write an error to standard error; as a line of JSON if all lines are JSON."""
     if isinstance(error, BrokenPipeError):
         # Nobody reads what is left in the buffer; flushing it at exit would fail once more.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     elif isinstance(error, _SIGNALS):
-        said = exit_of(error).meaning
-        say(said if as_json else f"bsm: {said}", "error" if as_json else None)
+        meaning = exit_of(error).meaning
+        say(meaning if as_json else f"bsm: {meaning}", "error" if as_json else None)
     else:
         say(worded(error) if as_json else f"bsm: {worded(error)}", "error" if as_json else None)
 

@@ -54,19 +54,19 @@ def test_python_compares_as_the_command_does(tmp_path, capsys):
     bsm.save(bsm.decode(tmp_path / "a.bsm"), tmp_path / "b.ply")
     for other in ("a.bsm", "b.ply"):
         found = bsm.compare(tmp_path / "a.npz", tmp_path / other)
-        said = run_json(capsys, "compare", tmp_path / "a.npz", tmp_path / other)
-        assert found.max_error_relative == said["max_error_relative"] > 0
-        assert found.attributes["label"] is said["attributes"]["label"] is None
-        assert 0 < found.attributes["texcoord"].max_error == said["attributes"]["texcoord"]["max_error"] < 2e-4
+        result = run_json(capsys, "compare", tmp_path / "a.npz", tmp_path / other)
+        assert found.max_error_relative == result["max_error_relative"] > 0
+        assert found.attributes["label"] is result["attributes"]["label"] is None
+        assert 0 < found.attributes["texcoord"].max_error == result["attributes"]["texcoord"]["max_error"] < 2e-4
     assert bsm.compare(tmp_path / "a.npz", painted()).attributes["label"].max_error == 0
 
 
 def test_info_shows_metadata(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.bsm", metadata={"year": 1994}, grid=12)
     info = run_json(capsys, "info", tmp_path / "a.bsm")
-    said = info["metadata"]
+    entries = info["metadata"]
     assert info["bytes"]["metadata"] > len(png()) and info["bytes"]["framing"] < 250
-    assert (said["name"], said["year"], base64.b64decode(said["image.0.data"])) == ("ring", 1994, png())
+    assert (entries["name"], entries["year"], base64.b64decode(entries["image.0.data"])) == ("ring", 1994, png())
     assert main(["info", str(tmp_path / "a.bsm")]) == 0
     text = capsys.readouterr().out
     assert "  name: ring\n" in text and f"  image.0.data: {len(png())} bytes\n" in text
@@ -110,15 +110,15 @@ def test_metadata_of_a_sequence(tmp_path, capsys):
 
 def test_what_a_format_cannot_hold_is_said(tmp_path, capsys):
     bsm.save(dressed(), tmp_path / "a.bsm", grid=12)
-    told = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
-    assert "off cannot hold" in told and all(name in told for name in ("texcoord", "height", "label", "material"))
+    printed = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
+    assert "off cannot hold" in printed and all(name in printed for name in ("texcoord", "height", "label", "material"))
     assert run_json(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz")["left_out"] == []
 
 
 def test_a_part_of_a_stream_has_metadata_and_says_which_values_it_has_not(tmp_path, capsys):
     bsm.save(painted(torus(40, 24)), tmp_path / "a.bsm", preset="small")
-    told = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz", "--blocks", "1")
-    assert "left out: 3 of 3 attributes" in told
+    printed = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz", "--blocks", "1")
+    assert "left out: 3 of 3 attributes" in printed
     assert read_mesh(tmp_path / "a.npz").mesh.metadata["name"] == "ring"
     assert main(["decode", str(tmp_path / "a.bsm"), "-o", str(tmp_path / "b.npz"), "--tolerant", "-q"]) == 0
     assert {a.name for a in read_mesh(tmp_path / "b.npz").mesh.attributes} == {"texcoord", "height", "label"}
@@ -136,8 +136,8 @@ def test_what_lies_beside_is_not_overwritten_unasked(tmp_path, capsys):
 def test_beside_a_pipe_nothing_lies(tmp_path, capfdbinary):
     bsm.save(painted(), tmp_path / "a.bsm", grid=12)
     assert main(["decode", str(tmp_path / "a.bsm"), "-o", "-", "--format", "obj"]) == 0
-    told = capfdbinary.readouterr()
-    assert told.out.count(b"\nf ") == len(painted().faces) and b"obj cannot hold" in told.err
+    printed = capfdbinary.readouterr()
+    assert printed.out.count(b"\nf ") == len(painted().faces) and b"obj cannot hold" in printed.err
     assert [path.name for path in tmp_path.iterdir()] == ["a.bsm"]
 
 

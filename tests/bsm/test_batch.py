@@ -85,9 +85,9 @@ def test_failures_are_told_and_the_others_go_on(streams, tmp_path, jobs):
     assert done.returncode == 12, "the code of the first failure"
     assert [file.get("exit") for file in json.loads(done.stdout)["files"]] == [None, 12, 9, None]
     lines = map(json.loads, done.stderr.splitlines())
-    said = [line.get("note") or line["error"] for line in lines if "stage" not in line]  # how far it has come
-    assert f"{tmp_path / 'cut.bsm'}: " in said[1] and f"{tmp_path / 'none.bsm'}: No such file" in said[2]
-    assert said[-1].startswith("2 of 4 files")
+    notes = [line.get("note") or line["error"] for line in lines if "stage" not in line]  # how far it has come
+    assert f"{tmp_path / 'cut.bsm'}: " in notes[1] and f"{tmp_path / 'none.bsm'}: No such file" in notes[2]
+    assert notes[-1].startswith("2 of 4 files")
 
 
 def test_a_sole_input_into_a_folder(meshes, tmp_path):
@@ -179,9 +179,9 @@ def test_a_signal_leaves_no_half_file_and_no_process(number, code, tmp_path):
             assert process.poll() is None
             time.sleep(0.05)
         os.killpg(process.pid, number) if number == signal.SIGINT else process.send_signal(number)
-        said = process.communicate(timeout=60)[1].decode()
-    assert process.returncode == code, said
-    assert "Traceback" not in said
+        errors = process.communicate(timeout=60)[1].decode()
+    assert process.returncode == code, errors
+    assert "Traceback" not in errors
     assert names(output) == []
     with pytest.raises(ProcessLookupError):
         for _ in range(100):

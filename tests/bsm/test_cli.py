@@ -249,7 +249,7 @@ def test_scipy_is_asked_for_where_it_is_needed(words, folder, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "said"),
+    ("words", "code", "message"),
     [
         ("info {stream} >&-", 0, b""),
         ("encode - -o {new} <&-", 9, b"bsm: standard input is closed\n"),
@@ -257,12 +257,12 @@ def test_scipy_is_asked_for_where_it_is_needed(words, folder, tmp_path):
         ("encode {mesh} -q -o {new} <&- >&-", 0, b""),
     ],
 )
-def test_what_the_shell_has_closed(folder, tmp_path, words, code, said):
+def test_what_the_shell_has_closed(folder, tmp_path, words, code, message):
     places = {"stream": folder / "sample.bsm", "mesh": folder / "sample.ply", "new": tmp_path / "a.bsm"}
     command = f"'{sys.executable}' -m bsm {words.format(**places)}"
     done = subprocess.run(["bash", "-c", command], capture_output=True, timeout=120, check=False, cwd=ROOT)
-    assert (done.returncode, done.stderr.count(b"\n")) == (code, said.count(b"\n"))
-    assert done.stderr.endswith(said)
+    assert (done.returncode, done.stderr.count(b"\n")) == (code, message.count(b"\n"))
+    assert done.stderr.endswith(message)
 
 
 # ---------------------------------------------------------------------------------------------------------------- help

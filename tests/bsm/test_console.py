@@ -31,9 +31,9 @@ def test_commands_escape_names_and_metadata(command, tmp_path, capsys):
     path = tmp_path / "mesh.bsm"
     path.write_bytes(bsm.encode(torus(6, 6), grid=8, metadata={HOSTILE: HOSTILE}))
     assert main([command, str(path), *(["-o", str(tmp_path / "mesh.ply")] if command == "decode" else [])]) == 0
-    said = capsys.readouterr()
-    assert not set("\x1b\x07\u202e") & set(said.out + said.err)
-    assert "\nb: forged" not in said.out + said.err
+    printed = capsys.readouterr()
+    assert not set("\x1b\x07\u202e") & set(printed.out + printed.err)
+    assert "\nb: forged" not in printed.out + printed.err
 
 
 def test_a_terminal_that_does_not_know_its_size_shows_what_goes_on():
@@ -51,8 +51,8 @@ def test_time_is_told_where_nothing_more_is_said():
     """From the first second on, and with what is left from when a share was known."""
     pty = pytest.importorskip("pty")
     pytest.importorskip("tqdm")
-    work = "import time; from bsm.console import Console\nwith Console(json={}).progress('denoising') as told:\n"
-    work += " time.sleep(1.5); told.stage('rehearsing', 0.1); time.sleep(2.2)"
+    work = "import time; from bsm.console import Console\nwith Console(json={}).progress('denoising') as progress:\n"
+    work += " time.sleep(1.5); progress.stage('rehearsing', 0.1); time.sleep(2.2)"
     ours, theirs = pty.openpty()
     subprocess.run([sys.executable, "-c", work.format(False)], stderr=theirs, check=True)
     os.close(theirs)

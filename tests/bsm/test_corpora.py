@@ -56,11 +56,11 @@ def test_patterns_behind_file_urls_are_expanded(corpus, tmp_path):
 
 
 def test_a_server_that_is_down_is_told_from_a_file_that_is_not_there():
-    for cause, said in (
+    for cause, message in (
         (ConnectionRefusedError(111, "refused"), "does not answer: Connection refused"),
         (None, "No such"),
     ):
-        with pytest.raises(OSError, match=said), _errors_of("http://127.0.0.1:1/a.ply"):
+        with pytest.raises(OSError, match=message), _errors_of("http://127.0.0.1:1/a.ply"):
             raise FileNotFoundError("http://127.0.0.1:1/a.ply") from cause
 
 

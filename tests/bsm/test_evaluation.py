@@ -244,8 +244,8 @@ class TestCommands:
         monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in gone else find(name))
         words = ["curve", str(tmp_path / "torus.npz"), "-o", str(tmp_path / "out")]
         assert main(words) != 0
-        said = capsys.readouterr().err
-        assert all(name in said for name in gone) and "eval" in said
+        errors = capsys.readouterr().err
+        assert all(name in errors for name in gone) and "eval" in errors
         assert not (tmp_path / "out").exists()
 
     def test_curve_knows_its_codecs(self, tmp_path, capsys):

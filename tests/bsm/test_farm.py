@@ -101,18 +101,18 @@ def test_a_worker_that_is_killed_loses_nothing_and_repeats_nothing(cluster, larg
         busy = {worker: tasks for worker, tasks in client.processing().items() if tasks}
         victim = before[next(iter(busy))]
         os.kill(victim, signal.SIGKILL)
-        printed, said = process.communicate(timeout=120)
-        assert process.returncode == 0, said.decode()
+        printed, errors = process.communicate(timeout=120)
+        assert process.returncode == 0, errors.decode()
         assert victim not in client.run(os.getpid).values()
-    told = json.loads(report.read_text())
-    assert told["complete"] and told["totals"]["done"] == 10 and told["totals"]["failed"] == 0
-    assert [file["input"] for file in told["files"]] == larger
-    assert json.loads(printed) == {"files": told["files"]}
-    assert sorted(contents(output)) == [Path(file["output"]).name for file in told["files"]]
-    for file in told["files"]:
+    content = json.loads(report.read_text())
+    assert content["complete"] and content["totals"]["done"] == 10 and content["totals"]["failed"] == 0
+    assert [file["input"] for file in content["files"]] == larger
+    assert json.loads(printed) == {"files": content["files"]}
+    assert sorted(contents(output)) == [Path(file["output"]).name for file in content["files"]]
+    for file in content["files"]:
         assert file["bytes"] == os.path.getsize(file["output"])
         assert Path(file["output"]).read_bytes() == bsm.encode(file["input"], threads=1, step=0.001)
-    notes = [json.loads(line).get("note", "") for line in said.decode().splitlines()]
+    notes = [json.loads(line).get("note", "") for line in errors.decode().splitlines()]
     assert sum(" -> " in note and "vertices" in note for note in notes) == 10
     assert notes[-1].startswith("10 of 10 files")
 
@@ -265,8 +265,8 @@ def test_only_what_is_not_as_it_was_is_done_again(sources, tmp_path):
 
     def run(names=inputs, grid=8, **more):
         done = bsm.encode_many(names, output, report=report, resume=True, grid=grid, **more)
-        told = json.loads(report.read_text())
-        assert told["complete"] and told["files"] == done
+        content = json.loads(report.read_text())
+        assert content["complete"] and content["files"] == done
         return {Path(facts["input"]).stem for facts in done if "resumed" not in facts}
 
     assert run(inputs[:5]) == {"00", "01", "02", "03", "04"}
@@ -292,12 +292,12 @@ def test_a_run_that_was_killed_goes_on(larger, tmp_path):
     with started(*command) as process:
         until(lambda: report.exists() and json.loads(report.read_text())["totals"]["done"] >= 2, process)
         process.kill()
-    told = json.loads(report.read_text())
-    assert not told["complete"] and len(told["files"]) == 10
+    content = json.loads(report.read_text())
+    assert not content["complete"] and len(content["files"]) == 10
     done = program(*command, "--json", "-j", 2, text=True)
     assert done.returncode == 0, done.stderr
     files = json.loads(done.stdout)["files"]
-    assert sum("resumed" in file for file in files) == told["totals"]["done"]
+    assert sum("resumed" in file for file in files) == content["totals"]["done"]
     assert sorted(contents(output)) == [f"{number:02}.bsm" for number in range(10)]
     assert json.loads(report.read_text())["complete"]
 
@@ -310,19 +310,19 @@ def test_a_forged_report_lets_nothing_be_replaced(sources, tmp_path):
     """It may name files, and say of them what it likes: only the very bytes that it tells of are replaced."""
     output, report = tmp_path / "out", tmp_path / "r.json"
     first = bsm.encode_many(sources[:2], output, report=report, grid=8)
-    told = json.loads(report.read_text())
+    content = json.loads(report.read_text())
     whole = contents(output)
     (output / "00.bsm").write_bytes(b"precious")
     for claim in ({}, {"output_sha256": "0" * 64}, {"error": "?", "exit": 1}, {"input_state": [1]}):
         entries = [{"input": facts["input"], "output": facts["output"], **claim} for facts in first]
-        forged(report, told["command"], told["options"], *entries)
+        forged(report, content["command"], content["options"], *entries)
         done = bsm.encode_many(sources[:2], output, report=report, resume=True, grid=8)
         assert "differs from the report" in done[0]["error"], claim
         assert "error" not in done[1]  # what is there is what would be made
         assert contents(output) == {"00.bsm": b"precious", "01.bsm": whole["01.bsm"]}
     elsewhere = tmp_path / "elsewhere.txt"
     elsewhere.write_bytes(b"precious")
-    forged(report, told["command"], told["options"], {"input": sources[0], "output": str(elsewhere)})
+    forged(report, content["command"], content["options"], {"input": sources[0], "output": str(elsewhere)})
     bsm.encode_many(sources[1:2], output, report=report, resume=True, grid=8)
     assert elsewhere.read_bytes() == b"precious"
 
@@ -348,16 +348,21 @@ def test_what_no_report_says_is_refused_in_one_sentence(claim, tmp_path, capsys)
     forged(tmp_path / "r.json", "encode_one", {}, entry, {**entry, "output": "b.bsm"})
     words = ("encode", tmp_path / "a.ply", "-q", "--report", tmp_path / "r.json", "--resume")
     assert main([str(word) for word in words]) == 3
-    (said,) = capsys.readouterr().err.splitlines()
-    assert "not a report of bsm" in said and not (tmp_path / "a.bsm").exists()
+    (errors,) = capsys.readouterr().err.splitlines()
+    assert "not a report of bsm" in errors and not (tmp_path / "a.bsm").exists()
 
 
 def test_what_was_written_and_not_yet_told_of_is_known_again(sources, tmp_path):
     """A run that is killed between an output and its line in the report."""
     output, report = tmp_path / "out", tmp_path / "r.json"
     bsm.encode_many(sources[:2], output, report=report, grid=8)
-    told = json.loads(report.read_text())
-    forged(report, told["command"], told["options"], *({k: f[k] for k in ("input", "output")} for f in told["files"]))
+    content = json.loads(report.read_text())
+    forged(
+        report,
+        content["command"],
+        content["options"],
+        *({k: f[k] for k in ("input", "output")} for f in content["files"]),
+    )
     before = {path.name: path.stat().st_mtime_ns for path in output.iterdir()}
     done = bsm.encode_many(sources[:2], output, report=report, resume=True, grid=8)
     assert not any("error" in facts for facts in done)
@@ -384,9 +389,9 @@ def test_a_cluster_that_may_not_write_says_where(cluster, sources, tmp_path, cap
     before = sorted(NOBODYS.iterdir())
     for command, inputs in (("encode", sources[:2]), ("decode", streams)):
         assert main([command, *map(str, inputs), "-o", f"{NOBODYS}/", "--dask", where]) == 9
-        said = capsys.readouterr().err.splitlines()
-        assert sum(line.startswith(f"bsm: {NOBODYS}/") for line in said) == 2
-        assert said[-1].startswith("0 of 2 files")
+        errors = capsys.readouterr().err.splitlines()
+        assert sum(line.startswith(f"bsm: {NOBODYS}/") for line in errors) == 2
+        assert errors[-1].startswith("0 of 2 files")
     report = NOBODYS / "report.json"
     with pytest.raises(OSError, match=r"report\.json"):
         bsm.encode_many(sources[:2], tmp_path / "late", dask=where, grid=8, report=report)

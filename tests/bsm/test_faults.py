@@ -31,7 +31,7 @@ def folder(tmp_path_factory):
     return folder
 
 
-def said(done):
+def printed(done):
     """The one line on the standard error output."""
     text = done.stderr.decode()
     assert text.startswith("bsm: ") and text.count("\n") == 1, text
@@ -47,8 +47,8 @@ def test_killed_in_mid_encode(number, folder, tmp_path):
             assert process.poll() is None
             time.sleep(0.05)
         process.send_signal(number)
-        said = process.communicate(timeout=120)[1].decode()
-    assert process.returncode == {signal.SIGTERM: 143, signal.SIGINT: 130, signal.SIGKILL: -9}[number], said
+        errors = process.communicate(timeout=120)[1].decode()
+    assert process.returncode == {signal.SIGTERM: 143, signal.SIGINT: 130, signal.SIGKILL: -9}[number], errors
     assert not output.exists()
     if number != signal.SIGKILL:
         assert list(tmp_path.iterdir()) == []
@@ -73,7 +73,7 @@ def test_no_room_for_the_whole_file(command, folder, tmp_path):
     words = (command, folder / given, "-o", tmp_path / output, *OPTIONS[command])
     done = run(*words, preexec_fn=_small_files)
     assert done.returncode == 9
-    assert said(done) == f"bsm: {tmp_path / output}: File too large\n"
+    assert printed(done) == f"bsm: {tmp_path / output}: File too large\n"
     assert list(tmp_path.iterdir()) == []
 
 
@@ -83,7 +83,7 @@ def test_a_full_device(command, folder):
     given, kind = ("sample.ply", ()) if command == "encode" else ("sample.bsm", ("--format", "ply"))
     done = run(command, folder / given, "-f", "-o", "/dev/full", *kind, *OPTIONS[command])
     assert done.returncode == 9
-    assert "No space left" in said(done)
+    assert "No space left" in printed(done)
 
 
 @pytest.mark.parametrize("command", ["encode", "decode"])
@@ -113,7 +113,7 @@ def test_a_read_only_folder(folder, tmp_path):
     done = run("encode", folder / "sample.ply", "-o", closed / "a.bsm", *OPTIONS["encode"])
     tmp_path.chmod(0o755)
     assert done.returncode == 9
-    assert str(closed) in said(done)
+    assert str(closed) in printed(done)
     assert not (closed / "a.bsm").exists()
 
 

@@ -112,9 +112,9 @@ def coded_of(document):
     views = document.tree["bufferViews"]
     found = {}
     for number, accessor in enumerate(document.tree["accessors"]):
-        told = views[accessor["bufferView"]].get("extensions", {}).get(EXTENSION)
-        if told:
-            found[number] = (told, accessor)
+        extension = views[accessor["bufferView"]].get("extensions", {}).get(EXTENSION)
+        if extension:
+            found[number] = (extension, accessor)
     return found
 
 
@@ -149,7 +149,7 @@ def test_accessors_say_what_the_stream_holds(source):
     path.write_bytes(found.data)
     after = read_document(str(path))
     coded = coded_of(after)
-    streams = sorted({told["stream"] for told, _ in coded.values()})
+    streams = sorted({extension["stream"] for extension, _ in coded.values()})
     assert len(streams) == 2  # of the mesh with a skin, and of the one that morphs
     morphing = bsm.decode(after.view(streams[1]))
     np.testing.assert_allclose(next(a.values for a in morphing.attributes if a.name == "0/POSITION"), 0.25, atol=1e-4)
@@ -157,7 +157,7 @@ def test_accessors_say_what_the_stream_holds(source):
     coded = {number: pair for number, pair in coded.items() if pair[0]["stream"] == stream}
     mesh = bsm.decode(after.view(stream))
     shape = drawn(mesh)
-    kinds = {told["attribute"]: (a["count"], a["componentType"], a["type"]) for told, a in coded.values()}
+    kinds = {extension["attribute"]: (a["count"], a["componentType"], a["type"]) for extension, a in coded.values()}
     assert kinds == {
         "POSITION": (len(shape.arrays["POSITION"]), 5126, "VEC3"),
         "TEXCOORD_0": (len(shape.arrays["POSITION"]), 5126, "VEC2"),
@@ -165,7 +165,7 @@ def test_accessors_say_what_the_stream_holds(source):
         "WEIGHTS_0": (len(shape.arrays["POSITION"]), 5121, "VEC4"),
         "indices": (len(shape.index), 5125, "SCALAR"),
     }
-    assert {told.get("componentType") for told, _ in coded.values()} == {None, 5121}
+    assert {extension.get("componentType") for extension, _ in coded.values()} == {None, 5121}
     primitive = after.tree["meshes"][0]["primitives"][0]
     positions = after.tree["accessors"][primitive["attributes"]["POSITION"]]
     np.testing.assert_allclose(positions["min"], mesh.positions.min(axis=0), atol=1e-6)
@@ -199,13 +199,13 @@ def test_quantized_geometry_becomes_floats(tmp_path):
     target.write_bytes(compress(document, CODE).data)
     after = read_document(str(target))
     coded = coded_of(after)
-    assert {told["attribute"] for told, _ in coded.values()} >= {"POSITION", "TEXCOORD_0", "0/POSITION"}
-    for told, accessor in coded.values():
-        if told["attribute"] in ("POSITION", "TEXCOORD_0", "0/POSITION"):
+    assert {extension["attribute"] for extension, _ in coded.values()} >= {"POSITION", "TEXCOORD_0", "0/POSITION"}
+    for extension, accessor in coded.values():
+        if extension["attribute"] in ("POSITION", "TEXCOORD_0", "0/POSITION"):
             assert accessor["componentType"] == 5126 and "normalized" not in accessor
     first = after.tree["accessors"][after.tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
     np.testing.assert_allclose(first["max"], mesh.positions.max(axis=0) / 2, atol=2e-3)
-    stream = next(told["stream"] for told, _ in coded.values() if told["attribute"] == "0/POSITION")
+    stream = next(extension["stream"] for extension, _ in coded.values() if extension["attribute"] == "0/POSITION")
     moved = next(a for a in bsm.decode(after.view(stream)).attributes if a.name == "0/POSITION")
     np.testing.assert_allclose(moved.values, 16 / 127, atol=1e-4)
 
@@ -267,8 +267,8 @@ def test_primitives_of_a_mesh_share_a_stream(source, tmp_path):
     assert first["attributes"] == second["attributes"] and first["indices"] != second["indices"]
     accessors = [after.tree["accessors"][primitive["indices"]] for primitive in (first, second)]
     assert accessors[0]["bufferView"] == accessors[1]["bufferView"]
-    told = after.tree["bufferViews"][accessors[0]["bufferView"]]["extensions"][EXTENSION]
-    pieces = pieces_of(after, told["stream"])
+    extension = after.tree["bufferViews"][accessors[0]["bufferView"]]["extensions"][EXTENSION]
+    pieces = pieces_of(after, extension["stream"])
     positions, faces = document.array(0), document.array(4).ravel()
     for accessor, piece, corners in zip(accessors, pieces, (faces[:half], faces[half:]), strict=True):
         assert accessor["count"] == len(corners) == len(piece)
@@ -286,13 +286,13 @@ def test_fallback_holds_what_decoders_fill_in(source, tmp_path):
     assert "extensionsRequired" not in after.tree and EXTENSION in after.tree["extensionsUsed"]
     coded = coded_of(after)
     primitive = after.tree["meshes"][0]["primitives"][0]
-    told = after.tree["bufferViews"][after.tree["accessors"][primitive["indices"]]["bufferView"]]["extensions"][
+    extension = after.tree["bufferViews"][after.tree["accessors"][primitive["indices"]]["bufferView"]]["extensions"][
         EXTENSION
     ]
-    mesh = bsm.decode(after.view(told["stream"]))
+    mesh = bsm.decode(after.view(extension["stream"]))
     for view in after.tree["bufferViews"]:
         view.pop("extensions", None)  # as loaders see it that do not know them
-    plain = {s["attribute"]: after.array(n) for n, (s, _) in coded.items() if s["stream"] == told["stream"]}
+    plain = {s["attribute"]: after.array(n) for n, (s, _) in coded.items() if s["stream"] == extension["stream"]}
     np.testing.assert_array_equal(
         plain["POSITION"][plain["indices"].ravel()], mesh.positions[mesh.faces.ravel()].astype("f4")
     )
@@ -353,7 +353,7 @@ def test_a_sequence_becomes_a_scene_that_moves(tmp_path, capsys):
     assert document.view(0) == stream and tree["meshes"][0]["extensions"][EXTENSION] == {"stream": 0}
     assert tree["nodes"][0]["name"] == "waves" and tree["nodes"][0]["rotation"][0] < 0
     first = bsm.decode_sequence(stream)[0][0].astype(np.float32)
-    found = {told["attribute"]: accessor for told, accessor in coded_of(document).values()}
+    found = {extension["attribute"]: accessor for extension, accessor in coded_of(document).values()}
     assert found["POSITION"]["max"] == first.max(axis=0).tolist() and found["indices"]["count"] == 3 * 40 * 24 * 2
     assert {name: value["type"] for name, value in found.items() if value["count"] == len(first)} == {
         "POSITION": "VEC3",
@@ -378,7 +378,7 @@ def test_scenes_of_many_meshes_are_quick_to_decode(tmp_path, count, more, light)
     (tmp_path / "many.glb").write_bytes(glb(document.tree, document.buffer(0)))
     assert main(["glb", str(tmp_path / "many.glb"), "-o", str(tmp_path / "small.glb"), *more]) == 0
     after = read_document(str(tmp_path / "small.glb"))
-    streams = {told["stream"] for told, _ in coded_of(after).values()}
+    streams = {extension["stream"] for extension, _ in coded_of(after).values()}
     headers = [inspect_stream(iter([after.view(stream)])).header for stream in streams]
     assert headers and all((header.light == 1) == light for header in headers)
 
@@ -514,5 +514,5 @@ def test_no_gltf(tmp_path):
 def test_what_a_stream_cannot_hold_is_named(source, tmp_path, capsys):
     pytest.importorskip("trimesh")
     assert main(["encode", str(source), "-o", str(tmp_path / "scene.bsm")]) == 0
-    said = capsys.readouterr().err
-    assert "KHR_texture_transform" in said and "KHR_materials_sheen" in said
+    errors = capsys.readouterr().err
+    assert "KHR_texture_transform" in errors and "KHR_materials_sheen" in errors

@@ -8,30 +8,30 @@ from bsm.files.motion.frames import Loops
 from tests.motion import bending
 
 
-def told(frames):
+def descriptions_of(frames):
     loops = Loops()
     for frame in frames:
         loops.take(frame)
-    return loops.said()
+    return loops.descriptions()
 
 
 def test_loops_are_said():
     walk = bending(7)[0]
-    assert told(np.concatenate([walk, walk])) == ("frames 7 to 13 repeat 0 to 6",)
-    assert told(np.concatenate([walk, walk, walk[:3]])) == ("frames 7 to 16 repeat 0 to 6",)
-    assert told(np.concatenate([walk[:2] + 1, walk, walk])) == ("frames 9 to 15 repeat 2 to 8",)
+    assert descriptions_of(np.concatenate([walk, walk])) == ("frames 7 to 13 repeat 0 to 6",)
+    assert descriptions_of(np.concatenate([walk, walk, walk[:3]])) == ("frames 7 to 16 repeat 0 to 6",)
+    assert descriptions_of(np.concatenate([walk[:2] + 1, walk, walk])) == ("frames 9 to 15 repeat 2 to 8",)
     moved = np.concatenate([walk, walk + np.array([1e-3, 0, 0])])
-    assert told(moved) == (), "walking on is no loop"
+    assert descriptions_of(moved) == (), "walking on is no loop"
 
 
 @pytest.mark.parametrize("frames", [bending(9)[0], np.repeat(bending(1)[0], 9, axis=0), bending(2)[0]])
 def test_what_is_no_loop(frames):
-    assert told(frames) == ()
+    assert descriptions_of(frames) == ()
 
 
 def test_a_pause_is_no_loop():
     walk = bending(6)[0]
-    assert told(np.concatenate([walk, np.repeat(walk[-1:], 8, axis=0)])) == ()
+    assert descriptions_of(np.concatenate([walk, np.repeat(walk[-1:], 8, axis=0)])) == ()
 
 
 def test_the_program_says_loops_and_errors_of_frames(tmp_path, capsys):
@@ -45,5 +45,5 @@ def test_the_program_says_loops_and_errors_of_frames(tmp_path, capsys):
     assert len(each) == 10 and max(each) == pytest.approx(found["max_error_relative"])
     assert found["loops"] == ["frames 5 to 9 repeat 0 to 4"]
     assert main(["compare", str(tmp_path / "a.npz"), str(tmp_path / "a.bsm")]) == 0
-    said = capsys.readouterr().out
-    assert f"worst frame        {each.index(max(each))} (" in said and "repeat" in said
+    printed = capsys.readouterr().out
+    assert f"worst frame        {each.index(max(each))} (" in printed and "repeat" in printed

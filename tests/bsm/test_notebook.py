@@ -95,6 +95,6 @@ print(sorted(set(drawn)))
 """
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell)])
     nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
-    said = "".join(output.get("text", "") for output in notebook.cells[0].outputs if output.get("name") == "stdout")
-    assert "'encoding" in said
+    text = "".join(output.get("text", "") for output in notebook.cells[0].outputs if output.get("name") == "stdout")
+    assert "'encoding" in text
     assert not bsm.console.in_notebook()

@@ -47,9 +47,9 @@ def stream(tmp_path):
 def test_frames_of_other_faces_are_an_error_that_says_how_to_permit_them(tmp_path, capsys):
     paths = written(tmp_path / "capture", capture())
     assert run("encode", *paths, "-o", tmp_path / "a.bsm") != 0
-    said = capsys.readouterr().err
-    assert "f004.ply (frame 4) has other faces than" in said and "42 vertices where there were 60" in said
-    assert "--runs" in said and not (tmp_path / "a.bsm").exists()
+    printed = capsys.readouterr().err
+    assert "f004.ply (frame 4) has other faces than" in printed and "42 vertices where there were 60" in printed
+    assert "--runs" in printed and not (tmp_path / "a.bsm").exists()
 
 
 @pytest.mark.parametrize("kind", ["obj", "ply"])
@@ -69,8 +69,8 @@ def test_every_frame_comes_back_with_its_faces(stream, tmp_path, kind, capsys):
 def test_what_cannot_hold_them_says_so(stream, tmp_path, capsys):
     for kind in ("npz", "npy"):
         assert run("decode", stream, "-o", tmp_path / f"a.{kind}") != 0
-        said = capsys.readouterr().err
-        assert f"{kind.upper()} holds one set of faces, and they change after 4 frames" in said
+        printed = capsys.readouterr().err
+        assert f"{kind.upper()} holds one set of faces, and they change after 4 frames" in printed
         assert not (tmp_path / f"a.{kind}").exists()
         assert run("decode", stream, "-o", tmp_path / f"{kind}.{kind}", "--frames", ":4") == 0
         capsys.readouterr()
@@ -142,10 +142,10 @@ def test_colours_of_runs_go_to_usd_and_come_back(tmp_path):
 
 def test_info_tells_of_runs(stream, capsys):
     assert run("info", stream) == 0
-    said = capsys.readouterr().out
-    assert "9 frames" in said and "connectivity changes at frames 4, 7" in said
-    assert "run 1: 3 frames from 4 on, 42 vertices, 84 faces" in said
-    assert "run 2: 2 frames from 7 on, 60 vertices, 120 faces, the mesh of run 0 again" in said
+    printed = capsys.readouterr().out
+    assert "9 frames" in printed and "connectivity changes at frames 4, 7" in printed
+    assert "run 1: 3 frames from 4 on, 42 vertices, 84 faces" in printed
+    assert "run 2: 2 frames from 7 on, 60 vertices, 120 faces, the mesh of run 0 again" in printed
     assert run("info", stream, "--json") == 0
     found = json.loads(capsys.readouterr().out)
     assert [run["mesh"] for run in found["runs"]] == [0, 1, 0]

@@ -181,8 +181,8 @@ def test_arrays_that_change_go_from_npz_to_npz_and_to_forms_that_hold_them(tmp_p
         *QUICK,
     )
     assert bsm("encode", tmp_path / "x.npz", "-o", stream, *wanted) == 0
-    said = capsys.readouterr().err
-    assert "left out: junk" in said and "heat: per vertex, moves, within 0.002 in every frame" in said
+    errors = capsys.readouterr().err
+    assert "left out: junk" in errors and "heat: per vertex, moves, within 0.002 in every frame" in errors
     assert bsm("decode", stream, "-o", back) == 0
     with np.load(back) as found:
         assert set(found) == {"positions", "faces", "vertex/heat", "vertex/color", "face/part", "vertex/height"}

@@ -66,8 +66,8 @@ def test_a_tree_is_mirrored(tmp_path, capsys):
     assert {path.name for path in (tmp_path / "new/scan_1").iterdir()} == {"mesh.ply.bsm", "mesh.off.bsm"}
     (tmp_path / "empty").mkdir()
     assert main(["encode", str(tmp_path / "empty"), "-r"]) == 2
-    said = capsys.readouterr().err
-    assert "no folder" in said and "no mesh files" in said
+    errors = capsys.readouterr().err
+    assert "no folder" in errors and "no mesh files" in errors
 
 
 def test_compare_says_it_in_a_sentence_with_units(tmp_path, capsys):

@@ -174,8 +174,8 @@ def test_colours_and_normals_go_along(mesh, tmp_path, suffix):
     assert program("untile", output, "-o", tmp_path / "coarse.bsm", "--level", 0).returncode == 0
     coarse = bsm.load(tmp_path / "coarse.bsm")
     nearest = np.argmin(((coarse.positions[:, None] - mesh.positions) ** 2).sum(axis=2), axis=1)
-    told = next(attribute.values for attribute in coarse.attributes if attribute.name == "color").astype(int)
-    assert len(coarse.faces) < 0.4 * len(mesh.faces) and np.abs(told - colour[nearest]).mean() < 4
+    coarse_colors = next(attribute.values for attribute in coarse.attributes if attribute.name == "color").astype(int)
+    assert len(coarse.faces) < 0.4 * len(mesh.faces) and np.abs(coarse_colors - colour[nearest]).mean() < 4
 
 
 def test_vertices_that_differ_in_colour_alone_stay_apart(tmp_path):
@@ -379,9 +379,13 @@ def test_a_run_that_was_interrupted_goes_on(mesh, folder, tmp_path, monkeypatch)
     monkeypatch.setattr(command, "tile_one", interrupted)
     assert program(*words).returncode == 130
     for what in (("info",), ("verify",), ("untile", "-o", tmp_path / "back.ply"), ("view",)):
-        said = program(what[0], output, *what[1:], text=True)
-        assert said.returncode == 12 and " tiles of level 0, " in said.stderr and not (tmp_path / "back.ply").exists()
-        assert f"bsm tile {source} -o {output} --resume goes on" in said.stderr and said.stderr.count("\n") == 1
+        resumed = program(what[0], output, *what[1:], text=True)
+        assert (
+            resumed.returncode == 12
+            and " tiles of level 0, " in resumed.stderr
+            and not (tmp_path / "back.ply").exists()
+        )
+        assert f"bsm tile {source} -o {output} --resume goes on" in resumed.stderr and resumed.stderr.count("\n") == 1
     levels = json.loads((output / "manifest.json").read_text())["levels"]
     assert sum(level["whole"] for level in levels) == 5 < sum(level["tiles"] for level in levels)
     monkeypatch.setattr(interrupted, "__defaults__", (1 << 30, *interrupted.__defaults__[1:]))
@@ -420,8 +424,13 @@ def test_damage_is_told(folder, tmp_path, harm):
     else:
         shard.write_bytes(data[:-5] if harm == "cut" else data[:at] + bytes([data[at] ^ 1]) + data[at + 1 :])
     done = program("verify", tmp_path, text=True)
-    said = {"changed": "is not what was written", "cut": "there are", "missing": "No such file", "index": "the index"}
-    assert done.returncode in (4, 9, 12) and said[harm] in done.stderr and "00000.tiles" in done.stderr
+    message = {
+        "changed": "is not what was written",
+        "cut": "there are",
+        "missing": "No such file",
+        "index": "the index",
+    }
+    assert done.returncode in (4, 9, 12) and message[harm] in done.stderr and "00000.tiles" in done.stderr
     expected = {"missing": FileNotFoundError, "cut": TruncatedError}.get(harm, CorruptError)
     with pytest.raises(expected):
         bsm.open_tiles(str(tmp_path)).region((-9, -9, -9), (9, 9, 9))
@@ -443,8 +452,8 @@ def test_tiles_behind_urls(mesh, folder, tmp_path, monkeypatch, ranges):
 
 def test_info_and_verify_of_a_folder(folder):
     assert program("verify", folder).returncode == 0
-    told = program("info", folder, text=True).stdout
-    assert "level 0" in told and "1 shards" in told
+    printed = program("info", folder, text=True).stdout
+    assert "level 0" in printed and "1 shards" in printed
     assert json.loads(program("info", folder, "--json").stdout)["cell"] == CELL
 
 
@@ -481,10 +490,10 @@ def test_tiles_of_another_format_are_refused_by_their_manifest(folder, tmp_path)
 
 
 @pytest.mark.parametrize(
-    ("harm", "said", "code"),
+    ("harm", "message", "code"),
     [("cut", "cut short", 12), ("index", "outside 0", 3), ("nan", "not finite", 3), ("text", "is text", 3)],
 )
-def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, said, code):
+def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, message, code):
     source = tmp_path / "mesh.ply"
     write_mesh(source, mesh)
     data = source.read_bytes()
@@ -497,7 +506,7 @@ def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, said, code):
     }[harm]
     source.write_bytes(harmed)
     done = program("tile", source, "-o", tmp_path / "out", text=True)
-    assert done.returncode == code and said in done.stderr
+    assert done.returncode == code and message in done.stderr
     with pytest.raises(TruncatedError, match="complete so far: nothing; with"):
         bsm.open_tiles(str(tmp_path / "out"))
     source.write_bytes(data)
@@ -517,11 +526,11 @@ def test_what_is_left_out_is_said_and_the_files_of_others_stay(tmp_path):
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n")
     done = program("tile", tmp_path / "a.obj", "-o", tmp_path / "out", "--work", tmp_path, "--grid-cell", 1, text=True)
     assert done.returncode == 2 and "holds other files" in done.stderr and (tmp_path / "a.obj").exists()
-    said = tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 1).stderr
-    assert "left out: normal; tiles have faces, positions" in said
+    printed = tile(tmp_path / "a.obj", tmp_path / "out", "--grid-cell", 1).stderr
+    assert "left out: normal; tiles have faces, positions" in printed
     write_mesh(tmp_path / "b.ply", TriangleMesh(np.eye(3), np.array([[0, 1, 2]]), metadata={"comment": "by a scanner"}))
-    said = tile(tmp_path / "b.ply", tmp_path / "commented", "--grid-cell", 1).stderr
-    assert "left out: lines of comment; tiles have" in said
+    printed = tile(tmp_path / "b.ply", tmp_path / "commented", "--grid-cell", 1).stderr
+    assert "left out: lines of comment; tiles have" in printed
 
 
 def test_the_grid_is_chosen_by_the_look_in_any_order_of_faces(tmp_path):

@@ -17,7 +17,7 @@ from tests.shapes import torus
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (["enc"], "bsm: there is no command enc; did you mean encode?"),
         (["encdoe"], "bsm: there is no command encdoe; did you mean encode?"),
@@ -29,12 +29,12 @@ from tests.shapes import torus
         (["compare", "a", "b", "c"], "bsm compare: c: one input too many"),
     ],
 )
-def test_wrong_words(words, said, capsys):
+def test_wrong_words(words, message, capsys):
     with pytest.raises(SystemExit) as stop:
         main(words)
     assert stop.value.code == 2
     first, usage = capsys.readouterr().err.splitlines()
-    assert first == said
+    assert first == message
     assert usage.startswith("usage: bsm") and "--help" in usage
 
 

@@ -437,7 +437,7 @@ def test_original_of_a_sequence_is_refused(tmp_path, capsys):
     assert "one input" in capsys.readouterr().err
 
 
-def told_by_python(data: bytes, kind: type[bsm.Decoder | bsm.SequenceDecoder]) -> dict[str, Any]:
+def events_of_python(data: bytes, kind: type[bsm.Decoder | bsm.SequenceDecoder]) -> dict[str, Any]:
     """Events of a tolerant decoder, as far as it comes, and the name of the error that it ends with."""
     events: list[list[Any]] = []
     with kind(bsm.Limits(work=1e10), tolerant=True) as decoder:
@@ -512,7 +512,7 @@ def test_damage_is_survived_as_in_python(tmp_path):
             elif at < len(data):
                 data[at] ^= random.integers(1, 256)
         (tmp_path / f"{number}.bsm").write_bytes(data)
-        (tmp_path / f"{number}.json").write_text(json.dumps(told_by_python(bytes(data), kind)))
+        (tmp_path / f"{number}.json").write_text(json.dumps(events_of_python(bytes(data), kind)))
     javascript("recovery", BSM_DAMAGED=str(tmp_path))
 
 

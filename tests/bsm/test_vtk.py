@@ -82,11 +82,11 @@ def test_a_reader_for_pyvista(stream):
 
 def test_the_plug_in_tells_paraview_what_it_needs(stream, monkeypatch):
     """Its file is loaded with stand-ins for ParaView's decorators, which record their arguments."""
-    told = {}
+    times = {}
 
     def noting(kind):
         def decorator(**words):
-            told[kind] = words
+            times[kind] = words
             return lambda decorated: decorated
 
         return decorator
@@ -102,8 +102,8 @@ def test_the_plug_in_tells_paraview_what_it_needs(stream, monkeypatch):
     spec = importlib.util.spec_from_file_location("bsm_paraview", ROOT / "tools" / "paraview" / "bsm_paraview.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    assert told["reader"]["extensions"] == "bsm" and told["stringvector"]["name"] == "FileName"
-    assert told["doublevector"]["si_class"] == "vtkSITimeStepsProperty"
+    assert times["reader"]["extensions"] == "bsm" and times["stringvector"]["name"] == "FileName"
+    assert times["doublevector"]["si_class"] == "vtkSITimeStepsProperty"
     reader = module.BSMReader()
     reader.SetFileName(str(stream))
     assert len(reader.GetTimestepValues()) == 7

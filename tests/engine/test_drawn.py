@@ -258,11 +258,11 @@ def test_a_sequence_says_how_many_frames_come(decoder: ctypes.CDLL) -> None:
 
 
 def test_metadata_are_found_by_name(decoder: ctypes.CDLL) -> None:
-    said = {"unit": "mm", "frame_rate": 25, "material.0.name": "wood", "image.0.data": b"\0\1"}
-    stream = bsm.encode(bsm.load(VECTORS / "good-tetrahedron.bsm"), metadata=said)
+    entries = {"unit": "mm", "frame_rate": 25, "material.0.name": "wood", "image.0.data": b"\0\1"}
+    stream = bsm.encode(bsm.load(VECTORS / "good-tetrahedron.bsm"), metadata=entries)
     entry = Entry()
     with drawn(decoder, stream) as found:
-        for name, value in said.items():
+        for name, value in entries.items():
             assert decoder.bsmdec_metadata_find(found.decoder, name.encode(), byref(entry)) == 0
             assert (entry.name.decode(), entry.value) == (name, value)
         for name in (b"", b"uni", b"unit ", b"\xff"):

@@ -55,20 +55,20 @@ def test_positions_are_known_as_far_as_they_have_come(library: ctypes.CDLL) -> N
 
 
 def test_what_authors_say_comes_back(library: ctypes.CDLL) -> None:
-    said = {"bytes": b"\x00\x01", "float": 0.5, "int": -7, "text": "ä"}
-    stream = bsm.encode(bsm.load(VECTORS / "good-tetrahedron.bsm"), metadata=said)
+    entries = {"bytes": b"\x00\x01", "float": 0.5, "int": -7, "text": "ä"}
+    stream = bsm.encode(bsm.load(VECTORS / "good-tetrahedron.bsm"), metadata=entries)
     decoder, event, entry = library.bsmdec_open(None), Event(), Entry()
     library.bsmdec_push(decoder, stream, len(stream))
     library.bsmdec_finish(decoder)
     while library.bsmdec_next(decoder, byref(event)) == 0 and event.type != END_OF_STREAM:
         pass
     found = {}
-    for index in range(len(said)):
+    for index in range(len(entries)):
         assert library.bsmdec_metadata_at(decoder, index, byref(entry)) == 0
         found[entry.name.decode()] = entry.value
-    assert library.bsmdec_metadata_at(decoder, len(said), byref(entry)) == MISUSED
+    assert library.bsmdec_metadata_at(decoder, len(entries), byref(entry)) == MISUSED
     library.bsmdec_close(decoder)
-    assert found == said
+    assert found == entries
 
 
 def test_calls_out_of_order_are_refused_and_touch_nothing(library: ctypes.CDLL) -> None:
@@ -149,8 +149,8 @@ def test_limits_have_a_size_and_are_numbers(library: ctypes.CDLL) -> None:
         limits.bounds[place] = bound
         decoder = library.bsmdec_open(byref(Options(ctypes.addressof(limits), None, False, 0)))
         assert library.bsmdec_push(decoder, b"\x89", 1) == expected
-        said = f"field {place + 1} of the limits is negative or not a number" if expected else ""
-        assert library.bsmdec_last_error(decoder).contents.message.decode() == said
+        message = f"field {place + 1} of the limits is negative or not a number" if expected else ""
+        assert library.bsmdec_last_error(decoder).contents.message.decode() == message
         library.bsmdec_close(decoder)
 
 

@@ -55,10 +55,10 @@ def test_threads_touch_nothing_together(tmp_path: Path) -> None:
     command = ["cc", *flags, str(example), "bsmdec.c", "-lm", "-pthread", "-o", str(program)]
     subprocess.run(command, check=True, cwd=tmp_path)
     for name in NAMES[:4]:
-        said = []
+        problems = []
         for threads in ("1", "3"):
             path = VECTORS / "1.0" / f"{name}.bsm"
             run = subprocess.run([program, path, threads], capture_output=True, text=True, check=True)
             assert "WARNING" not in run.stderr
-            said.append(run.stdout)
-        assert said[0] == said[1]
+            problems.append(run.stdout)
+        assert problems[0] == problems[1]

@@ -85,5 +85,5 @@ def test_the_learnt_numbers_are_named():
 @pytest.mark.skipif(shutil.which("file") is None, reason="file(1) is not here")
 def test_other_programs_tell_a_stream_by_its_first_bytes():
     command = ["file", "-m", SPEC / "media/bsm.magic", "--brief", "--mime-type", FOLDER / f"{NAME}.bsm", __file__]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
-    assert said[0] == "model/vnd.bsm" and said[0] != said[1]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+    assert printed[0] == "model/vnd.bsm" and printed[0] != printed[1]

@@ -209,8 +209,8 @@ def test_levels(mesh, most, kind, seed, chunk, data):
 def test_positions_of_a_lattice():
     points = np.arange(30, dtype=np.int32).reshape(10, 3)
     header = {"lattice": [4095, 29], "center": [0.5, -1.0, 2.0], "scale": 0.25, "corner": []}
-    said = [reference.place(row, header) for row in points.tolist()]
-    assert said == (np.array([0.5, -1.0, 2.0]) + 0.25 * spread(points, (4095, 29))).tolist()
+    expected = [reference.place(row, header) for row in points.tolist()]
+    assert expected == (np.array([0.5, -1.0, 2.0]) + 0.25 * spread(points, (4095, 29))).tolist()
     header = {"lattice": [], "center": [0.0, 0.0, 0.0], "scale": 0.1, "corner": []}
     assert reference.place([1, 2, 3], header) == [0.1, 0.2, 0.1 * 3]
     assert reference.place([1, 2, 3], header | {"corner": [-3, 5, 70000]}) == [0.1 * -2, 0.1 * 7, 0.1 * 70003]

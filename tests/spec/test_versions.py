@@ -25,12 +25,12 @@ OLD = dict(line.split() for line in (HERE / "version-0.txt").read_text().splitli
 @pytest.mark.parametrize("commit", OLD)
 def test_streams_of_version_0_are_told_what_they_are(commit, tmp_path, capsys, monkeypatch):
     data = bytes.fromhex(OLD[commit])
-    said = r"written by version 0 of the format, and this reads 1: encode the source again, or decode it with the"
+    message = r"written by version 0 of the format, and this reads 1: encode the source again, or decode it with the"
     for decoder in (bsm.decode, bsm.decode_sequence):
-        with pytest.raises(bsm.UnsupportedError, match=said):
+        with pytest.raises(bsm.UnsupportedError, match=message):
             decoder(data)
     found = decode(build(), data)
-    assert found.status == 5 and re.search(said, found.message)
+    assert found.status == 5 and re.search(message, found.message)
     monkeypatch.syspath_prepend(str(HERE.parents[1] / "spec"))
     reference = importlib.import_module("reference_decoder")
     with pytest.raises(reference.UnsupportedError, match="version 0, and this reads 1"):
@@ -38,7 +38,7 @@ def test_streams_of_version_0_are_told_what_they_are(commit, tmp_path, capsys, m
     (tmp_path / "old.bsm").write_bytes(data)
     for command in ("info", "verify", "decode"):
         assert main([command, str(tmp_path / "old.bsm")]) == 5
-        assert re.search(said, capsys.readouterr().err)
+        assert re.search(message, capsys.readouterr().err)
 
 
 def test_a_later_minor_version_is_read_and_told(capsys):

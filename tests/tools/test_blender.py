@@ -46,8 +46,8 @@ def folder(tmp_path_factory):
     mesh = torus(12, 8)
     color = Attribute("color", (np.abs(mesh.positions) * 90).astype(np.uint8), "vertex", "color")
     heat = Attribute("heat", mesh.positions[:, :1].astype(np.float32))
-    told = {"material.0.name": "red", "material.0.baseColorFactor": "1 0.25 0 1", "up": "y"}
-    still = TriangleMesh(mesh.positions, mesh.faces, (color, heat), told)
+    metadata = {"material.0.name": "red", "material.0.baseColorFactor": "1 0.25 0 1", "up": "y"}
+    still = TriangleMesh(mesh.positions, mesh.faces, (color, heat), metadata)
     (folder / "still.bsm").write_bytes(bsm.encode(still, preset="near-lossless"))
     meshes = [torus(size, 6, bumps=0.05 * t) for t, size in enumerate((10, 10, 10, 7, 7, 10))]
     np.save(folder / "turns.npy", [np.ptp(mesh.positions, axis=0) for mesh in meshes])
@@ -70,9 +70,9 @@ def found(folder):
     path = os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")])
     setting = {**os.environ, "PYTHONPATH": path}
     done = subprocess.run(words, capture_output=True, text=True, timeout=600, env=setting, check=False)
-    said = [line for line in done.stdout.splitlines() if line.startswith("FOUND ")]
-    assert said, done.stderr[-4000:]
-    return json.loads(said[0].removeprefix("FOUND "))
+    lines = [line for line in done.stdout.splitlines() if line.startswith("FOUND ")]
+    assert lines, done.stderr[-4000:]
+    return json.loads(lines[0].removeprefix("FOUND "))
 
 
 def test_every_frame_is_the_decoders(found):

@@ -21,5 +21,5 @@ def test_a_sound_folder_is_used_and_what_escapes_is_seen(tmp_path, monkeypatch):
     used(str(folder.path))
     assert json.loads((folder.path / "manifest.json").read_text()) == folder.manifest
     monkeypatch.setattr("tools.attack.manifests.used", lambda path: 1 // 0)
-    (said,) = walk(1, "a")
-    assert "ZeroDivisionError" in said
+    (problem,) = walk(1, "a")
+    assert "ZeroDivisionError" in problem

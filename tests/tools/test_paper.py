@@ -27,12 +27,12 @@ def test_every_table_stands_beside_the_paper_s_numbers():
 
 
 def test_what_is_refused(tmp_path):
-    for words, said in (
+    for words, message in (
         (["--meshes", str(tmp_path / "nowhere")], "has no folder static/"),
         (["--only", "best"], "no table is called best"),
     ):
         done = tool("paper", "--quick", *words)
-        assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
+        assert done.returncode == 2 and message in done.stderr and "Traceback" not in done.stderr
 
 
 def test_what_differs_has_a_star_and_counts():

@@ -38,7 +38,7 @@ KERNELS = [f"bsm/{room}_kernels.abi3.so" for room in ("", "codec/", "bitstream/"
 
 
 @pytest.mark.parametrize(
-    ("names", "said"),
+    ("names", "message"),
     [
         (["bsm/py.typed", *KERNELS], None),
         (["bsm/py.typed", *KERNELS[:2]], "_kernels"),
@@ -48,14 +48,14 @@ KERNELS = [f"bsm/{room}_kernels.abi3.so" for room in ("", "codec/", "bitstream/"
         (["bsm/py.typed", *(name.replace("abi3", "cpython-311-x86_64-linux-gnu") for name in KERNELS)], "not what"),
     ],
 )
-def test_wheels_are_looked_into(names, said, tmp_path):
+def test_wheels_are_looked_into(names, message, tmp_path):
     with zipfile.ZipFile(tmp_path / "a-linux_aarch64.whl", "w") as wheel:
         for name in (*names, "bsm_codec-1.dist-info/METADATA"):
             wheel.writestr(name, "")
-    if said is None:
+    if message is None:
         check_contents(tmp_path / "a-linux_aarch64.whl")
     else:
-        with pytest.raises(SystemExit, match=said):
+        with pytest.raises(SystemExit, match=message):
             check_contents(tmp_path / "a-linux_aarch64.whl")
 
 

@@ -30,7 +30,7 @@ def test_the_walk_finds_what_is_beyond_the_bounds(monkeypatch):
     good = samples()["obj.gz"]
     cases = [Case("a", lambda: good), Case("b", lambda: Sample("obj", b"v 0 0 0\nf 1 1 1\n"))]
     assert not list(problems(cases, "default"))
-    for fault, said in (
+    for fault, message in (
         (lambda: bytearray(1 << 28), "of 64 MiB"),
         (lambda: 1 // 0, "ZeroDivision"),
         (os.abort, "died"),
@@ -40,7 +40,7 @@ def test_the_walk_finds_what_is_beyond_the_bounds(monkeypatch):
                 "tools.attack.readers.read_all", lambda path, limits, fault=fault: (fault(), Taken("read"))[1]
             )
             found = list(problems(cases, "default"))
-        assert len(found) == 2 and all(said in problem for problem in found)
+        assert len(found) == 2 and all(message in problem for problem in found)
 
 
 def test_a_usd_file_that_is_nested_too_deep_is_refused_before_its_library_sees_it(tmp_path):

@@ -107,10 +107,10 @@ def _of_runs(frames: list[np.ndarray], runs: list[tuple[int, int, np.ndarray]], 
     return positions, np.concatenate([faces for _, _, faces in runs]), arrays | {"runs": table}
 
 
-def _completed(decoder: Decoder | SequenceDecoder, told: dict[str, Attribute]) -> list[Attribute]:
+def _completed(decoder: Decoder | SequenceDecoder, attributes: dict[str, Attribute]) -> list[Attribute]:
     """Return attributes from events, in the order of the mesh, and recomputed normals, which have no event."""
     mesh = decoder if isinstance(decoder, SequenceDecoder) else decoder.finish()
-    return [told.get(a.name, a) for a in mesh.attributes if a.name in told or a.semantic == "normal"]
+    return [attributes.get(a.name, a) for a in mesh.attributes if a.name in attributes or a.semantic == "normal"]
 
 
 def _with_values(known: Attribute | None, event: AttributeEvent, rows: int) -> Attribute:

@@ -185,9 +185,9 @@ def walk(count: int, seed: str) -> Iterator[str]:
     with tempfile.TemporaryDirectory() as place:
         folder = Folder(Path(place, "tiles"))
         for number in range(count):
-            if said := escaped(folder, Random(f"{seed}/{number}")):
+            if problem := escaped(folder, Random(f"{seed}/{number}")):
                 kept = (folder.path / MANIFEST).read_text()[:300]
-                yield f"{seed}/{number}: {said}{kept}"
+                yield f"{seed}/{number}: {problem}{kept}"
 
 
 def main() -> int:
@@ -197,9 +197,9 @@ def main() -> int:
     parser.add_argument("--seed", default="0")
     args = parser.parse_args()
     found = 0
-    for said in walk(args.count, args.seed):
+    for problem in walk(args.count, args.seed):
         found += 1
-        print(said, flush=True)
+        print(problem, flush=True)
     print(f"{args.count} mutants of a manifest and an index, {found} findings")
     return 1 if found else 0
 

@@ -719,9 +719,9 @@ def warm_up() -> None:
     """What is loaded once is nobody's fault."""
     with tempfile.TemporaryDirectory() as folder:
         for sample in samples().values():
-            told = read_all(written(sample, Path(folder))[0], Limits())
-            if told.outcome != "read":
-                raise AssertionError(f"the sample {sample.suffix} is not sound: {told.outcome}")
+            taken = read_all(written(sample, Path(folder))[0], Limits())
+            if taken.outcome != "read":
+                raise AssertionError(f"the sample {sample.suffix} is not sound: {taken.outcome}")
 
 
 def main() -> int:

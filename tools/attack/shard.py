@@ -116,11 +116,11 @@ def browser(shard: Shard, number: int, size: int) -> None:
     given = b"".join(len(stream).to_bytes(4, "little") + stream for stream in streams)
     command = ["node", str(WEB / "scripts" / "mutants.mjs"), json.dumps(limits_there(LIMITS))]
     done = subprocess.run(command, input=given, capture_output=True, check=True)
-    told = json.loads(done.stdout)
+    report = json.loads(done.stdout)
     shard.tally.inputs += size
-    shard.tally.decoded += (decoded := told["outcomes"].get("decoded", 0))
+    shard.tally.decoded += (decoded := report["outcomes"].get("decoded", 0))
     shard.tally.refused += size - decoded
-    for place, problem in told["problems"]:
+    for place, problem in report["problems"]:
         shard.tally.escapes += 1
         shard.found(streams[place], problem)
 

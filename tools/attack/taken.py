@@ -156,10 +156,10 @@ def taken_by_browser(streams: Sequence[bytes]) -> list[Taken]:
         done = subprocess.run(command, capture_output=True, text=True, timeout=MOST_SECONDS, check=True)
     found = []
     for line, stream in zip(done.stdout.splitlines(), streams, strict=True):
-        told = json.loads(line)
-        if problem := told.pop("escaped"):
-            told["outcome"] = f"escaped: {problem}"
-        found.append(Taken(size=len(stream), **told))
+        report = json.loads(line)
+        if problem := report.pop("escaped"):
+            report["outcome"] = f"escaped: {problem}"
+        found.append(Taken(size=len(stream), **report))
     return found
 
 
@@ -167,12 +167,12 @@ def taken_by_each(works: Sequence[Callable[[], Work]], seconds: int = MOST_SECON
     """What each work takes, in processes forked for some of them; `works` prepare it, which is not counted."""
     done = 0
     while done < len(works):
-        told = _told_by_child(works[done:], seconds)
-        yield from told or [Taken()]
-        done += max(1, len(told))
+        reports = _reported_by_child(works[done:], seconds)
+        yield from reports or [Taken()]
+        done += max(1, len(reports))
 
 
-def _told_by_child(works: Sequence[Callable[[], Work]], seconds: int) -> list[Taken]:
+def _reported_by_child(works: Sequence[Callable[[], Work]], seconds: int) -> list[Taken]:
     """What one process tells of the first works: until it dies, or until it keeps so much that it hides what comes."""
     reading, writing = os.pipe()
     sys.stdout.flush()

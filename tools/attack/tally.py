@@ -53,13 +53,13 @@ class Tally:
 
     def _compared(self, stream: bytes, found: Outcome, expected: Outcome, exact: bool) -> str | None:
         if isinstance(found, BsmError) or isinstance(expected, BsmError):
-            told = [
+            outcomes = [
                 error_class(outcome) if isinstance(outcome, BsmError) else "decoded" for outcome in (found, expected)
             ]
             return (
                 None
-                if told[0] == told[1]
-                else f"{told[0]} instead of {told[1]}: {found if told[0] != 'decoded' else expected}"
+                if outcomes[0] == outcomes[1]
+                else f"{outcomes[0]} instead of {outcomes[1]}: {found if outcomes[0] != 'decoded' else expected}"
             )
         if not np.array_equal(found[1], expected[1]):
             return "the faces differ"

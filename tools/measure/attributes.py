@@ -107,23 +107,23 @@ def theirs(mesh: TriangleMesh, attributes: tuple[Attribute, ...], grid: int) -> 
         columns.append(at_corners(numbers, mesh.faces)[proper].reshape(-1))
         values.append(unique)
     rows, corners = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
-    said: dict[str, Any] = {}
+    options: dict[str, Any] = {}
     for attribute, column, unique in zip(attributes, rows.T[1:], values, strict=True):
         offered = unique[column]
         if attribute.semantic == "texcoord" and offered.dtype.kind == "f":
-            said |= {"tex_coord": offered, "tex_coord_quantization_bits": TEXCOORD_BITS}
+            options |= {"tex_coord": offered, "tex_coord_quantization_bits": TEXCOORD_BITS}
         elif attribute.semantic == "normal" and offered.dtype.kind == "f":
-            said |= {"normals": offered, "normal_quantization_bits": NORMAL_BITS}
-        elif attribute.semantic == "color" and offered.dtype == np.uint8 and "colors" not in said:
-            said["colors"] = offered
+            options |= {"normals": offered, "normal_quantization_bits": NORMAL_BITS}
+        elif attribute.semantic == "color" and offered.dtype == np.uint8 and "colors" not in options:
+            options["colors"] = offered
         else:
-            said.setdefault("generic_attributes", {})[attribute.name] = offered
+            options.setdefault("generic_attributes", {})[attribute.name] = offered
     data: bytes = DracoPy.encode(
         welded[rows[:, 0]].astype(np.float32),
         corners.reshape(-1, 3).astype(np.uint32),
         quantization_bits=grid,
         compression_level=10,
-        **said,
+        **options,
     )
     return len(data)
 

@@ -92,8 +92,8 @@ def draco_bytes(frames: Positions, faces: Faces, levels: Array) -> int:
     sizes = []
     for frame, own in zip(frames[::EVERY], levels[::EVERY], strict=True):
         colors = np.ascontiguousarray(np.repeat(own, 3, axis=1) if own.shape[1] == 1 else own, np.uint8)
-        told = {"quantization_bits": 10, "compression_level": 10}
-        bare, full = DracoPy.encode(frame, faces, **told), DracoPy.encode(frame, faces, colors=colors, **told)
+        options = {"quantization_bits": 10, "compression_level": 10}
+        bare, full = DracoPy.encode(frame, faces, **options), DracoPy.encode(frame, faces, colors=colors, **options)
         sizes.append((len(full) - len(bare)) / (3 if own.shape[1] == 1 else 1))
     return round(float(np.mean(sizes)) * len(frames))
 

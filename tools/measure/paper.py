@@ -364,7 +364,7 @@ class BlockView:
 
 def view_blocks(mesh: TriangleMesh, options: EncodeOptions) -> BlockView:
     """Encode a mesh in blocks and decode it, and derive its parts as both sides did."""
-    step = options.step if options.says_how else options.first_step
+    step = options.step if options.sets_coding else options.first_step
     encoder = Encoder(mesh, changed(options, step=step, partition="derived", keep_order=False))
     data = encoder.encode()
     decoded = decode(data, NAMED_LIMITS[options.limits]())

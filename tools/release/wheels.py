@@ -111,7 +111,7 @@ def _cross(folder: Path, processor: Processor, python: Path) -> dict[str, str]:
     """Compilers for another processor, and what makes Python's tools believe in it."""
     code = "import sysconfig; print(sysconfig.get_config_var('EXT_SUFFIX'))"
     suffix = subprocess.run([python, "-c", code], capture_output=True, text=True, check=True, env=clean()).stdout
-    told = [f"-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR={processor.name}"]
+    flags = [f"-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR={processor.name}"]
     # Zig's headers for C++ do not bring stdio.h along, as GNU's do.
     compiled = f"-target {processor.name}-linux-gnu.{processor.glibc} -include stdio.h"
     programs = {"C_COMPILER": f"cc {compiled}", "CXX_COMPILER": f"c++ {compiled}", "AR": "ar", "RANLIB": "ranlib"}
@@ -120,9 +120,9 @@ def _cross(folder: Path, processor: Processor, python: Path) -> dict[str, str]:
         # -I: pip's isolation hides this environment's libraries from programs of the same Python.
         path.write_text(f'#!/bin/sh\nexec "{sys.executable}" -I -m ziglang {program} "$@"\n')
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
-        told.append(f"-DCMAKE_{name}={path}")
+        flags.append(f"-DCMAKE_{name}={path}")
     return {
-        "CMAKE_ARGS": " ".join(told),
+        "CMAKE_ARGS": " ".join(flags),
         "_PYTHON_HOST_PLATFORM": f"linux-{processor.name}",
         "SETUPTOOLS_EXT_SUFFIX": suffix.strip().replace(INTEL.name, processor.name),
         "ZIG_GLOBAL_CACHE_DIR": str(folder / "cache"),

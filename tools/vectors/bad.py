@@ -81,7 +81,7 @@ def _framed(change: Callable[[Frames], object], base: Callable[[], bytes] = _bas
     return lambda: _changed(change, base)
 
 
-_TOLD = (METADATA, b"\x81\xa1a\0")
+_METADATA = (METADATA, b"\x81\xa1a\0")
 
 
 def _place(frames: Frames, kind: int) -> int:
@@ -213,7 +213,7 @@ FRAMING: dict[str, Bad] = {
     "bad-metadata-again": Bad(
         "METADATA that speak of one name, before and behind a block",
         "corrupt",
-        _framed(lambda f: f.__setitem__(slice(1, None), [_TOLD, *f[1:], _TOLD])),
+        _framed(lambda f: f.__setitem__(slice(1, None), [_METADATA, *f[1:], _METADATA])),
     ),
     "bad-metadata-array": Bad(
         "METADATA with an array", "corrupt", _framed(lambda f: f.insert(1, (METADATA, b"\x81\xa1a\x90")))

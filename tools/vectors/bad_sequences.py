@@ -123,12 +123,12 @@ _FIELD = struct.pack("<fBB", 1.0, 0, 0)
 """Of no components."""
 
 
-def _told(*fields: tuple[int, bytes]) -> Edit:
+def _with_fields(*fields: tuple[int, bytes]) -> Edit:
     """A GOP that tells of other attributes: number and field of each."""
 
     def edit(data: bytes) -> bytes:
-        told = b"".join(write_varint(number) + write_varint(len(field)) + field for number, field in fields)
-        return data[:3] + write_varint(len(fields)) + told + _positions_of(data)
+        changes = b"".join(write_varint(number) + write_varint(len(field)) + field for number, field in fields)
+        return data[:3] + write_varint(len(fields)) + changes + _positions_of(data)
 
     return edit
 
@@ -149,7 +149,7 @@ def _far(data: bytes) -> bytes:
     later = [payload for kind, payload in frames_of(_base("moving")) if kind == FrameType.GOP][1]
     fields, _ = _fields_of(later[1:])
     large = struct.pack("<f", float.fromhex("0x1.fffffep+127"))
-    return _told(*((number, large + field[4:] if number == 2 else field) for number, field in fields))(data)
+    return _with_fields(*((number, large + field[4:] if number == 2 else field) for number, field in fields))(data)
 
 
 def _without_values(frames: Frames) -> Frames:
@@ -195,22 +195,22 @@ BAD_SEQUENCES: dict[str, Bad] = {
     "bad-sequence-levels-short": Bad("levels that end too early", "truncated", _gop(lambda d: d[:-9])),
     "bad-sequence-levels-long": Bad("bytes behind the levels", "corrupt", _gop(lambda d: d + b"\x55" * 9)),
     "bad-sequence-moving-count": Bad(
-        "a GOP that tells of no attribute, and says that it does", "corrupt", _gop(_told(), base="moving")
+        "a GOP that tells of no attribute, and says that it does", "corrupt", _gop(_with_fields(), base="moving")
     ),
     "bad-sequence-moving-still": Bad(
-        "a GOP that tells of an attribute that does not move", "corrupt", _gop(_told((1, b"x")), base="moving")
+        "a GOP that tells of an attribute that does not move", "corrupt", _gop(_with_fields((1, b"x")), base="moving")
     ),
     "bad-sequence-moving-twice": Bad(
-        "a GOP that tells of an attribute twice", "corrupt", _gop(_told((3, _FIELD), (3, _FIELD)), base="moving")
+        "a GOP that tells of an attribute twice", "corrupt", _gop(_with_fields((3, _FIELD), (3, _FIELD)), base="moving")
     ),
     "bad-sequence-moving-short": Bad(
-        "a field that ends in its step", "corrupt", _gop(_told((3, _FIELD[:3])), base="moving")
+        "a field that ends in its step", "corrupt", _gop(_with_fields((3, _FIELD[:3])), base="moving")
     ),
     "bad-sequence-moving-step": Bad(
-        "a field with a step of 0", "corrupt", _gop(_told((3, bytes(4) + _FIELD[4:])), base="moving")
+        "a field with a step of 0", "corrupt", _gop(_with_fields((3, bytes(4) + _FIELD[4:])), base="moving")
     ),
     "bad-sequence-moving-components": Bad(
-        "a field of more components than d T", "corrupt", _gop(_told((3, _FIELD[:4] + b"\x05")), base="moving")
+        "a field of more components than d T", "corrupt", _gop(_with_fields((3, _FIELD[:4] + b"\x05")), base="moving")
     ),
     "bad-sequence-moving-far": Bad("values beyond the range of single precision", "numeric", _gop(_far, base="moving")),
     "bad-sequence-moving-late": Bad(

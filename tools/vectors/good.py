@@ -82,9 +82,9 @@ def _metadata() -> bytes:
 def _metadata_everywhere() -> bytes:
     """METADATA behind each frame, each of a name of its own."""
     frames = frames_of(encode(torus(16, 12), BASE))
-    told = [(FrameType.METADATA, bytes([0x81, 0xA1, 0x61 + place, place])) for place in range(len(frames))]
-    told[-1] = (FrameType.METADATA, b"\x80")
-    return stream_of([frame for pair in zip(frames, told, strict=True) for frame in pair])
+    metadata = [(FrameType.METADATA, bytes([0x81, 0xA1, 0x61 + place, place])) for place in range(len(frames))]
+    metadata[-1] = (FrameType.METADATA, b"\x80")
+    return stream_of([frame for pair in zip(frames, metadata, strict=True) for frame in pair])
 
 
 STATIC: dict[str, Good] = {

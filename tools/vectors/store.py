@@ -160,5 +160,5 @@ def write_vectors(streams: dict[Vector, bytes], meshes: dict[Vector, tuple[Any, 
         left = path.suffix == ".bsm" and path not in {vector.stream for vector in streams}
         if left or (path.suffix == ".npz" and path not in {vector.expected for vector in meshes}):
             path.unlink()
-    said = [{"name": v.name, "probes": v.probes} | ({"error": v.error} if v.error else {}) for v in streams]
-    (NEXT / MANIFEST).write_text(json.dumps({"version": NEXT.name, "vectors": said}, indent=1) + "\n")
+    entries = [{"name": v.name, "probes": v.probes} | ({"error": v.error} if v.error else {}) for v in streams]
+    (NEXT / MANIFEST).write_text(json.dumps({"version": NEXT.name, "vectors": entries}, indent=1) + "\n")

@@ -111,8 +111,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
             f"{name:<19}{value:.4g}\n" for name in WORN.values() if (value := more.get(name.split()[-1])) is not None
         ]
     for name, errors in attributes.items():
-        said = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
-        lines.append(f"{printable(name)}: {'not there any more' if said is None else said}\n")
+        text = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())
+        lines.append(f"{printable(name)}: {'not there any more' if text is None else text}\n")
     print("".join(lines), end="")
 
 
@@ -257,7 +257,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     loops = Loops()
     for frame in runs[0][0] if len(runs) == 1 else ():
         loops.take(frame)
-    repeats = loops.said()
+    repeats = loops.descriptions()
     if args.json:
         numbers = {name: finite(value) for name, value in result.items()}
         return as_json({**numbers, "frames": of_frames, "loops": list(repeats)})

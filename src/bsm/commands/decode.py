@@ -16,7 +16,7 @@ from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of, re
 from bsm.comparison import read_permutation, reorder
 from bsm.console import Console
 from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, written_mesh
-from bsm.files.motion.frames import Shared, said_of_runs
+from bsm.files.motion.frames import Shared, describe_runs
 from bsm.files.output import default_output, output_inside, refuse_to_overwrite
 from bsm.files.partial import decode_blocks, decode_what_is_left
 from bsm.files.pipes import read_chunks, size_of
@@ -171,7 +171,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
     seconds = time.perf_counter() - begin
     facts = {"frames": count, "vertices": vertices, "faces": header.faces}
     if stream.run_starts:
-        console.note(f"{args.input}: {said_of_runs(stream.run_starts)}")
+        console.note(f"{args.input}: {describe_runs(stream.run_starts)}")
     counts = f"{counted(frames=count)} of {counted(vertices=vertices, faces=header.faces)}"
     console.note(f"{args.input} -> {output}: {counts}, {seconds:.2f} s")
     sizes = {"input_bytes": size_of(args.input), "output_bytes": size_of(output)}

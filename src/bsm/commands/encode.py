@@ -29,8 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     known = "format of the input, as a suffix without the dot (default: by its name or content)"
     add("--format", choices=formats, metavar="FORMAT", help=known)
     add("--permutation", metavar="FILE.npy", help="write the input vertex of each decoded vertex")
-    said = "store metadata, such as name=Bunny or unit=mm. May be repeated"
-    add("--meta", action="append", default=[], metavar="NAME=TEXT", help=said)
+    about_meta = "store metadata, such as name=Bunny or unit=mm. May be repeated"
+    add("--meta", action="append", default=[], metavar="NAME=TEXT", help=about_meta)
     add("--up", choices=("y", "z"), help="store the up axis (same as --meta up=y)")
     made = "store the version of bsm, the preset and its bounds, and the SHA-256 of the input. Without the flag, only "
     made += "for meshes decoded from such a stream"

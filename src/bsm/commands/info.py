@@ -9,7 +9,7 @@ from typing import Any
 from bsm.commands.flags import add_inputs, add_limits_flag, asked, limits_of
 from bsm.console import Console, printable
 from bsm.files.inspection import StreamInfo, inspect_stream
-from bsm.files.motion.frames import MOST_SAID, Loops, said_of_runs
+from bsm.files.motion.frames import MOST_LISTED, Loops, describe_runs
 from bsm.files.pipes import read_chunks
 from bsm.files.stream import SequenceStream
 from bsm.jobs.plan import input_names
@@ -49,7 +49,7 @@ def info_of_one(args: InfoJob, console: Console) -> Facts:
                 found.take(frame)
                 if stream.header.frames:
                     progress(number + 1, stream.header.frames)
-        summary["loops"] = list(found.said())
+        summary["loops"] = list(found.descriptions())
     return {"input": args.input, **summary}
 
 
@@ -107,7 +107,7 @@ def _worded(summary: Facts) -> str:
         rates[0] += f", {summary['bpv_paper']:.3f} by the paper's formula" if packed else ""
     counts = summary["metadata_bytes"]
     texts = {name: f"{counts[name]} bytes" if name in counts else value for name, value in summary["metadata"].items()}
-    said = [printable(f"  {name}: {value}") for name, value in texts.items()]
+    entries = [printable(f"  {name}: {value}") for name, value in texts.items()]
     header, coefficients = summary["header"], summary["coefficients"] or [0]
     positions = f"positions on a grid of {' x '.join(str(largest + 1) for largest in header['grid'])}"
     if not header["grid"]:
@@ -124,7 +124,7 @@ def _worded(summary: Facts) -> str:
         *shares,
         *rates,
         *map(_attribute_line, summary["attributes"]),
-        *(["metadata:", *said] if said else []),
+        *(["metadata:", *entries] if entries else []),
     ]
     return "\n".join(lines)
 
@@ -173,10 +173,10 @@ def _run_lines(runs: list[dict[str, Any]]) -> list[str]:
         number: f", the mesh of run {run['mesh']} again" for number, run in enumerate(runs) if run["mesh"] != number
     }
     return [
-        said_of_runs([run["first"] for run in runs[1:]]),
+        describe_runs([run["first"] for run in runs[1:]]),
         *(
             f"run {number}: {run['frames']} frames from {run['first']} on, {run['vertices']} vertices, "
             f"{run['faces']} faces" + again.get(number, "")
-            for number, run in enumerate(runs[:MOST_SAID])
+            for number, run in enumerate(runs[:MOST_LISTED])
         ),
     ]

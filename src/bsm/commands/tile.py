@@ -13,7 +13,7 @@ from bsm.bitstream.errors import FormatError, OptionError, counted
 from bsm.codec.threads import available_threads
 from bsm.commands.flags import asked, point
 from bsm.console import Console, print_json
-from bsm.exits import tell
+from bsm.exits import report_error
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
 from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
 from bsm.jobs.run import Run, run_many
@@ -85,8 +85,8 @@ def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
     """Do the work in folders that this process holds."""
     unfinished = is_unfinished(args.output)
     if unfinished and (work / "plan.json").is_file() and not (args.force or args.resume):
-        said = "these tiles are unfinished: --resume continues, -f starts again"
-        raise FileExistsError(errno.EEXIST, said, args.output)
+        message = "these tiles are unfinished: --resume continues, -f starts again"
+        raise FileExistsError(errno.EEXIST, message, args.output)
     refuse_to_overwrite(inside(args.output, MANIFEST), args.force or bool(unfinished))
     over = args.force or args.resume
     state = Unfinished(args.output, args.input)
@@ -105,7 +105,7 @@ def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
 
     def ended(job: Job, outcome: Outcome) -> None:
         if outcome.error is not None:
-            tell(outcome.error, as_json=args.json)
+            report_error(outcome.error, as_json=args.json)
         else:
             state.whole[len(Path(job.output).stem) - 1] += 1
             state.update(time.perf_counter())

@@ -65,13 +65,13 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if args.box is None and (args.output == "-" or Path(args.output).suffix.lower() == ".ply"):
         refuse_terminal(args.output)
         chosen = tiles.chosen(args.error or 0.0, level=args.level)
-        said = write_joined(tiles, chosen, args.output, console, overwrite=args.force)
+        summary = write_joined(tiles, chosen, args.output, console, overwrite=args.force)
     else:
         far = 1e300
         ends = args.box or (-far, -far, -far, far, far, far)
         with console.progress("decoding"):
             mesh = tiles.region(ends[:3], ends[3:], args.error or 0.0, level=args.level)
-        said = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
+        summary = {"vertices": len(mesh.positions), "faces": len(mesh.faces)}
         if Path(args.output).suffix.lower() == ".bsm":
             import bsm
 
@@ -79,4 +79,4 @@ def run(args: argparse.Namespace, console: Console) -> None:
             bsm.save(mesh, args.output, grid_cell=tiles.lattice.cell, grid_origin=(x, y, z))
         else:
             write_mesh(args.output, mesh, overwrite=args.force)
-    console.note(f"{args.input} -> {args.output}: {said['vertices']} vertices, {said['faces']} faces")
+    console.note(f"{args.input} -> {args.output}: {summary['vertices']} vertices, {summary['faces']} faces")

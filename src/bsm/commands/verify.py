@@ -46,8 +46,8 @@ def verify_one(args: VerifyJob, console: Console) -> Facts:
         if not args.quick:
             decode_through(iter(chunks), limits) if info.header.gop_frames else decode_whole(iter(chunks), limits)
     checked = not args.quick and info.checksum is not None
-    said, size = ", positions as the encoder saw them" if checked else "", info.sizes["total"]
-    console.note(f"{args.input}: whole, {counted(blocks=info.header.blocks)}, {size} bytes{said}")
+    checksum, size = ", positions as the encoder saw them" if checked else "", info.sizes["total"]
+    console.note(f"{args.input}: whole, {counted(blocks=info.header.blocks)}, {size} bytes{checksum}")
     return {"input": args.input, "ok": True, "decoded": not args.quick, "checked": checked, "bytes": size}
 
 

@@ -104,8 +104,8 @@ def _errors_of(url: str) -> Iterator[None]:
     except FileNotFoundError as error:
         behind = error.__cause__
         if isinstance(behind, OSError) and behind.errno not in (None, errno.ENOENT):  # no server, as aiohttp has it
-            said = f"the server does not answer: {os.strerror(behind.errno or errno.EIO)}"
-            raise OSError(behind.errno, said, url) from error
+            message = f"the server does not answer: {os.strerror(behind.errno or errno.EIO)}"
+            raise OSError(behind.errno, message, url) from error
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), url) from error
     except (errors.BsmError, MemoryError):
         raise

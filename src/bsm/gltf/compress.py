@@ -56,8 +56,8 @@ def arrays_of(primitive: gltf.Tree) -> dict[str, int]:
 
 def like(document: gltf.Document, primitive: gltf.Tree) -> str:
     """A key that is equal for primitives which one stream can hold."""
-    told = [(name, document.tree["accessors"][index]) for name, index in sorted(arrays_of(primitive).items())]
-    kinds = [(name, a["componentType"], a["type"], a.get("normalized", False)) for name, a in told]
+    accessors = [(name, document.tree["accessors"][index]) for name, index in sorted(arrays_of(primitive).items())]
+    kinds = [(name, a["componentType"], a["type"], a.get("normalized", False)) for name, a in accessors]
     return str((kinds, primitive.get("mode", _TRIANGLES)))
 
 
@@ -433,9 +433,9 @@ class _Scene:
     def _view(stream: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> gltf.Tree:
         usual = _UINT if name == "indices" else _FLOAT
         component, _ = coded.accessors.get(name, (_UINT, False))
-        told: gltf.Tree = {"stream": stream, "attribute": name}
-        told |= {"componentType": component} if component != usual else {}
-        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {gltf.EXTENSION: told}}
+        extension: gltf.Tree = {"stream": stream, "attribute": name}
+        extension |= {"componentType": component} if component != usual else {}
+        return {"buffer": 1, "byteLength": array.nbytes, "extensions": {gltf.EXTENSION: extension}}
 
     @staticmethod
     def _accessor(view: int, name: str, array: npt.NDArray[Any], coded: BundleStream) -> gltf.Tree:
@@ -447,8 +447,8 @@ class _Scene:
     @staticmethod
     def _corners(view: int, piece: tuple[int, int]) -> gltf.Tree:
         start, count = piece
-        told: gltf.Tree = {"bufferView": view, "componentType": _UINT, "count": count, "type": "SCALAR"}
-        return told | ({"byteOffset": 4 * start} if start else {})
+        accessor: gltf.Tree = {"bufferView": view, "componentType": _UINT, "count": count, "type": "SCALAR"}
+        return accessor | ({"byteOffset": 4 * start} if start else {})
 
     def _add(self, kind: str, entry: gltf.Tree) -> int:
         entries: list[gltf.Tree] = self.tree.setdefault(kind, [])

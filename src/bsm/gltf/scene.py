@@ -427,9 +427,9 @@ def _frames(path: str, document: Document, wanted: Wanted, limits: Limits) -> Fr
     notes += ["left out, for they move: normals"] if moving else []
     mesh = still.mesh
     frames = checked_frames(path, map(scene.at, times.tolist()), len(mesh.positions))
-    told = mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata
+    shared = mesh.attributes, tuple(dict.fromkeys(notes)), rate, mesh.metadata
     meshes = (painted_like(mesh, _painted(scene, mesh, time)) for time in times.tolist())
-    return Frames(mesh.faces, count, frames, *told, meshes if len(scene.colors(0.0)) else None)
+    return Frames(mesh.faces, count, frames, *shared, meshes if len(scene.colors(0.0)) else None)
 
 
 def _painted(scene: Scene, mesh: TriangleMesh, time: float) -> TriangleMesh:

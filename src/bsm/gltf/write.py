@@ -59,9 +59,9 @@ class _Scene:
 
     def numbers(self, values: Array, *, bounds: bool = False, normalized: bool = False) -> int:
         kind = {"componentType": COMPONENTS[values.dtype.name], "count": len(values), "type": _TYPES[values.shape[1]]}
-        told: Tree = {"bufferView": self.view(values.tobytes()), **kind}
-        told |= {"normalized": True} if normalized else {}
-        return self.add("accessors", told | (bounds_of(values) if bounds else {}))
+        accessor: Tree = {"bufferView": self.view(values.tobytes()), **kind}
+        accessor |= {"normalized": True} if normalized else {}
+        return self.add("accessors", accessor | (bounds_of(values) if bounds else {}))
 
     def place(self, mesh: Tree, **more: Any) -> None:
         node = self.add("nodes", {"mesh": self.add("meshes", mesh), **more})
@@ -110,10 +110,10 @@ class _Still(_Scene):
         sorting = [np.zeros(len(split.faces), np.int64) if a is None else a.values for a in (part, material)]
         kinds, of_face = np.unique(np.column_stack(sorting), axis=0, return_inverse=True)
         arrays, held = _at_vertices(split)
-        names, taken, said = formats.names_in(mesh.metadata, "part"), set[str](), {"part.names", "up"}
+        names, taken, written = formats.names_in(mesh.metadata, "part"), set[str](), {"part.names", "up"}
         images = formats.images_in(mesh.metadata)
         materials = {
-            n: self._material(n, words, images, said) for n, words in formats.materials_in(mesh.metadata).items()
+            n: self._material(n, words, images, written) for n, words in formats.materials_in(mesh.metadata).items()
         }
         if "TEXCOORD_0" in arrays and any(materials.get(n) is None for n in kinds[:, 1].tolist()):
             bare = self.add("materials", {})  # readers pass over texture coordinates without any
@@ -133,14 +133,14 @@ class _Still(_Scene):
                 primitive["material"] = which
             self.place({"name": called, "primitives": [primitive]}, name=called, **_upright(mesh.metadata))
             self.primitives.append((primitive, origin[used]))
-        said |= {f"part.{number}.name" for number in names}
-        rest = {name: value for name, value in mesh.metadata.items() if name not in said}
+        written |= {f"part.{number}.name" for number in names}
+        rest = {name: value for name, value in mesh.metadata.items() if name not in written}
         extras = {name: value for name, value in rest.items() if not isinstance(value, bytes)}
         self.tree["scenes"][0] |= {"extras": extras} if extras else {}
         self.left_out += formats.left_out(mesh, [*held, material, part], [name for name in rest if name not in extras])
 
     def _material(
-        self, number: int, words: formats.Material, images: Mapping[int, tuple[str, bytes]], said: set[str]
+        self, number: int, words: formats.Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
     ) -> int | None:
         """Add a material; None if glTF can express nothing of it. Names of metadata that it expresses go to `said`."""
         found: Tree = {}
@@ -149,11 +149,11 @@ class _Still(_Scene):
             if name in formats.GLTF_TEXTURES:
                 if (texture := self._texture(images.get(value, ("", b""))[1])) is None:
                     continue
-                said.add(f"image.{value}.data")
+                written.add(f"image.{value}.data")
                 value = {"index": texture}
             (surface if name.startswith(("baseColor", "metallic", "roughness")) else found)[name] = value
         found |= {"pbrMetallicRoughness": surface} if surface else {}
-        said |= {f"material.{number}.{name}" for name in words if formats.gltf_values({name: words[name]})}
+        written |= {f"material.{number}.{name}" for name in words if formats.gltf_values({name: words[name]})}
         return self.add("materials", found) if found else None
 
     def _texture(self, data: bytes) -> int | None:
@@ -292,8 +292,8 @@ class _Moving(_Still):
         channels: list[Tree] = []
 
         def move(nodes: range, path: str, times: Array, values: Array, way: str) -> None:
-            told = self.numbers((times / rate).astype(np.float32)[:, None], bounds=True)
-            samplers.append({"input": told, "output": self.numbers(values.astype(np.float32)), "interpolation": way})
+            keys = self.numbers((times / rate).astype(np.float32)[:, None], bounds=True)
+            samplers.append({"input": keys, "output": self.numbers(values.astype(np.float32)), "interpolation": way})
             place = len(samplers) - 1
             channels.extend({"sampler": place, "target": {"node": node, "path": path}} for node in nodes)
 

@@ -20,7 +20,7 @@ from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
 from bsm.events import Signal
 from bsm.files.mesh import read_mesh
-from bsm.files.motion.frames import Frames, Loops, Wanted, said_of_runs
+from bsm.files.motion.frames import Frames, Loops, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
@@ -146,7 +146,12 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
                 echo.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
-    notes = [*source.notes, *generations, *encoder.notes, *([said_of_runs(runs)] if runs else echo.loops.said())]
+    notes = [
+        *source.notes,
+        *generations,
+        *encoder.notes,
+        *([describe_runs(runs)] if runs else echo.loops.descriptions()),
+    ]
     look = echo.worst_look
     if look is not None:
         notes.append(f"no look is promised: the worst frame has a look of {look:.2g}, where the default has at most 1")

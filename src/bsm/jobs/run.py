@@ -10,7 +10,7 @@ from heapq import heappop, heappush
 
 from bsm.bitstream.errors import OptionError, counted
 from bsm.console import Console, print_json
-from bsm.exits import exit_of, tell, worded
+from bsm.exits import exit_of, report_error, worded
 from bsm.files import pipes
 from bsm.files.output import refuse_collisions, refuse_to_overwrite
 from bsm.jobs.report import NOTHING, Earlier, Report, digest_of, options_of, read_report, recorded, table
@@ -50,7 +50,7 @@ def run_jobs(
         for line in outcome.notes:
             console.note(line)
         if outcome.error is not None:
-            tell(outcome.error, as_json=run.json)
+            report_error(outcome.error, as_json=run.json)
         elif show and not run.json:
             print(f"{job.input}:\n{show(outcome.facts)}\n", flush=True)
 

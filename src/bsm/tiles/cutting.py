@@ -72,8 +72,8 @@ def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | Non
     if not farthest < (_FARTHEST if exact else MOST_LARGEST // 2):
         least = math.ceil(math.log2(2 * max(map(abs, (*raw.low, *raw.high))) / _FARTHEST))
         better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
-        said = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
-        raise OptionError(f"{said}places exactly; a power of two does, such as --grid-cell {better!r}")
+        message = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
+        raise OptionError(f"{message}places exactly; a power of two does, such as --grid-cell {better!r}")
     return lattice
 
 

@@ -158,11 +158,11 @@ def write_tileset(tiles: Tiles, folder: str, console: Console, *, content: str =
         """A node of the octree, where `around` is the lowest place of the one above."""
         (low, high), children = ends[name], sorted(below.get(name, ()))
         half, moved = (high - low) * tiles.lattice.cell / 2, (low - around) * tiles.lattice.cell
-        told: Facts = {"geometricError": known[name][1].error if name in known else diagonal, "refine": "REPLACE"}
-        told["boundingVolume"] = {"box": [*half.tolist(), *np.diag(half).ravel().tolist()]}
-        told["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *moved.tolist(), 1]
-        told |= {"content": {"uri": f"{_CONTENT}/{name}.glb"}} if name in known else {}
-        return told | ({"children": [node(child, low) for child in children]} if children else {})
+        tile: Facts = {"geometricError": known[name][1].error if name in known else diagonal, "refine": "REPLACE"}
+        tile["boundingVolume"] = {"box": [*half.tolist(), *np.diag(half).ravel().tolist()]}
+        tile["transform"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, *moved.tolist(), 1]
+        tile |= {"content": {"uri": f"{_CONTENT}/{name}.glb"}} if name in known else {}
+        return tile | ({"children": [node(child, low) for child in children]} if children else {})
 
     root = node("r", ends["r"][0])
     root["transform"][12:15] = tiles.lattice.positions(ends["r"][0]).tolist()

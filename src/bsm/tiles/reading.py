@@ -138,8 +138,10 @@ _WORDS = {"positions": "coordinate", "color": "colour", "normal": "normal", "fac
 
 def _refuse_textures(names: set[str]) -> None:
     if names:
-        said = f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colours and normals of vertices "
-        raise UnsupportedError(f"{said}alone: write it without, or its texture as colours")
+        message = (
+            f"this mesh has a texture ({', '.join(sorted(names))}), and tiles have colours and normals of vertices "
+        )
+        raise UnsupportedError(f"{message}alone: write it without, or its texture as colours")
 
 
 def _read_ply(given: Input, left_out: LeftOut) -> Pieces:

@@ -52,12 +52,12 @@ def held(folder: Path, take_over: bool) -> Iterator[None]:
                 path.unlink()
 
 
-def _held_by(path: Path, said: str) -> OSError:
+def _held_by(path: Path, message: str) -> OSError:
     with suppress(OSError):
         words = path.read_text(errors="replace").split()[:2]
         if len(words) == 2 and words[0].isdigit():
-            return OSError(errno.EBUSY, f"process {words[0]} on {words[1]!r:.80} {said}", str(path.parent))
-    return OSError(errno.EBUSY, f"another process {said}", str(path.parent))
+            return OSError(errno.EBUSY, f"process {words[0]} on {words[1]!r:.80} {message}", str(path.parent))
+    return OSError(errno.EBUSY, f"another process {message}", str(path.parent))
 
 
 def is_own(work: Path) -> bool:

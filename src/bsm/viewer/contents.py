@@ -136,11 +136,11 @@ def _rival(source: TriangleMesh, size: int, distance: float) -> tuple[tuple[Laye
     return (layer,), {"bytes": len(file(DRACO_BITS[good])), "bits": DRACO_BITS[good]}
 
 
-def made(name: str, data: bytes, mesh: TriangleMesh, preset: str, tell: Callable[[str, float], None]) -> Content:
-    """A mesh file encoded, and beside its original; `tell` hears what begins, and what share is done."""
-    tell("encoding", 0.0)
+def made(name: str, data: bytes, mesh: TriangleMesh, preset: str, report: Callable[[str, float], None]) -> Content:
+    """A mesh file encoded, and beside its original; `report` hears what begins, and what share is done."""
+    report("encoding", 0.0)
     stream = encode(mesh, preset=preset)
-    tell("comparing", _ENCODING)
+    report("comparing", _ENCODING)
     return compared(name, stream, mesh, size=len(data), preset=preset)
 
 
@@ -164,11 +164,11 @@ def uploaded(name: str, data: bytes, preset: str) -> Generator[tuple[str, float]
     process.start()
     there.close()
     try:
-        said: Any = ("starting", 0.0)
-        while isinstance(said, tuple):
+        report: Any = ("starting", 0.0)
+        while isinstance(report, tuple):
             if here.poll(_EVERY):
-                said = here.recv()
-            yield said
+                report = here.recv()
+            yield report
     except (EOFError, OSError):
         yield "the process that encoded it has died"
     finally:

@@ -303,20 +303,20 @@ class _Handler(BaseHTTPRequestHandler):
             try:
                 data = self.rfile.read(int(length))
                 if len(data) == int(length):
-                    self._answer(self._said(asked.get("name", ["mesh"])[0], data, asked["preset"][0]), "text/plain")
+                    self._answer(self._reported(asked.get("name", ["mesh"])[0], data, asked["preset"][0]), "text/plain")
             except OSError:
                 pass  # the page is gone
             finally:
                 self.server.encoding.release()
 
-    def _said(self, name: str, data: bytes, preset: str) -> Iterator[bytes]:
+    def _reported(self, name: str, data: bytes, preset: str) -> Iterator[bytes]:
         """Lines of JSON: stage and share, at last an entry or an error."""
         with closing(uploaded(name, data, preset)) as reports:
-            for said in reports:
-                if isinstance(said, tuple):
-                    line: dict[str, Any] = {"stage": said[0], "share": said[1]}
+            for report in reports:
+                if isinstance(report, tuple):
+                    line: dict[str, Any] = {"stage": report[0], "share": report[1]}
                 else:
-                    line = {"error": said} if isinstance(said, str) else {"entry": self.server.dropped(said)}
+                    line = {"error": report} if isinstance(report, str) else {"entry": self.server.dropped(report)}
                 yield json.dumps(line).encode() + b"\n"
 
     def _answer(self, data: bytes | Growing | Iterator[bytes], kind: str, status: HTTPStatus = HTTPStatus.OK) -> None:

@@ -108,9 +108,9 @@ def test_an_obj_with_everything(tmp_path):
     assert at_corners(mesh, attribute(mesh, "normal"))[1].tolist() == [[0, 0, 1], [0, 1, 0], [0, 1, 0]]
     assert attribute(mesh, "material").values[:, 0].tolist() == [0, 1, 2]
     assert attribute(mesh, "group").values[:, 0].tolist() == [0, 1, 1]
-    said = dict(mesh.metadata)
-    assert said.pop("image.0.data") == png()
-    assert said == {
+    entries = dict(mesh.metadata)
+    assert entries.pop("image.0.data") == png()
+    assert entries == {
         "mtllib": "a.mtl",
         "object.0.name": "body",
         "group.0.name": "",
@@ -425,10 +425,10 @@ def test_glb_there_and_back(tmp_path):
     colors = at_corners(again, attribute(again, "color"))
     assert np.array_equal(colors[:, :, :3], at_corners(mesh, attribute(mesh, "color"))[order])
     assert attribute(again, "material").values[:, 0].tolist() == sorted(np.arange(len(mesh.faces)) % 2)
-    said = again.metadata
-    assert said["image.0.data"] == png() and said["material.1.baseColorTexture"] == 0
-    assert said["material.0.name"] == "red" and said["material.0.baseColorFactor"] == "1 0 0 1"
-    assert (said["name"], said["unit"], said["year"], said["scale"]) == ("Tuch № 1", "mm", 1994, 0.25)
+    entries = again.metadata
+    assert entries["image.0.data"] == png() and entries["material.1.baseColorTexture"] == 0
+    assert entries["material.0.name"] == "red" and entries["material.0.baseColorFactor"] == "1 0 0 1"
+    assert (entries["name"], entries["unit"], entries["year"], entries["scale"]) == ("Tuch № 1", "mm", 1994, 0.25)
 
 
 def test_a_jpeg_is_not_compressed_again(tmp_path):
@@ -517,15 +517,15 @@ things = st.sampled_from(["", "1 0 0", "1 1 1 x", "nan", "-s 1", "\n", "\ud800"]
 
 @settings(max_examples=60)
 @given(
-    said=st.dictionaries(st.tuples(st.integers(0, 2), words), things, max_size=5),
+    statements=st.dictionaries(st.tuples(st.integers(0, 2), words), things, max_size=5),
     images=st.dictionaries(st.integers(0, 2), st.sampled_from([b"", b"x", png(), png()[:20]]), max_size=2),
     kind=st.sampled_from(WRITTEN_FORMATS),
 )
-def test_materials_of_any_kind_are_written_or_left_out(said, images, kind):
+def test_materials_of_any_kind_are_written_or_left_out(statements, images, kind):
     if kind == "glb":
         pytest.importorskip("trimesh")
         pytest.importorskip("PIL")
-    metadata = {f"material.{number}.{word}": value for (number, word), value in said.items()}
+    metadata = {f"material.{number}.{word}": value for (number, word), value in statements.items()}
     metadata |= {f"image.{number}.data": data for number, data in images.items()}
     mesh = tetrahedron()
     uv = Attribute("texcoord", np.zeros((4, 2), np.float32), semantic="texcoord")

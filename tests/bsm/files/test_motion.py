@@ -254,8 +254,8 @@ def test_many_files_make_one_stream(tmp_path, capsys):
     assert np.abs(back[:, same] - positions).max() < 0.005 * np.linalg.norm(np.ptp(positions[0], axis=0))
     capsys.readouterr()
     assert bsm("encode", *names[:3]) == 0
-    said = capsys.readouterr().err
-    assert "3 inputs are numbered like the frames" in said and "-o NAME.bsm" in said
+    printed = capsys.readouterr().err
+    assert "3 inputs are numbered like the frames" in printed and "-o NAME.bsm" in printed
 
 
 def test_what_is_wrong_with_a_folder_is_named(tmp_path, capsys):

@@ -48,9 +48,9 @@ def test_materials_of_blender_come_in():
     with zipfile.ZipFile(PAINTED) as package:
         (image,) = (package.read(name) for name in package.namelist() if name.endswith(".png"))
     source = found_in(PAINTED)
-    told = materials_of(source)
-    assert told["Red"] == (EXPECTED["Red"], 64 + 4)
-    assert told["Painted"] == (EXPECTED["Painted"] | {"baseColorTexture": image}, 8)
+    metadata = materials_of(source)
+    assert metadata["Red"] == (EXPECTED["Red"], 64 + 4)
+    assert metadata["Painted"] == (EXPECTED["Painted"] | {"baseColorTexture": image}, 8)
     assert len(set(of_faces(source, "part"))) == 2
     texcoord = next(attribute for attribute in source.attributes if attribute.semantic == "texcoord")
     assert texcoord.indices is not None and texcoord.indices.shape == (76, 3)
@@ -76,13 +76,13 @@ def test_materials_there_and_back(kind, tmp_path, capsys):
     assert main(["encode", str(PAINTED), "-o", str(stream)]) == 0
     capsys.readouterr()
     assert main(["decode", str(stream), "-o", str(back)]) == 0
-    said, shown = capsys.readouterr().err, found_in(back)
+    printed, shown = capsys.readouterr().err, found_in(back)
     before, after = materials_of(found_in(PAINTED)), None
     if kind == "usdz":
         after = materials_of(shown)
-        assert "image" not in said
+        assert "image" not in printed
     else:  # which has no images in it, and says so
-        assert "image.0.data" in said
+        assert "image.0.data" in printed
         assert not any(name.startswith("image.") for name in shown.metadata)
         del before["Painted"][0]["baseColorTexture"]
         after = materials_of(shown)

@@ -132,12 +132,12 @@ def test_what_a_frame_may_look_like_grows_with_the_way_to_those_that_were_drawn(
 @pytest.mark.parametrize("promise", [None, Promise(0.01, 1.0)])
 def test_what_is_told_of_a_search_grows_to_the_whole(promise: Promise | None) -> None:
     positions, faces = bending(6)
-    told: list[float] = []
+    reports: list[float] = []
     options = SequenceOptions(block_size=100, promise=promise, threads=1, gop=3)
-    chunks = SequenceEncoder(faces, options, 6).chunks(positions, lambda done, count: told.append(done / count))
+    chunks = SequenceEncoder(faces, options, 6).chunks(positions, lambda done, count: reports.append(done / count))
     assert b"".join(chunks)
-    assert told[0] < 0.4 and told[-1] == max(told) == 1.0 and len(set(told)) > 3
-    assert promise or told == sorted(told)  # frames in doubt may be more than a search let expect
+    assert reports[0] < 0.4 and reports[-1] == max(reports) == 1.0 and len(set(reports)) > 3
+    assert promise or reports == sorted(reports)  # frames in doubt may be more than a search let expect
 
 
 def test_a_moving_look_is_what_pictures_differ_by() -> None:

@@ -295,7 +295,7 @@ def test_attributes_of_faces_that_change_in_a_run_are_told() -> None:
     hot = [replace(f, attributes=(Attribute("heat", heat, "face"),)) for f, heat in zip(frames, heats, strict=True)]
     steady = [replace(frame, attributes=(Attribute("heat", heats[0], "face"),)) for frame in frames]
     options = SequenceOptions(step=0.003, block_size=30, threads=1, runs=True)
-    for given, said in ((hot, ["heat changes at frame 2, but stays as before"]), (steady, [])):
+    for given, notes in ((hot, ["heat changes at frame 2, but stays as before"]), (steady, [])):
         encoder = SequenceEncoder(frames[0].faces, options, 4, attributes=given[0].attributes)
         assert b"".join(encoder.chunks(given))
-        assert [note for note in encoder.notes if "changes" in note] == said
+        assert [note for note in encoder.notes if "changes" in note] == notes

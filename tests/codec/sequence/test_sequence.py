@@ -161,8 +161,8 @@ def test_frames_that_may_be_referred_to_are_bounded(monkeypatch):
     kept = []
     commit = FrameHistory.commit
 
-    def watched(history, levels, told):
-        commit(history, levels, told)
+    def watched(history, levels, given):
+        commit(history, levels, given)
         kept.append(len(history._kept))
 
     monkeypatch.setattr(FrameHistory, "commit", watched)

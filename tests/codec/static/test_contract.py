@@ -183,13 +183,13 @@ def test_a_rough_mesh_is_refined_and_every_way_decodes_to_what_was_checked() -> 
 
 
 def test_a_search_reports_its_blocks_and_tries() -> None:
-    told: list[tuple[int, int]] = []
+    reports: list[tuple[int, int]] = []
     encoder = Encoder(
         noisy(torus(80, 40), 0.003), EncodeOptions(block_size=300, contract=Contract(0.004, 4.0), threads=1)
     )
-    encoder.draft(lambda done, total: told.append((done, total)))
-    shares = [done for done, _ in told]
-    assert {total for _, total in told} == {1000} and shares == sorted(shares) and shares[-1] == 1000
+    encoder.draft(lambda done, total: reports.append((done, total)))
+    shares = [done for done, _ in reports]
+    assert {total for _, total in reports} == {1000} and shares == sorted(shares) and shares[-1] == 1000
     assert len(set(shares)) >= 11 + 3  # blocks, a picture, tries, and the check at the end
 
 

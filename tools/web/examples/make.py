@@ -44,9 +44,9 @@ faces = np.concatenate([np.stack([a, b, c], 1), np.stack([b, d, c], 1)]).astype(
 squares = (np.add.outer(np.arange(64) // 8, np.arange(64) // 8) % 2)[..., None]
 image = np.where(squares, [230, 60, 40], [40, 90, 220]).astype(np.uint8)
 coordinates = Attribute("TEXCOORD_0", np.stack([8 * u, 3 * v], 1).astype(np.float32), "vertex", "texcoord")
-told: dict[str, str | int | float | bytes] = {"material.0.baseColorTexture": 0, "material.0.metallicFactor": 0.0}
-told["image.0.data"] = png(image)
-ring = bsm.TriangleMesh(positions, faces, (coordinates,), told)
+metadata: dict[str, str | int | float | bytes] = {"material.0.baseColorTexture": 0, "material.0.metallicFactor": 0.0}
+metadata["image.0.data"] = png(image)
+ring = bsm.TriangleMesh(positions, faces, (coordinates,), metadata)
 (folder / "ring.bsm").write_bytes(bsm.encode(ring))
 bsm.save(ring, folder / "plain.glb")
 assert main(["glb", str(folder / "plain.glb"), "-o", str(folder / "ring.glb"), "-f"]) == 0

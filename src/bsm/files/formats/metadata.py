@@ -166,7 +166,7 @@ def as_mtl(material: Material) -> Material:
     return {name: value for name, value in renamed.items() if _is_mtl(name) or name == "name"}
 
 
-def said_in_mtl(material: Material) -> set[str]:
+def mtl_keywords(material: Material) -> set[str]:
     """The parameters of a material that a library can hold."""
     return {name for name in material if as_mtl({name: material[name]})}
 
@@ -202,10 +202,10 @@ def write_mtl(materials: Mapping[int, Material], names: Mapping[int, str], image
     lines: list[str] = []
     for number, material in materials.items():
         lines.append(f"newmtl {names[number]}")
-        said = as_mtl(material)
-        for keyword, value in said.items():
+        statements = as_mtl(material)
+        for keyword, value in statements.items():
             if refers_to_image(keyword):
-                options = said.get(f"{keyword}.options")
+                options = statements.get(f"{keyword}.options")
                 name = images.get(value) if isinstance(value, int) else None
                 lines += [" ".join(filter(None, [keyword, str(options or ""), name]))] if name else []
             elif keyword != "name" and not keyword.endswith(".options"):
@@ -392,13 +392,13 @@ class Library:
         self.materials: dict[int, Material] = materials_in(mesh.metadata)
         self.images: dict[int, str] = {}
         self.beside: dict[str, bytes] = {}
-        self.said: set[str] = set()
+        self.written: set[str] = set()
         """The metadata that these files hold."""
         for number, (name, data) in images_in(mesh.metadata).items():
             if not data:
                 self.images[number] = one_line(name)
-                self.said.add(f"image.{number}.name")
+                self.written.add(f"image.{number}.name")
             elif kind := kind_of_image(data):
                 self.images[number] = f"{stem}.{number}.{kind}"
                 self.beside[self.images[number]] = data
-                self.said |= {f"image.{number}.data", f"image.{number}.name"}
+                self.written |= {f"image.{number}.data", f"image.{number}.name"}

@@ -192,12 +192,12 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
     if mtl:
         library.beside[f"{stem}.mtl"] = mtl
         library_name = f"{stem}.mtl"
-        library.said |= {
-            f"material.{n}.{key}" for n, m in library.materials.items() for key in materials.said_in_mtl(m)
+        library.written |= {
+            f"material.{n}.{key}" for n, m in library.materials.items() for key in materials.mtl_keywords(m)
         }
-    library.said |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
-    library.said |= {f"{what}.names" for what in STATES if names[what]}
-    lines, unsaid = materials.remarks(mesh.metadata, library.said | {"mtllib"})
+    library.written |= {f"{what}.{number}.name" for what in STATES for number in names[what]}
+    library.written |= {f"{what}.names" for what in STATES if names[what]}
+    lines, omitted = materials.remarks(mesh.metadata, library.written | {"mtllib"})
     parts = [*(f"# {line}\n" for line in lines)]
     parts += [f"mtllib {materials.one_line(str(library_name))}\n"] if library_name else []
     parts.append(_points(mesh, color))
@@ -228,7 +228,7 @@ def write_obj(mesh: TriangleMesh, stem: str) -> materials.Written:
         before[changes] += [f"{STATES[what]} {names[what][number]}\n" for number in values[order[changes]].tolist()]
     parts += chain.from_iterable(zip(before.tolist(), faces))
     held = (color, texcoord, normal, *numbers.values())
-    lost = materials.left_out(mesh, held, unsaid)
+    lost = materials.left_out(mesh, held, omitted)
     if color is not None and color.components > _COLORS:
         lost = (f"alpha of {color.name}", *lost)
     return materials.Written("".join(parts).encode(), lost, library.beside)

@@ -77,7 +77,7 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
     color = first(mesh, "color", (3, 4), "vertex")
     texcoord = first(mesh, "texcoord", (2,), "vertex")
     of_faces = first(mesh, "color", (3, 4), "face")
-    comments, unsaid = remarks(mesh.metadata)
+    comments, omitted = remarks(mesh.metadata)
     keyword = f"{'ST' if texcoord else ''}{'C' if color else ''}{'N' if normal else ''}OFF"
     head = "".join([f"{keyword}\n", *(f"# {line}\n" for line in comments)])
     counts = f"{len(mesh.positions)} {len(mesh.faces)} 0\n"
@@ -87,7 +87,7 @@ def write_off(mesh: TriangleMesh, stem: str) -> Written:
     columns = [*mesh.faces.T.tolist(), *(column for table in behind for column in table.T.tolist())]
     faces = "".join(map(("3 {} {} {}" + face).format, *columns))
     held = (normal, color, texcoord, of_faces)
-    return Written((head + counts).encode() + points + faces.encode(), left_out(mesh, held, unsaid))
+    return Written((head + counts).encode() + points + faces.encode(), left_out(mesh, held, omitted))
 
 
 def _row(attributes: Sequence[Attribute | None]) -> tuple[str, list[Doubles | Ints]]:

@@ -80,8 +80,8 @@ class Header:
             own = [line for line in lines if line and not line.startswith(f"{IMAGE} ") and not parse_remarks([line])]
             if own:
                 found.setdefault(keyword, "\n".join(own))
-        told = [item for material in materials_in(found).values() for item in material.items()]
-        shown = {value for name, value in told if refers_to_image(name)}
+        entries = [item for material in materials_in(found).values() for item in material.items()]
+        shown = {value for name, value in entries if refers_to_image(name)}
         for number, name in enumerate(images):
             found[f"image.{number}.name"] = name
             if number not in shown:
@@ -426,7 +426,7 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
     texts = {word: text for word in COMMENTS if isinstance(text := mesh.metadata.get(word), str)}
     texts = {word: text for word, text in texts.items() if len(text) < _MOST_TEXT}
     free = [f"{word} {one_line(line)}" for word, text in texts.items() for line in text.split("\n")]
-    comments, unsaid = remarks(mesh.metadata, library.said | texts.keys())
+    comments, omitted = remarks(mesh.metadata, library.written | texts.keys())
     single = np.float32 if single_suffices(mesh.positions) else np.float64
     columns: dict[str, list[tuple[str, Array]]] = {
         "vertex": list(zip("xyz", mesh.positions.astype(single).T)),
@@ -456,7 +456,7 @@ def write_ply(mesh: TriangleMesh, stem: str) -> Written:
             rows[name] = values
         body.append(rows.tobytes())
     header = "".join(f"{line}\n" for line in (*lines, "end_header"))
-    return Written(header.encode() + b"".join(body), left_out(mesh, mesh.attributes, unsaid), library.beside)
+    return Written(header.encode() + b"".join(body), left_out(mesh, mesh.attributes, omitted), library.beside)
 
 
 def _property_names(attribute: Attribute, taken: list[str]) -> list[str]:

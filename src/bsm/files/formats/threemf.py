@@ -45,20 +45,20 @@ class _Model:
     def _refuse(self, *_: object) -> None:
         raise FormatError("a 3MF file has no DOCTYPE")
 
-    def _begin(self, name: str, says: Mapping[str, str]) -> None:
+    def _begin(self, name: str, attrs: Mapping[str, str]) -> None:
         match name.rpartition(" ")[2]:
             case "object":
-                self._object = says.get("id", "")
+                self._object = attrs.get("id", "")
             case "vertex" | "triangle" as what:
                 self.size[what] += 1
                 self.objects[self._object][what] += 1
             case "component":
-                used = says.get("objectid", "")
+                used = attrs.get("objectid", "")
                 self.uses[self._object][used] += 1
-                paths = (path.strip("/") for key, path in says.items() if key.endswith("path"))
+                paths = (path.strip("/") for key, path in attrs.items() if key.endswith("path"))
                 self.files += ((used, path) for path in paths)
             case "item":
-                self.uses[""][says.get("objectid", "")] += 1
+                self.uses[""][attrs.get("objectid", "")] += 1
 
 
 def placed_triangles(data: bytes, limits: Limits) -> int:

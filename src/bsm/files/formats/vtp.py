@@ -41,7 +41,7 @@ class _Array:
     """A `DataArray` as it stands in the file: the element around it, what it says of itself, and its text."""
 
     around: str
-    says: dict[str, str]
+    attrs: dict[str, str]
     text: list[str] = field(default_factory=list)
 
 
@@ -68,18 +68,18 @@ class _Document:
     def _refuse(self, *_: object) -> None:
         raise FormatError("a VTP file has no DOCTYPE")
 
-    def _begin(self, tag: str, says: dict[str, str]) -> None:
+    def _begin(self, tag: str, attrs: dict[str, str]) -> None:
         self._begun += 1
         if len(self._path) == _MOST_DEEP or self._begun > _MOST_TAGS:
             raise FormatError(f"the XML of this VTP file is too deep, or has more than {_MOST_TAGS} elements")
         if tag == "Piece" and tag in self.tags:
             raise MeshError("this VTP file has several pieces; save it as one")
         if tag in ("DataArray", "Array"):
-            self.arrays.append(_Array(self._path[-1] if self._path else "", says))
+            self.arrays.append(_Array(self._path[-1] if self._path else "", attrs))
             if len(self.arrays) > _MOST_ARRAYS:
                 raise FormatError(f"this VTP file has more than {_MOST_ARRAYS} arrays")
         elif tag in _TAGS:
-            self.tags.setdefault(tag, says)
+            self.tags.setdefault(tag, attrs)
         self._path.append(tag)
 
     def _end(self, _: str) -> None:
@@ -106,16 +106,16 @@ class _Numbers:
 
     def of(self, array: _Array) -> Array:
         """The numbers, shape (k, c)."""
-        kind = "u1" if array.says.get("type") == "String" else _TYPES.get(array.says.get("type", ""))
+        kind = "u1" if array.attrs.get("type") == "String" else _TYPES.get(array.attrs.get("type", ""))
         if kind is None:
-            raise MeshError(f"numbers cannot be {array.says.get('type')}")
-        components = _count(array.says, "NumberOfComponents", 1)
-        if array.says.get("format") == "ascii":
+            raise MeshError(f"numbers cannot be {array.attrs.get('type')}")
+        components = _count(array.attrs, "NumberOfComponents", 1)
+        if array.attrs.get("format") == "ascii":
             values = self._of_text("".join(array.text), np.dtype(kind))
         else:
             data = self._bytes(array)
             if len(data) % np.dtype(kind).itemsize:
-                raise CorruptError(f"{len(data)} bytes are not {array.says['type']} numbers")
+                raise CorruptError(f"{len(data)} bytes are not {array.attrs['type']} numbers")
             with np.errstate(invalid="ignore"):  # what is not a number is refused later
                 values = np.frombuffer(data, self._order + kind).astype(kind)
         if components < 1 or len(values) % components:
@@ -134,9 +134,9 @@ class _Numbers:
             return values.astype(kind)
 
     def _bytes(self, array: _Array) -> bytes:
-        appended = array.says.get("format") == "appended"
+        appended = array.attrs.get("format") == "appended"
         if appended:
-            begin = _count(array.says, "offset", 0)
+            begin = _count(array.attrs, "offset", 0)
             raw = self._encoding == "raw"
             given = self._behind[begin:] if raw else self._behind[begin:].split(b"<", 1)[0]
         else:
@@ -192,9 +192,9 @@ class _Numbers:
         require_inflated(self._made, self._size, self._limits)
 
 
-def _count(says: dict[str, str], name: str, default: int) -> int:
+def _count(attrs: dict[str, str], name: str, default: int) -> int:
     """A whole number among what an element says."""
-    text = says.get(name, str(default))
+    text = attrs.get(name, str(default))
     if not re.fullmatch(r"\d{1,18}", text):
         raise FormatError(f"{name} should be a number, not {text[:40]!r}")
     return int(text)
@@ -218,7 +218,7 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     require_count("faces", polygons, limits)
     numbers = _Numbers(document, behind, encoding.decode(), limits, len(data))
     shape = {
-        (array.around, array.says.get("Name", "") if array.around == "Polys" else ""): array
+        (array.around, array.attrs.get("Name", "") if array.around == "Polys" else ""): array
         for array in document.arrays
         if array.around in ("Points", "Polys")
     }
@@ -235,12 +235,12 @@ def read_vtp(data: bytes, limits: Limits) -> Polygons:
     if (sizes < 0).any() or (sizes > corners.size).any() or sizes.sum() != corners.size:
         raise CorruptError("the polygons of this VTP file do not begin where others end")
     columns, dropped = _columns(document, numbers, piece)
-    metadata, unsaid = _metadata(document, numbers)
+    metadata, omitted = _metadata(document, numbers)
     others = [word for name, word in _OTHERS.items() if _count(piece, name, 0)]
     flat: Ints = corners.reshape(-1).astype(np.int64)
     with np.errstate(invalid="ignore"):  # as above
         positions = coordinates.astype(np.float64)
-    return Polygons(positions, sizes, flat, (), (*dropped, *unsaid, *others), columns, metadata)
+    return Polygons(positions, sizes, flat, (), (*dropped, *omitted, *others), columns, metadata)
 
 
 def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> tuple[tuple[Column, ...], list[str]]:
@@ -250,8 +250,8 @@ def _columns(document: _Document, numbers: _Numbers, piece: dict[str, str]) -> t
     found, dropped = [], []
     for array in document.arrays:
         domain = domains.get(array.around)
-        name = array.says.get("Name", "")
-        if domain and array.says.get("type") not in _TYPES:
+        name = array.attrs.get("Name", "")
+        if domain and array.attrs.get("type") not in _TYPES:
             dropped.append(name)
         elif domain:
             values = numbers.of(array)[before if domain == "face" else 0 :]
@@ -266,7 +266,7 @@ def _metadata(document: _Document, numbers: _Numbers) -> tuple[Metadata, list[st
     found: dict[str, str | int | float | bytes] = {}
     dropped = []
     for array in (array for array in document.arrays if array.around == "FieldData"):
-        name, kind = array.says.get("Name", ""), array.says.get("type")
+        name, kind = array.attrs.get("Name", ""), array.attrs.get("type")
         values = numbers.of(array)
         if kind == "String" and values.size and values[-1] == 0 and np.count_nonzero(values == 0) == 1:
             found[name] = values[:-1].tobytes().decode(errors="replace")

@@ -96,8 +96,8 @@ def _absent_images(tree: dict[str, Any], path: str | None) -> list[str]:
 
 def _unread(tree: dict[str, Any]) -> list[str]:
     """What a glTF holds and trimesh does not tell of."""
-    told = {"animations": "animations (--animation encodes one)", "skins": "skins", "cameras": "cameras"}
-    found = [told[name] for name in told if tree.get(name)]
+    names = {"animations": "animations (--animation encodes one)", "skins": "skins", "cameras": "cameras"}
+    found = [names[name] for name in names if tree.get(name)]
     found += [name for name in tree.get("extensionsUsed", []) if name not in _READ_BY_TRIMESH]
     for mesh in tree.get("meshes", []):
         for primitive in mesh["primitives"]:
@@ -279,5 +279,5 @@ def _words_of(material: Any, images: list[bytes]) -> Material:
                 numbers = numbers / 255
             kept = numbers[:3] if name.startswith("K") else numbers
             found[name] = " ".join(f"{number:.6g}" for number in kept)
-    said = {name: value for name, value in found.items() if not isinstance(value, float) or np.isfinite(value)}
-    return {} if said == {"doubleSided": 0} else said  # the default
+    finite = {name: value for name, value in found.items() if not isinstance(value, float) or np.isfinite(value)}
+    return {} if finite == {"doubleSided": 0} else finite  # the default

@@ -164,7 +164,7 @@ class Loops:
                 return range(start + period, start + period + length), period
         return None
 
-    def said(self) -> tuple[str, ...]:
+    def descriptions(self) -> tuple[str, ...]:
         found = self.found()
         if found is None:
             return ()
@@ -173,11 +173,11 @@ class Loops:
         return (f"frames {first} to {last} repeat {first - period} to {first - 1}",)
 
 
-MOST_SAID = 12
+MOST_LISTED = 12
 
 
-def said_of_runs(starts: Sequence[int]) -> str:
+def describe_runs(starts: Sequence[int]) -> str:
     """In words, the frames before which faces change."""
-    some = ", ".join(map(str, starts[:MOST_SAID]))
-    rest = f" and {len(starts) - MOST_SAID} more" if len(starts) > MOST_SAID else ""
+    some = ", ".join(map(str, starts[:MOST_LISTED]))
+    rest = f" and {len(starts) - MOST_LISTED} more" if len(starts) > MOST_LISTED else ""
     return f"connectivity changes at frame{'s' if len(starts) > 1 else ''} {some}{rest}"

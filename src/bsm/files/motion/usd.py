@@ -57,10 +57,10 @@ class Materials:
 
     def metadata(self, most: int) -> tuple[dict[str, formats.Value], list[str]]:
         """Return the metadata of all materials found, with images of limited size, and notes on missing images."""
-        said = formats.described({number: dict(words) for words, number in self._known.items()})
+        entries = formats.described({number: dict(words) for words, number in self._known.items()})
         names = {f"image.{number}.name": name for name, number in self._images.items()}
         if not zipfile.is_zipfile(self._path):
-            return formats.fetched({**said, **names}, Path(self._path).parent, most)
+            return formats.fetched({**entries, **names}, Path(self._path).parent, most)
         packed: dict[str, formats.Value] = {}
         with zipfile.ZipFile(self._path) as package, suppress(zipfile.BadZipFile, NotImplementedError, RuntimeError):
             for key, name in names.items():
@@ -70,7 +70,7 @@ class Materials:
                     packed |= {key.replace(".name", ".data"): data} if formats.kind_of_image(data) else {}
         lacking = [name for key, name in names.items() if key.replace(".name", ".data") not in packed]
         notes = [f"the image {name} was left out, its name was kept: it is not in the package" for name in lacking]
-        return {**said, **names, **packed}, notes
+        return {**entries, **names, **packed}, notes
 
     def _bound(self, prim: Any) -> Any:
         return self._shade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
@@ -137,23 +137,23 @@ def write_materials(pxr: Any, mesh: Any, shown: TriangleMesh, folder: Path | Non
         if (kind := formats.kind_of_image(data)) in ("png", "jpg", "exr"):  # those that USD knows
             files[number] = f"image_{number}.{kind}"
             Path(str(folder), files[number]).write_bytes(data)
-    said = {f"image.{number}.{what}" for number in files for what in ("name", "data")}
+    written = {f"image.{number}.{what}" for number in files for what in ("name", "data")}
     bound: dict[int, Any] = {}
     for number, known in words.items():
         name = pxr.Tf.MakeValidIdentifier(str(known.get("name") or f"material_{number}"))
         place = mesh.GetPath().AppendChild(name)
         place = mesh.GetPath().AppendChild(f"{name}_{number}") if stage.GetPrimAtPath(place) else place
         bound[number] = shade.Material.Define(stage, place)
-        told = _Surface(pxr, bound[number], files).write(formats.gltf_values(known))
-        said |= {
+        shaded = _Surface(pxr, bound[number], files).write(formats.gltf_values(known))
+        written |= {
             f"material.{number}.{key}"
             for key in known
-            if key == "name" or set(formats.as_gltf({key: known[key]})) & told
+            if key == "name" or set(formats.as_gltf({key: known[key]})) & shaded
         }
-        if {"Kd", "d"} & known.keys() and "baseColorFactor" in told:
-            said |= {f"material.{number}.{key}" for key in ("Kd", "d")}
+        if {"Kd", "d"} & known.keys() and "baseColorFactor" in shaded:
+            written |= {f"material.{number}.{key}" for key in ("Kd", "d")}
     bind_materials(pxr, mesh, shown, bound)
-    return bound, said
+    return bound, written
 
 
 def bind_materials(pxr: Any, mesh: Any, shown: TriangleMesh, bound: Mapping[int, Any], time: int | None = None) -> None:
@@ -185,7 +185,7 @@ class _Surface:
 
     def write(self, words: Mapping[str, Any]) -> set[str]:
         """Say what USD has an input for; returns which of the words of glTF these were."""
-        types, said = self._types, {"name"}
+        types, written = self._types, {"name"}
         factor = words.get("baseColorFactor")
         for name, painted in _PAINTED.items():
             image = words.get(painted, -1)
@@ -193,22 +193,22 @@ class _Surface:
                 kind = types.Float if name == "occlusion" else types.Normal3f if name == "normal" else types.Color3f
                 scale = factor if name == "diffuseColor" else None
                 self._paint(name, kind, self._images[image], scale)
-                said.add(painted)
+                written.add(painted)
         if factor is not None:
-            if "baseColorTexture" not in said:
+            if "baseColorTexture" not in written:
                 self._set("diffuseColor", types.Color3f, self._pxr.Gf.Vec3f(*factor[:3]))
             if factor[3] < 1.0:
                 self._set("opacity", types.Float, factor[3])
-            said.add("baseColorFactor")
+            written.add("baseColorFactor")
         emitted = words.get("emissiveFactor")
-        if emitted is not None and "emissiveTexture" not in said:
+        if emitted is not None and "emissiveTexture" not in written:
             self._set("emissiveColor", types.Color3f, self._pxr.Gf.Vec3f(*emitted))
-            said.add("emissiveFactor")
+            written.add("emissiveFactor")
         for name, known in _SINGLE.items():
             if known in words:
                 self._set(name, types.Float, words[known])
-                said.add(known)
-        return said
+                written.add(known)
+        return written
 
     def _paint(self, name: str, kind: Any, file: str, scale: list[float] | None) -> None:
         types = self._types
@@ -290,8 +290,8 @@ class _Part:
     def at(self, time: float, cache: Any) -> Doubles:
         code = self._pxr.Usd.TimeCode(time)
         points = np.array(self._points.Get(code), np.float64).reshape(-1, 3)
-        told = (("counts", self.counts_attr, self.counts), ("corners", self.corners_attr, self.corners))
-        for name, attr, known in told:
+        arrays = (("counts", self.counts_attr, self.counts), ("corners", self.corners_attr, self.corners))
+        for name, attr, known in arrays:
             if attr.GetNumTimeSamples() > 1 and not np.array_equal(np.array(attr.Get(code), np.int64), known):
                 raise MeshError(
                     f"{self.prim.GetPath()} has other faces at time {time:g} than before (their {name}); if they may "
@@ -550,10 +550,10 @@ def _begun(
     mesh.CreateFaceVertexIndicesAttr(pxr.Vt.IntArray.FromNumpy(np.ascontiguousarray(first.faces.reshape(-1))))
     mesh.CreatePointsAttr()
     mesh.CreateExtentAttr()
-    materials, said = write_materials(pxr, mesh, first, images)
+    materials, written = write_materials(pxr, mesh, first, images)
     shared.loses(attribute.name for attribute in _others(first, materials) if not _written(pxr, mesh, attribute))
-    said |= {"up", "name", "frame_rate"} | ({"unit"} if size else set())
-    shared.loses(name for name in first.metadata if name not in said)
+    written |= {"up", "name", "frame_rate"} | ({"unit"} if size else set())
+    shared.loses(name for name in first.metadata if name not in written)
     return mesh, materials
 
 

@@ -262,8 +262,8 @@ def test_texture_coordinates_and_shapes_keep_the_look_under_a_checker(preset):
     assert places is not None
     seen = Worn(mesh, "texcoord", places).compare(decoded)
     assert seen is not None and seen <= PRESETS[preset].contract.look + 1e-3
-    told = encode(mesh, replace(PRESETS[preset], attributes={"uv": "14bits"}))
-    assert np.ptp(decode(told).attributes[0].values) > 0.0 and len(encoder.encode()) < len(told)
+    requested = encode(mesh, replace(PRESETS[preset], attributes={"uv": "14bits"}))
+    assert np.ptp(decode(requested).attributes[0].values) > 0.0 and len(encoder.encode()) < len(requested)
 
 
 @pytest.mark.parametrize(("kind", "domain"), [("uint8", "vertex"), ("float32", "corner"), ("uint16", "face")])
@@ -274,12 +274,12 @@ def test_colours_and_shapes_keep_the_look_in_colours(kind, domain):
     whole = 1 if kind == "float32" else np.iinfo(kind).max
     colours = Attribute("color", (rows * whole).astype(kind), domain, "color")
     mesh = replace(mesh, attributes=(colours,))
-    data, told = encode(mesh), encode(mesh, EncodeOptions(attributes={"color": "exact"}))
+    data, requested = encode(mesh), encode(mesh, EncodeOptions(attributes={"color": "exact"}))
     values = worn(mesh, "color")
     assert values is not None and np.ptp(values) > 0.8
     seen = Worn(mesh, "color", values).compare(decode(data))
     assert seen is not None and 0.0 < seen <= 1.0 + 1e-3
-    assert len(data) < 0.8 * len(told)
+    assert len(data) < 0.8 * len(requested)
 
 
 @pytest.mark.parametrize("how", ["few", "shining through", "beyond"])
