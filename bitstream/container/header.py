@@ -193,7 +193,7 @@ class Header:
         return self.run[0] if self.run else 0
 
     @property
-    def again(self) -> int | None:
+    def mesh_of(self) -> int | None:
         """The run whose mesh this one has; None: it brings a mesh of its own."""
         return self.run[1] if len(self.run) == 2 else None
 
@@ -232,7 +232,7 @@ def contradiction(header: Header) -> str | None:
     """Which two fields of a header exclude each other, or None."""
     if header.grid:
         own = _grid_rules(header)
-    elif header.again is not None:
+    elif header.mesh_of is not None:
         own = _others("the mesh of another run", header, ("sequence", "run"))
     else:
         own = _block_rules(header)
@@ -248,7 +248,7 @@ def _common_rules(header: Header) -> dict[str, bool]:
         "a sequence that is not frames and a length for GOPs": bool(header.sequence) and header.gop_frames == 0,
         "a run of a static mesh": bool(header.run) and not header.sequence,
         "a run that is stored although it is the first": header.run == (0,),
-        "the mesh of a run that has not been": header.again is not None and header.again >= header.run_number,
+        "the mesh of a run that has not been": header.mesh_of is not None and header.mesh_of >= header.run_number,
         "a paper that is not eight numbers": len(header.paper) not in (0, 8),
     }
 

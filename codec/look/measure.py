@@ -129,7 +129,7 @@ class LookMetric:
         return other
 
     @property
-    def is_spent(self) -> bool:
+    def is_exhausted(self) -> bool:
         """Whether so much was drawn that nothing should be drawn that need not be."""
         return self._drawn_pictures * self._size.work > MOST_WORK + WORK_PER_FACE * len(self._mesh.faces)
 
@@ -297,7 +297,7 @@ class LookMetric:
         return np.array(self._each(sums, sides))
 
 
-class Worn:
+class AttributeLook:
     """Pictures of an original under a checker, at texture coordinates, or in colours: `spec/look.md`, L 7 and L 8.
 
     `values` are what corners have, shape (m, 3 c)."""
@@ -314,7 +314,7 @@ class Worn:
 
     def compare(self, other: TriangleMesh) -> float | None:
         """How far another mesh looks, of whatever faces; None: it has no such attribute."""
-        values, faces = worn(other, self._semantic), np.ascontiguousarray(other.faces, np.int32)
+        values, faces = look_values(other, self._semantic), np.ascontiguousarray(other.faces, np.int32)
         if values is None:
             return None
         paint, sides = self._painting(values, other.positions, faces), range(len(TOWARDS))
@@ -378,13 +378,13 @@ def own_normals(mesh: TriangleMesh) -> Normals | None:
     return None
 
 
-def worn(mesh: TriangleMesh, semantic: Semantic) -> Matrix | None:
-    """The arguments of `Worn` for the first attribute that means colors, or texture coordinates, or None."""
-    found = (attribute for attribute in mesh.attributes if attribute.semantic == semantic and is_worn(attribute))
+def look_values(mesh: TriangleMesh, semantic: Semantic) -> Matrix | None:
+    """The arguments of `AttributeLook` for the first attribute that means colors, or texture coordinates, or None."""
+    found = (attribute for attribute in mesh.attributes if attribute.semantic == semantic and has_look(attribute))
     return next((painted(semantic, at_corners(attribute, mesh.faces)) for attribute in found), None)
 
 
-def is_worn(attribute: Attribute) -> bool:
+def has_look(attribute: Attribute) -> bool:
     """Whether an attribute is seen in pictures: texture coordinates of a plane; and colours, if floats from 0 to 1."""
     kind = attribute.values.dtype.kind
     if attribute.semantic == "color":
@@ -394,7 +394,7 @@ def is_worn(attribute: Attribute) -> bool:
 
 
 def painted(semantic: Semantic, corners: npt.NDArray[Any]) -> Matrix:
-    """Values of corners, shape (m, 3, c), as `Worn` takes them: of colours red, green and blue, from 0 to 1."""
+    """Values of corners as `AttributeLook` takes them, shape (m, 3, c): of colours red, green, blue, from 0 to 1."""
     if semantic == "color":
         whole = 1.0 if corners.dtype.kind == "f" else float(np.iinfo(corners.dtype).max)
         corners = (corners[..., :3] if corners.shape[2] > 2 else corners[..., [0, 0, 0]]) / whole

@@ -148,7 +148,7 @@ def moved(prepared: PreparedAttribute) -> PreparedAttribute:
     return replace(prepared, declaration=replace(prepared.declaration, moves=1))
 
 
-class Mover:
+class MovingAttributeEncoder:
     """Encodes one attribute in the GOPs of a run."""
 
     def __init__(self, number: int, carried: PreparedAttribute, given: Values, bound: Bound) -> None:
@@ -242,10 +242,10 @@ class Mover:
 
 
 def with_fields(
-    bodies: Sequence[GopBody], movers: Sequence[Mover], values: Mapping[str, Values]
+    bodies: Sequence[GopBody], coders: Sequence[MovingAttributeEncoder], values: Mapping[str, Values]
 ) -> tuple[GopBody, ...]:
     """GOPs of positions, and now of attributes, too: `values` are of all frames, shape (T, k, c)."""
-    each = [mover.fields(bodies, values[mover.name]) for mover in movers]
+    each = [coder.fields(bodies, values[coder.name]) for coder in coders]
     return tuple(
         replace(body, fields=(*body.fields, *(fields[number] for fields in each))) for number, body in enumerate(bodies)
     )

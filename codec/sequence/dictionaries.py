@@ -13,7 +13,7 @@ from bsm.codec.basis.laplacian import Factor, Held, cotangent_weights, hold
 from bsm.codec.blocks.overlap import Blocks
 from bsm.codec.signal.chain import ChainRules, Suspended, continued, key_dictionary
 from bsm.codec.signal.transform import project, reconstruct
-from bsm.codec.static.work import Allowance, block_memory
+from bsm.codec.static.work import Budget, block_memory
 from bsm.codec.threads import ordered_map
 
 TETHER = 2.0**-16  # stiffness with which every row hangs on the mean of the pulls; it places what no spring reaches
@@ -87,12 +87,10 @@ class Part:
 class Dictionaries:
     """Dictionaries of all parts: kept of the first ones, as many as there is room for, and made again of the others."""
 
-    def __init__(
-        self, sites: tuple[Site, ...], rules: ChainRules, allowance: Allowance, threads: int | None = None
-    ) -> None:
+    def __init__(self, sites: tuple[Site, ...], rules: ChainRules, budget: Budget, threads: int | None = None) -> None:
         self.sites = sites
         self._rules = rules
-        self._allowance = allowance
+        self._budget = budget
         self._threads = threads
         self._parts: list[Part | None] = [None] * len(sites)
         self._kept = 0
@@ -112,7 +110,7 @@ class Dictionaries:
 
     def release(self) -> None:
         """Keep none until room is reserved again."""
-        self._allowance.keep(-self._reserved)
+        self._budget.reserve(-self._reserved)
         self._reserved = self._use = 0.0
         self._parts = [None] * len(self.sites)
         self._kept = 0
@@ -126,16 +124,16 @@ class Dictionaries:
         """Have room for what comes next, and keep as many dictionaries as there is room for besides."""
         room = self._room(memory, use)
         making = self._making_beside(room)
-        self._allowance.afford(self._allowance.room() - room + making)
+        self._budget.check_fits(self._budget.room() - room + making)
         count = int(np.searchsorted(self._sizes, room - making, side="right")) - 1
         held = memory + float(self._sizes[count])
-        self._allowance.keep(held - self._reserved)
+        self._budget.reserve(held - self._reserved)
         self._reserved, self._use = held, use
         self._parts[count:] = [None] * (len(self.sites) - count)
         self._kept = count
 
     def _room(self, memory: float, use: float, received: int = 0) -> float:
-        return self._allowance.room(received) + self._reserved - memory - use - SPARE
+        return self._budget.room(received) + self._reserved - memory - use - SPARE
 
     def _making_beside(self, room: float) -> float:
         return 0.0 if all(self._parts) and self._sizes[-1] <= room else self._making
@@ -164,7 +162,7 @@ class Dictionaries:
         if part is not None:
             yield part
             return
-        with self._allowance.hold(self.sites[index].making + self._use):
+        with self._budget.hold(self.sites[index].making + self._use):
             part = Part(self.sites[index], self.sites[index].dictionary(self._rules))
             if index < self._kept:
                 self._parts[index] = part
@@ -172,7 +170,7 @@ class Dictionaries:
 
 
 def find_sites(
-    blocks: Blocks, faces: Faces, first_frame: Positions, *, width: int, threads: int | None, allowance: Allowance
+    blocks: Blocks, faces: Faces, first_frame: Positions, *, width: int, threads: int | None, budget: Budget
 ) -> tuple[Site, ...]:
     """What the dictionary of every part follows from, with weights from the decoded first frame."""
     graph = blocks.graph
@@ -185,7 +183,7 @@ def find_sites(
         size = len(blocks.core(index))
         held = hold(graph, weights, rank, blocks.part(index))
         fronts = held.laplacian.fronts
-        allowance.keep(SITE_MEMORY + ROW_MEMORY * size + 8.0 * int(fronts.places[-1]))
+        budget.reserve(SITE_MEMORY + ROW_MEMORY * size + 8.0 * int(fronts.places[-1]))
         return Site(held, Suspended(held.laplacian, held.springs, TETHER).factor, min(width, size))
 
     return tuple(ordered_map(find, range(blocks.count), threads))

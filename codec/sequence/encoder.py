@@ -22,12 +22,12 @@ from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.progress import PARTS, Progress, silent
-from bsm.codec.sequence.attributes import Bound, Mover, moved, with_fields
+from bsm.codec.sequence.attributes import Bound, MovingAttributeEncoder, moved, with_fields
 from bsm.codec.sequence.frames import Group, next_group, require_same
 from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, RunEncoder, finest_step
-from bsm.codec.sequence.runs import Cutter, Frame, JoinedRun, Run, Shelf, joined_runs
+from bsm.codec.sequence.runs import Frame, JoinedRun, MeshCache, Run, RunSplitter, joined_runs
 from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
 from bsm.codec.sequence.verification import ExpectedFrame, SequenceVerifier
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
@@ -38,7 +38,7 @@ from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
 from bsm.codec.static.verification import Original
 from bsm.codec.static.ways.block_coder import as_of_decoders
-from bsm.codec.static.work import Allowance
+from bsm.codec.static.work import Budget
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +147,7 @@ class SequenceEncoder:
     def _of_one_run(self, frames: Iterable[Frame]) -> list[Frame]:
         """Frames that share their faces; no others can be brought to a target."""
         found = list(frames)
-        for run in Cutter(found, self._faces, allowed=self.options.runs).runs():
+        for run in RunSplitter(found, self._faces, allowed=self.options.runs).runs():
             if run.first:
                 raise OptionError(
                     f"the faces change at frame {run.first}: a target is for frames that share them; "
@@ -189,18 +189,20 @@ class SequenceEncoder:
         self._verifier = verifier = SequenceVerifier(
             NAMED_LIMITS[options.limits](), self._metadata, options.threads, shown
         )
-        shelf = Meshes(options)
+        meshes = Meshes(options)
         writer = Writer()
         number = 0
         self.run_starts, self.samples, self._checksum = [], 0, 0
-        cutter = Cutter(frames, self._faces, allowed=options.runs, attributes=self._attributes)
-        runs = joined_runs(self._dressed(cutter), options.together, keep_order=options.keep_order, allowed=options.runs)
+        splitter = RunSplitter(frames, self._faces, allowed=options.runs, attributes=self._attributes)
+        runs = joined_runs(
+            self._dressed(splitter), options.together, keep_order=options.keep_order, allowed=options.runs
+        )
         for index, run in enumerate(runs):
             if not index:
                 gops = -(-self._count // options.together(len(run.joined.first)))
                 steps = _Rounds(progress if gops else None, gops + (options.promise is None))
                 yield verifier.take(writer.start())
-            for packet in self._run(run, index, shelf, options, steps):
+            for packet in self._run(run, index, meshes, options, steps):
                 with as_of_decoders(options.limits):
                     chunk = verifier.take(writer.write(packet))
                 yield chunk
@@ -209,25 +211,25 @@ class SequenceEncoder:
             raise MeshError("a sequence needs at least one frame")
         if self._count and number != self._count:
             raise OptionError(f"{self._count} frames were announced and {number} came")
-        changes = (f"{name} changes at frame {first}, but stays as before" for name, first in cutter.changed.items())
+        changes = (f"{name} changes at frame {first}, but stays as before" for name, first in splitter.changed.items())
         self.losses = (*self.losses, *changes)
         self.notes = tuple(dict.fromkeys((*self.notes, *self.losses)))
         yield verifier.take(writer.end(self._checksum), last=True)
 
-    def _dressed(self, cutter: Cutter) -> Iterator[Run]:
+    def _dressed(self, splitter: RunSplitter) -> Iterator[Run]:
         """Runs with the attributes that each is sent with."""
-        for run in cutter.runs():
+        for run in splitter.runs():
             attributes = tuple(attribute for attribute in run.mesh.attributes if attribute.semantic != "normal")
             own = attributes if run.first or not self._attributes else self._attributes
             yield replace(run, mesh=replace(run.mesh, attributes=own))
 
     def _run(
-        self, run: JoinedRun, index: int, shelf: Meshes, options: SequenceOptions, progress: Progress
+        self, run: JoinedRun, index: int, meshes: Meshes, options: SequenceOptions, progress: Progress
     ) -> Iterator[packets.Packet]:
         """The packets of a run; `_done` grows by its frames."""
         self.run_starts.append(run.first)
         self._done = 0
-        opened = shelf.again(run)
+        opened = meshes.find(run)
         prepared = self._prepared(run.joined, options) if opened is None else opened.prepared
         self.vertex_order, self.face_order = _orders(run.joined, prepared)
         frames = (frame[prepared.coding_order] for frame in run.frames)
@@ -236,13 +238,13 @@ class SequenceEncoder:
         encoder = RunEncoder(prepared, options, self._count, progress)
         if opened is None:
             more = len(group) == longest and run.first + longest != self._count
-            carried, movers = self._carried(run, prepared, options, group, more=more)
+            carried, coders = self._carried(run, prepared, options, group, more=more)
             resting = tuple(attribute for attribute in carried if not attribute.declaration.moves)
-            gops = encoder.first(group, shelf.allowance, [mover.start for mover in movers])
+            gops = encoder.first(group, meshes.budget, [coder.start for coder in coders])
             self._verifier.expect_mesh(Original(run.given, run.joined, prepared), resting)
             yield from self._opened(run, index, prepared, gops.first_frame, carried)
         else:
-            movers, before, resting = opened.movers, opened.gops, opened.resting
+            coders, before, resting = opened.coders, opened.gops, opened.resting
             fresh = GopEncoder(before.first_frame.setting, replace(options, step=before.encoder.step))
             gops = encoder.next(group, 0, EncodedGops(before.first_frame, fresh, ()))
             mesh = before.first_frame.header
@@ -251,16 +253,16 @@ class SequenceEncoder:
                 vertices=mesh.vertices, faces=mesh.faces, sequence=(self._count, longest), run=(index, opened.run)
             )
         first_frame = gops.first_frame
-        for track, mover in enumerate(movers, 1):
-            mover.begin(gops.encoder, first_frame.setting, track)
-        numbers = [mover.number for mover in movers]
-        still = {name: values[0] for name, values in group.moving.items() if name not in {m.name for m in movers}}
+        for track, coder in enumerate(coders, 1):
+            coder.begin(gops.encoder, first_frame.setting, track)
+        numbers = [coder.number for coder in coders]
+        still = {name: values[0] for name, values in group.moving.items() if name not in {m.name for m in coders}}
         while len(group):
-            bodies = with_fields(gops.bodies, movers, group.moving)
+            bodies = with_fields(gops.bodies, coders, group.moving)
             for number, frame in enumerate(gops.decoded_frames()):
                 positions = prepared.units.back(frame)
                 self._checksum = checksum_of(positions, self._checksum)
-                moving = tuple(mover.expected(group.moving[mover.name][number]) for mover in movers)
+                moving = tuple(coder.expected(group.moving[coder.name][number]) for coder in coders)
                 self._verifier.expect_frame(ExpectedFrame(positions, moving))
             for body in bodies:
                 if 0 < self._count < run.first + self._done + body.frames:
@@ -274,8 +276,8 @@ class SequenceEncoder:
             if len(group):
                 gops = encoder.next(group, self._done, gops)
                 require_same(still, group)
-        self.notes = tuple(dict.fromkeys((*self.notes, *(mover.note for mover in movers))))
-        shelf.keep(OpenedMesh(index if opened is None else opened.run, prepared, gops, movers, resting), run)
+        self.notes = tuple(dict.fromkeys((*self.notes, *(coder.note for coder in coders))))
+        meshes.keep(OpenedMesh(index if opened is None else opened.run, prepared, gops, coders, resting), run)
 
     def _prepared(self, joined: JoinedMesh, options: SequenceOptions) -> Prepared:
         joined.mesh.require_sizes(*PROMISED_SIZES)
@@ -284,7 +286,7 @@ class SequenceEncoder:
 
     def _carried(
         self, run: JoinedRun, prepared: Prepared, options: SequenceOptions, group: Group, *, more: bool
-    ) -> tuple[tuple[PreparedAttribute, ...], tuple[Mover, ...]]:
+    ) -> tuple[tuple[PreparedAttribute, ...], tuple[MovingAttributeEncoder, ...]]:
         """The attributes of a run with a mesh of its own, and what encodes those that move, or may if `more` comes."""
         given, asked = run.given, dict(options.attributes)
         move = {a.name for a in given.attributes if a.name in group.moving and group.moves(a.name)}
@@ -306,12 +308,14 @@ class SequenceEncoder:
             wanted.append((attribute, quality))
         carried = carry(place_of(given, run.joined, prepared), wanted)
         carried = tuple(moved(a) if a.declaration.name in bounds else a for a in carried)
-        movers = tuple(
-            Mover(number, attribute, group.moving[attribute.declaration.name][0], bounds[attribute.declaration.name])
+        coders = tuple(
+            MovingAttributeEncoder(
+                number, attribute, group.moving[attribute.declaration.name][0], bounds[attribute.declaration.name]
+            )
             for number, attribute in enumerate(carried)
             if attribute.declaration.moves
         )
-        return carried, movers
+        return carried, coders
 
     def _opened(
         self, run: JoinedRun, index: int, prepared: Prepared, first: FirstFrame, carried: tuple[PreparedAttribute, ...]
@@ -334,38 +338,38 @@ class OpenedMesh:
     run: int
     prepared: Prepared
     gops: EncodedGops
-    movers: tuple[Mover, ...]
+    coders: tuple[MovingAttributeEncoder, ...]
     resting: tuple[PreparedAttribute, ...]
 
 
 class Meshes:
-    """The meshes that runs have had, as far as decoders keep them, see `Shelf`, and what decoders may still do."""
+    """The meshes that runs have had, as far as decoders keep them, see `MeshCache`, and what decoders may still do."""
 
     def __init__(self, options: SequenceOptions) -> None:
-        self.allowance = Allowance(NAMED_LIMITS[options.limits]())
-        self._shelf: Shelf[OpenedMesh] = Shelf(self.allowance)
+        self.budget = Budget(NAMED_LIMITS[options.limits]())
+        self._cache: MeshCache[OpenedMesh] = MeshCache(self.budget)
         self._known: dict[bytes, tuple[int, TriangleMesh]] = {}  # the run that brought a mesh, and that, by its faces
 
-    def again(self, begun: JoinedRun) -> OpenedMesh | None:
+    def find(self, begun: JoinedRun) -> OpenedMesh | None:
         """What is kept of the mesh of a run that begins; None: it is to be sent."""
         run, before = self._known.get(_digest(begun), (-1, begun.given))
-        opened = self._shelf.take(run)
+        opened = self._cache.take(run)
         if opened is not None:
-            moving = {mover.name for mover in opened.movers}
+            moving = {coder.name for coder in opened.coders}
             others = (attribute for attribute in before.attributes if attribute.name not in moving)
             opened = opened if all(has(begun.given.attributes, attribute) for attribute in others) else None
         if opened is None:
-            self._shelf.make_room()
+            self._cache.make_room()
             return None
-        opened.gops.first_frame.allowance.follow(self.allowance)
+        opened.gops.first_frame.budget.follow(self.budget)
         return opened
 
     def keep(self, opened: OpenedMesh, ended: JoinedRun) -> None:
         """Take note that a run of this mesh has ended."""
         first_frame = opened.gops.first_frame
         first_frame.setting.dictionaries.release()
-        self.allowance.follow(first_frame.allowance)
-        self._shelf.keep(opened.run, opened)
+        self.budget.follow(first_frame.budget)
+        self._cache.keep(opened.run, opened)
         given = TriangleMesh(ended.given.positions, ended.given.faces, ended.given.attributes)
         self._known[_digest(ended)] = opened.run, given
 

@@ -24,7 +24,7 @@ from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
 from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, as_of_decoders, blended, encode_blocks
-from bsm.codec.static.work import Allowance, mesh_memory
+from bsm.codec.static.work import Budget, mesh_memory
 
 FIRST_STEP = 0.3
 """Of the first frame, in steps of the others, which follow from it; 0.4 costs 0.5 % more, with low delay 1 to 3 %."""
@@ -54,7 +54,7 @@ class FirstFrame:
     header: Header
     blocks: list[CodedBlock]
     setting: Setting
-    allowance: Allowance
+    budget: Budget
     limits: str
 
     def has_room(self, body: GopBody) -> bool:
@@ -68,9 +68,9 @@ class FirstFrame:
 
     def admit(self, body: GopBody) -> None:
         """Take note of a GOP; raise `OptionError` if decoders would lack the memory for it."""
-        self.allowance.keep(0.0, _received(body))
+        self.budget.reserve(0.0, _received(body))
         with as_of_decoders(self.limits):
-            self.allowance.limits.check("sequence_bytes", gop_memory(self.setting.vertices, body))
+            self.budget.limits.check("sequence_bytes", gop_memory(self.setting.vertices, body))
             self.setting.reserve(body)
 
 
@@ -83,7 +83,7 @@ def encode_first_frame(
     options: SequenceOptions,
     frames: int,
     progress: Progress,
-    before: Allowance,
+    before: Budget,
     moving: Sequence[Matrix] = (),
 ) -> FirstFrame:
     """Code the first frame, which all others of a run build upon; `frames` as for `SequenceEncoder`."""
@@ -105,24 +105,18 @@ def encode_first_frame(
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
-    allowance = Allowance(NAMED_LIMITS[options.limits]())
-    allowance.follow(before)
-    allowance.grant(header.vertices)
+    budget = Budget(NAMED_LIMITS[options.limits]())
+    budget.follow(before)
+    budget.grant(header.vertices)
     with as_of_decoders(options.limits):
-        allowance.keep(mesh_memory(header.vertices, header.faces), len(prepared.connectivity.data))
-        allowance.afford(max(block.memory for block in blocks))
-        allowance.keep(0.0, sum(len(block.packet.data) + FRAME for block in blocks))
-        allowance.limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
+        budget.reserve(mesh_memory(header.vertices, header.faces), len(prepared.connectivity.data))
+        budget.check_fits(max(block.memory for block in blocks))
+        budget.reserve(0.0, sum(len(block.packet.data) + FRAME for block in blocks))
+        budget.limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
         setting = make_setting(
-            scheme,
-            prepared.mesh.faces,
-            positions,
-            width=width,
-            threads=options.threads,
-            allowance=allowance,
-            moving=moving,
+            scheme, prepared.mesh.faces, positions, width=width, threads=options.threads, budget=budget, moving=moving
         )
-    return FirstFrame(header, blocks, setting, allowance, options.limits)
+    return FirstFrame(header, blocks, setting, budget, options.limits)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +156,7 @@ class RunEncoder:
         self._prepared, self._options = prepared, options
         self._count, self._progress = count, progress
 
-    def first(self, group: Group, before: Allowance, moving: Sequence[Matrix]) -> EncodedGops:
+    def first(self, group: Group, before: Budget, moving: Sequence[Matrix]) -> EncodedGops:
         """The first frame, with values that move, shapes (n, d), as of `make_setting`, and the first GOP."""
         first_frame: FirstFrame | None = None
         coded_for = 0.0
@@ -292,7 +286,7 @@ def _whole(encoder: GopEncoder, frames: Positions, weights: Matrix, same: Order,
     """Frames as one GOP, with one of those that are the same."""
     kept, places = distinct_frames(same)
     method = encoder.method_with_basis(TOGETHER)
-    again = len(kept) < len(frames)
-    weights = np.sqrt(np.bincount(places, weights**2)) if again else weights
-    field, cost = encoder.encode_learnt(frames[kept] if again else frames, weights, method, progress)
-    return _Learnt((GopBody(method, len(frames), (field,), places if again else None),), encoder, cost)
+    repeats = len(kept) < len(frames)
+    weights = np.sqrt(np.bincount(places, weights**2)) if repeats else weights
+    field, cost = encoder.encode_learnt(frames[kept] if repeats else frames, weights, method, progress)
+    return _Learnt((GopBody(method, len(frames), (field,), places if repeats else None),), encoder, cost)

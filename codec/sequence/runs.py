@@ -17,7 +17,7 @@ from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import JoinedMesh, joined
-from bsm.codec.static.work import Allowance
+from bsm.codec.static.work import Budget
 
 KEPT_MESHES = 8  # of the meshes so far, those that runs have had last; a run can have one of them again
 
@@ -36,7 +36,7 @@ class Run:
     moving: tuple[Attribute, ...] = ()
 
 
-class Cutter:
+class RunSplitter:
     """Cuts frames into runs."""
 
     def __init__(
@@ -121,11 +121,11 @@ class _Place(Generic[Mesh]):
     vertices: int = 0
 
 
-class Shelf(Generic[Mesh]):
+class MeshCache(Generic[Mesh]):
     """Meshes that runs have had, the last ones: those that decoders keep."""
 
-    def __init__(self, allowance: Allowance) -> None:
-        self._allowance = allowance
+    def __init__(self, budget: Budget) -> None:
+        self._budget = budget
         self._places: dict[int, _Place[Mesh]] = {}  # by the run that brought them, the one used last at the end
         self._before = self._counted()
 
@@ -140,7 +140,7 @@ class Shelf(Generic[Mesh]):
         """Before a run brings a mesh, give up the one that was used longest ago, if there are as many as may be."""
         if len(self._places) == KEPT_MESHES:
             oldest = self._places.pop(next(iter(self._places)))
-            self._allowance.give_back(oldest.memory, oldest.vertices)
+            self._budget.give_back(oldest.memory, oldest.vertices)
             self._before = self._counted()
 
     def keep(self, run: int, mesh: Mesh) -> None:
@@ -151,7 +151,7 @@ class Shelf(Generic[Mesh]):
         self._before = memory, vertices
 
     def _counted(self) -> tuple[float, int]:
-        return self._allowance.kept, self._allowance.vertices
+        return self._budget.reserved, self._budget.vertices
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from bsm.codec.arrays import Faces, Levels, Matrix, sum_in_order
 from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
 from bsm.codec.sequence.temporal import BATCH
 from bsm.codec.static.coding import Scheme
-from bsm.codec.static.work import Allowance
+from bsm.codec.static.work import Budget
 
 KEPT, MOST_KEPT, LEAST_KEPT = 1 << 19, 64, 2
 """Positions that low-delay frames may refer to, about, and frames at most and at least, of attributes always."""
@@ -121,17 +121,17 @@ def make_setting(
     *,
     width: int,
     threads: int | None,
-    allowance: Allowance,
+    budget: Budget,
     moving: Sequence[Matrix] = (),
 ) -> Setting:
     """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites` and `Setting`."""
-    sites = find_sites(scheme.blocks, faces, first_frame, width=width, threads=threads, allowance=allowance)
-    dictionaries = Dictionaries(sites, scheme.rules, allowance, threads)
+    sites = find_sites(scheme.blocks, faces, first_frame, width=width, threads=threads, budget=budget)
+    dictionaries = Dictionaries(sites, scheme.rules, budget, threads)
     dictionaries.reserve()
     widths = [values.shape[1] for values in moving]
-    allowance.keep(TRACK_MEMORY * len(first_frame) * sum(widths))
+    budget.reserve(TRACK_MEMORY * len(first_frame) * sum(widths))
     columns = [BENDING_COLUMNS, *widths]
-    allowance.keep(8.0 * sum(columns) * sum(len(site.around) for site in sites))
+    budget.reserve(8.0 * sum(columns) * sum(len(site.around) for site in sites))
 
     def known(_: int, part: Part) -> tuple[list[Matrix], list[Matrix]]:
         bending = Bending.of(first_frame[part.vertices])

@@ -196,13 +196,13 @@ class Encoder:
         _ = self._input.carried  # what is wrong with attributes is said first
         near = self._begun(progress)
         if self.options.sets_coding:
-            found = self._as_said(target, near)
+            found = self._at_step(target, near)
         else:
-            found = self._sized(target, near) if target.shrinks_with_step else self._bounded(target, near)
+            found = self._within_size(target, near) if target.shrinks_with_step else self._within_error(target, near)
         self._verified(found.draft, near)
         return found
 
-    def _bounded(self, target: Target, near: Nearing) -> Attempt:
+    def _within_error(self, target: Target, near: Nearing) -> Attempt:
         """The smallest stream within a bound on its error, and whatever else is promised."""
         promise = self.options.promise or Contract(WIDEST)
         if target.kind == "theta_deg":
@@ -211,7 +211,7 @@ class Encoder:
             contract = replace(promise, visual=max(10.0 ** (target.value / 10.0), sys.float_info.min))
         return self._judged(smallest(self._input, contract, near))
 
-    def _sized(self, target: Target, near: Nearing) -> Attempt:
+    def _within_size(self, target: Target, near: Nearing) -> Attempt:
         """The best stream of a size, which keeps whatever is promised."""
         promise = self.options.promise
         anything = Contract(WIDEST)
@@ -233,7 +233,7 @@ class Encoder:
         error.best = target.reached(least)
         raise error
 
-    def _as_said(self, target: Target, near: Nearing) -> Attempt:
+    def _at_step(self, target: Target, near: Nearing) -> Attempt:
         """Blocks, coded as the options say, at the step that meets a target."""
 
         def attempt(step: float) -> Attempt:

@@ -31,26 +31,26 @@ def block_memory(laplacian: Laplacian, columns: int) -> int:
     return iteration_memory(laplacian.fronts, columns)
 
 
-class Allowance:
+class Budget:
     """The memory of a decoder, on which threads draw at the same time."""
 
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
         self.vertices = 0
-        self.kept = 0.0
+        self.reserved = 0.0
         self._received = 0
         self._held = 0.0
         self._change = Condition()
 
-    def follow(self, other: Allowance) -> None:
+    def follow(self, other: Budget) -> None:
         """Go on from what another has counted."""
         with self._change:
-            self.vertices, self._received, self.kept = other.vertices, other._received, other.kept
+            self.vertices, self._received, self.reserved = other.vertices, other._received, other.reserved
 
     def room(self, received: int = 0) -> float:
         """Return the bytes that are free besides the kept ones, after this many more are received."""
         with self._change:
-            return self.limits.memory_for(self.vertices, self._received + received) - self.kept
+            return self.limits.memory_for(self.vertices, self._received + received) - self.reserved
 
     def grant(self, vertices: int) -> None:
         """Take note of vertices that the stream really has."""
@@ -60,20 +60,20 @@ class Allowance:
     def give_back(self, memory: float, vertices: int) -> None:
         """Take note of memory that was kept, and of vertices that are not there any more."""
         with self._change:
-            self.kept -= memory
+            self.reserved -= memory
             self.vertices -= vertices
 
-    def keep(self, memory: float, received: int = 0) -> None:
+    def reserve(self, memory: float, received: int = 0) -> None:
         """Reserve memory to the end, and the bytes that pay for it."""
         with self._change:
-            self.kept += memory
+            self.reserved += memory
             self._received += received
-            self.limits.check_memory(self.kept, self.vertices, self._received)
+            self.limits.check_memory(self.reserved, self.vertices, self._received)
 
     @contextmanager
     def hold(self, memory: float) -> Iterator[None]:
         """Wait until others have given back what leaves room for some memory, and have it meanwhile."""
-        self.afford(memory)
+        self.check_fits(memory)
         with self._change:
             self._change.wait_for(lambda: self._held == 0.0 or self._has_room(memory))
             self._held += memory
@@ -84,10 +84,10 @@ class Allowance:
                 self._held -= memory
                 self._change.notify_all()
 
-    def afford(self, memory: float) -> None:
+    def check_fits(self, memory: float) -> None:
         """Raise `LimitError` if there is no room for some memory besides what is kept."""
         with self._change:
-            self.limits.check_memory(self.kept + memory, self.vertices, self._received)
+            self.limits.check_memory(self.reserved + memory, self.vertices, self._received)
 
     def _has_room(self, memory: float) -> bool:
-        return self.kept + self._held + memory <= self.limits.memory_for(self.vertices, self._received)
+        return self.reserved + self._held + memory <= self.limits.memory_for(self.vertices, self._received)

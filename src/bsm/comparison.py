@@ -79,9 +79,9 @@ def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None
     if np.array_equal(canonical(original.faces), canonical(other.faces)):
         return other.positions
     if order is None:
-        again = encode_connectivity(other.faces, len(other.positions))
-        if np.array_equal(by_decoder.faces, again.faces):
-            return other.positions[again.vertex_order[np.argsort(by_decoder.vertex_order)]]
+        encoded = encode_connectivity(other.faces, len(other.positions))
+        if np.array_equal(by_decoder.faces, encoded.faces):
+            return other.positions[encoded.vertex_order[np.argsort(by_decoder.vertex_order)]]
     raise MeshError("the meshes have different faces, or number their vertices differently; use --permutation")
 
 

@@ -391,7 +391,7 @@ def header_of(numbers: list[float]) -> Header:
         shift=n[37],
         springs=springs,
     )
-    run, again = whole[13:15]
+    run, mesh_of = whole[13:15]
     return Header(
         vertices=whole[0],
         faces=whole[1],
@@ -410,8 +410,8 @@ def header_of(numbers: list[float]) -> Header:
         lattice=tuple(whole[25:27]) if n[26] else (),
         corner=tuple(whole[28:31]) if n[27] else (),
         sequence=tuple(whole[11:13]) if n[39] else (),
-        run=(run, again) if again >= 0 else (run,) if run else (),
-        paper=() if n[21] or again >= 0 else paper.entry(LAW_OF_SEQUENCES if n[39] else LAW),
+        run=(run, mesh_of) if mesh_of >= 0 else (run,) if run else (),
+        paper=() if n[21] or mesh_of >= 0 else paper.entry(LAW_OF_SEQUENCES if n[39] else LAW),
     )
 
 

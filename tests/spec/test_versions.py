@@ -13,7 +13,7 @@ from bsm.cli import main
 from bsm.decoding import decode as decode_mesh
 from tests.engine.decoding import build, decode, of_sequence, released
 from tests.spec.test_law import RULES
-from tools.vectors.good_attributes import charts, colors, creases, groups, worn
+from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes
 from tools.vectors.meshes import shuffled, torus
 from tools.vectors.store import FOLDER, alike, arrays_of
 
@@ -75,7 +75,7 @@ WRITTEN = {
 
 @pytest.mark.parametrize("options", WRITTEN.values(), ids=WRITTEN)
 def test_1_0_decodes_what_is_written_today(options, earlier):
-    mesh = worn(shuffled(torus(20, 16)), charts, creases, colors, groups)
+    mesh = with_attributes(shuffled(torus(20, 16)), charts, creases, colors, groups)
     stream = bsm.encode(mesh, bsm.EncodeOptions(**options))
     found, mesh = decode(earlier, stream), decode_mesh(stream)
     right = {"positions": mesh.positions, "faces": mesh.faces} | arrays_of(mesh.attributes)

@@ -87,9 +87,9 @@ THINGS = {
 
 def things() -> set[str]:
     """Return what there can be many of: frames of each type but END, methods of GOPs, counts, and lists in GOPs."""
-    again = {kind.name for kind in FrameType if kind is not FrameType.END}
+    names = {kind.name for kind in FrameType if kind is not FrameType.END}
     lists = {name for r in (GopBody, GopField) for name, kind in get_type_hints(r).items() if kind not in _SINGLE}
-    return again | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | LIMITED | lists
+    return names | {"METADATA", "SKIPPABLE"} | {method.name for method in GopMethod} | LIMITED | lists
 
 
 _SINGLE = (int, float, bool, GopMethod)

@@ -64,16 +64,16 @@ def ours(frames: Positions, faces: Faces, name: str, values: Array, bound: float
     """Bytes that a field takes, once it is found to be within its bound on average."""
     semantic: Semantic = "color" if name == "color" else "generic"
     sizes = []
-    for worn in (True, False):
+    for with_values in (True, False):
         meshes = [
-            TriangleMesh(frame, faces, (Attribute(name, own, semantic=semantic),) if worn else ())
+            TriangleMesh(frame, faces, (Attribute(name, own, semantic=semantic),) if with_values else ())
             for frame, own in zip(frames, values, strict=True)
         ]
         options = SequenceOptions(step=STEP, gop=len(frames))
         encoder = SequenceEncoder(faces, options, len(frames))
         data = b"".join(encoder.chunks(meshes))
         sizes.append(len(data))
-        for given, decoded in zip(values, decode_frames(data) if worn else (), strict=worn):
+        for given, decoded in zip(values, decode_frames(data) if with_values else (), strict=with_values):
             off = decoded.attributes[0].values.astype(float) - given[encoder.vertex_order]
             assert np.square(off).mean() <= bound**2 * (1 + 1e-9), (name, bound)
     return sizes[0] - sizes[1]

@@ -23,7 +23,7 @@ from tools.vectors.good_attributes import (
     groups,
     in_chunks,
     wild,
-    worn,
+    with_attributes,
 )
 from tools.vectors.meshes import patch, torus
 
@@ -33,18 +33,18 @@ ATTRIBUTE, VALUES, ORDER, BLOCK = FrameType.ATTRIBUTE, FrameType.VALUES, FrameTy
 @cache
 def _all() -> bytes:
     """Texture coordinates, normals, colours, groups, and floats to the bit, in two chunks each."""
-    mesh = worn(torus(8, 7), charts, creases, colors, groups, lambda m: wild(m, "float32"))
+    mesh = with_attributes(torus(8, 7), charts, creases, colors, groups, lambda m: wild(m, "float32"))
     return in_chunks(mesh, replace(GRID, attributes={"float32": "exact"}), 70)
 
 
 @cache
 def _blocks() -> bytes:
-    return in_chunks(worn(torus(8, 7), charts, creases), BASE, 1000)
+    return in_chunks(with_attributes(torus(8, 7), charts, creases), BASE, 1000)
 
 
 @cache
 def _unsigned() -> bytes:
-    return encode(worn(patch(5, 4), lambda m: wild(m, "uint32"), lambda m: wild(m, "int8", "face")), GRID)
+    return encode(with_attributes(patch(5, 4), lambda m: wild(m, "uint32"), lambda m: wild(m, "int8", "face")), GRID)
 
 
 def _declared(probes: str, index: int, error: str = "corrupt", make: Callable[[], bytes] = _all, **fields: Any) -> Bad:

@@ -16,7 +16,7 @@ from tools.surgery import frames_of as _frames_of
 from tools.surgery import with_header, with_payload
 from tools.vectors.bad import Bad
 from tools.vectors.good import Good
-from tools.vectors.good_attributes import charts, colors, creases, worn
+from tools.vectors.good_attributes import charts, colors, creases, with_attributes
 from tools.vectors.good_fields import soup
 from tools.vectors.meshes import shuffled, torus, triangle
 
@@ -58,7 +58,7 @@ def _payload(edit: Callable[[bytes, bytes], bytes]) -> Callable[[], bytes]:
     return make
 
 
-def _sized(values: bytes) -> bytes:
+def _with_size(values: bytes) -> bytes:
     return write_varint(len(values)) + values
 
 
@@ -73,7 +73,8 @@ EXACT: dict[str, Good] = {
     "good-exact-triangle": Good("three vertices", lambda: lossless(triangle())),
     "good-exact-splits": Good("ORDER, with copies", lambda: lossless(soup(shuffled(torus(7, 6))), keep_order=True)),
     "good-exact-attributes": Good(
-        "attributes that lean on the grid, exact", lambda: lossless(worn(torus(10, 8), charts, creases, colors))
+        "attributes that lean on the grid, exact",
+        lambda: lossless(with_attributes(torus(10, 8), charts, creases, colors)),
     ),
 }
 
@@ -84,9 +85,11 @@ BAD_EXACT: dict[str, Bad] = {
     "bad-exact-corner": Bad(
         "floats in cells that are counted", "corrupt", lambda: with_header(_stream(), corner=[1, 2, 3], center=None)
     ),
-    "bad-exact-short": Bad("floats that end early", "truncated", _payload(lambda v, f: _sized(v) + f[:-9])),
-    "bad-exact-none": Bad("values without floats", "truncated", _payload(lambda v, f: _sized(v))),
-    "bad-exact-long": Bad("bytes behind the last float", "corrupt", _payload(lambda v, f: _sized(v) + f + bytes(9))),
+    "bad-exact-short": Bad("floats that end early", "truncated", _payload(lambda v, f: _with_size(v) + f[:-9])),
+    "bad-exact-none": Bad("values without floats", "truncated", _payload(lambda v, f: _with_size(v))),
+    "bad-exact-long": Bad(
+        "bytes behind the last float", "corrupt", _payload(lambda v, f: _with_size(v) + f + bytes(9))
+    ),
     "bad-exact-values": Bad(
         "values that are longer than the frame", "corrupt", _payload(lambda v, f: write_varint(1 << 20) + v + f)
     ),

@@ -112,7 +112,7 @@ def _textured() -> TriangleMesh:
     )
 
 
-def worn(mesh: TriangleMesh, *make: Callable[[TriangleMesh], Attribute]) -> TriangleMesh:
+def with_attributes(mesh: TriangleMesh, *make: Callable[[TriangleMesh], Attribute]) -> TriangleMesh:
     """A mesh with attributes."""
     return replace(mesh, attributes=tuple(maker(mesh) for maker in make))
 
@@ -160,7 +160,7 @@ def asked(mesh: TriangleMesh, options: EncodeOptions, **qualities: str) -> bytes
 
 def _split() -> TriangleMesh:
     """Vertices split where corners differ, and two in no face."""
-    mesh = split_by_attributes(worn(torus(8, 7), charts, creases, colors, groups))
+    mesh = split_by_attributes(with_attributes(torus(8, 7), charts, creases, colors, groups))
     loose = np.array([[9.0, 9.0, 9.0], [8.0, 8.0, 8.0]])
     values = [np.concatenate([attribute.values, attribute.values[3:5]]) for attribute in mesh.attributes]
     attributes = [
@@ -172,7 +172,7 @@ def _split() -> TriangleMesh:
 
 def _sequence() -> bytes:
     meshes = [torus(10, 8, phase=0.2 * t) for t in range(4)]
-    attributes = worn(meshes[0], charts, colors, groups).attributes
+    attributes = with_attributes(meshes[0], charts, colors, groups).attributes
     positions = np.array([mesh.positions for mesh in meshes])
     return encode_sequence(positions, meshes[0].faces, MOVING, {"name": "torus"}, attributes)
 
@@ -187,56 +187,61 @@ def _few_seams(mesh: TriangleMesh) -> Attribute:
 
 ATTRIBUTES: dict[str, Good] = {
     "good-attribute-uv-grid": Good(
-        "texture coordinates with seams that lean on a grid", lambda: encode(worn(torus(12, 10), charts), GRID)
+        "texture coordinates with seams that lean on a grid",
+        lambda: encode(with_attributes(torus(12, 10), charts), GRID),
     ),
     "good-attribute-uv-blocks": Good(
-        "texture coordinates of a mesh in blocks", lambda: in_chunks(worn(torus(12, 10), charts), BASE, 50)
+        "texture coordinates of a mesh in blocks", lambda: in_chunks(with_attributes(torus(12, 10), charts), BASE, 50)
     ),
     "good-attribute-uv-plain": Good(
-        "texture coordinates that lean on nothing", lambda: in_chunks(worn(patch(9, 8), charts), BASE, 1000)
+        "texture coordinates that lean on nothing", lambda: in_chunks(with_attributes(patch(9, 8), charts), BASE, 1000)
     ),
     "good-attribute-layers": Good(
         "attributes behind a layer of refinement, which ends early",
-        lambda: on_layers(worn(torus(10, 8), charts, creases), 50),
+        lambda: on_layers(with_attributes(torus(10, 8), charts, creases), 50),
     ),
     "good-attribute-normals": Good(
-        "normals with creases, on a grid", lambda: encode(worn(torus(12, 10), creases), GRID)
+        "normals with creases, on a grid", lambda: encode(with_attributes(torus(12, 10), creases), GRID)
     ),
     "good-attribute-normals-blocks": Good(
         "normals and texture coordinates of a mesh in blocks, in chunks",
-        lambda: in_chunks(worn(torus(10, 8), creases, charts), BASE, 33),
+        lambda: in_chunks(with_attributes(torus(10, 8), creases, charts), BASE, 33),
     ),
     "good-attribute-normals-coarse": Good(
         "normals of two bits that lean on nothing",
-        lambda: in_chunks(worn(patch(8, 7), creases), replace(BASE, attributes={"normal": "2bits"}), 1000),
+        lambda: in_chunks(with_attributes(patch(8, 7), creases), replace(BASE, attributes={"normal": "2bits"}), 1000),
     ),
     "good-attribute-recomputed": Good(
         "normals that are recomputed, of vertices and with creases",
-        lambda: encode(worn(torus(9, 8), creases), replace(BASE, normals="recompute")),
+        lambda: encode(with_attributes(torus(9, 8), creases), replace(BASE, normals="recompute")),
     ),
     "good-attribute-recomputed-tangled": Good(
         "normals that are recomputed where faces have no area, and of loose vertices",
         lambda: encode(
-            worn(soup(torus(6, 5)), lambda mesh: Attribute("n", 0 * mesh.positions + 1, semantic="normal")),
+            with_attributes(soup(torus(6, 5)), lambda mesh: Attribute("n", 0 * mesh.positions + 1, semantic="normal")),
             replace(ORDERED, normals="recompute"),
         ),
     ),
     "good-attribute-colors": Good(
-        "colours of vertices, four bytes each, in chunks", lambda: in_chunks(worn(torus(9, 8), colors), BASE, 40)
+        "colours of vertices, four bytes each, in chunks",
+        lambda: in_chunks(with_attributes(torus(9, 8), colors), BASE, 40),
     ),
     "good-attribute-colors-float": Good(
         "colours as floats, and of 16 bits",
         lambda: encode(
-            worn(torus(9, 8), lambda m: colors(m, "float32"), lambda m: replace(colors(m, "uint16"), name="c16")), GRID
+            with_attributes(
+                torus(9, 8), lambda m: colors(m, "float32"), lambda m: replace(colors(m, "uint16"), name="c16")
+            ),
+            GRID,
         ),
     ),
     "good-attribute-groups": Good(
-        "numbers of faces, in chunks", lambda: in_chunks(worn(torus(9, 8), groups), GRID, 60)
+        "numbers of faces, in chunks", lambda: in_chunks(with_attributes(torus(9, 8), groups), GRID, 60)
     ),
     "good-attribute-exact": Good(
         "every type of whole numbers, exact",
         lambda: encode(
-            worn(
+            with_attributes(
                 patch(6, 5),
                 *(
                     lambda m, k=kind, d=domain: wild(m, k, d, 2)
@@ -256,7 +261,9 @@ ATTRIBUTES: dict[str, Good] = {
     "good-attribute-bits": Good(
         "floats to the bit, more words than one group of pieces holds",
         lambda: asked(
-            worn(patch(6, 5), lambda m: wild(m, "float32", "corner"), lambda m: wild(m, "float64", "vertex", 4)),
+            with_attributes(
+                patch(6, 5), lambda m: wild(m, "float32", "corner"), lambda m: wild(m, "float64", "vertex", 4)
+            ),
             ORDERED,
             **{"*": "exact"},
         ),
@@ -264,7 +271,7 @@ ATTRIBUTES: dict[str, Good] = {
     "good-attribute-steps": Good(
         "bounds: steps of each kind, and of whole numbers",
         lambda: asked(
-            worn(
+            with_attributes(
                 torus(9, 8),
                 lambda m: Attribute("heat", np.sin(3 * m.positions[:, :1])),
                 lambda m: Attribute("height", (1000 * m.positions[:, 2]).astype(np.int16)),
@@ -276,34 +283,37 @@ ATTRIBUTES: dict[str, Good] = {
     ),
     "good-attribute-shared": Good(
         "seams of another attribute, and seams beside two others",
-        lambda: encode(worn(torus(10, 8), charts, creases, _second, _few_seams), GRID),
+        lambda: encode(with_attributes(torus(10, 8), charts, creases, _second, _few_seams), GRID),
     ),
     "good-attribute-tangled": Good(
         "non-manifold, repeated, turned and degenerate faces, each corner for itself",
-        lambda: encode(worn(tangled(), charts, creases, lambda m: wild(m, "uint8", "corner")), ORDERED),
+        lambda: encode(with_attributes(tangled(), charts, creases, lambda m: wild(m, "uint8", "corner")), ORDERED),
     ),
     "good-attribute-hub": Good(
-        "a vertex of very many corners", lambda: encode(worn(hub(), charts, creases, colors), GRID)
+        "a vertex of very many corners", lambda: encode(with_attributes(hub(), charts, creases, colors), GRID)
     ),
     "good-attribute-tent": Good(
-        "more neighbours, flaps, bases and corners than are looked at", lambda: encode(worn(tent(), tips, colors), GRID)
+        "more neighbours, flaps, bases and corners than are looked at",
+        lambda: encode(with_attributes(tent(), tips, colors), GRID),
     ),
     "good-attribute-small": Good(
-        "four faces with values of their own", lambda: encode(worn(tetrahedron(), charts, creases, groups), GRID)
+        "four faces with values of their own",
+        lambda: encode(with_attributes(tetrahedron(), charts, creases, groups), GRID),
     ),
     "good-attribute-constant": Good(
         "one value everywhere",
-        lambda: encode(worn(torus(6, 5), lambda m: Attribute("one", np.full(len(m.positions), 3.5))), GRID),
+        lambda: encode(with_attributes(torus(6, 5), lambda m: Attribute("one", np.full(len(m.positions), 3.5))), GRID),
     ),
     "good-attribute-no-seams": Good(
         "corners that are coded by vertices",
         lambda: encode(
-            worn(torus(9, 8), lambda m: Attribute("uv", m.positions[:, :2], "corner", "texcoord", m.faces)), BASE
+            with_attributes(torus(9, 8), lambda m: Attribute("uv", m.positions[:, :2], "corner", "texcoord", m.faces)),
+            BASE,
         ),
     ),
     "good-attribute-shuffled": Good(
         "corners and faces in the order of ORDER",
-        lambda: encode(worn(shuffled(torus(9, 8)), charts, creases, colors, groups), ORDERED),
+        lambda: encode(with_attributes(shuffled(torus(9, 8)), charts, creases, colors, groups), ORDERED),
     ),
     "good-attribute-split": Good(
         "vertices that were split, given by corners", lambda: encode(_split(), replace(GRID, keep_order=False))
@@ -314,7 +324,9 @@ ATTRIBUTES: dict[str, Good] = {
     "good-attribute-split-blocks": Good("the same in blocks", lambda: encode(_split(), replace(BASE, keep_order=True))),
     "good-attribute-metadata": Good(
         "METADATA, ORDER and attributes",
-        lambda: encode(replace(worn(torus(8, 7), colors), metadata={"name": "torus", "unit": "mm"}), ORDERED),
+        lambda: encode(
+            replace(with_attributes(torus(8, 7), colors), metadata={"name": "torus", "unit": "mm"}), ORDERED
+        ),
     ),
     "good-attribute-textured": Good(
         "a wall with texture coordinates, a material with an image, and z up", lambda: encode(_textured(), GRID)

@@ -13,7 +13,7 @@ from bsm.bitstream.container.scanner import Scanner
 from bsm.bitstream.fields.corners import FieldEncoder
 from bsm.bitstream.fields.grid import grid_field, levels_field
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.static.choice.blocks import Base, Spectral
+from bsm.codec.static.choice.blocks import RefinementBase, Spectral
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions
 from tools.gridded import gridded
@@ -58,7 +58,7 @@ def on_grid(mesh: TriangleMesh, *, counts: tuple[int, ...], cells: int = 255) ->
     return write_stream(packets)
 
 
-def base(mesh: TriangleMesh) -> Base:
+def base(mesh: TriangleMesh) -> RefinementBase:
     """Blocks to be refined."""
     encoder = Encoder(mesh, BASE)
     return Spectral(encoder._input.prepared, BASE).base(BASE.first_step)

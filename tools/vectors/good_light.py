@@ -15,7 +15,7 @@ from bsm.codec.static.options import EncodeOptions
 from tools.gridded import gridded, lightened
 from tools.surgery import stream_of, with_header
 from tools.vectors.good import Good
-from tools.vectors.good_attributes import charts, colors, creases, groups, worn
+from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes
 from tools.vectors.good_fields import _exact_lattice, soup
 from tools.vectors.meshes import hub, patch, shuffled, tangled, tent, tetrahedron, together, torus, triangle
 
@@ -110,6 +110,6 @@ LIGHT: dict[str, Good] = {
     "good-light-splits": _good("ORDER with copies", lambda: light(soup(torus(7, 6)), bits=8, keep_order=True)),
     "good-light-attributes": _good(
         "attributes of vertices, corners and faces that lean on it",
-        lambda: light(worn(torus(12, 10), charts, creases, colors, groups), 50, 70, bits=9),
+        lambda: light(with_attributes(torus(12, 10), charts, creases, colors, groups), 50, 70, bits=9),
     ),
 }

@@ -75,13 +75,13 @@ def _moving(probes: str, *kinds: int, **options: object) -> Good:
         for t, kind in enumerate(kinds):
             mesh = torus(kind, 4, phase=0.2 * t)
             x, y, z = mesh.positions.T
-            worn = (
+            attributes = (
                 Attribute("color", (128 + 120 * np.sin(mesh.positions + 0.3 * t)).astype(np.uint8), "vertex", "color"),
                 Attribute("part", np.arange(len(mesh.positions)) // 10),
                 Attribute("velocity", np.stack([np.cos(0.2 * t) * x, y * z], axis=1).astype(np.float32)),
                 Attribute("heat", np.round(300.0 + x * (t if t < 4 else 0), 3)),
             )
-            frames.append(replace(mesh, positions=mesh.positions * (1 + 0.02 * t), attributes=worn))
+            frames.append(replace(mesh, positions=mesh.positions * (1 + 0.02 * t), attributes=attributes))
         chosen = SequenceOptions(**{**vars(BASE), "runs": True, **options})
         return b"".join(SequenceEncoder(frames[0].faces, chosen, len(frames)).chunks(frames))
 
@@ -96,8 +96,8 @@ def _returning(probes: str, *times: int) -> Good:
         for t in times:
             mesh = torus(8, 5, phase=0.2 * t)
             color = (128 + 120 * np.sin(mesh.positions + 0.3 * t)).astype(np.uint8)
-            worn = (Attribute("color", color, "vertex", "color"),)
-            frames.append(replace(mesh, positions=mesh.positions * (1 + 0.02 * t), attributes=worn))
+            attributes = (Attribute("color", color, "vertex", "color"),)
+            frames.append(replace(mesh, positions=mesh.positions * (1 + 0.02 * t), attributes=attributes))
         options = replace(BASE, gop=len(times))
         return b"".join(SequenceEncoder(frames[0].faces, options, len(times)).chunks(frames))
 

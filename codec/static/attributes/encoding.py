@@ -83,15 +83,15 @@ class PreparedAttribute:
 
     @property
     def at_corners(self) -> Matrix:
-        """What `Worn` is given: the values of a decoder at corners, shape (m, 3 c)."""
+        """What `AttributeLook` is given: the values of a decoder at corners, shape (m, 3 c)."""
         values, declaration = restored(self.declaration, self.levels), self.declaration
         corners = values[:, None].repeat(3, axis=1) if declaration.domain == FACE else values[self.surface.faces]
         return painted(SEMANTICS[declaration.semantic], corners)
 
     def normals(self, positions: Matrix) -> Normals:
         """What normals a decoder will have at corners, shape (m, 9), where it has these positions, shape (n, 3)."""
-        again = self.declaration.coding == RECOMPUTED
-        values = recomputed(self.surface, positions) if again else restored(self.declaration, self.levels)
+        recompute = self.declaration.coding == RECOMPUTED
+        values = recomputed(self.surface, positions) if recompute else restored(self.declaration, self.levels)
         return np.ascontiguousarray(values[self.surface.faces].reshape(-1, 9), np.float32)
 
     @property
@@ -132,14 +132,14 @@ def _carry(
     used, rows, loose = _rows(place, attribute)
     values = attribute.values[used]
     result = quantized(values, attribute.semantic, quality, attribute.name)
-    again = result.fields["coding"] == RECOMPUTED
+    recompute = result.fields["coding"] == RECOMPUTED
     vertices = len(place.corners.rank)
     domain, origin, seams, joins, seams_of = FACE, AS_CODED, b"", None, 0
     chosen: Order
     if attribute.domain == "face":
         chosen = rows.astype(np.int64)
     else:
-        apart = quantized(values, "normal", AGAIN, attribute.name).levels if again else result.levels
+        apart = quantized(values, "normal", AGAIN, attribute.name).levels if recompute else result.levels
         numbers = row_numbers(apart)[rows]
         chosen = np.zeros(vertices, np.int64)
         chosen[place.corners.faces.ravel()] = rows.ravel()
@@ -153,7 +153,7 @@ def _carry(
             seams = b"" if same else encode_seams(place.corners, joins.seams, tuple(each.seams for _, each in known))
             chosen = rows.ravel()[joins.first]
         chosen = np.concatenate([chosen, loose])
-    levels = result.levels[:0] if again else result.levels[chosen]
+    levels = result.levels[:0] if recompute else result.levels[chosen]
     declaration = Declaration(
         name=attribute.name,
         domain=domain,

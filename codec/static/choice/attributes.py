@@ -16,7 +16,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
-from bsm.codec.look.measure import Worn, is_worn, own_normals
+from bsm.codec.look.measure import AttributeLook, has_look, own_normals
 from bsm.codec.look.pictures import FEW, Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
@@ -27,7 +27,7 @@ from bsm.codec.static.options import LARGE_BLOCKS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
 from bsm.codec.static.targets import SLACK, TRIES, Contract
 
-OF_PAINT = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
+ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
 
 
 class Input:
@@ -93,14 +93,14 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
     if given.options.effort == "best":
         _choose_blocks(given, contract)
     search = given.search(contract, near)
-    worn = _roughened(given, contract.look) if search.metric is not None and contract.look < math.inf else []
+    looks = _roughened(given, contract.look) if search.metric is not None and contract.look < math.inf else []
     asked = contract
     for _ in range(TRIES):
-        if worn:
+        if looks:
             given.carried = given.carry(given.wanted)
         kept = _shaded(given, search, asked)
         positions = given.prepared.units.into(kept.decoded)
-        seen = max((look.distance(positions, given.carried[at].at_corners) for at, look in worn), default=0.0)
+        seen = max((look.distance(positions, given.carried[at].at_corners) for at, look in looks), default=0.0)
         if seen <= contract.look:
             break
         asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
@@ -121,32 +121,34 @@ def _choose_blocks(given: Input, contract: Contract) -> None:
     given.carried = given.carry(given.wanted)
 
 
-def _roughened(given: Input, look: float) -> list[tuple[int, Worn]]:
+def _roughened(given: Input, look: float) -> list[tuple[int, AttributeLook]]:
     """Make colors and texture coordinates without a requested quality as coarse as the look allows; return these."""
     found = []
     for at, (attribute, quality) in enumerate(given.wanted):
         asked = {"*", attribute.name} & {*dict(given.options.attributes)}
-        if not asked and quality.way in ("bits", "exact") and is_worn(attribute):
-            found.append((at, _roughen(given, at, attribute, OF_PAINT[attribute.semantic] * look)))
+        if not asked and quality.way in ("bits", "exact") and has_look(attribute):
+            found.append((at, _roughen(given, at, attribute, ATTRIBUTE_SHARE[attribute.semantic] * look)))
     return found
 
 
-def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Worn:
+def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> AttributeLook:
     """Make an attribute as coarse as takes at most some of the look."""
     steps = [Quality("bits", bits) for bits in range(1, MOST_BITS + 1)]
     if attribute.semantic == "color":
         rough = range(0 if kept_whole(attribute) else 15)
         steps = [*(Quality("share", 25.0 * 0.5 ** (k / 2)) for k in rough), Quality("exact")]
     mesh = TriangleMesh(given.prepared.positions, given.prepared.mesh.faces)
-    worn = Worn(mesh, attribute.semantic, given.carry_with(at, steps[-1])[at].at_corners, threads=given.options.threads)
+    look_of = AttributeLook(
+        mesh, attribute.semantic, given.carry_with(at, steps[-1])[at].at_corners, threads=given.options.threads
+    )
 
     def near(step: int) -> bool:
-        return worn.distance(mesh.positions, given.carry_with(at, steps[step])[at].at_corners, FEW) <= most
+        return look_of.distance(mesh.positions, given.carry_with(at, steps[step])[at].at_corners, FEW) <= most
 
     step = steps[_first(near, 0, len(steps) - 1)]
     if attribute.semantic == "texcoord" or given.carry_with(at, step)[at].size < given.carried[at].size:
         given.wanted[at] = attribute, step
-    return worn
+    return look_of
 
 
 def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
@@ -154,7 +156,7 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     bare, metric, free = search.smallest(contract), search.metric, _free_normals(given)
     if free is None or metric is None or contract.look == math.inf:
         return given.dressed(bare)
-    again, decoded = given.carry_with(free, Quality("recompute")), given.prepared.units.into(bare.decoded)
+    recomputed, decoded = given.carry_with(free, Quality("recompute")), given.prepared.units.into(bare.decoded)
 
     def looks(carried: tuple[PreparedAttribute, ...], positions: Positions) -> bool:
         return metric.shaded(positions, carried[free].normals(positions)) <= contract.look
@@ -167,17 +169,17 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
         return False
 
     may = not metric.against_faces
-    if may and looks(again, decoded):
-        given.carried = again
+    if may and looks(recomputed, decoded):
+        given.carried = recomputed
         return given.dressed(bare)
     _first(enough, LEAST_NORMAL_BITS, int(given.wanted[free][1].amount))
     kept = given.dressed(bare)
-    if may and not metric.is_spent and looks(again, given.prepared.positions):  # finer ones are, too, perhaps
+    if may and not metric.is_exhausted and looks(recomputed, given.prepared.positions):  # finer ones are, too, perhaps
         with suppress(TargetError):
-            finer = search.shaded_by(again[free].normals).smallest(contract)
-            other = with_attributes(finer, again, given.given.metadata)
-            if other.size < kept.size and looks(again, given.prepared.units.into(finer.decoded)):
-                given.carried, kept = again, other
+            finer = search.shaded_by(recomputed[free].normals).smallest(contract)
+            other = with_attributes(finer, recomputed, given.given.metadata)
+            if other.size < kept.size and looks(recomputed, given.prepared.units.into(finer.decoded)):
+                given.carried, kept = recomputed, other
     return kept
 
 

@@ -92,7 +92,7 @@ class Planner:
     def _packed(self, bits: int, rules: ChainRules) -> Packed:
         """With the step that makes the most of a fixed number of bits: it takes a pass over all blocks."""
         blocks, positions, size = self._prepared.blocks, self._prepared.positions, self._prepared.size
-        spend = patience(self._options.limits, len(positions))
+        charge = patience(self._options.limits, len(positions))
         width = min(self._options.coefficients or max(1, round((self._options.keep or PAPER_FRACTION) * size)), size)
 
         def largest(indices: range) -> Matrix:
@@ -101,7 +101,7 @@ class Planner:
             for index in indices:
                 block = blocks.block(index)
                 around = chain.around(block)
-                spend(chain.work(around, width))
+                charge(chain.work(around, width))
                 dictionary = chain.dictionary(around, width)
                 coefficients = np.abs(project(dictionary, positions[block.vertices], dictionary.shape[1]))
                 chain.commit(block, dictionary, positions[block.vertices])
@@ -163,7 +163,7 @@ ASLANT = 1.5
 
 
 @dataclass(frozen=True, eq=False)
-class Base:
+class RefinementBase:
     """Blocks, coded."""
 
     prepared: Prepared
@@ -231,7 +231,7 @@ class Spectral:
         self._options = options
         self._planner = Planner(prepared, options, widest, overrides)
 
-    def base(self, step: float, progress: Progress | None = None) -> Base:
+    def base(self, step: float, progress: Progress | None = None) -> RefinementBase:
         """The blocks at a step."""
         prepared, options = self._prepared, self._options
         scheme = self._planner.scheme(step)
@@ -241,7 +241,7 @@ class Spectral:
             threads=options.threads,
             doi=options.paper.doi,
             progress=progress,
-            spend=patience(options.limits, prepared.graph.size),
+            charge=patience(options.limits, prepared.graph.size),
         )
         admit(options.limits, prepared, blocks)
         positions = blended(prepared.graph.size, (block.decoded for block in blocks))
@@ -258,7 +258,9 @@ class Spectral:
         )
         decoded = smooth(prepared.graph, positions, header.smoothing)
         body = (*prepared.before_blocks, *(block.packet for block in blocks))
-        return Base(prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded))
+        return RefinementBase(
+            prepared, Draft(header, body, prepared.units.back(decoded)), np.ascontiguousarray(decoded)
+        )
 
 
 class Plain:
@@ -351,14 +353,14 @@ class Refined:
         return kept[max(kept)]
 
     @cached_property
-    def _base(self) -> Base:
+    def _base(self) -> RefinementBase:
         """The blocks of all steps: those of about the right one."""
         return self._spectral.base(
             max(BASE * math.sqrt(self.first), smallest_step(self._prepared.size)),
             self._bounds.measures.near.within(BLOCKS),
         )
 
-    def _shaped(self, base: Base, layer: Layer) -> Levels:
+    def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""
         shaper = self._bounds.measures.shaper
         aim = Aim(layer.step / shaper.character.mean_edge, min(float(self._bounds.reaches.max()), NEAR * layer.step), 6)
@@ -378,5 +380,5 @@ class Refined:
         return Sensitivity(positions, faces, self._prepared.graph, metric, noise)
 
 
-def _candidate(step: float, base: Base, layer: Layer, levels: Levels) -> Candidate:
+def _candidate(step: float, base: RefinementBase, layer: Layer, levels: Levels) -> Candidate:
     return Candidate(step, base.moved(layer, levels), partial(base.refined, layer, levels))

@@ -43,8 +43,8 @@ def rounded(prepared: Prepared, bits: int) -> Draft:
     with np.errstate(over="ignore", invalid="ignore"):
         narrow = np.spacing(np.float32(largest)) * cells < PART_OF_CELL * extent
     kind = np.float32 if narrow else np.float64
-    if (again := _made_on_grid(positions, cells, kind)) is not None:
-        return grid_draft(prepared, *again)
+    if (recomputed := _made_on_grid(positions, cells, kind)) is not None:
+        return grid_draft(prepared, *recomputed)
     values = positions.astype(kind)
     low = values.min(axis=0)
     most, extent = kind(cells), (values - low).max()

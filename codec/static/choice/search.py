@@ -107,7 +107,7 @@ class Search:
         least, made = min((candidate.draft.size for candidate in kept), default=math.inf), list[Candidate]()
         ways = dict[int, Way]()
         for way in self._ways(bounds, contract.look):
-            if made and self._spent:
+            if made and self._exhausted:
                 break
             on_grid = any(candidate.draft.places is not None for candidate in (*kept, *made))
             if isinstance(way, Gridded) and not on_grid and way.guess() > GUESSED * least:
@@ -162,7 +162,7 @@ class Search:
             way = Unfolding(Gridded(self._prepared, bounds, 0.0), best.step)
             for candidate in map(way.at, np.geomspace(best.step, best.step / 2.0, 9).tolist()):
                 if (
-                    not self._spent
+                    not self._exhausted
                     and folds(candidate) < least
                     and candidate.draft.size < dearest
                     and bounds.keeps(candidate.positions)
@@ -207,8 +207,8 @@ class Search:
         return min(found, key=lambda candidate: bounds.quality(candidate.positions)).draft if found else None
 
     @property
-    def _spent(self) -> bool:
-        return self.metric is not None and self.metric.is_spent
+    def _exhausted(self) -> bool:
+        return self.metric is not None and self.metric.is_exhausted
 
     def seen(self, draft: Draft) -> str:
         """What is visible of a draft, in words."""
@@ -234,7 +234,7 @@ class Search:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""
         prepared, steps = self._prepared, [candidate.step for candidate in found if candidate.draft.places is not None]
         if prepared.graph.size < FEW_VERTICES:
-            yield from takewhile(lambda _: not self._spent, Gridded(prepared, bounds, 0.0).fitting())
+            yield from takewhile(lambda _: not self._exhausted, Gridded(prepared, bounds, 0.0).fitting())
         elif steps and self._measures.shaper.character.is_sharp:
             yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
 

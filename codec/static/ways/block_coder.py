@@ -21,7 +21,7 @@ from bsm.codec.static.work import block_cost, block_memory, ground_cost, mesh_me
 from bsm.codec.threads import ordered_map
 
 FRAME = 5  # bytes of a block's frame besides its levels, at least
-Spend = Callable[[float], None]
+Charge = Callable[[float], None]
 """Takes the work in nanoseconds before it is done, and may refuse it by raising `LimitError`."""
 
 
@@ -56,9 +56,9 @@ class CodedBlock:
 class ChainEncoder:
     """Encodes the blocks of one chain, in their order."""
 
-    def __init__(self, scheme: Scheme, doi: tuple[float, float] | None = None, spend: Spend | None = None) -> None:
+    def __init__(self, scheme: Scheme, doi: tuple[float, float] | None = None, charge: Charge | None = None) -> None:
         self._scheme = scheme
-        self._spend = spend
+        self._charge = charge
         self._sizes = None if doi is None else DynamicSize(*doi, scheme.coding.width)
         self._chain = Chain(scheme.rules, scheme.blocks.graph)
         self._coding = scheme.coding.begin()
@@ -68,8 +68,8 @@ class ChainEncoder:
         scheme, chain, coding = self._scheme, self._chain, self._coding
         block = scheme.blocks.block(index)
         around, width = chain.around(block), min(coding.width, block.size)
-        if self._spend is not None:
-            self._spend(chain.work(around, width))
+        if self._charge is not None:
+            self._charge(chain.work(around, width))
         ground = Ground(block, chain.continuation(around), chain.dictionary(around, width))
         levels = coding.choose(ground, positions[block.vertices], self._sizes)
         decoded = coding.positions(ground, levels)
@@ -89,12 +89,12 @@ def encode_blocks(
     threads: int | None,
     doi: tuple[float, float] | None = None,
     progress: Progress | None = None,
-    spend: Spend | None = None,
+    charge: Charge | None = None,
 ) -> list[CodedBlock]:
     """All blocks of a mesh at `positions`, shape (n, 3), in BSM units; chains are encoded side by side."""
 
     def encode_chain(indices: range) -> list[CodedBlock]:
-        chain = ChainEncoder(scheme, doi, spend)
+        chain = ChainEncoder(scheme, doi, charge)
         return [chain.encode(index, positions) for index in indices]
 
     coded: list[CodedBlock] = []
@@ -109,18 +109,18 @@ PATIENCE = 8.0
 """How many times longer an encoder may take over dictionaries, of wider tries, than decoders over the whole stream."""
 
 
-def patience(limits: str, vertices: int) -> Spend:
+def patience(limits: str, vertices: int) -> Charge:
     """Adds up the work of an encoder, and raises `LimitError` where it would come to nothing that is decoded."""
     granted, spent, lock = NAMED_LIMITS[limits](), 0.0, Lock()
     most = Limits(work=PATIENCE * granted.work, work_per_vertex=PATIENCE * granted.work_per_vertex)
 
-    def spend(work: float) -> None:
+    def charge(work: float) -> None:
         nonlocal spent
         with lock:
             spent += work
             most.check_work(spent, vertices)
 
-    return spend
+    return charge
 
 
 def admit(limits: str, prepared: Prepared, blocks: Sequence[CodedBlock]) -> None:

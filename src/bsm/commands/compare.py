@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 COLORED = ("ply", "obj", "glb")  # formats that hold colours of vertices
-WORN: dict[Semantic, str] = {"texcoord": "under a checker", "color": "in colours"}
+ATTRIBUTE_LOOKS: dict[Semantic, str] = {"texcoord": "under a checker", "color": "in colours"}
 SHOWN = 99.0  # percentile of the distances that has the last colour: single vertices shall not make all others blue
 
 
@@ -75,16 +75,16 @@ def run(args: argparse.Namespace, console: Console) -> None:
         more: dict[str, Any] = {}
         if args.look or args.picture:
             progress.stage("comparing from all sides")
-            from bsm.codec.look.measure import LookMetric, Worn, worn
+            from bsm.codec.look.measure import AttributeLook, LookMetric, look_values
 
             if args.picture:
                 refuse_to_overwrite(args.picture, args.force)
             looker = LookMetric(original)
             seen = looker.compare(decoded)
             more["flat"] = looker.flat(decoded)
-            for semantic, name in WORN.items():
-                values = worn(original, semantic)
-                under = None if values is None else Worn(original, semantic, values).compare(decoded)
+            for semantic, name in ATTRIBUTE_LOOKS.items():
+                values = look_values(original, semantic)
+                under = None if values is None else AttributeLook(original, semantic, values).compare(decoded)
                 more |= {} if under is None else {name.split()[-1]: under}
             if args.picture:
                 write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
@@ -108,7 +108,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
         lines.append(f"{'look in facets':<19}1 - SSIM {more['flat']:.4g}\n")
         lines += [
-            f"{name:<19}{value:.4g}\n" for name in WORN.values() if (value := more.get(name.split()[-1])) is not None
+            f"{name:<19}{value:.4g}\n"
+            for name in ATTRIBUTE_LOOKS.values()
+            if (value := more.get(name.split()[-1])) is not None
         ]
     for name, errors in attributes.items():
         text = errors and ", ".join(f"{what} {value:.4g}" for what, value in errors.items())

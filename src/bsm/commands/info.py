@@ -169,14 +169,14 @@ def _sequence_lines(summary: dict[str, Any]) -> list[str]:
 def _run_lines(runs: list[dict[str, Any]]) -> list[str]:
     if len(runs) == 1:
         return []
-    again = {
+    shared = {
         number: f", the mesh of run {run['mesh']} again" for number, run in enumerate(runs) if run["mesh"] != number
     }
     return [
         describe_runs([run["first"] for run in runs[1:]]),
         *(
             f"run {number}: {run['frames']} frames from {run['first']} on, {run['vertices']} vertices, "
-            f"{run['faces']} faces" + again.get(number, "")
+            f"{run['faces']} faces" + shared.get(number, "")
             for number, run in enumerate(runs[:MOST_LISTED])
         ),
     ]

@@ -113,7 +113,7 @@ def inspect_stream(chunks: Iterator[bytes], limits: Limits = DEFAULT_LIMITS) -> 
         match packet:
             case packets.Header():
                 headers.append(packet)
-                mesh = packet.run_number if packet.again is None else packet.again
+                mesh = packet.run_number if packet.mesh_of is None else packet.mesh_of
                 runs.append(RunInfo(sum(gop.frames for gop in gops), 0, packet.vertices, packet.faces, mesh))
             case packets.Metadata(entries):
                 metadata = packets.Metadata({**metadata.entries, **entries})

@@ -338,8 +338,8 @@ def is_pipe(source: Source) -> bool:
     """Whether a path names what can be read once only: standard input ("-"), a named pipe, a socket or a terminal."""
     if not isinstance(source, (str, os.PathLike)):
         return False
-    again = os.path.isfile(source) or os.path.isdir(source)
-    return os.fspath(source) == "-" or (os.path.exists(source) and not again)
+    reopens = os.path.isfile(source) or os.path.isdir(source)
+    return os.fspath(source) == "-" or (os.path.exists(source) and not reopens)
 
 
 def read_bytes(source: Source) -> bytes:

@@ -133,26 +133,26 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     said = {**source.metadata, **rate, **job.metadata}
     metadata, generations = with_provenance(said, job.provenance, job.input, job.options, chosen)
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
-    echo = Echo(looks=chosen.promise is None or chosen.promise.look == math.inf)
+    check = VerifyingDecoder(looks=chosen.promise is None or chosen.promise.look == math.inf)
     size = 0
     overwrite = job.may_replace(job.output)
     with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
         frames = source.frames if source.meshes is None else source.meshes
-        given = _staged(echo.taken(frames, job.compared), source.count, chosen, progress)
+        given = _staged(check.taken(frames, job.compared), source.count, chosen, progress)
         for chunk in encoder.chunks(given, progress):
             size += file.write(chunk)
             file.flush()
             if job.compared:
-                echo.compare(chunk, encoder.vertex_order)
+                check.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
     notes = [
         *source.notes,
         *generations,
         *encoder.notes,
-        *([describe_runs(runs)] if runs else echo.loops.descriptions()),
+        *([describe_runs(runs)] if runs else check.loops.descriptions()),
     ]
-    look = echo.worst_look
+    look = check.worst_look
     if look is not None:
         notes.append(f"no look is promised: the worst frame has a look of {look:.2g}, where the default has at most 1")
     vertices, faces, bpvf = len(encoder.vertex_order), len(encoder.face_order), 8 * size / encoder.samples
@@ -162,12 +162,12 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         console,
         notes,
         encoder.vertex_order,
-        f"{counted(frames=echo.frames)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
-        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {echo.kg:.3g} %, {seconds:.2f} s",
+        f"{counted(frames=check.frames)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
+        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {check.kg:.3g} %, {seconds:.2f} s",
     )
-    counts = {"input": job.input, "output": job.output, "frames": echo.frames, "vertices": vertices, "faces": faces}
+    counts = {"input": job.input, "output": job.output, "frames": check.frames, "vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpvf_total": bpvf}
-    return {**counts, **sizes, "kg": finite(echo.kg), "seconds": seconds, "notes": notes}
+    return {**counts, **sizes, "kg": finite(check.kg), "seconds": seconds, "notes": notes}
 
 
 def _finish(job: EncodeJob, console: Console, notes: list[str], order: npt.NDArray[np.int64], summary: str) -> None:
@@ -201,7 +201,7 @@ def kept(positions: Positions) -> Callable[[np.ndarray], Positions]:
 
 
 @dataclass
-class Echo:
+class VerifyingDecoder:
     """Hears what a decoder makes of a stream while it is written, and holds only the frames that are not out yet."""
 
     frames: int = 0

@@ -124,9 +124,9 @@ def _compared(work: Work, task: Task, console: Console) -> Facts:
     if not path.is_file() or path.is_symlink():
         raise refuse
     with tempfile.TemporaryDirectory() as folder:
-        again = str(Path(folder, path.name))
-        facts = work(replace(task, output=again), console)
-        if digest_of(again) != digest_of(task.output):
+        second = str(Path(folder, path.name))
+        facts = work(replace(task, output=second), console)
+        if digest_of(second) != digest_of(task.output):
             raise refuse
     return {**facts, "output": task.output}
 

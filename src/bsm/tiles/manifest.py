@@ -86,8 +86,8 @@ def read_manifest(path: str, limits: Limits) -> Manifest:
         if given.get("complete") is False:
             levels = [tuple(whole(entry[key]) for key in ("whole", "tiles", "level")) for entry in given["levels"]]
             counts = ", ".join("{} of {} tiles of level {}".format(*level) for level in levels) or "nothing"
-            again = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
-            message = f"these tiles are unfinished; complete so far: {counts}; with its other options, {again} goes on"
+            resume = shlex.join(("bsm", "tile", str(given["source"]), "-o", path, "--resume"))
+            message = f"these tiles are unfinished; complete so far: {counts}; with its other options, {resume} goes on"
             raise TruncatedError(f"{name}: {printable(message)}")
         return _checked(given)
     except BsmError:

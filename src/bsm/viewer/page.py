@@ -109,9 +109,9 @@ class Growing:
             self._metadata.append(place)
         if tag.type == FrameType.HEADER:
             run = dict(parse_map(bytes(self._data[tag.payload : tag.checksum]))).get(HEADER_FIELDS["run"].key)
-            again = isinstance(run, (list, tuple)) and len(run) > 1  # it has the mesh of an earlier run
+            shares_mesh = isinstance(run, (list, tuple)) and len(run) > 1  # it has the mesh of an earlier run
             self._entry = None
-            self._head = [] if again else [place, *self._metadata]
+            self._head = [] if shares_mesh else [place, *self._metadata]
         elif tag.type == FrameType.GOP:
             first = parse_varint(self._data, tag.payload)
             if first is None or first[1] >= tag.checksum:

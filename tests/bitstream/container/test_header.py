@@ -107,7 +107,7 @@ def test_a_mesh_that_a_run_has_again_comes_back():
     # 17: [uint16 300, 9], 18: [4, 2]
     assert write_header(again).hex() == "84016402ccbe1192cd012c0912920402"
     assert parse(write_header(again)) == again
-    assert (again.run_number, again.again, SMALL_HEADER.run_number, SMALL_HEADER.again) == (4, 2, 0, None)
+    assert (again.run_number, again.mesh_of, SMALL_HEADER.run_number, SMALL_HEADER.mesh_of) == (4, 2, 0, None)
     for wrong in ({"run": (4, 4)}, {"sequence": (300, 0)}, {"blocks": 1}, {"attributes": 1}, {"step": 0.5}):
         with pytest.raises(OptionError, match="contradicts itself"):
             replace(again, **wrong)

@@ -16,7 +16,7 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.dictionaries import SPARE, Dictionaries, Part, find_sites
 from bsm.codec.sequence.run_encoding import FIRST_FRAME
-from bsm.codec.static.work import Allowance
+from bsm.codec.static.work import Budget
 from tests.shapes import patch, torus
 
 
@@ -26,10 +26,10 @@ def blocks_of(mesh: TriangleMesh, parts: int) -> Blocks:
     return grow_blocks(graph, partition, int(np.diff(partition.bounds).max()))
 
 
-def dictionaries(mesh: TriangleMesh, parts: int, width: int, allowance: Allowance | None = None) -> Dictionaries:
-    allowance = allowance or Allowance(Limits())
-    sites = find_sites(blocks_of(mesh, parts), mesh.faces, mesh.positions, width=width, threads=1, allowance=allowance)
-    return Dictionaries(sites, FIRST_FRAME, allowance, threads=2)
+def dictionaries(mesh: TriangleMesh, parts: int, width: int, budget: Budget | None = None) -> Dictionaries:
+    budget = budget or Budget(Limits())
+    sites = find_sites(blocks_of(mesh, parts), mesh.faces, mesh.positions, width=width, threads=1, budget=budget)
+    return Dictionaries(sites, FIRST_FRAME, budget, threads=2)
 
 
 def parts_of(*arguments: Any) -> tuple[Part, ...]:
@@ -95,9 +95,9 @@ def test_what_there_is_no_room_for_is_made_again() -> None:
 
     needed = sum(site.memory for site in ample.sites)
     largest = max(site.making for site in ample.sites)
-    allowance = Allowance(Limits())
-    narrow = dictionaries(mesh, 12, 1000, allowance=allowance)
-    allowance.keep(allowance.room() - largest - SPARE - 0.4 * needed)
+    budget = Budget(Limits())
+    narrow = dictionaries(mesh, 12, 1000, budget=budget)
+    budget.reserve(budget.room() - largest - SPARE - 0.4 * needed)
     narrow.reserve()
     first, second = list(narrow.each(bases)), list(narrow.each(bases))
     for expected, found, repeated in zip(wanted, first, second, strict=True):

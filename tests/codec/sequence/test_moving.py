@@ -21,7 +21,7 @@ from tests.streams import frames_in, moving_events_of, packets_of, without
 MESH = torus(24, 12)
 
 
-def worn(t: int, mesh: TriangleMesh = MESH) -> TriangleMesh:
+def with_attributes(t: int, mesh: TriangleMesh = MESH) -> TriangleMesh:
     positions = mesh.positions * [1, 1, 1 + 0.1 * np.sin(0.5 * t)]
     color = (128 + 120 * np.sin(2 * mesh.positions + 0.4 * t)).astype(np.uint8)
     velocity = np.stack([np.cos(0.3 * t) * mesh.positions[:, 0], mesh.positions[:, 1]], axis=1)
@@ -34,7 +34,7 @@ def worn(t: int, mesh: TriangleMesh = MESH) -> TriangleMesh:
     return TriangleMesh(positions, mesh.faces, attributes)
 
 
-FRAMES = [worn(t) for t in range(9)]
+FRAMES = [with_attributes(t) for t in range(9)]
 
 
 def extent(name: str) -> float:
@@ -114,7 +114,9 @@ def reversed_pair(frames: Sequence[TriangleMesh], **options: object) -> tuple[Se
 
 @pytest.mark.parametrize("options", [{"gop": 3}, {"low_delay": 1}], ids=str)
 def test_an_attribute_may_begin_to_move_later_and_stop(options: dict[str, object]) -> None:
-    frames = [replace(worn(t), attributes=worn(0 if t < 4 else min(t, 6)).attributes) for t in range(10)]
+    frames = [
+        replace(with_attributes(t), attributes=with_attributes(0 if t < 4 else min(t, 6)).attributes) for t in range(10)
+    ]
     data, encoder = encoded(frames, **options)
     off = errors(frames, encoder, decoded(data))
     assert off["color rms"] <= 0.01 * extent("color") and off["heat rms"] <= 0.0025 * extent("heat")
@@ -148,7 +150,12 @@ def test_a_lost_attribute_costs_those_behind_it(kind: type) -> None:
 
 def test_runs_have_attributes_that_move() -> None:
     other = torus(18, 10)
-    frames = [worn(0), worn(1), *(worn(t, other) for t in (2, 3)), *(worn(t) for t in (4, 5, 6))]
+    frames = [
+        with_attributes(0),
+        with_attributes(1),
+        *(with_attributes(t, other) for t in (2, 3)),
+        *(with_attributes(t) for t in (4, 5, 6)),
+    ]
     data, encoder = encoded(frames, runs=True)
     found = decoded(data)
     assert encoder.run_starts == [0, 2, 4] and len(found) == 7
@@ -176,7 +183,7 @@ def test_a_mesh_of_one_face_and_a_mesh_of_many_components() -> None:
 def test_what_cannot_be_promised_is_refused() -> None:
     with pytest.raises(OptionError, match="cannot be kept exact: ask for a bound"):
         encoded(FRAMES, attributes={"heat": "exact"})
-    late = [replace(worn(t), attributes=worn(max(0, t - 4)).attributes) for t in range(9)]
+    late = [replace(with_attributes(t), attributes=with_attributes(max(0, t - 4)).attributes) for t in range(9)]
     with pytest.raises(OptionError, match="floats that do cannot be exact"):
         encoded(late, gop=3, attributes={"heat": "exact"})
     vast = [replace(MESH, attributes=(Attribute("vast", np.full(len(MESH.positions), 1e200 * t)),)) for t in range(3)]

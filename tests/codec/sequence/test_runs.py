@@ -74,7 +74,7 @@ def test_faces_change_and_return(way):
 def test_a_mesh_that_returns_is_not_sent_again(way):
     data = b"".join(encoded(meshes(*PIECES), **way)[1])
     headers = [packet for packet, *_ in packets_of(data) if isinstance(packet, Header)]
-    assert [(header.run_number, header.again) for header in headers] == [
+    assert [(header.run_number, header.mesh_of) for header in headers] == [
         (0, None),
         (1, None),
         (2, 0),
@@ -209,7 +209,7 @@ def test_so_many_meshes_are_kept():
     sizes = [*range(3, 3 + KEPT_MESHES + 2), 3, 6, 12]
     frames = meshes(*((size, 1) for size in sizes))
     data = b"".join(encoded(frames)[1])
-    again = [packet.again for packet, *_ in packets_of(data) if isinstance(packet, Header)]
+    again = [packet.mesh_of for packet, *_ in packets_of(data) if isinstance(packet, Header)]
     assert again[:-2] == [None] * (KEPT_MESHES + 3) and again[-2:] == [3, 9]
     assert len(frames_in(moving_events_of(data))) == len(frames)
 
@@ -236,9 +236,9 @@ def test_the_encoder_counts_what_decoders_keep(way, monkeypatch):
     counted = []
     own = SequenceEncoder._run
 
-    def noted(self, run, index, shelf, options, tell):
-        yield from own(self, run, index, shelf, options, tell)
-        counted.append((shelf.allowance.kept, shelf.allowance.vertices))
+    def noted(self, run, index, meshes, options, tell):
+        yield from own(self, run, index, meshes, options, tell)
+        counted.append((meshes.budget.reserved, meshes.budget.vertices))
 
     monkeypatch.setattr(SequenceEncoder, "_run", noted)
     data = b"".join(encoded(meshes(*PIECES), **way)[1])

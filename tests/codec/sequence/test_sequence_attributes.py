@@ -17,7 +17,7 @@ MESH = torus(24, 16)
 FRAMES = np.array([MESH.positions * [1, 1, 1 + 0.1 * k] for k in range(6)])
 
 
-def worn() -> tuple[Attribute, ...]:
+def with_attributes() -> tuple[Attribute, ...]:
     corners = MESH.positions[MESH.faces][:, :, :2] + (MESH.positions[MESH.faces][:, :1, 2:] > 0)
     return (
         Attribute("color", (127 + 100 * np.sin(MESH.positions)).astype(np.uint8), "vertex", "color"),
@@ -40,11 +40,11 @@ def decoded(stream: bytes, *, tolerant: bool = False) -> tuple[dict[str, Attribu
 
 def test_they_come_back_before_the_second_frame():
     options = SequenceOptions(keep_order=True, attributes={"uv": "12bits"})
-    stream = encode_sequence(FRAMES, MESH.faces, options, {"name": "spin"}, worn())
+    stream = encode_sequence(FRAMES, MESH.faces, options, {"name": "spin"}, with_attributes())
     found, frames, losses, order = decoded(stream)
     assert frames == 6 and not losses
     assert order.index("FrameEvent") > max(i for i, name in enumerate(order) if name == AttributeEvent.__name__)
-    color, uv, part = worn()
+    color, uv, part = with_attributes()
     assert (found["color"].values == color.values).all() and (found["part"].values == part.values).all()
     wanted = uv.values[uv.indices]
     assert np.abs(found["uv"].values[found["uv"].indices] - wanted).max() <= 0.51 * np.ptp(wanted) / 4095
@@ -54,18 +54,18 @@ def test_they_come_back_before_the_second_frame():
 
 def test_they_cost_once():
     bare = [len(encode_sequence(FRAMES[:count], MESH.faces)) for count in (3, 6)]
-    full = [len(encode_sequence(FRAMES[:count], MESH.faces, attributes=worn())) for count in (3, 6)]
+    full = [len(encode_sequence(FRAMES[:count], MESH.faces, attributes=with_attributes())) for count in (3, 6)]
     assert abs((full[0] - bare[0]) - (full[1] - bare[1])) <= 4
 
 
 def test_what_is_lost_of_one_spoils_none_before_it():
-    stream = encode_sequence(FRAMES, MESH.faces, attributes=worn())
+    stream = encode_sequence(FRAMES, MESH.faces, attributes=with_attributes())
     values = [packet for packet, *_ in packets_of(stream) if isinstance(packet, packets.Values)]
     for which, packet in enumerate(values):
         broken = without(stream, packets.Values, which, "changed")
         found, frames, losses, _ = decoded(broken, tolerant=True)
         assert frames == 6 and losses == 1
-        assert set(found) == {attribute.name for attribute in worn()[: packet.attribute]}
+        assert set(found) == {attribute.name for attribute in with_attributes()[: packet.attribute]}
         with pytest.raises(BsmError):
             decoded(broken)
 

@@ -13,7 +13,7 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
-from bsm.codec.static.work import Allowance
+from bsm.codec.static.work import Budget
 from bsm.decoding import Decoder, decode
 from tools.vectors.meshes import torus
 
@@ -67,30 +67,30 @@ def test_every_solution_counts():
 
 
 def test_memory_is_kept_or_given_back():
-    allowance = Allowance(Limits(memory=100.0, memory_per_vertex=10.0, memory_per_byte=1.0))
-    allowance.grant(5)
-    allowance.keep(60.0, received=10)
-    allowance.afford(100.0)
+    budget = Budget(Limits(memory=100.0, memory_per_vertex=10.0, memory_per_byte=1.0))
+    budget.grant(5)
+    budget.reserve(60.0, received=10)
+    budget.check_fits(100.0)
     for _ in range(3):
-        with allowance.hold(100.0):
+        with budget.hold(100.0):
             pass
-    with pytest.raises(LimitError, match="memory = 161"), allowance.hold(101.0):
+    with pytest.raises(LimitError, match="memory = 161"), budget.hold(101.0):
         pass
     with pytest.raises(LimitError, match="memory = 161"):
-        allowance.afford(101.0)
+        budget.check_fits(101.0)
     with pytest.raises(LimitError, match="memory = 161"):
-        allowance.keep(101.0)
+        budget.reserve(101.0)
 
 
 def test_who_finds_no_room_waits_for_it():
-    allowance, inside, order = Allowance(Limits(memory=100.0)), Event(), []
+    budget, inside, order = Budget(Limits(memory=100.0)), Event(), []
 
     def other():
         inside.set()
-        with allowance.hold(60.0):
+        with budget.hold(60.0):
             order.append("second")
 
-    with allowance.hold(60.0):
+    with budget.hold(60.0):
         thread = Thread(target=other)
         thread.start()
         assert inside.wait(10)

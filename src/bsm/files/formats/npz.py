@@ -349,22 +349,22 @@ def open_npz_sequence(
         entry.write(np.ascontiguousarray(frame, "<f8").data)
         taken += 1
 
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, closing(_Waiting(attributes)) as worn:
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, closing(_Waiting(attributes)) as waiting:
         # Deflated, positions are 5 % smaller, and take longer than decoding does; faces would be a hundredth of them.
         with archive.open(zipfile.ZipInfo("faces.npy"), "w") as entry:
             np.lib.format.write_array(entry, faces)
         known = count > 0
         if not known:
-            yield worn.beside(kept.append)
+            yield waiting.beside(kept.append)
             count = len(kept)
         with archive.open(zipfile.ZipInfo("positions.npy"), "w", force_zip64=True) as entry:
             for frame in kept:
                 write(frame)
             if known:
-                yield worn.beside(write)
+                yield waiting.beside(write)
             if taken != count:
                 raise CorruptError(f"{taken} of {count} frames came")
-        worn.finish(archive, count)
+        waiting.finish(archive, count)
 
 
 class _Waiting:
@@ -445,8 +445,8 @@ def read_archive(given: Input, limits: Limits) -> Frames | None:
     if not found.moving:
         return Frames(mesh.faces, shape[0], npz_frames(archive), still, notes, metadata=found.metadata)
     first, meshes = (_dressed(archive, mesh.faces, still, found.moving) for _ in range(2))
-    frames, worn = npz_frames(archive), next(first).attributes
-    return Frames(mesh.faces, shape[0], frames, worn, notes, metadata=found.metadata, meshes=meshes)
+    frames, attributes = npz_frames(archive), next(first).attributes
+    return Frames(mesh.faces, shape[0], frames, attributes, notes, metadata=found.metadata, meshes=meshes)
 
 
 def _dressed(

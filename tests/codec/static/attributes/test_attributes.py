@@ -14,7 +14,7 @@ from bsm.bitstream.errors import BsmError, OptionError, TargetError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
-from bsm.codec.look.measure import Worn, look, worn
+from bsm.codec.look.measure import AttributeLook, look, look_values
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
@@ -258,9 +258,9 @@ def test_texture_coordinates_and_shapes_keep_the_look_under_a_checker(preset):
     mesh = replace(mesh, attributes=(atlas(mesh),))
     encoder = Encoder(mesh, PRESETS[preset])
     decoded = decode(encoder.encode())
-    places = worn(mesh, "texcoord")
+    places = look_values(mesh, "texcoord")
     assert places is not None
-    seen = Worn(mesh, "texcoord", places).compare(decoded)
+    seen = AttributeLook(mesh, "texcoord", places).compare(decoded)
     assert seen is not None and seen <= PRESETS[preset].contract.look + 1e-3
     requested = encode(mesh, replace(PRESETS[preset], attributes={"uv": "14bits"}))
     assert np.ptp(decode(requested).attributes[0].values) > 0.0 and len(encoder.encode()) < len(requested)
@@ -275,9 +275,9 @@ def test_colours_and_shapes_keep_the_look_in_colours(kind, domain):
     colours = Attribute("color", (rows * whole).astype(kind), domain, "color")
     mesh = replace(mesh, attributes=(colours,))
     data, requested = encode(mesh), encode(mesh, EncodeOptions(attributes={"color": "exact"}))
-    values = worn(mesh, "color")
+    values = look_values(mesh, "color")
     assert values is not None and np.ptp(values) > 0.8
-    seen = Worn(mesh, "color", values).compare(decode(data))
+    seen = AttributeLook(mesh, "color", values).compare(decode(data))
     assert seen is not None and 0.0 < seen <= 1.0 + 1e-3
     assert len(data) < 0.8 * len(requested)
 
