@@ -50,7 +50,7 @@ class Tool:
             for owner, name, value in self.patches:
                 stack.enter_context(patch.object(owner, name, value))
             if not self.decodes:
-                stack.enter_context(patch.object(Encoder, "_verified", lambda _, draft: draft))
+                stack.enter_context(patch.object(Encoder, "_verified", lambda _, draft, *__: draft))
             yield
 
 
