@@ -35,22 +35,22 @@ CORE = re.compile(r"core[^/]*\.md$")
 
 LIMITS = {
     "product in all languages, lines": 62_114,
-    "product Python, lines": 34_245,
-    "product C and C++, lines": 20_306,
+    "product Python, lines": 33_994,
+    "product C and C++, lines": 20_554,
     "product Rust, lines": 908,
-    "product TypeScript, lines": 6_655,
-    "product lines over 120 columns": 879,
-    "all Python, lines": 73_961,
-    "product modules": 197,
-    "product C files and headers": 73,
+    "product TypeScript, lines": 6_657,
+    "product lines over 120 columns": 614,
+    "all Python, lines": 75_425,
+    "product modules": 201,
+    "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "numbers of a header": 36,
     "fields of EncodeOptions and Paper": 29,
     "settings of --set": 12,
     "words of prose in spec/*.md": 22_500,
     "words of prose in the core": 10_200,
-    "tuned constants of the search": 62,
-    "files that encoding a mesh walks through": 56,
+    "tuned constants of the search": 69,
+    "files that encoding a mesh walks through": 57,
 }
 
 
