@@ -21,7 +21,7 @@ from bsm.files.mesh import WRITTEN_FORMATS, format_of_name, save_written, writte
 from bsm.files.pipes import Input, Source, named, read_bytes, read_chunks
 from bsm.files.stream import decode_whole
 from bsm.lengths import in_own_unit
-from bsm.libraries import as_mesh, read_any, warn, with_metadata
+from bsm.libraries import as_mesh, read_any, warn, with_metadata, without_provenance
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -97,7 +97,7 @@ def encode(
     chosen = _chosen(options, EncodeOptions, keywords, keywords_to.encode_options)
     check_mapping("metadata", {} if metadata is None else metadata)
     with watched("encoding", progress) as reported:
-        source = with_metadata(as_mesh(mesh), chosen, metadata or {})
+        source = with_metadata(without_provenance(as_mesh(mesh)), chosen, metadata or {})
         if lengths := in_own_unit(keywords, source.metadata):
             chosen = keywords_to.encode_options(**{**keywords, **lengths})
         encoder = Encoder(source, chosen)

@@ -70,6 +70,21 @@ def as_mesh(mesh: Any) -> TriangleMesh:
     )
 
 
+PROVENANCE = "provenance"
+"""The entry of metadata that says how a stream was made."""
+
+
+def has_provenance(metadata: Metadata) -> bool:
+    return str(metadata.get(PROVENANCE, "")).startswith("bsm ")
+
+
+def without_provenance(mesh: TriangleMesh) -> TriangleMesh:
+    """The mesh without how the stream was made that it was decoded from: the next one is made otherwise."""
+    if not has_provenance(mesh.metadata):
+        return mesh
+    return replace(mesh, metadata={name: value for name, value in mesh.metadata.items() if name != PROVENANCE})
+
+
 def with_metadata(mesh: TriangleMesh, options: EncodeOptions | None, metadata: Metadata) -> TriangleMesh:
     """The mesh with more metadata; without materials and images where all of its attributes are left out."""
     qualities = dict(options.attributes) if options else {}

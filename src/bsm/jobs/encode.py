@@ -24,10 +24,10 @@ from bsm.files.motion.frames import Frames, Loops, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite
 from bsm.files.pipes import size_of
 from bsm.files.sequence import open_frames, open_sequence
-from bsm.jobs.provenance import NAME, with_provenance
+from bsm.jobs.provenance import with_provenance
 from bsm.jobs.task import Facts, Task, came_to
 from bsm.lengths import in_own_unit
-from bsm.libraries import with_metadata
+from bsm.libraries import PROVENANCE, with_metadata
 from bsm.options import encode_options, sequence_options
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _encode_mesh(job: EncodeJob, console: Console) -> Facts:
             file.write(chunk)
     seconds = time.perf_counter() - begin
     images = sum(len(value) for value in mesh.metadata.values() if isinstance(value, bytes))
-    left_out = source.mesh.metadata.keys() - mesh.metadata.keys() - {NAME}
+    left_out = source.mesh.metadata.keys() - mesh.metadata.keys() - {PROVENANCE}
     notes = [
         *source.notes,
         *generations,

@@ -12,8 +12,8 @@ from bsm import __version__
 from bsm.codec.geometry.mesh import Metadata
 from bsm.codec.static.targets import ANY_ANGLE
 from bsm.files.pipes import read_chunks
+from bsm.libraries import PROVENANCE, has_provenance
 
-NAME = "provenance"
 _GENERATION = re.compile(r" generation=(\d{1,6})")
 _BOUNDS = ("farthest", "angle", "visual", "look")
 
@@ -22,18 +22,17 @@ def with_provenance(
     metadata: Metadata, asked: bool | None, path: str, given: Mapping[str, Any], options: Any
 ) -> tuple[Metadata, list[str]]:
     """The metadata of a stream, with how it is made where that is asked for or known of its input; and notes."""
-    before = metadata.get(NAME)
-    if not isinstance(before, str) or not before.startswith("bsm "):
-        return {**metadata, **({NAME: _words(path, given, options, 1)} if asked else {})}, []
-    found = _GENERATION.search(before)
+    if not has_provenance(metadata):
+        return {**metadata, **({PROVENANCE: _words(path, given, options, 1)} if asked else {})}, []
+    found = _GENERATION.search(str(metadata[PROVENANCE]))
     generation = 1 + int(found[1] if found else 1)
     exact = getattr(options, "is_grid", False)
     notes = [
         f"the mesh was decoded from a stream, so this is generation {generation}"
         + ("" if exact else ": errors add up, so encode the original where you have it")
     ]
-    kept = {name: value for name, value in metadata.items() if name != NAME}
-    return kept if asked is False else {**kept, NAME: _words(path, given, options, generation)}, notes
+    kept = {name: value for name, value in metadata.items() if name != PROVENANCE}
+    return kept if asked is False else {**kept, PROVENANCE: _words(path, given, options, generation)}, notes
 
 
 def _words(path: str, given: Mapping[str, Any], options: Any, generation: int) -> str:
