@@ -25,7 +25,7 @@ from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
 from bsm.codec.static.targets import SLACK, STEEPEST, TRIES, Contract, secant
 
 DEARER = 1.08  # give up a way whose first step takes this many times the bytes of the best result
-GUESSED = 1.25  # and a grid that is guessed to: of smooth surfaces it takes less than that
+GUESSED = 1.4  # and a grid that is guessed to: of smooth surfaces it takes less than that
 
 
 class Way(Protocol):
@@ -107,9 +107,9 @@ class Search:
         least, made = min((candidate.draft.size for candidate in kept), default=math.inf), list[Candidate]()
         ways = dict[int, Way]()
         for way in self._ways(bounds, contract.look):
-            if made and self._exhausted:
-                break
             on_grid = any(candidate.draft.places is not None for candidate in (*kept, *made))
+            if made and on_grid and self._exhausted:  # one grid is tried in any case: it may be much smaller
+                break
             if isinstance(way, Gridded) and not on_grid and way.guess() > GUESSED * least:
                 continue
             # A good first step of blocks alone is unknown, so their first result says little about their bytes.
