@@ -27,7 +27,7 @@ EXCEPTIONS = {
 }
 """Parts of lines in which such a word is right, by file; an empty part is the whole file. At most 20."""
 WIDE = 120  # columns
-WIDE_LIMITS = {"C": 398, "prose": 48}
+WIDE_LIMITS = {"C": 398, "prose": 0}
 DOCUMENTS = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "codec/PAPER.md", "docs", "engine", "src/bsm", "tools")
 """Where Markdown, and the header in C, must have short sentences."""
 MEAN, LONGEST = 15, 35  # words of a sentence

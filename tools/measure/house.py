@@ -47,8 +47,8 @@ LIMITS = {
     "numbers of a header": 36,
     "fields of EncodeOptions and Paper": 29,
     "settings of --set": 12,
-    "words of prose in spec/*.md": 22_500,
-    "words of prose in the core": 10_200,
+    "words of prose in spec/*.md": 22_700,
+    "words of prose in the core": 10_250,
     "tuned constants of the search": 69,
     "files that encoding a mesh walks through": 57,
 }
