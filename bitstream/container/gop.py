@@ -81,6 +81,11 @@ class GopBody:
     shown: npt.NDArray[np.int64] | None = None
 
     @property
+    def size(self) -> int:
+        """Bytes of all fields."""
+        return sum(field.size for field in self.fields)
+
+    @property
     def coded(self) -> int:
         """How many frames are coded; others show these again."""
         return self.frames if self.shown is None else int(self.shown.max()) + 1

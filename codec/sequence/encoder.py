@@ -27,7 +27,7 @@ from bsm.codec.sequence.frames import Group, next_group, require_same
 from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.run_encoding import EncodedGops, FirstFrame, RunEncoder, finest_step
-from bsm.codec.sequence.runs import Frame, JoinedRun, MeshCache, Run, RunSplitter, joined_runs
+from bsm.codec.sequence.runs import Frame, JoinedRun, Run, RunSplitter, joined_runs
 from bsm.codec.sequence.targets import RISES, SequenceComparison, compare_sequences
 from bsm.codec.sequence.verification import ExpectedFrame, SequenceVerifier
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
@@ -38,7 +38,9 @@ from bsm.codec.static.targets import search_step
 from bsm.codec.static.units import checksum_of
 from bsm.codec.static.verification import Original
 from bsm.codec.static.ways.block_coder import as_of_decoders
-from bsm.codec.static.work import Budget
+from bsm.codec.static.work import Kept
+
+KEPT_MESHES = 8  # by decoders, of the meshes so far
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,7 +191,7 @@ class SequenceEncoder:
         self._verifier = verifier = SequenceVerifier(
             NAMED_LIMITS[options.limits](), self._metadata, options.threads, shown
         )
-        meshes = Meshes(options)
+        meshes = Meshes()
         writer = Writer()
         number = 0
         self.run_starts, self.samples, self._checksum = [], 0, 0
@@ -240,7 +242,7 @@ class SequenceEncoder:
             more = len(group) == longest and run.first + longest != self._count
             carried, coders = self._carried(run, prepared, options, group, more=more)
             resting = tuple(attribute for attribute in carried if not attribute.declaration.moves)
-            gops = encoder.first(group, meshes.budget, [coder.start for coder in coders])
+            gops = encoder.first(group, meshes.kept, [coder.start for coder in coders])
             self._verifier.expect_mesh(Original(run.given, run.joined, prepared), resting)
             yield from self._opened(run, index, prepared, gops.first_frame, carried)
         else:
@@ -267,7 +269,7 @@ class SequenceEncoder:
             for body in bodies:
                 if 0 < self._count < run.first + self._done + body.frames:
                     raise OptionError(f"{self._count} frames were announced and more came")
-                first_frame.admit(body)
+                first_frame.kept.received += body.size
                 yield packets.Gop(run.first + self._done, write_gop_body(body, index, numbers))
                 self._done += body.frames
                 self.samples += body.frames * len(self.vertex_order)
@@ -343,33 +345,34 @@ class OpenedMesh:
 
 
 class Meshes:
-    """The meshes that runs have had, as far as decoders keep them, see `MeshCache`, and what decoders may still do."""
+    """The meshes that decoders keep, those that runs have had last: a run can have one of them again."""
 
-    def __init__(self, options: SequenceOptions) -> None:
-        self.budget = Budget(NAMED_LIMITS[options.limits]())
-        self._cache: MeshCache[OpenedMesh] = MeshCache(self.budget)
+    def __init__(self) -> None:
+        self.kept = Kept()
+        self._opened: dict[int, OpenedMesh] = {}  # by the run that brought them, the one used last at the end
         self._known: dict[bytes, tuple[int, TriangleMesh]] = {}  # the run that brought a mesh, and that, by its faces
 
     def find(self, begun: JoinedRun) -> OpenedMesh | None:
         """What is kept of the mesh of a run that begins; None: it is to be sent."""
         run, before = self._known.get(_digest(begun), (-1, begun.given))
-        opened = self._cache.take(run)
+        opened = self._opened.get(run)
         if opened is not None:
             moving = {coder.name for coder in opened.coders}
             others = (attribute for attribute in before.attributes if attribute.name not in moving)
-            opened = opened if all(has(begun.given.attributes, attribute) for attribute in others) else None
-        if opened is None:
-            self._cache.make_room()
-            return None
-        opened.gops.first_frame.budget.follow(self.budget)
-        return opened
+            if all(has(begun.given.attributes, attribute) for attribute in others):
+                opened.gops.first_frame.kept = replace(self.kept)
+                return opened
+        if len(self._opened) == KEPT_MESHES:
+            oldest = self._opened.pop(next(iter(self._opened))).gops.first_frame
+            self.kept.vertices -= oldest.header.vertices
+            self.kept.memory -= oldest.memory
+        return None
 
     def keep(self, opened: OpenedMesh, ended: JoinedRun) -> None:
         """Take note that a run of this mesh has ended."""
-        first_frame = opened.gops.first_frame
-        first_frame.setting.dictionaries.release()
-        self.budget.follow(first_frame.budget)
-        self._cache.keep(opened.run, opened)
+        self.kept = replace(opened.gops.first_frame.kept)
+        self._opened.pop(opened.run, None)
+        self._opened[opened.run] = opened
         given = TriangleMesh(ended.given.positions, ended.given.faces, ended.given.attributes)
         self._known[_digest(ended)] = opened.run, given
 

@@ -21,7 +21,6 @@ from bsm.bitstream.errors import CorruptError
 from bsm.codec.arrays import Levels, Matrix, sum_in_order
 from bsm.codec.progress import Progress
 from bsm.codec.sequence import temporal
-from bsm.codec.sequence.dictionaries import Part
 from bsm.codec.sequence.row_prediction import ROUNDS, WEIGHT, LevelWriter, Loop
 from bsm.codec.sequence.temporal import time_cosines
 from bsm.codec.sequence.tracks import INHERITED, Setting, Track, lags, split_columns
@@ -142,7 +141,7 @@ class GopEncoder:
 
     def __init__(self, setting: Setting, options: SequenceOptions) -> None:
         self._track = setting.tracks[0]
-        self._parts: tuple[Part, ...] = tuple(setting.dictionaries.each(lambda _, part: part))
+        self._parts = setting.parts
         self._options = options
         self.step = options.step
         self.rounds = ROUNDS
@@ -223,7 +222,7 @@ class GopEncoder:
         field = np.zeros_like(wanted)
         writer, coded = LevelWriter(history.bank, columns, self.rounds), []
         for k, part in enumerate(self._parts):
-            ends = field[part.site.around]
+            ends = field[part.around]
             loop, known, base = history.begin(k, ends, self._step)
             change = writer.write(loop, known, part.difference(wanted, field) - base, self._step, history.levels[k])
             coded.append(np.vstack((ends, base + change)))
@@ -252,7 +251,7 @@ class GopEncoder:
         before = self._before(method)
         self.inherited = Inherited(before)
         for k, part in enumerate(self._parts):
-            target, ends = part.difference(wanted, field), field[part.site.around]
+            target, ends = part.difference(wanted, field), field[part.around]
             loop, known = begin_part(self._track, before, k, ends, self._step)
             differences = writer.write(loop, known, target, self._step)
             part.place(field, differences)
@@ -319,7 +318,7 @@ class GopDecoder:
             if field.components:
                 decode_levels(history.bank, field.levels, levels, history.levels)
             read.append(levels)
-        found: list[list[Matrix]] = [[np.empty(0)] * len(self.setting.sites) for _ in fields]
+        found: list[list[Matrix]] = [[np.empty(0)] * len(self.setting.parts) for _ in fields]
 
         columns = [track.width * body.frames for track in self._tracks]
 

@@ -1,4 +1,4 @@
-"""A run: its first frame and its GOPs, in the way that costs least; the twin of `codec.sequence.run_decoding`."""
+"""A run: its first frame and its GOPs, in the way that costs least."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.bitstream.container.header import LAW_OF_SEQUENCES, Header
 from bsm.bitstream.errors import OptionError
-from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.progress import Nearing, Progress, silent
 from bsm.codec.sequence.frames import Group, distinct_frames
@@ -18,13 +18,13 @@ from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Inherited
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL, ROUNDS
 from bsm.codec.sequence.step_search import StepSearch
-from bsm.codec.sequence.tracks import Setting, gop_memory, make_setting
+from bsm.codec.sequence.tracks import Setting, make_setting
 from bsm.codec.signal.transform import smallest_step
 from bsm.codec.static.coding import Adaptive, Scheme, rules_of
 from bsm.codec.static.preamble_encoding import Prepared
 from bsm.codec.static.units import single
-from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, as_of_decoders, blended, encode_blocks
-from bsm.codec.static.work import Budget, mesh_memory
+from bsm.codec.static.ways.block_coder import FRAME, CodedBlock, blended, encode_blocks
+from bsm.codec.static.work import Kept, mesh_memory
 
 FIRST_STEP = 0.3
 """Of the first frame, in steps of the others, which follow from it; 0.4 costs 0.5 % more, with low delay 1 to 3 %."""
@@ -47,15 +47,16 @@ BASIS, LEVELS = 0.6, 0.15  # of a pass, the shares of its basis and of its level
 NEAR = 0.8, 1.15  # a first frame is reused for steps within these factors of its own
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class FirstFrame:
     """Everything before the GOPs but the connectivity: the first frame, coded as a static mesh is."""
 
     header: Header
     blocks: list[CodedBlock]
     setting: Setting
-    budget: Budget
-    limits: str
+    memory: float
+    kept: Kept
+    limits: Limits
 
     def has_room(self, body: GopBody) -> bool:
         """Whether decoders have the memory for a GOP, with attributes that move about as positions do."""
@@ -64,18 +65,8 @@ class FirstFrame:
             replace(positions, width=track.width, components=-(-positions.components * track.width // 3))
             for track in self.setting.tracks[1:]
         )
-        return self.setting.fits(replace(body, fields=(positions, *others)), _received(body))
-
-    def admit(self, body: GopBody) -> None:
-        """Take note of a GOP; raise `OptionError` if decoders would lack the memory for it."""
-        self.budget.reserve(0.0, _received(body))
-        with as_of_decoders(self.limits):
-            self.budget.limits.check("sequence_bytes", gop_memory(self.setting.vertices, body))
-            self.setting.reserve(body)
-
-
-def _received(body: GopBody) -> int:
-    return sum(field.size for field in body.fields)
+        needed = self.kept.memory + self.setting.memory_for(replace(body, fields=(positions, *others)))
+        return needed <= self.limits.memory_for(self.kept.vertices, self.kept.received + body.size)
 
 
 def encode_first_frame(
@@ -83,7 +74,7 @@ def encode_first_frame(
     options: SequenceOptions,
     frames: int,
     progress: Progress,
-    before: Budget,
+    before: Kept,
     moving: Sequence[Matrix] = (),
 ) -> FirstFrame:
     """Code the first frame, which all others of a run build upon; `frames` as for `SequenceEncoder`."""
@@ -105,18 +96,11 @@ def encode_first_frame(
         **scheme.fields(),
     )
     positions = blended(prepared.graph.size, (block.decoded for block in blocks))
-    budget = Budget(NAMED_LIMITS[options.limits]())
-    budget.follow(before)
-    budget.grant(header.vertices)
-    with as_of_decoders(options.limits):
-        budget.reserve(mesh_memory(header.vertices, header.faces), len(prepared.connectivity.data))
-        budget.check_fits(max(block.memory for block in blocks))
-        budget.reserve(0.0, sum(len(block.packet.data) + FRAME for block in blocks))
-        budget.limits.check("sequence_bytes", 8.0 * header.vertices * header.coefficients)
-        setting = make_setting(
-            scheme, prepared.mesh.faces, positions, width=width, threads=options.threads, budget=budget, moving=moving
-        )
-    return FirstFrame(header, blocks, setting, budget, options.limits)
+    setting = make_setting(scheme, prepared.mesh.faces, positions, width=width, threads=options.threads, moving=moving)
+    memory = mesh_memory(header.vertices, header.faces) + setting.memory
+    received = len(prepared.connectivity.data) + sum(len(block.packet.data) + FRAME for block in blocks)
+    kept = Kept(before.vertices + header.vertices, before.memory + memory, before.received + received)
+    return FirstFrame(header, blocks, setting, memory, kept, NAMED_LIMITS[options.limits]())
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +140,7 @@ class RunEncoder:
         self._prepared, self._options = prepared, options
         self._count, self._progress = count, progress
 
-    def first(self, group: Group, before: Budget, moving: Sequence[Matrix]) -> EncodedGops:
+    def first(self, group: Group, before: Kept, moving: Sequence[Matrix]) -> EncodedGops:
         """The first frame, with values that move, shapes (n, d), as of `make_setting`, and the first GOP."""
         first_frame: FirstFrame | None = None
         coded_for = 0.0

@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
-from typing import Generic, TypeAlias, TypeVar
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -17,11 +17,7 @@ from bsm.codec.geometry.attributes import Attribute, has
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
 from bsm.codec.geometry.welding import first_of, group_rows
 from bsm.codec.static.preamble_encoding import JoinedMesh, joined
-from bsm.codec.static.work import Budget
 
-KEPT_MESHES = 8  # of the meshes so far, those that runs have had last; a run can have one of them again
-
-Mesh = TypeVar("Mesh")
 Frame: TypeAlias = npt.ArrayLike | TriangleMesh
 """Positions, shape (n, 3), or a mesh, whose faces may be others than those of the frame before."""
 
@@ -112,46 +108,6 @@ def other_faces(mesh: TriangleMesh, other: TriangleMesh) -> str:
         return ""
     row = int(np.argmax((mesh.faces != other.faces).any(axis=1)))
     return f"face {row} is {other.faces[row].tolist()} where it was {mesh.faces[row].tolist()}"
-
-
-@dataclass(eq=False)
-class _Place(Generic[Mesh]):
-    mesh: Mesh
-    memory: float = 0.0
-    vertices: int = 0
-
-
-class MeshCache(Generic[Mesh]):
-    """Meshes that runs have had, the last ones: those that decoders keep."""
-
-    def __init__(self, budget: Budget) -> None:
-        self._budget = budget
-        self._places: dict[int, _Place[Mesh]] = {}  # by the run that brought them, the one used last at the end
-        self._before = self._counted()
-
-    def take(self, run: int) -> Mesh | None:
-        """The mesh that a run has brought, used again; None if it is not there."""
-        if run not in self._places:
-            return None
-        self._places[run] = self._places.pop(run)
-        return self._places[run].mesh
-
-    def make_room(self) -> None:
-        """Before a run brings a mesh, give up the one that was used longest ago, if there are as many as may be."""
-        if len(self._places) == KEPT_MESHES:
-            oldest = self._places.pop(next(iter(self._places)))
-            self._budget.give_back(oldest.memory, oldest.vertices)
-            self._before = self._counted()
-
-    def keep(self, run: int, mesh: Mesh) -> None:
-        """Take note that a run ends whose mesh `run` has brought, and of the memory that it took."""
-        place, (memory, vertices) = self._places.setdefault(run, _Place(mesh)), self._counted()
-        place.memory += memory - self._before[0]
-        place.vertices += vertices - self._before[1]
-        self._before = memory, vertices
-
-    def _counted(self) -> tuple[float, int]:
-        return self._budget.reserved, self._budget.vertices
 
 
 @dataclass(frozen=True, eq=False)

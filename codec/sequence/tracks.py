@@ -11,11 +11,12 @@ from operator import mul
 import numpy as np
 
 from bsm.bitstream.container.gop import GopBody, GopMethod
+from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Faces, Levels, Matrix, sum_in_order
-from bsm.codec.sequence.dictionaries import Dictionaries, Part, Site, find_sites
+from bsm.codec.sequence.dictionaries import Part, make_parts
 from bsm.codec.sequence.temporal import BATCH
 from bsm.codec.static.coding import Scheme
-from bsm.codec.static.work import Budget
+from bsm.codec.threads import ordered_map
 
 KEPT, MOST_KEPT, LEAST_KEPT = 1 << 19, 64, 2
 """Positions that low-delay frames may refer to, about, and frames at most and at least, of attributes always."""
@@ -23,6 +24,7 @@ LAGS = (1, 2, 3, 5, 8, 13, 21, 34)
 """How far before the latest frame those lie that help to predict the next ones, of those that are kept."""
 INHERITED = 24
 """Components of a GOP that those of the next one are predicted from: what moved comes again, mixed in another way."""
+SPARE = 4.0 * 2**20  # bytes that decoders keep no dictionary in, though they are granted
 TRACK_MEMORY = 40.0  # bytes of a number of a vertex in the first frame of an attribute that moves
 
 
@@ -84,64 +86,55 @@ class Setting:
     """What every GOP of a sequence is coded with."""
 
     vertices: int
-    dictionaries: Dictionaries
+    parts: tuple[Part, ...]
     tracks: tuple[Track, ...]
 
-    @property
-    def sites(self) -> tuple[Site, ...]:
-        return self.dictionaries.sites
+    @cached_property
+    def around(self) -> int:
+        return sum(len(part.around) for part in self.parts)
 
-    def fits(self, body: GopBody, received: int) -> bool:
-        return self.dictionaries.fits(*self._memory(body), received)
+    @cached_property
+    def memory(self) -> float:
+        """Bytes that decoders keep, besides the dictionaries that they have room for."""
+        widths = [track.width for track in self.tracks[1:]]
+        tracks = TRACK_MEMORY * self.vertices * sum(widths) + 8.0 * (BENDING_COLUMNS + sum(widths)) * self.around
+        return sum(part.memory for part in self.parts) + tracks
 
-    def reserve(self, body: GopBody) -> None:
-        self.dictionaries.reserve(*self._memory(body))
-
-    def _memory(self, body: GopBody) -> tuple[float, float]:
-        """Bytes for decoding a GOP, and for a part besides: levels, coefficients in the loop, what becomes of them."""
-        around = sum(len(site.around) for site in self.sites)
-        return gop_memory(self.vertices, body, around), 48.0 * self.dictionaries.largest * _columns(body)
+    def memory_for(self, body: GopBody) -> float:
+        """Bytes for decoding a GOP: one part after the other with levels, coefficients, and what becomes of them."""
+        largest = max(len(part.vertices) for part in self.parts)
+        making = max(part.making for part in self.parts)
+        return gop_memory(self.vertices, body, self.around) + 48.0 * largest * _columns(body) + making + SPARE
 
     def empty_levels(self, columns: int) -> list[Levels]:
         """Levels of all parts, each of shape (c_i, columns), to be read."""
-        return [np.zeros((site.width, columns), np.int32) for site in self.sites]
+        return [np.zeros((part.width, columns), np.int32) for part in self.parts]
 
     def field(self, columns: int, decoded: Callable[[int, Matrix], Matrix]) -> Matrix:
         """The field, shape (n, m), of differences of each part, shape (c_i, m)."""
         field = np.zeros((self.vertices, columns))
-        for index, part in enumerate(self.dictionaries.in_order()):
-            part.place(field, decoded(index, field[part.site.around]))
+        for index, part in enumerate(self.parts):
+            part.place(field, decoded(index, field[part.around]))
         return field
 
 
 def make_setting(
-    scheme: Scheme,
-    faces: Faces,
-    first_frame: Matrix,
-    *,
-    width: int,
-    threads: int | None,
-    budget: Budget,
-    moving: Sequence[Matrix] = (),
+    scheme: Scheme, faces: Faces, first_frame: Matrix, *, width: int, threads: int | None, moving: Sequence[Matrix] = ()
 ) -> Setting:
-    """Make the dictionaries from the decoded first frame, shape (n, 3); see `find_sites` and `Setting`."""
-    sites = find_sites(scheme.blocks, faces, first_frame, width=width, threads=threads, budget=budget)
-    dictionaries = Dictionaries(sites, scheme.rules, budget, threads)
-    dictionaries.reserve()
+    """Make the dictionaries from the decoded first frame, shape (n, 3); see `make_parts` and `Setting`."""
+    parts = make_parts(scheme, faces, first_frame, width=width, threads=threads)
     widths = [values.shape[1] for values in moving]
-    budget.reserve(TRACK_MEMORY * len(first_frame) * sum(widths))
     columns = [BENDING_COLUMNS, *widths]
-    budget.reserve(8.0 * sum(columns) * sum(len(site.around) for site in sites))
 
-    def known(_: int, part: Part) -> tuple[list[Matrix], list[Matrix]]:
+    def known(part: Part) -> tuple[list[Matrix], list[Matrix]]:
         bending = Bending.of(first_frame[part.vertices])
         here, around = (
             np.hstack([bending.columns(first_frame[vertices]), *(values[vertices] for values in moving)])
-            for vertices in (part.vertices, part.site.around)
+            for vertices in (part.vertices, part.around)
         )
         return split_columns(part.coefficients(here, around), columns), split_columns(around, columns)
 
-    pairs = list(dictionaries.each(known))
+    pairs = list(ordered_map(known, parts, threads))
     tracks = []
     for track, width in enumerate((3, *widths)):
         known_of, around_of = ([np.ascontiguousarray(m[track]) for m in each] for each in zip(*pairs, strict=True))
@@ -149,7 +142,7 @@ def make_setting(
         start = [np.zeros_like(part) for part in first] if track else first
         kept = LEAST_KEPT if track else frames_kept(len(first_frame))
         tracks.append(Track(width, kept, first, known_of, around_of, start))
-    return Setting(len(first_frame), dictionaries, tuple(tracks))
+    return Setting(len(first_frame), parts, tuple(tracks))
 
 
 def split_columns(matrix: Matrix, widths: Sequence[int]) -> list[Matrix]:

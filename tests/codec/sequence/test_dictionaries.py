@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import LimitError
-from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import cotangent_weights
 from bsm.codec.blocks.overlap import Blocks, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.dictionaries import SPARE, Dictionaries, Part, find_sites
+from bsm.codec.sequence.dictionaries import Part, make_parts
 from bsm.codec.sequence.run_encoding import FIRST_FRAME
-from bsm.codec.static.work import Budget
+from bsm.codec.static.coding import Adaptive, Scheme
 from tests.shapes import patch, torus
 
 
@@ -26,14 +22,9 @@ def blocks_of(mesh: TriangleMesh, parts: int) -> Blocks:
     return grow_blocks(graph, partition, int(np.diff(partition.bounds).max()))
 
 
-def dictionaries(mesh: TriangleMesh, parts: int, width: int, budget: Budget | None = None) -> Dictionaries:
-    budget = budget or Budget(Limits())
-    sites = find_sites(blocks_of(mesh, parts), mesh.faces, mesh.positions, width=width, threads=1, budget=budget)
-    return Dictionaries(sites, FIRST_FRAME, budget, threads=2)
-
-
-def parts_of(*arguments: Any) -> tuple[Part, ...]:
-    return tuple(dictionaries(*arguments).each(lambda _, part: part))
+def parts_of(mesh: TriangleMesh, parts: int, width: int) -> tuple[Part, ...]:
+    scheme = Scheme(blocks_of(mesh, parts), FIRST_FRAME, Adaptive(width, 0.01))
+    return make_parts(scheme, mesh.faces, mesh.positions, width=width, threads=2)
 
 
 def differences(parts: tuple[Part, ...], field: Matrix) -> list[Matrix]:
@@ -81,31 +72,3 @@ def test_a_narrow_dictionary_has_the_lowest_columns_of_a_wide_one() -> None:
     mesh = torus(16, 10)
     for narrow, wide in zip(parts_of(mesh, 3, 7), parts_of(mesh, 3, 1000), strict=True):
         assert np.array_equal(narrow.basis, wide.basis[:, :7])
-
-
-def test_what_there_is_no_room_for_is_made_again() -> None:
-    mesh = torus(40, 30)
-    ample = dictionaries(mesh, 12, 1000)
-    ample.reserve()
-    wanted = [part.basis for part in ample.each(lambda _, part: part)]
-    assert all(expected is f.basis for expected, f in zip(wanted, ample.each(lambda _, part: part), strict=True))
-
-    def bases(_: int, part: Part) -> Matrix:
-        return part.basis
-
-    needed = sum(site.memory for site in ample.sites)
-    largest = max(site.making for site in ample.sites)
-    budget = Budget(Limits())
-    narrow = dictionaries(mesh, 12, 1000, budget=budget)
-    budget.reserve(budget.room() - largest - SPARE - 0.4 * needed)
-    narrow.reserve()
-    first, second = list(narrow.each(bases)), list(narrow.each(bases))
-    for expected, found, repeated in zip(wanted, first, second, strict=True):
-        np.testing.assert_array_equal(expected, found)
-        np.testing.assert_array_equal(expected, repeated)
-    again = [expected is not found for expected, found in zip(first, second, strict=True)]
-    assert 0 < sum(again) < 12
-    assert again == sorted(again)  # the first ones are kept
-    with pytest.raises(LimitError, match="memory"):
-        narrow.reserve(needed)
-    assert len(list(narrow.each(bases))) == 12

@@ -11,9 +11,8 @@ from bsm.bitstream.container.wire import FrameType, write_preamble
 from bsm.bitstream.errors import CorruptError, MeshError, OptionError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.encoder import SequenceEncoder
+from bsm.codec.sequence.encoder import KEPT_MESHES, SequenceEncoder
 from bsm.codec.sequence.options import Promise, SequenceOptions
-from bsm.codec.sequence.runs import KEPT_MESHES
 from bsm.codec.sequence.targets import SequenceTarget
 from bsm.decoding import SequenceDecoder
 from bsm.events import ConnectivityEvent, FrameEvent, HeaderEvent, LossEvent, Signal
@@ -238,7 +237,7 @@ def test_the_encoder_counts_what_decoders_keep(way, monkeypatch):
 
     def noted(self, run, index, meshes, options, tell):
         yield from own(self, run, index, meshes, options, tell)
-        counted.append((meshes.budget.reserved, meshes.budget.vertices))
+        counted.append((meshes.kept.memory, meshes.kept.vertices))
 
     monkeypatch.setattr(SequenceEncoder, "_run", noted)
     data = b"".join(encoded(meshes(*PIECES), **way)[1])

@@ -1,7 +1,5 @@
 """What a decoder spends is bounded, whatever the faces are, and counted before it is spent."""
 
-from threading import Event, Thread
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,6 @@ from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
-from bsm.codec.static.work import Budget
 from bsm.decoding import Decoder, decode
 from tools.vectors.meshes import torus
 
@@ -64,39 +61,6 @@ def test_every_solution_counts():
     fronts = laplacian_of(block_of(torus(20, 20))).fronts
     once, often = dictionary_cost(fronts, 1, 1), dictionary_cost(fronts, 1, 64 * 1024)
     assert often > 60_000 * solve_cost(fronts, 1) > 5_000 * once
-
-
-def test_memory_is_kept_or_given_back():
-    budget = Budget(Limits(memory=100.0, memory_per_vertex=10.0, memory_per_byte=1.0))
-    budget.grant(5)
-    budget.reserve(60.0, received=10)
-    budget.check_fits(100.0)
-    for _ in range(3):
-        with budget.hold(100.0):
-            pass
-    with pytest.raises(LimitError, match="memory = 161"), budget.hold(101.0):
-        pass
-    with pytest.raises(LimitError, match="memory = 161"):
-        budget.check_fits(101.0)
-    with pytest.raises(LimitError, match="memory = 161"):
-        budget.reserve(101.0)
-
-
-def test_who_finds_no_room_waits_for_it():
-    budget, inside, order = Budget(Limits(memory=100.0)), Event(), []
-
-    def other():
-        inside.set()
-        with budget.hold(60.0):
-            order.append("second")
-
-    with budget.hold(60.0):
-        thread = Thread(target=other)
-        thread.start()
-        assert inside.wait(10)
-        order.append("first")
-    thread.join(10)
-    assert order == ["first", "second"]
 
 
 @pytest.mark.parametrize("preset", sorted({*PRESETS} - {"none"}))
