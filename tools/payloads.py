@@ -2,23 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 
 from bsm._engine import Decoder
 from bsm.bitstream.attributes.seams import Flags, code_edges
 from bsm.bitstream.coefficients.adaptive import CoefficientModel, code_block
+from bsm.bitstream.coefficients.matrices import Lead, Levels, code_matrix, extent_of
 from bsm.bitstream.connectivity.partition import code_labels
 from bsm.bitstream.container.packets import Connectivity, Grid, Header, Packet
 from bsm.bitstream.container.wire import Cursor
 from bsm.bitstream.container.writer import Writer
-from bsm.bitstream.entropy import range_coder as entropy
+from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.fields.corners import Corners, Field
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.decoded import CONNECTIVITY, NEED_DATA
 
 Ints = npt.NDArray[np.int32]
+AHEAD = 4  # bytes that a reader holds besides those that a writer is done with
+
+
+def start_reading(payload: bytes) -> Coder:
+    """Make a coder that reads `payload`."""
+    data = np.frombuffer(payload, np.uint8).copy()
+    code, width = int.from_bytes(payload[:4].ljust(4, b"\0"), "big"), (1 << 32) - 1
+    if code >= width:
+        raise CorruptError("an entropy-coded payload cannot begin with ff ff ff ff")
+    return Coder(np.array([code, width, AHEAD, 1, 0], np.int64), data)
+
+
+def finish_reading(coder: Coder) -> None:
+    """Check that a payload was read exactly to its end."""
+    taken, size = int(coder.state[POSITION]), len(coder.data)
+    if taken > size + AHEAD:
+        raise TruncatedError(f"an entropy-coded payload of {size} bytes ends before its last symbol")
+    if taken < size:
+        raise CorruptError(f"{size - taken} bytes are left over after the last symbol of a payload")
+
+
+def overran(coder: Coder) -> bool:
+    """Whether more was read than any complete payload of this length can hold."""
+    return int(coder.state[POSITION]) > coder.data.size + AHEAD
 
 
 def decode_connectivity(payload: bytes, vertices: int, faces: int, limits: Limits = DEFAULT_LIMITS) -> Ints:
@@ -49,13 +76,13 @@ class FieldDecoder:
         if not 0 < count <= len(self.order) - first:
             raise OptionError(f"a chunk of {count} where {len(self.order) - first} are left")
         self._next = len(self.order)  # nothing can be read behind an error
-        coder = entropy.start_reading(payload)
+        coder = start_reading(payload)
         done = self._state.code(coder, first, count)
-        if entropy.overran(coder):
+        if overran(coder):
             raise TruncatedError(f"a payload of {len(payload)} bytes ends before the last of its {count} values")
         if done < count:
             raise CorruptError(f"number {done} of a payload of {count} has a value out of range")
-        entropy.finish_reading(coder)
+        finish_reading(coder)
         self._next = first + count
         which = self.order[first : first + count].copy()
         return which, self._state.values[which]
@@ -65,26 +92,42 @@ def decode_coefficients(model: CoefficientModel, payload: bytes, count: int) -> 
     """Return the levels of a block, shape (count, 3)."""
     if count > model.width:
         raise CorruptError(f"{count} coefficients where at most {model.width} are announced")
-    levels, coder = np.zeros((count, 3), np.int32), entropy.start_reading(payload)
+    levels, coder = np.zeros((count, 3), np.int32), start_reading(payload)
     code_block(coder, model, levels)
-    entropy.finish_reading(coder)
+    finish_reading(coder)
     return levels
+
+
+def decode_levels(
+    bank: Bank,
+    payload: bytes,
+    matrices: Sequence[Levels],
+    references: Sequence[Levels],
+    leads: Sequence[Lead | None] | None = None,
+) -> None:
+    """Fill `matrices`, shapes (rows_k, columns), which hold zeros."""
+    coder = start_reading(payload)
+    for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
+        code_matrix(coder, bank, matrix, reference, 0, extent_of(matrix, lead))
+        if overran(coder):
+            break
+    finish_reading(coder)
 
 
 def decode_labels(payload: bytes, offsets: Ints, neighbours: Ints, parts: int) -> Ints:
     """Return the part of each vertex of a graph, shape (n,)."""
-    labels, coder = np.zeros(len(offsets) - 1, np.int32), entropy.start_reading(payload)
+    labels, coder = np.zeros(len(offsets) - 1, np.int32), start_reading(payload)
     if code_labels(coder, offsets, neighbours, labels, parts) != parts:
         raise CorruptError(f"the partition has not {parts} parts")
-    entropy.finish_reading(coder)
+    finish_reading(coder)
     return labels
 
 
 def decode_seams(payload: bytes, corners: Corners, earlier: tuple[Flags, ...] = ()) -> Flags:
     """Return the seams, shape (3 m,)."""
-    seams, coder = np.zeros(len(corners.opposite), np.uint8), entropy.start_reading(payload)
+    seams, coder = np.zeros(len(corners.opposite), np.uint8), start_reading(payload)
     code_edges(coder, corners, seams, earlier)
-    entropy.finish_reading(coder)
+    finish_reading(coder)
     return seams
 
 

@@ -42,7 +42,7 @@ def encode_levels(
     """Code matrices one behind the other."""
     coder = entropy.start_writing(16 * sum(m.size for m in matrices) + 8 * len(matrices) + 64)
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
-        _code_matrix(coder, bank, matrix, reference, _occupied(matrix), _extent_of(matrix, lead))
+        code_matrix(coder, bank, matrix, reference, _occupied(matrix), extent_of(matrix, lead))
     return entropy.finish_writing(coder)
 
 
@@ -60,25 +60,9 @@ def price_levels(bank: entropy.Bank, matrix: Levels, reference: Levels, lead: Le
     rows, columns = matrix.shape
     prices = first_prices(rows, columns, lead)
     coder, slow = entropy.start_writing(16 * matrix.size + 64), np.empty(columns, np.int64)
-    twin, occupied, extent = entropy.copy_bank(bank), _occupied(matrix), _extent_of(matrix, lead)
+    twin, occupied, extent = entropy.copy_bank(bank), _occupied(matrix), extent_of(matrix, lead)
     _kernels.price_matrix(coder, twin, matrix, reference, occupied, *extent, slow, COSTS, prices.reshape(-1))
     return prices
-
-
-def decode_levels(
-    bank: entropy.Bank,
-    payload: bytes,
-    matrices: Sequence[Levels],
-    references: Sequence[Levels],
-    leads: Sequence[Lead | None] | None = None,
-) -> None:
-    """Twin of `encode_levels`: fill `matrices`, shapes (rows_k, columns), which hold zeros."""
-    coder = entropy.start_reading(payload)
-    for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
-        _code_matrix(coder, bank, matrix, reference, 0, _extent_of(matrix, lead))
-        if entropy.overran(coder):
-            break
-    entropy.finish_reading(coder)
 
 
 def write_column(coder: entropy.Coder, values: Levels) -> entropy.Coder:
@@ -86,7 +70,7 @@ def write_column(coder: entropy.Coder, values: Levels) -> entropy.Coder:
     column, coder = values.reshape(-1, 1), entropy.make_room(coder, 16 * len(values) + 8)
     used = np.flatnonzero(values)
     rows = int(used[-1]) + 1 if len(used) else 0
-    _code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, _extent_of(column, (1, 0)))
+    code_matrix(coder, make_level_bank(), column, np.zeros((0, 1), np.int32), rows, extent_of(column, (1, 0)))
     return coder
 
 
@@ -95,8 +79,8 @@ def _occupied(matrix: Levels) -> int:
     return int(occupied[-1]) + 1 if len(occupied) else 0
 
 
-def _extent_of(matrix: Levels, lead: Lead | None) -> _Extent:
-    """What is coded of a matrix, shape (rows, columns), whose levels are known, or of zeros to be read."""
+def extent_of(matrix: Levels, lead: Lead | None) -> _Extent:
+    """What is coded of a matrix, shape (rows, columns), whose levels are known, or of zeros that are to be read."""
     rows, columns = matrix.shape
     if lead is not None:
         first, more = lead
@@ -106,7 +90,7 @@ def _extent_of(matrix: Levels, lead: Lead | None) -> _Extent:
     return columns, 0, turn, int(used[-1]) + 1 if len(used) else 0
 
 
-def _code_matrix(
+def code_matrix(
     coder: entropy.Coder, bank: entropy.Bank, levels: Levels, reference: Levels, rows: int, extent: _Extent
 ) -> None:
     _kernels.code_matrix(coder, bank, levels, reference, rows, *extent, np.empty(levels.shape[1], np.int64))

@@ -6,21 +6,20 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream import _kernels
-from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
+from bsm.bitstream.errors import OptionError
 
 ONE = 1 << 16  # probabilities that are coded are integers in 1 .. ONE - 1
 
 MOST_INPUTS = 16  # contexts that can be mixed in a decision
 
-_POSITION, _FULL = 2, 4
+POSITION, _FULL = 2, 4
 _MAX_COUNT = 1023
 _MAX_RATE = 1024
 _SUFFIX_NODES = 24
-_AHEAD = 4  # bytes that a reader holds besides those that a writer is done with
 
 
 class Coder(NamedTuple):
-    """A range coder over a buffer; made by `start_writing` or `start_reading`."""
+    """A range coder over a buffer; made by `start_writing`, or by a reader's `start_reading`."""
 
     state: npt.NDArray[np.int64]
     data: npt.NDArray[np.uint8]
@@ -66,21 +65,12 @@ def start_writing(capacity: int) -> Coder:
 
 def make_room(coder: Coder, capacity: int) -> Coder:
     """Return a coder that continues `coder` and can write at least `capacity` bytes more."""
-    if int(coder.state[_POSITION]) + capacity < coder.data.size:
+    if int(coder.state[POSITION]) + capacity < coder.data.size:
         return coder
-    written = int(coder.state[_POSITION])
+    written = int(coder.state[POSITION])
     data = np.empty(written + capacity + 8, np.uint8)
     data[:written] = coder.data[:written]
     return Coder(coder.state, data)
-
-
-def start_reading(payload: bytes) -> Coder:
-    """Make a coder that reads `payload`."""
-    data = np.frombuffer(payload, np.uint8).copy()
-    code, width = int.from_bytes(payload[:4].ljust(4, b"\0"), "big"), (1 << 32) - 1
-    if code >= width:
-        raise CorruptError("an entropy-coded payload cannot begin with ff ff ff ff")
-    return Coder(np.array([code, width, _AHEAD, 1, 0], np.int64), data)
 
 
 def finish_writing(coder: Coder) -> bytes:
@@ -96,20 +86,6 @@ def finish_writing(coder: Coder) -> bytes:
             break
     total = (written << 32) + value
     return total.to_bytes(position + 4, "big")[: position + kept]
-
-
-def finish_reading(coder: Coder) -> None:
-    """Check that a payload was read exactly to its end."""
-    taken, size = int(coder.state[_POSITION]), len(coder.data)
-    if taken > size + _AHEAD:
-        raise TruncatedError(f"an entropy-coded payload of {size} bytes ends before its last symbol")
-    if taken < size:
-        raise CorruptError(f"{size - taken} bytes are left over after the last symbol of a payload")
-
-
-def overran(coder: Coder) -> bool:
-    """Whether more was read than any complete payload of this length can hold."""
-    return int(coder.state[_POSITION]) > coder.data.size + _AHEAD
 
 
 def unsigned_span(unary: int) -> int:

@@ -14,7 +14,7 @@ from bsm.codec.arrays import Matrix
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.progress import silent
 from bsm.codec.sequence.frames import distinct_frames
-from bsm.codec.sequence.gop import GopDecoder, GopEncoder
+from bsm.codec.sequence.gop import GopEncoder
 from bsm.codec.sequence.tracks import Setting
 from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.attributes.levels import Values, restored
@@ -179,8 +179,7 @@ class MovingAttributeEncoder:
 
     def begin(self, positions: GopEncoder, setting: Setting, number: int) -> None:
         """Begin a run, in which this attribute has the track of this number; `positions` has its dictionaries."""
-        self._setting, self._track = setting, setting.tracks[number]
-        self._encoder = positions.beside(self._track)
+        self._encoder = positions.beside(setting.tracks[number])
 
     def fields(self, bodies: Sequence[GopBody], values: Values) -> list[GopField]:
         """Fields of each GOP, which together have all these values, shape (T, n, d)."""
@@ -232,13 +231,11 @@ class MovingAttributeEncoder:
                 field = encoder.encode_next(wanted, silent, key=key)
                 assert encoder.latest is not None
                 return field, list(encoder.latest)
-            before = encoder.inherited
             distinct, places = distinct_frames(body.places)
-            field, _ = encoder.encode_learnt(wanted[distinct], np.sqrt(np.bincount(places)), body.method, silent)
+            learnt = encoder.encode_learnt(wanted[distinct], np.sqrt(np.bincount(places)), body.method, silent)
         except OptionError as error:
             raise self._refusal(f"{error}") from error
-        decoder = GopDecoder(self._setting, [self._track], [before] if before else None)
-        return field, [change for (change,) in decoder.decode(replace(body, fields=(field,)))]
+        return learnt.field, list(learnt.frames(body.places))
 
 
 def with_fields(

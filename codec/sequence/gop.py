@@ -6,24 +6,23 @@ differ from the first frame by.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from copy import copy
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bsm.bitstream.coefficients.matrices import decode_levels, make_level_bank
-from bsm.bitstream.container.gop import MAX_EXPONENT, GopBody, GopField, GopMethod
+from bsm.bitstream.coefficients.matrices import make_level_bank
+from bsm.bitstream.container.gop import MAX_EXPONENT, GopField, GopMethod
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
-from bsm.bitstream.errors import CorruptError
-from bsm.codec.arrays import Levels, Matrix, sum_in_order
+from bsm.codec.arrays import Levels, Matrix, Order, sum_in_order
 from bsm.codec.progress import Progress
 from bsm.codec.sequence import temporal
 from bsm.codec.sequence.row_prediction import ROUNDS, WEIGHT, LevelWriter, Loop
 from bsm.codec.sequence.temporal import time_cosines
-from bsm.codec.sequence.tracks import INHERITED, Setting, Track, lags, split_columns
+from bsm.codec.sequence.tracks import INHERITED, Setting, Track, lags
 
 
 class Inherited:
@@ -62,8 +61,6 @@ class FrameHistory:
 
     def expect(self, frames: int, back: int = 0) -> None:
         """Prepare for `frames` frames that start from the one `back` before them, or with 0 all from the latest."""
-        if back > len(self._kept):
-            raise CorruptError(f"a frame refers to one {back} before it, where {len(self._kept)} are kept")
         self._back = back
         if len(self._cosines) == frames:
             return
@@ -114,30 +111,28 @@ def held_cosines(width: int, frames: int) -> Matrix:
 if TYPE_CHECKING:
     from bsm.codec.sequence.options import SequenceOptions
 
-Fields: TypeAlias = tuple[Matrix, ...]
-"""Positions, shape (n, 3), and of each attribute that moves what it differs from the first frame by, shape (n, d)."""
-
 OVERHEAD = 14  # bytes of a GOP besides its levels, about
 LIKE = 0.5
 """Where frames that were kept are nearer than this, in squares and times what the latest one is, those to come start
 from them."""
 
 
-def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
-    """What the levels of each block, shape (c_i, columns), are expected to resemble within a GOP."""
-    return [np.zeros((0, columns), np.int32), *matrices[:-1]]
+@dataclass(frozen=True, eq=False)
+class LearntGop:
+    """Frames by a basis learnt from them: a field, what it costs, components, shape (n, r), and basis, (d, T, r)."""
 
+    field: GopField
+    cost: float
+    components: Matrix
+    basis: Matrix
 
-def decode_basis(field: GopField, frames: int) -> Matrix:
-    """Temporal basis of a field of a GOP with T coded frames, shape (dT, r)."""
-    levels = np.zeros((field.width, frames, field.components), np.int32)
-    references = level_references(list(levels), field.components)
-    decode_levels(make_level_bank(), field.basis, list(levels), references, temporal.basis_leads(field.width))
-    return temporal.basis_of(levels, field.exponents)
+    def frames(self, places: Order) -> Iterator[Matrix]:
+        """What the decoder makes of some of the frames, each of shape (n, d)."""
+        return temporal.frames_of(self.components, 0, self.basis[:, places])
 
 
 class GopEncoder:
-    """Encodes a track of one GOP after the other, at first that of positions; the twin of `GopDecoder`."""
+    """Encodes a track of one GOP after the other, at first that of positions."""
 
     def __init__(self, setting: Setting, options: SequenceOptions) -> None:
         self._track = setting.tracks[0]
@@ -234,15 +229,13 @@ class GopEncoder:
         self._kept = [*self.latest[::-1], *self._kept][: self._track.kept]
         return GopField(width, self._step, columns, np.empty(0, np.int32), b"", payload, back)
 
-    def encode_learnt(
-        self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress
-    ) -> tuple[GopField, float]:
+    def encode_learnt(self, frames: Matrix, weights: Matrix, method: GopMethod, progress: Progress) -> LearntGop:
         """Encode frames, shape (T, n, d), whose errors count by `weights`, shape (T,), by a basis learnt from them."""
         weights = np.tile(weights, self._track.width)
         motion = temporal.trajectories(frames)
         motion *= weights
-        body = self._basis(motion, weights)
-        basis = decode_basis(body, len(frames)) * weights[:, None]
+        body, columns = self._basis(motion, weights)
+        basis = columns * weights[:, None]
         wanted = motion @ temporal.projection(basis)
         energy = np.vdot(motion, motion)
         del motion  # as large as the frames
@@ -260,7 +253,8 @@ class GopEncoder:
         coded = replace(body, levels=writer.finish())
         left = energy - _energy(wanted, basis)  # of the fit, which `wanted - field` is orthogonal to
         error = float(left + _energy(wanted - field, basis)) / self._step**2
-        return coded, error + WEIGHT * 8.0 * (coded.size + OVERHEAD)
+        cost = error + WEIGHT * 8.0 * (coded.size + OVERHEAD)
+        return LearntGop(coded, cost, field, columns.reshape(self._track.width, len(frames), body.components))
 
     def _nearest(self, frames: Matrix) -> int:
         """How far before them the kept frames are that they are so like that it is better to start from these."""
@@ -273,8 +267,8 @@ class GopEncoder:
         best = int(np.argmin(off))
         return backs[best] if off[best] < LIKE * latest else 0
 
-    def _basis(self, motion: Matrix, weights: Matrix) -> GopField:
-        """The temporal basis of weighted trajectories, shape (n, dT), without the levels of parts."""
+    def _basis(self, motion: Matrix, weights: Matrix) -> tuple[GopField, Matrix]:
+        """A field without the levels of parts, and its temporal basis, of weighted trajectories, shapes (n, dT)."""
         width = self._track.width
         basis = temporal.learn_basis(motion, self._step, MAX_EXPONENT)
         spectrum = temporal.spectrum_of(basis.columns / weights[:, None], basis.exponents, width)
@@ -282,109 +276,8 @@ class GopEncoder:
         writer = LevelWriter(make_level_bank(), columns, self.rounds)
         for matrix, lead in zip(spectrum, temporal.basis_leads(width), strict=True):
             writer.write(Loop(0, columns, 0), np.empty((frames, 0)), matrix, 1.0, lead=lead)
-        return GopField(width, self._step, columns, basis.exponents, writer.finish(), b"")
-
-
-class GopDecoder:
-    """Decodes one GOP after the other."""
-
-    def __init__(
-        self, setting: Setting, tracks: Sequence[Track] | None = None, inherited: Sequence[Inherited] | None = None
-    ) -> None:
-        self.setting = setting
-        self._tracks = setting.tracks if tracks is None else tracks
-        self._histories: list[FrameHistory] | None = None
-        self._inherited = inherited
-
-    def forget(self) -> None:
-        self._histories = self._inherited = None
-
-    def decode(self, body: GopBody) -> Iterator[Fields]:
-        """The frames of a GOP; all that its levels can have wrong is raised before the first of them."""
-        return self._decode_learnt(body) if body.method.has_basis else self._decode_next(body)
-
-    def _decode_next(self, body: GopBody) -> Iterator[Fields]:
-        if body.method is GopMethod.KEY_FRAME:
-            self._histories = [FrameHistory(track) for track in self._tracks]
-        histories = self._histories
-        self.forget()  # until all has gone well
-        if histories is None:
-            raise CorruptError("a frame refers to one that is not there")
-        fields = list(zip(histories, body.fields, strict=True))
-        read = []
-        for history, field in fields:
-            history.expect(body.frames, field.back)
-            levels = self.setting.empty_levels(field.width * body.frames)
-            if field.components:
-                decode_levels(history.bank, field.levels, levels, history.levels)
-            read.append(levels)
-        found: list[list[Matrix]] = [[np.empty(0)] * len(self.setting.parts) for _ in fields]
-
-        columns = [track.width * body.frames for track in self._tracks]
-
-        def decoded(k: int, around: Matrix) -> Matrix:
-            for own, levels, ends, (history, field) in zip(
-                found, read, split_columns(around, columns), fields, strict=True
-            ):
-                own[k] = history.base(k)
-                if field.components:
-                    loop, known, base = history.begin(k, ends, field.step)
-                    own[k] = np.vstack((ends, base + loop.decode(known, levels[k], field.step)))
-            return np.hstack([own[k][len(around) :] for own in found])
-
-        placed, places = self.setting.field(sum(columns), decoded), np.cumsum([0, *columns[:-1]])
-        for levels, own, (history, _) in zip(read, found, fields, strict=True):
-            history.commit(levels, own)
-        self._histories = histories
-        batches = (
-            temporal.frames_of(placed, int(place), held_cosines(track.width, body.frames))
-            for track, place in zip(self._tracks, places, strict=True)
-        )
-        return zip(*batches, strict=True)
-
-    def _decode_learnt(self, body: GopBody) -> Iterator[Fields]:
-        setting = self.setting
-        before = [None] * len(self._tracks) if body.method is GopMethod.LEARNT else self._inherited
-        self.forget()  # until all has gone well
-        if before is None:
-            raise CorruptError("a GOP refers to one that is not there")
-        bases = [decode_basis(field, body.coded) if field.step else _nothing(field, body) for field in body.fields]
-        read = []
-        for field in body.fields:
-            levels = setting.empty_levels(field.components)
-            if field.step:
-                references = level_references(levels, field.components)
-                decode_levels(make_level_bank(), field.levels, levels, references)
-            read.append(levels)
-
-        widths = [field.components for field in body.fields]
-        found = [Inherited() for _ in self._tracks]
-
-        def decoded(k: int, around: Matrix) -> Matrix:
-            each = zip(self._tracks, before, found, body.fields, read, split_columns(around, widths), strict=True)
-            differences = []
-            for track, earlier, own, field, levels, ends in each:
-                if field.components:
-                    loop, known = begin_part(track, earlier, k, ends, field.step)
-                    differences.append(loop.decode(known, levels[k], field.step))
-                else:
-                    differences.append(np.empty((len(levels[k]), 0)))
-                own.keep(ends, differences[-1])
-            return np.hstack(differences)
-
-        components, places = setting.field(sum(widths), decoded), np.cumsum([0, *widths[:-1]])
-        self._inherited = found
-        batches = (
-            temporal.frames_of(
-                components, int(first), basis.reshape(own.width, body.coded, own.components)[:, body.places]
-            )
-            for own, first, basis in zip(body.fields, places, bases, strict=True)
-        )
-        return zip(*batches, strict=True)
-
-
-def _nothing(field: GopField, body: GopBody) -> Matrix:
-    return np.empty((field.width * body.coded, 0))
+        field = GopField(width, self._step, columns, basis.exponents, writer.finish(), b"")
+        return field, temporal.basis_of(np.array(writer.levels), basis.exponents)
 
 
 def _apart(first: Matrix, second: Matrix) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 from bsm.bitstream.coefficients.adaptive import STATES
 from bsm.bitstream.coefficients.matrices import Lead, Prices, encode_levels, first_prices, price_levels
 from bsm.bitstream.entropy.range_coder import Bank, copy_bank
-from bsm.bitstream.errors import NumericError, OptionError
+from bsm.bitstream.errors import OptionError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
 
@@ -61,15 +61,6 @@ class Loop:
             raise OptionError(f"a step of {step:g} is too fine for motion that far; choose a coarser one")
         return levels, decoded
 
-    def decode(self, known: Matrix, levels: Levels, step: float) -> Matrix:
-        """Return the values of the levels, shape (c, r)."""
-        self._check(known, levels)
-        given, decoded = (np.ascontiguousarray(known), np.ascontiguousarray(levels)), np.empty(levels.shape)
-        _kernels.follow_rows(*given, decoded, self._moments, step, RULES, np.zeros(self._moments.shape), *self._rows())
-        if not np.isfinite(decoded).all():
-            raise NumericError("the levels reconstruct to coefficients that are not finite")
-        return decoded
-
     def copy(self) -> Loop:
         """An independent copy of the present state."""
         twin = Loop(self._known, 0)
@@ -85,7 +76,7 @@ class Loop:
 
 
 class LevelWriter:
-    """Writes one matrix of levels after the other; the twin of `decode_levels`."""
+    """Writes one matrix of levels after the other."""
 
     def __init__(self, bank: Bank, columns: int, rounds: int = ROUNDS) -> None:
         self.levels: list[Levels] = []

@@ -14,7 +14,7 @@ from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.progress import Nearing, Progress, silent
 from bsm.codec.sequence.frames import Group, distinct_frames
-from bsm.codec.sequence.gop import GopDecoder, GopEncoder, Inherited
+from bsm.codec.sequence.gop import GopEncoder, LearntGop
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.sequence.row_prediction import LARGEST_LEVEL, ROUNDS
 from bsm.codec.sequence.step_search import StepSearch
@@ -105,17 +105,17 @@ def encode_first_frame(
 
 @dataclass(frozen=True, eq=False)
 class EncodedGops:
-    """GOPs of some frames, with the encoder behind them, and what it inherited before them."""
+    """GOPs of some frames, with the encoder behind them; `learnt` are those with a basis."""
 
     first_frame: FirstFrame
     encoder: GopEncoder
     bodies: tuple[GopBody, ...]
-    inherited: Inherited | None = None
+    learnt: tuple[LearntGop, ...] = ()
 
     @property
     def decoded(self) -> Positions:
         """What the decoder makes of them, shape (T, n, 3), in BSM units; not kept, since it is large."""
-        if self.encoder.low_delay and self.encoder.latest is not None:
+        if self.encoder.latest is not None:
             return self.encoder.latest
         frames = np.empty((sum(body.frames for body in self.bodies), self.first_frame.setting.vertices, 3))
         for number, frame in enumerate(self.decoded_frames()):
@@ -124,13 +124,10 @@ class EncodedGops:
 
     def decoded_frames(self) -> Iterator[Matrix]:
         """What the decoder makes of each of their frames, one after the other, each of shape (n, 3)."""
-        if self.encoder.low_delay and self.encoder.latest is not None:
+        if self.encoder.latest is not None:
             yield from self.encoder.latest
-            return
-        setting = self.first_frame.setting
-        decoder = GopDecoder(setting, setting.tracks[:1], [self.inherited] if self.inherited else None)
-        for body in self.bodies:
-            yield from (frame for (frame,) in decoder.decode(body))
+        for body, gop in zip(self.bodies, self.learnt):
+            yield from gop.frames(body.places)
 
 
 class RunEncoder:
@@ -229,16 +226,20 @@ def _encoded(
         return EncodedGops(first_frame, encoder, (GopBody(method, len(frames), (field,)),))
     weights = np.ones(len(frames)) if asked.weights is None else asked.weights
     learnt = _learnt(first_frame, encoder, frames, weights, group.same(encoder.step), asked.cut, progress)
-    return EncodedGops(first_frame, learnt.encoder, learnt.bodies, encoder.inherited)
+    return EncodedGops(first_frame, learnt.encoder, learnt.bodies, learnt.gops)
 
 
 @dataclass(frozen=True, eq=False)
 class _Learnt:
-    """GOPs with a basis, the encoder behind them, and their cost."""
+    """GOPs with a basis, and the encoder behind them."""
 
     bodies: tuple[GopBody, ...]
+    gops: tuple[LearntGop, ...]
     encoder: GopEncoder
-    cost: float
+
+    @property
+    def cost(self) -> float:
+        return sum(gop.cost for gop in self.gops)
 
 
 def _learnt(
@@ -262,7 +263,7 @@ def _learnt(
             whole = None
     first = _learnt(first_frame, encoder, frames[:half], weights[:half], same[:half], False, silent)
     second = _learnt(first_frame, first.encoder, frames[half:], weights[half:], same[half:], False, silent)
-    halves = _Learnt(first.bodies + second.bodies, second.encoder, first.cost + second.cost)
+    halves = _Learnt(first.bodies + second.bodies, first.gops + second.gops, second.encoder)
     return halves if whole is None or halves.cost < whole.cost else whole
 
 
@@ -272,5 +273,6 @@ def _whole(encoder: GopEncoder, frames: Positions, weights: Matrix, same: Order,
     method = encoder.method_with_basis(TOGETHER)
     repeats = len(kept) < len(frames)
     weights = np.sqrt(np.bincount(places, weights**2)) if repeats else weights
-    field, cost = encoder.encode_learnt(frames[kept] if repeats else frames, weights, method, progress)
-    return _Learnt((GopBody(method, len(frames), (field,), places if repeats else None),), encoder, cost)
+    learnt = encoder.encode_learnt(frames[kept] if repeats else frames, weights, method, progress)
+    body = GopBody(method, len(frames), (learnt.field,), places if repeats else None)
+    return _Learnt((body,), (learnt,), encoder)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations_with_replacement
@@ -12,7 +12,7 @@ import numpy as np
 
 from bsm.bitstream.container.gop import GopBody, GopMethod
 from bsm.bitstream.once import cached_property
-from bsm.codec.arrays import Faces, Levels, Matrix, sum_in_order
+from bsm.codec.arrays import Faces, Matrix, sum_in_order
 from bsm.codec.sequence.dictionaries import Part, make_parts
 from bsm.codec.sequence.temporal import BATCH
 from bsm.codec.static.coding import Scheme
@@ -105,17 +105,6 @@ class Setting:
         largest = max(len(part.vertices) for part in self.parts)
         making = max(part.making for part in self.parts)
         return gop_memory(self.vertices, body, self.around) + 48.0 * largest * _columns(body) + making + SPARE
-
-    def empty_levels(self, columns: int) -> list[Levels]:
-        """Levels of all parts, each of shape (c_i, columns), to be read."""
-        return [np.zeros((part.width, columns), np.int32) for part in self.parts]
-
-    def field(self, columns: int, decoded: Callable[[int, Matrix], Matrix]) -> Matrix:
-        """The field, shape (n, m), of differences of each part, shape (c_i, m)."""
-        field = np.zeros((self.vertices, columns))
-        for index, part in enumerate(self.parts):
-            part.place(field, decoded(index, field[part.around]))
-        return field
 
 
 def make_setting(

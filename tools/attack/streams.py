@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.attributes.seams import NO_SEAM, OPEN, encode_seams
-from bsm.bitstream.coefficients.matrices import encode_levels, make_level_bank
+from bsm.bitstream.coefficients.matrices import Levels, encode_levels, make_level_bank
 from bsm.bitstream.coefficients.packed import pack_coefficients
 from bsm.bitstream.connectivity.faces import (
     RARE_HEADER,
@@ -38,7 +38,6 @@ from bsm.bitstream.fields.corners import FieldEncoder, corners_of
 from bsm.bitstream.fields.grid import levels_field
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
-from bsm.codec.sequence.gop import level_references
 from bsm.codec.static.attributes.levels import PieceEncoder, surface_of
 from tools.gridded import gridded
 from tools.surgery import Frames, frames_of, header_entries, header_frame, stream_of
@@ -248,6 +247,11 @@ def _joined(streams: Iterable[bytes], agains: Iterable[int] = (), gop: GopBody |
         frames.append((FrameType.GOP, write_varint(run) + write_gop_body(gop, run)))
         run += 1
     return stream_of(frames)
+
+
+def level_references(matrices: list[Levels], columns: int) -> list[Levels]:
+    """What the levels of each block, shape (c_i, columns), are expected to resemble within a GOP."""
+    return [np.zeros((0, columns), np.int32), *matrices[:-1]]
 
 
 def _still(rows: int, columns: int, width: int, components: int, part: int = 400) -> bytes:

@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_906,
-    "product Python, lines": 33_787,
+    "product in all languages, lines": 61_738,
+    "product Python, lines": 33_619,
     "product C and C++, lines": 20_554,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 614,
-    "all Python, lines": 75_148,
+    "all Python, lines": 75_020,
     "product modules": 201,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from bsm.bitstream.coefficients.adaptive import points_of_levels
-from bsm.bitstream.coefficients.matrices import PRICED, decode_levels, encode_levels, make_level_bank, price_levels
+from bsm.bitstream.coefficients.matrices import PRICED, encode_levels, make_level_bank, price_levels
 from bsm.bitstream.container.gop import (
     MAX_EXPONENT,
     GopBody,
@@ -17,6 +17,7 @@ from bsm.bitstream.container.gop import (
     write_gop_body,
 )
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
+from tools.payloads import decode_levels
 
 NONE = np.empty(0, np.int32)
 

@@ -15,17 +15,15 @@ from bsm.bitstream.entropy.range_coder import (
     Bank,
     code_unsigned,
     copy_bank,
-    finish_reading,
     finish_writing,
     make_bank,
-    overran,
     signed_span,
-    start_reading,
     start_writing,
     unsigned_span,
 )
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from tools import entropy_tables
+from tools.payloads import finish_reading, overran, start_reading
 
 UNARY = 5
 SPAN = unsigned_span(UNARY)

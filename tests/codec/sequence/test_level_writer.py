@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bsm.bitstream.coefficients.matrices import PRICED, decode_levels, encode_levels, make_level_bank
+from bsm.bitstream.coefficients.matrices import PRICED, encode_levels, make_level_bank
 from bsm.bitstream.errors import OptionError
 from bsm.codec.sequence import row_prediction
 from bsm.codec.sequence.row_prediction import LevelWriter, Loop
+from tools.payloads import decode_levels
 
 ROWS, COLUMNS, KNOWN, STEP = 80, 30, 3, 0.01
 
@@ -24,14 +25,6 @@ def rows_of(seed: int, scale: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
 
 def free(targets: np.ndarray) -> np.ndarray:
     return np.zeros((*targets.shape, 2, PRICED), np.int16)
-
-
-def test_the_loop_decodes_what_was_chosen() -> None:
-    known, targets = rows_of(0)
-    chooser, reader = Loop(KNOWN, COLUMNS), Loop(KNOWN, COLUMNS)
-    for _ in range(2):  # the second time with what the first has taught
-        levels, decoded = chooser.search(known, targets, STEP, free(targets), 0.1)
-        assert np.array_equal(reader.decode(known, levels, STEP), decoded)
 
 
 def test_two_grids_are_better_than_one_where_bits_are_free() -> None:
