@@ -12,7 +12,7 @@ from bsm.codec.sequence.targets import compare_sequences
 from bsm.files.mesh import write_mesh
 from bsm.options import encode_options
 from tests.shapes import torus
-from tools.replicate import ablation, fetch, rates, report, stages
+from tools.replicate import ablation, denoising, fetch, rates, report, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
 from tools.replicate.motion import bent, half_floats
@@ -118,29 +118,52 @@ class TestTables:
         pytest.importorskip("matplotlib", reason="needs matplotlib (extra eval)")
         works = [f"{name}, {work}" for name in (*rates.TIMED, "Draco 11") for work in ("encode", "decode")]
         timed = {"mesh": "m", "group": "unseen", "vertices": 500, "seconds": dict.fromkeys(works, 0.5)}
-        tools = {"mesh": "m", "tools": {name: {"bytes": 1.1, "decode": 0.9} for name in ablation.TOOLS}}
+        tools = {
+            "mesh": "m",
+            "vertices": 500,
+            "tools": {name: {"bytes": 1.1, "decode": 0.9} for name in ablation.TOOLS},
+        }
         codecs = ("default", "fine", "zstd of float16", *(f"Draco {bits}" for bits in report.motion.DRACO_BITS))
         points = {name: {"bytes": 9000 - 99 * k, "kg": 0.1 * k, "sted": 0.01 * k} for k, name in enumerate(codecs, 1)}
         moving = {"sequence": "s", "frames": 4, "vertices": 500, "points": points}
         moving["tools"] = dict.fromkeys(ablation.MOVING_TOOLS, 1.2)
         results = {"rates": [row("a", 0.5), row("b", 0.7), row("c", 0.6, "tuned")], "times": [timed]}
-        results |= {"ablation": [tools], "motion": [moving]}
+        entry = {"noisy": 9.0, "rival": 4.0, "ours": 3.0}
+        noisy = {"mesh": "m", "group": "unseen", "vertices": 500, "turned": 0.1, "untouched": False, "white": entry}
+        noisy |= {"kinds": dict.fromkeys(denoising.KINDS, entry), "scans": {}, "frames": {"flicker": 0.4}}
+        paired = {"mesh": "p", "group": "pairs", "vertices": 0, "pair": entry}
+        printed = {"title": "6.2", "columns": ["", "x"], "rows": [["a", "1 (2)"]], "note": "Here m."}
+        results |= {"ablation": [tools], "motion": [moving], "denoising": [noisy, paired], "paper": [printed]}
         report.write(results, tmp_path, lambda _: None)
         names = {path.name for path in tmp_path.iterdir()}
-        for stem in ("rates-unseen", "rates-tuned", "spread-unseen", "times-unseen", "ablation", "motion"):
+        stems = ("rates-unseen", "files-tuned", "spread-unseen", "times-unseen", "ablation", "motion", "denoising")
+        for stem in (*stems, "denoising-pairs", "paper-0"):
             assert {f"{stem}.md", f"{stem}.tex"} <= names
         for stem in ("rates", "times", "ablation", "motion"):
             assert {f"{stem}.pdf", f"{stem}.png"} <= names
         assert "0.60 (0.55-0.65)" in (tmp_path / "rates-unseen.md").read_text()
 
-    def test_tables_are_put_into_the_page(self, tmp_path, monkeypatch):
+        assert "| 0.750 |" in (tmp_path / "denoising.md").read_text()
+
+    def test_tables_are_put_into_the_page_and_others_stay(self, tmp_path, monkeypatch):
         page = tmp_path / "measured.md"
-        page.write_text(f"before\n{report.BEGIN}\nold\n{report.END}\nbehind\n")
+        page.write_text("# Old\n\nwords\n\n## Moving meshes\n\nCommit a.\n\n| t |\n")
         monkeypatch.setattr(report, "PAGE", page)
-        report.write_page({"rates": [row()]}, {"commit": "c", "processor": "p", "date": "d"})
+        for commit in ("b", "c"):
+            report.write_page({"rates": [row()]}, {"commit": commit, "processor": "p", "date": "d"})
         text = page.read_text()
-        assert text.startswith("before\n") and text.endswith("\nbehind\n") and "old" not in text
-        assert "commit c, p, d" in text and "| default" in text
+        assert text.startswith("# Measured\n") and "words" not in text and "Commit c, p, d" in text
+        assert "Commit b" not in text and "## Moving meshes\n\nCommit a.\n\n| t |\n" in text and "| default" in text
+
+
+def test_tools_that_save_little_are_named_and_streams_that_stay_have_no_time():
+    tools = {name: {"bytes": 1.0, "decode": 1.2} for name in ablation.TOOLS}
+    first = {"mesh": "a", "vertices": 9, "tools": tools | {"smoothing": {"bytes": 1.2, "decode": 0.5}}}
+    lines = {line[0]: line for line in ablation.ablation_table([first])}
+    assert lines["smoothing"][1:3] == ("1", "1.200") and lines["smoothing"][-3:] == ("1", "-", "0.500")
+    assert lines["warm start"][-1] == "-"
+    note = ablation.ablation_note([first])
+    assert "warm start" in note and "smoothing" not in note and "best effort" not in note
 
 
 def test_enough_meshes_are_listed_each_with_what_tells_it():

@@ -16,9 +16,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 NEEDED = ("bsm._kernels", "scipy", "matplotlib", "DracoPy", "zstandard", "pymetis", "flip_evaluator", "pymeshlab")
-STAGES = ("rates", "ablation", "times", "motion", "paper")
-MINUTES = {"rates": 30.0, "ablation": 12.0, "times": 4.0, "motion": 5.0, "paper": 5.0}
-QUICK = {"rates": 4.0, "ablation": 2.0, "times": 0.7, "motion": 1.0, "paper": 1.0}
+MINUTES = {"rates": 24.0, "ablation": 12.0, "times": 4.0, "motion": 6.0, "denoising": 7.0, "paper": 6.0}
+QUICK = {"rates": 3.5, "ablation": 1.7, "times": 0.7, "motion": 1.0, "denoising": 1.0, "paper": 1.0}
+STAGES = tuple(MINUTES)
 
 
 def environment(folder: Path) -> None:

@@ -21,6 +21,8 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from tools.measure.grids import welded
 
 LIST = Path(__file__).parent / "meshes.json"
+LARGEST = 2_000_000
+"""Bytes of a mesh file of one's own."""
 MESHOPT = "meshoptimizer@1.3.0"
 
 
@@ -56,6 +58,13 @@ def fetch_meshes(folder: Path, note: Callable[[str], None]) -> list[Source]:
                 continue
             found.append(Source(row["name"], path, row["group"], row["vertices"]))
     return sorted(found, key=lambda source: (source.vertices, source.name))
+
+
+def own_meshes(folder: Path) -> list[Source]:
+    """Meshes of the folder that BSM_MESHES names; they were in use here before."""
+    found = [*folder.glob("static/*.ply"), *folder.glob("assets/*.STL")]
+    paths = [path for path in sorted(found) if path.stat().st_size < LARGEST]
+    return [Source(path.stem, path, "tuned", len(welded(str(path))[0])) for path in paths]
 
 
 def unpacked(package: dict[str, Any], root: Path) -> None:

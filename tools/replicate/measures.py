@@ -65,7 +65,10 @@ class Judge:
         return float(flip_evaluator.evaluate(*images, "LDR", applyMagma=False)[1])
 
     def dame(self, positions: Positions) -> float:
-        """Dihedral angle mesh error (Vasa and Rus, 2012) in radians, with masking, without its term of visibility."""
+        """Dihedral angle mesh error (Vasa and Rus, 2012) in radians, with masking, without its term of visibility.
+
+        doi 10.1111/j.1467-8659.2012.03176.x. Its abstract could be read, its weight of masking is from memory.
+        """
         angles = dihedral_angles(positions, self._faces, self._pairs)[0]
         weights = np.exp(-FOLDED * np.square(self._angles / np.pi))
         return float(np.mean(weights * np.abs(self._angles - angles))) if len(angles) else 0.0
@@ -105,7 +108,7 @@ STED_TIME, STED_SHARE = 0.05, 1.0
 
 
 def sted(original: Positions, decoded: Positions, faces: Faces) -> float:
-    """Spatio-temporal edge difference of frames of shape (T, n, 3), after Vasa and Skala (2011).
+    """Spatio-temporal edge difference of frames of shape (T, n, 3), after Vasa and Skala (2011), from memory.
 
     The spatial part is the deviation of relative changes of edges' lengths around each vertex (its own edges), the
     temporal part the relative change of what a vertex moves from a frame to the next, with time as a fourth axis.

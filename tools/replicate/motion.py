@@ -22,9 +22,9 @@ from bsm.decoding import decode_sequence
 from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order, rate_curve
 from bsm.files.formats.npz import read_arrays
 from bsm.options import sequence_options
-from tools.measure.made_motion import MADE
 from tools.replicate.ablation import ablate_motion
 from tools.replicate.fetch import Source
+from tools.replicate.made_motion import MADE
 from tools.replicate.measures import sted
 from tools.replicate.rates import Row
 

@@ -10,15 +10,28 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bsm.evaluation.curve import STYLES, Picture, latex, table
-from tools.replicate import motion
-from tools.replicate.ablation import MOVING_TOOLS, ablation_table
+from tools.replicate import ablation, motion
+from tools.replicate.ablation import MOVING_TOOLS, TOOLS, ablation_note, ablation_table
+from tools.replicate.denoising import denoising_note, denoising_table, pairs_table
 from tools.replicate.measures import MEASURES
 from tools.replicate.rates import COLUMNS, CURVE, MESHOPT_BITS, PRESETS, Row, ratios, spread, summary, time_summary
 
 GROUPS = {"unseen": "meshes that nothing was tuned on", "tuned": "meshes that were in use here before"}
 WHAT = ("BD-rate", *PRESETS, *(f"meshoptimizer {bits}" for bits in MESHOPT_BITS))
 PAGE = Path(__file__).parents[2] / "docs" / "measured.md"
-BEGIN, END = "<!-- replicate: made by tools.replicate -->", "<!-- replicate: end -->"
+INTRODUCTION = """# Measured
+
+`python -m tools.replicate --docs` writes this page, and nothing else does. It fetches meshes from the packages of
+Debian, PyPI and npm, by the list in `tools/replicate/meshes.json`, and measures for about an hour. Beside the tables it
+writes every number as JSON, each table in LaTeX and each figure as PDF. `--figure NAME` measures one part anew, and
+`--quick` takes ten minutes. Rates are of whole files, with connectivity and headers. `BSM_MESHES` may name a folder of
+your own; its meshes and sequences join those that were in use here before.
+
+FLIP is NVIDIA's. MeshLab measures the distances of surfaces (Metro's definition). DAME is written after Váša and Rus,
+*Dihedral Angle Mesh Error* (2012, doi 10.1111/j.1467-8659.2012.03176.x), without its term of visibility. STED is
+written after Váša and Skala, *A Perception Correlated Comparison Method for Dynamic Meshes* (2011). We could read the
+abstract of the first only. So the weight of DAME's masking is from memory, and so are STED's neighborhood, its length
+of a frame and its weight of time. Compare both within this page, not with other papers."""
 
 
 class Table(NamedTuple):
@@ -39,14 +52,18 @@ def tables(results: dict[str, list[Row]]) -> dict[str, Table]:
             found[f"rates-{group}"] = _medians(rows, words)
             worst = [line for line in summary(rows) if line[0] in ("BD-rate", "default", "fine")]
             found[f"spread-{group}"] = Table(f"Mean, spread and worst mesh, {words}", COLUMNS, worst)
+        if files := file_table(rows):
+            note = (
+                "Draco: 11 bits, level 10. Distances by our look; the last column is bytes over Draco's at that look."
+            )
+            found[f"files-{group}"] = Table(f"Files of 20 meshes, {words}", FILES, files, note)
         timed = [row for row in results.get("times", []) if row["group"] == group]
         if timed:
             note = "One thread, processor seconds over Draco's (11 bits, level 10), the least of three by turns."
             found[f"times-{group}"] = Table(f"Times over Draco's, {words}", COLUMNS, time_summary(timed), note)
     if results.get("ablation"):
-        note = "Over what the default takes for the same promise, a look of 1; above 1 the tool saves so much."
-        lines = ablation_table(results["ablation"])
-        found["ablation"] = Table("Without each tool", ("tool left out", *COLUMNS[1:]), lines, note)
+        rows = results["ablation"]
+        found["ablation"] = Table("Without each tool", ablation.COLUMNS, ablation_table(rows), ablation_note(rows))
     if results.get("motion"):
         found["motion"] = Table("Moving meshes", motion.COLUMNS, motion.motion_table(results["motion"]))
         moving = [
@@ -54,6 +71,31 @@ def tables(results: dict[str, list[Row]]) -> dict[str, Table]:
             for name in MOVING_TOOLS
         ]
         found["ablation-motion"] = Table("Without each tool, moving meshes", ("tool left out", *COLUMNS[1:]), moving)
+    noisy = results.get("denoising", [])
+    if any(row["group"] != "pairs" for row in noisy):
+        lines = denoising_table(noisy)
+        found["denoising"] = Table("Denoising", ("noise", "rivals", *COLUMNS[2:]), lines, denoising_note(noisy))
+    if any(row["group"] == "pairs" for row in noisy):
+        note = "Mean angles to the clean mesh in degrees; an oracle stops the best rival."
+        found["denoising-pairs"] = Table("Denoising, files that papers share", PAIRED, pairs_table(noisy), note)
+    for at, row in enumerate(results.get("paper", [])):
+        found[f"paper-{at}"] = Table(row["title"], row["columns"], row["rows"], row["note"])
+    return found
+
+
+PAIRED = ("file", "noisy", "best rival", "automatic")
+FILES = ("mesh", "vertices", "Draco", "default", "distance, Draco", "distance, default", "of Draco's bytes")
+
+
+def file_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
+    """Sizes of single meshes, those of most vertices."""
+    found: list[tuple[str, ...]] = []
+    for row in sorted(rows, key=lambda row: -row["vertices"])[:20]:
+        if {"Draco 11", "default"} <= row["points"].keys():
+            draco, ours = row["points"]["Draco 11"], row["points"]["default"]
+            ratio = ratios(row, "look").get("default")
+            cells = f"{draco['look']:.2f}", f"{ours['look']:.2f}", "-" if ratio is None else f"{ratio:.2f}"
+            found.append((row["mesh"], f"{row['vertices']:,}", f"{draco['bytes']:,}", f"{ours['bytes']:,}", *cells))
     return found
 
 
@@ -94,7 +136,7 @@ def figures(results: dict[str, list[Row]]) -> Iterator[Picture]:
         yield _boxes("times", values, "time over Draco's", logarithmic=True)
     if results.get("ablation"):
         every = [row["tools"] for row in results["ablation"]]
-        values = {name: [entry[name]["bytes"] for entry in every if "bytes" in entry[name]] for name in every[0]}
+        values = {name: [entry[name]["bytes"] for entry in every if "bytes" in entry.get(name, {})] for name in TOOLS}
         yield _boxes("ablation", values, "bytes without the tool over those with it")
     if results.get("motion"):
         yield Picture("motion", lambda figure: _motion(figure, results["motion"]), 7.0, 2.6)
@@ -102,6 +144,8 @@ def figures(results: dict[str, list[Row]]) -> Iterator[Picture]:
 
 def _boxes(name: str, values: dict[str, list[float]], label: str, logarithmic: bool = False) -> Picture:
     """A row for each name: median, a bar between quartiles, all meshes as dots, and a line at 1."""
+
+    values = {label: numbers for label, numbers in values.items() if numbers}
 
     def draw(figure: Any) -> None:
         axes = figure.subplots()
@@ -149,16 +193,12 @@ def write(results: dict[str, list[Row]], folder: Path, note: Callable[[str], Non
 
 
 def write_page(results: dict[str, list[Row]], facts: dict[str, Any]) -> None:
-    """Put the tables into docs/measured.md."""
-    page = PAGE.read_text(encoding="utf-8")
-    before, _, behind = page.partition(BEGIN)
-    made = [f"`python -m tools.replicate`, commit {facts['commit']}, {facts['processor']}, {facts['date']}."]
+    """Put the tables into docs/measured.md; a table that this run did not make stays, with its own commit."""
+    page = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
+    kept = {f"## {part.partition(chr(10))[0]}": part.partition("\n")[2].strip() for part in page.split("\n## ")[1:]}
+    origin = f"Commit {facts['commit']}, {facts['processor']}, {facts['date']}."
     for entry in tables(results).values():
-        made += [
-            f"### {entry.title}",
-            *([fill(entry.note, 120)] if entry.note else []),
-            table(entry.columns, entry.rows),
-        ]
-    PAGE.write_text(
-        f"{before}{BEGIN}\n\n" + "\n\n".join(made) + f"\n\n{END}{behind.partition(END)[2]}", encoding="utf-8"
-    )
+        words = fill(f"{entry.note} {origin}".strip(), 120)
+        kept[f"## {entry.title}"] = f"{words}\n\n{table(entry.columns, entry.rows)}"
+    parts = [f"{title}\n\n{text}" for title, text in kept.items()]
+    PAGE.write_text("\n\n".join([INTRODUCTION, *parts]) + "\n", encoding="utf-8")

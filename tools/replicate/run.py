@@ -14,14 +14,18 @@ from typing import Any
 
 from tools.replicate import report
 from tools.replicate.ablation import ablate_mesh
-from tools.replicate.fetch import Source, fetch_meshes, meshopt_package
+from tools.replicate.denoising import denoise_mesh, pairs
+from tools.replicate.fetch import Source, fetch_meshes, meshopt_package, own_meshes
 from tools.replicate.motion import measure_motion, sequences
+from tools.replicate.paper import TABLES, Study
 from tools.replicate.rates import Row, measure_mesh, time_mesh
 from tools.replicate.stages import run_stage
 
 ABLATED, SIZES = 30, (500, 4000)
 """Meshes of the ablation, and of how many vertices."""
 TIMED = 24
+NOISED, NOISY = 12, (2000, 6000)
+"""Meshes that are denoised, and of how many vertices."""
 DRAWN = ("head", "cow", "homer")
 """Meshes of the paper's figures."""
 
@@ -44,7 +48,10 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
     """Run the stages that are asked for, and write down what came of all that were run in this folder."""
     os.environ["OMP_NUM_THREADS"] = "1"
     begin = time.monotonic()
+    own = Path(os.environ["BSM_MESHES"]) if os.environ.get("BSM_MESHES") else None
     sources = fetch_meshes(folder / "meshes", note)
+    if own and not quick:
+        sources = sorted([*sources, *own_meshes(own)], key=lambda source: (source.vertices, source.name))
     workers = max(1, len(os.sched_getaffinity(0)))
     if "rates" in minutes:
         package = meshopt_package(folder / "meshes", note)
@@ -57,8 +64,13 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
         run_stage(time_mesh, shuffled(spread_over(sources, TIMED)), folder / "times", minutes["times"], note, workers=1)
     if "motion" in minutes:
         measure_sequences(sources, folder / "motion", minutes["motion"], quick)
+    if "denoising" in minutes:
+        some = [s for s in sources if s.group == "unseen" and NOISY[0] <= s.vertices <= NOISY[1]]
+        shared = [] if quick or not own else pairs(own)
+        chosen = [*shuffled(spread_over(some, NOISED)), *shared]
+        run_stage(denoise_mesh, chosen, folder / "denoising", minutes["denoising"], note, workers=workers)
     if "paper" in minutes:
-        paper(sources, folder, minutes["paper"], quick)
+        paper(sources, own, folder, minutes["paper"], quick)
     results = read(folder)
     facts = describe(time.monotonic() - begin)
     (folder / "results.json").write_text(json.dumps({**facts, **results}, indent=1), encoding="utf-8")
@@ -79,29 +91,36 @@ def measure_sequences(sources: list[Source], folder: Path, minutes: float, quick
             note(f"motion: {name}")
 
 
-def paper(sources: list[Source], folder: Path, minutes: float, quick: bool) -> None:
-    """The paper's tables beside its numbers and its figures, by their own commands; BSM_MESHES holds its models."""
-    meshes = os.environ.get("BSM_MESHES")
-    tables = [sys.executable, "-m", "tools.measure", "paper", *(["--meshes", meshes] if meshes else [])]
-    tables += ["--quick"] if quick or not meshes else ["--only", "rates,dynamic,powers"]
+def paper(sources: list[Source], own: Path | None, folder: Path, minutes: float, quick: bool) -> None:
+    """The paper's tables beside its numbers, and its figures by `bsm curve`; BSM_MESHES holds its models."""
+    (folder / "paper").mkdir(exist_ok=True)
+    deadline = time.monotonic() + 60 * minutes
+    study = Study(None if quick else own, sources, quick)
+    for name, make in TABLES.items():
+        path = folder / "paper" / f"{name}.json"
+        if time.monotonic() > deadline:
+            note(f"paper: no time was left for {name}")
+        elif not path.exists():
+            path.write_text(json.dumps(list(make(study))), encoding="utf-8")
+            note(f"paper: {name}")
     drawn = [str(source.path) for source in sources if source.name in DRAWN[: 1 if quick else None]]
     curves = [sys.executable, "-m", "bsm", "curve", *drawn, "--codecs", "paper", "-o", str(folder / "paper"), "--pdf"]
-    for words, name in ((tables, "paper.md"), (curves, "paper-curves.md")):
-        try:
-            done = subprocess.run(words, capture_output=True, text=True, timeout=30 * minutes, check=True)
-        except subprocess.SubprocessError as error:
-            note(f"paper: {error}")
-            continue
-        (folder / name).write_text(done.stdout, encoding="utf-8")
+    try:
+        done = subprocess.run(curves, capture_output=True, text=True, timeout=60 * minutes, check=True)
+        (folder / "paper-curves.md").write_text(done.stdout, encoding="utf-8")
+    except subprocess.SubprocessError as error:
+        note(f"paper: {error}")
 
 
 def read(folder: Path) -> dict[str, list[Row]]:
     """Every row of every stage."""
-    stages = ("rates", "times", "ablation", "motion")
-    return {
+    stages = ("rates", "times", "ablation", "motion", "denoising")
+    found = {
         stage: [json.loads(path.read_text(encoding="utf-8")) for path in sorted((folder / stage).glob("*.json"))]
         for stage in stages
     }
+    paths = [folder / "paper" / f"{name}.json" for name in TABLES]
+    return found | {"paper": [row for path in paths if path.exists() for row in json.loads(path.read_text())]}
 
 
 def describe(seconds: float) -> dict[str, Any]:

@@ -44,7 +44,11 @@ def run_stage(
                 break
             done = next(as_completed(waiting))
             source = waiting.pop(done)
-            found[source.name] = done.result()
+            try:
+                found[source.name] = done.result()
+            except Exception as error:  # one mesh must not end an hour's run
+                note(f"{folder.name}: {source.name} failed: {type(error).__name__}: {error}")
+                continue
             (folder / f"{source.name}.json").write_text(json.dumps(found[source.name]))
             note(f"{folder.name}: {source.name}, {len(found)} of {len(sources)}")
     if left:
