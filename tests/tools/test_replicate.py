@@ -15,7 +15,7 @@ from tests.shapes import torus
 from tools.replicate import ablation, denoising, fetch, rates, report, stages
 from tools.replicate.fetch import Source, fetch_meshes, listed
 from tools.replicate.measures import FOLDED, STED_TIME, Judge, dihedral_angles, sted, surface_distance
-from tools.replicate.motion import bent, half_floats
+from tools.replicate.motion import bent, half_floats, sequences
 
 
 def flat(count=8):
@@ -202,6 +202,31 @@ def test_a_stage_goes_on_and_names_what_it_has_no_time_for(tmp_path):
     notes = []
     assert stages.run_stage(print, sources, tmp_path / "stage", -1.0, notes.append) == [{"mesh": "a"}]
     assert notes == ["stage: no time was left for 1: b"]
+
+
+def fails_on_one(source):
+    """Work on a mesh, and fail on another."""
+    if source.name == "b":
+        raise ValueError("no such mesh")
+    return {"mesh": source.name}
+
+
+def test_a_mesh_that_fails_is_named_and_the_others_are_measured(tmp_path):
+    sources, notes = [Source(name, tmp_path / name, "unseen", 1) for name in ("b", "c")], []
+    assert stages.run_stage(fails_on_one, sources, tmp_path, 1.0, notes.append, workers=1) == [{"mesh": "c"}]
+    assert "b failed: ValueError: no such mesh" in notes[0] and [p.name for p in tmp_path.iterdir()] == ["c.json"]
+
+
+def test_sequences_are_those_of_fetched_meshes_formulas_and_files(tmp_path):
+    mesh = torus(8, 8)
+    write_mesh(tmp_path / "cow.ply", mesh)
+    (tmp_path / "dynamic").mkdir()
+    np.savez(tmp_path / "dynamic" / "still.npz", positions=np.tile(mesh.positions, (3, 1, 1)), faces=mesh.faces)
+    cow = Source("cow", tmp_path / "cow.ply", "unseen", 64)
+    found = sequences([cow], tmp_path, quick=False)
+    assert [moving.name for moving in found] == ["cow, bent", "made cloth", "made violence", "still"]
+    assert found[0].frames()[0].shape == (32, 64, 3) and found[-1].frames()[0].shape == (3, 64, 3)
+    assert [moving.name for moving in sequences([cow], tmp_path, quick=True)] == ["cow, bent"]
 
 
 def test_what_ablation_replaces_is_there_and_comes_back():

@@ -7,8 +7,8 @@ and violent motion by simulation, and fetched meshes that bend and twist. Real o
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -50,23 +50,37 @@ def bent(mesh: TriangleMesh, frames: int = FRAMES) -> Positions:
     return np.array(found)
 
 
-def sequences(sources: Sequence[Source], quick: bool) -> Iterator[tuple[str, Positions, Faces]]:
-    """Names, frames of shape (T, n, 3), and faces."""
-    for source in sources:
-        if source.name in BENT[: 1 if quick else None]:
-            mesh = source.mesh()
-            yield f"{source.name}, bent", bent(mesh), mesh.faces
-    for name, make in () if quick else MADE.items():
-        frames, faces = make()
-        yield name, frames[:FRAMES], TriangleMesh(frames[0], faces).faces
-    folder = os.environ.get("BSM_MESHES")
-    for path in sorted(Path(folder, "dynamic").glob("*.npz")) if folder and not quick else ():
-        positions, faces = read_arrays(path, "positions", "faces")
-        yield path.stem, positions[:FRAMES].astype(np.float64), TriangleMesh(positions[0], faces).faces
+@dataclass(frozen=True)
+class Moving:
+    """A sequence, by what makes it: a fetched mesh that bends, a formula's name, or a file."""
+
+    name: str
+    origin: Source | str | Path
+
+    def frames(self) -> tuple[Positions, Faces]:
+        """Frames of shape (T, n, 3), and faces."""
+        if isinstance(self.origin, Source):
+            mesh = self.origin.mesh()
+            return bent(mesh), mesh.faces
+        if isinstance(self.origin, Path):
+            positions, faces = read_arrays(self.origin, "positions", "faces")
+        else:
+            positions, faces = MADE[self.origin]()
+        return positions[:FRAMES].astype(np.float64), TriangleMesh(positions[0], faces).faces
 
 
-def measure_motion(name: str, frames: Positions, faces: Faces) -> Row:
+def sequences(sources: Sequence[Source], own: Path | None, quick: bool) -> list[Moving]:
+    """What is measured; for `quick` a small one."""
+    found = [Moving(f"{s.name}, bent", s) for s in sources if s.name in BENT]
+    if quick:
+        return found[:1]
+    files = sorted(own.glob("dynamic/*.npz")) if own else []
+    return [*found, *(Moving(name, name) for name in MADE), *(Moving(path.stem, path) for path in files)]
+
+
+def measure_motion(moving: Moving) -> Row:
     """Points of all codecs on one sequence, and what tools for motion are worth there."""
+    frames, faces = moving.frames()
     points = {}
     for label, words in OURS.items():
         encoder = SequenceEncoder(faces, sequence_options(threads=1, **words), len(frames))
@@ -82,7 +96,7 @@ def measure_motion(name: str, frames: Positions, faces: Faces) -> Row:
         points[f"Draco {bits}"] = {"bytes": sum(map(len, files)), **errors(frames, decoded, faces)}
     size, decoded = half_floats(frames, faces)
     points["zstd of float16"] = {"bytes": size, **errors(frames, decoded, faces)}
-    facts = {"sequence": name, "frames": len(frames), "vertices": frames.shape[1]}
+    facts = {"sequence": moving.name, "frames": len(frames), "vertices": frames.shape[1]}
     return {**facts, "points": points, "tools": ablate_motion(frames, faces)}
 
 

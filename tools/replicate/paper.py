@@ -515,3 +515,18 @@ TABLES: dict[str, Callable[[Study], Iterator[Row]]] = {
     made.__name__.replace("_", "-"): made
     for made in (basis, number_of_segments, overlap, coherence, dynamic, times, powers)
 }
+
+
+@dataclass(frozen=True)
+class Job:
+    """One of `TABLES` that is to be made."""
+
+    name: str
+    folder: Path | None
+    sources: Sequence[Source]
+    quick: bool
+
+
+def make_tables(job: Job) -> list[Row]:
+    """The tables of one job."""
+    return list(TABLES[job.name](Study(job.folder, job.sources, job.quick)))

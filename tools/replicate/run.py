@@ -17,13 +17,13 @@ from tools.replicate.ablation import ablate_mesh
 from tools.replicate.denoising import denoise_mesh, pairs
 from tools.replicate.fetch import Source, fetch_meshes, meshopt_package, own_meshes
 from tools.replicate.motion import measure_motion, sequences
-from tools.replicate.paper import TABLES, Study
+from tools.replicate.paper import TABLES, Job, make_tables
 from tools.replicate.rates import Row, measure_mesh, time_mesh
 from tools.replicate.stages import run_stage
 
 ABLATED, SIZES = 30, (500, 4000)
 """Meshes of the ablation, and of how many vertices."""
-TIMED = 24
+TIMED, QUICK_SIZE = 24, 4000
 NOISED, NOISY = 12, (2000, 6000)
 """Meshes that are denoised, and of how many vertices."""
 DRAWN = ("head", "cow", "homer")
@@ -55,7 +55,8 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
     workers = max(1, len(os.sched_getaffinity(0)))
     if "rates" in minutes:
         package = meshopt_package(folder / "meshes", note)
-        run_stage(measure_mesh, shuffled(sources), folder / "rates", minutes["rates"], note, package, workers=workers)
+        chosen = shuffled([s for s in sources if not quick or s.vertices <= QUICK_SIZE])
+        run_stage(measure_mesh, chosen, folder / "rates", minutes["rates"], note, package, workers=workers)
     if "ablation" in minutes:
         some = [s for s in sources if s.group == "unseen" and SIZES[0] <= s.vertices <= SIZES[1]]
         chosen = spread_over(some, ABLATED)
@@ -63,14 +64,17 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
     if "times" in minutes:
         run_stage(time_mesh, shuffled(spread_over(sources, TIMED)), folder / "times", minutes["times"], note, workers=1)
     if "motion" in minutes:
-        measure_sequences(sources, folder / "motion", minutes["motion"], quick)
+        moving = sequences(sources, own, quick)
+        run_stage(measure_motion, moving, folder / "motion", minutes["motion"], note, workers=workers)
     if "denoising" in minutes:
         some = [s for s in sources if s.group == "unseen" and NOISY[0] <= s.vertices <= NOISY[1]]
         shared = [] if quick or not own else pairs(own)
         chosen = [*shuffled(spread_over(some, NOISED)), *shared]
         run_stage(denoise_mesh, chosen, folder / "denoising", minutes["denoising"], note, workers=workers)
     if "paper" in minutes:
-        paper(sources, own, folder, minutes["paper"], quick)
+        jobs = [Job(name, None if quick else own, sources, quick) for name in TABLES]
+        run_stage(make_tables, jobs, folder / "paper", minutes["paper"], note, workers=workers)
+        curves(sources, folder, minutes["paper"], quick)
     results = read(folder)
     facts = describe(time.monotonic() - begin)
     (folder / "results.json").write_text(json.dumps({**facts, **results}, indent=1), encoding="utf-8")
@@ -79,34 +83,12 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
         report.write_page(results, facts)
 
 
-def measure_sequences(sources: list[Source], folder: Path, minutes: float, quick: bool) -> None:
-    folder.mkdir(exist_ok=True)
-    deadline = time.monotonic() + 60 * minutes
-    for name, frames, faces in sequences(sources, quick):
-        path = folder / f"{name.replace(', ', '_').replace(' ', '_')}.json"
-        if time.monotonic() > deadline:
-            note(f"motion: no time was left for {name}")
-        elif not path.exists():
-            path.write_text(json.dumps(measure_motion(name, frames, faces)), encoding="utf-8")
-            note(f"motion: {name}")
-
-
-def paper(sources: list[Source], own: Path | None, folder: Path, minutes: float, quick: bool) -> None:
-    """The paper's tables beside its numbers, and its figures by `bsm curve`; BSM_MESHES holds its models."""
-    (folder / "paper").mkdir(exist_ok=True)
-    deadline = time.monotonic() + 60 * minutes
-    study = Study(None if quick else own, sources, quick)
-    for name, make in TABLES.items():
-        path = folder / "paper" / f"{name}.json"
-        if time.monotonic() > deadline:
-            note(f"paper: no time was left for {name}")
-        elif not path.exists():
-            path.write_text(json.dumps(list(make(study))), encoding="utf-8")
-            note(f"paper: {name}")
+def curves(sources: list[Source], folder: Path, minutes: float, quick: bool) -> None:
+    """The paper's figures by `bsm curve`."""
     drawn = [str(source.path) for source in sources if source.name in DRAWN[: 1 if quick else None]]
-    curves = [sys.executable, "-m", "bsm", "curve", *drawn, "--codecs", "paper", "-o", str(folder / "paper"), "--pdf"]
+    words = [sys.executable, "-m", "bsm", "curve", *drawn, "--codecs", "paper", "-o", str(folder / "curves"), "--pdf"]
     try:
-        done = subprocess.run(curves, capture_output=True, text=True, timeout=60 * minutes, check=True)
+        done = subprocess.run(words, capture_output=True, text=True, timeout=60 * minutes, check=True)
         (folder / "paper-curves.md").write_text(done.stdout, encoding="utf-8")
     except subprocess.SubprocessError as error:
         note(f"paper: {error}")

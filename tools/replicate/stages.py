@@ -7,22 +7,27 @@ import time
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
-from tools.replicate.fetch import Source
+Result = TypeVar("Result")
 
-Row = dict[str, Any]
+
+class Job(Protocol):
+    """What has a name, by which its file is called."""
+
+    @property
+    def name(self) -> str: ...
 
 
 def run_stage(
-    work: Callable[..., Row],
-    sources: Iterable[Source],
+    work: Callable[..., Result],
+    sources: Iterable[Job],
     folder: Path,
     minutes: float,
     note: Callable[[str], None],
     *more: Any,
     workers: int = 2,
-) -> list[Row]:
+) -> list[Result]:
     """Rows of the meshes that fit into the time, in their order; what is left out is named."""
     folder.mkdir(parents=True, exist_ok=True)
     deadline, found, sources = time.monotonic() + 60 * minutes, {}, list(sources)
@@ -32,7 +37,7 @@ def run_stage(
         if path.exists():
             found[source.name] = json.loads(path.read_text())
     with ProcessPoolExecutor(workers) as pool:
-        waiting: dict[Future[Row], Source] = {}
+        waiting: dict[Future[Result], Job] = {}
         todo = iter([source for source in sources if source.name not in found])
         while True:
             while len(waiting) < workers and (job := next(todo, None)) is not None:
@@ -49,7 +54,9 @@ def run_stage(
             except Exception as error:  # one mesh must not end an hour's run
                 note(f"{folder.name}: {source.name} failed: {type(error).__name__}: {error}")
                 continue
-            (folder / f"{source.name}.json").write_text(json.dumps(found[source.name]))
+            part = folder / f"{source.name}.part"
+            part.write_text(json.dumps(found[source.name]))
+            part.replace(folder / f"{source.name}.json")  # whole, or not there, wherever a run is cut
             note(f"{folder.name}: {source.name}, {len(found)} of {len(sources)}")
     if left:
         note(f"{folder.name}: no time was left for {len(left)}: {', '.join(left)}")
