@@ -2,7 +2,6 @@
 
 attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
-targets     bytes with a target beside the preset, over the larger of what either takes alone
 speed       what decoding by bsmdec takes, over Draco's
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
 house       how large the repository is, beside its limits
@@ -15,8 +14,7 @@ from tools.command import dispatch
 COMMANDS = {
     "attributes": "attributes:main",
     "fields": "fields:main",
-    "encoding": "encoding:encoding_command",
-    "targets": "encoding:targets_command",
+    "encoding": "encoding:main",
     "speed": "speed:main",
     "house": "house:main",
 }

@@ -1,15 +1,12 @@
 """What encoding takes, in bytes and in time.
 
     python -m tools.measure encoding MESH... [--with NAME=VALUE ...] [--json FILE] [--over FILE]
-    python -m tools.measure targets MESH... [--targets max_error=0.2% theta=4 ...]
 
 `encoding`: bytes, CPU time of one thread over Draco's (level 10, 11 bits; frame by frame for npz sequences), measured
 by turns, the share of it that decoding and comparing take, and the ratio of bytes to another run. To compare with
 another checkout, run this file there, keep its JSON:
 
-    PYTHONPATH=../old ../old/.venv/bin/python tools/measure/encoding.py encoding MESH... --json old.json
-
-`targets`: bytes with a target beside the preset, over the larger of what either takes alone.
+    PYTHONPATH=../old ../old/.venv/bin/python tools/measure/encoding.py MESH... --json old.json
 """
 
 from __future__ import annotations
@@ -17,7 +14,6 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -35,7 +31,6 @@ from bsm.evaluation.curve import encode_draco
 from bsm.files.mesh import read_mesh
 
 BITS, LEVEL = 11, 10
-TARGETS = ("nmsve_db=-48", "nmsve_db=-52", "nmsve_db=-55", "theta=4", "max_error=0.2%")
 
 
 def keyword(text: str) -> tuple[str, Any]:
@@ -125,45 +120,16 @@ def encoding(args: argparse.Namespace) -> None:
         args.json.write_text(json.dumps(found))
 
 
-def targets(args: argparse.Namespace) -> None:
-    """Print, for each target, bytes with both, of the target alone and of the look alone, and the ratio."""
-    ratios: list[float] = []
-    for path in args.meshes:
-        mesh = read_mesh(str(path)).mesh.bare
-        look = len(bsm.encode(mesh, **dict(args.options)))
-        for name, value in map(keyword, args.targets):
-            both, alone = (len(bsm.encode(mesh, preset=preset, **{name: value})) for preset in ("balanced", "none"))
-            ratios.append(both / max(alone, look))
-            print(
-                f"{path.stem[:28]:28} {name}={value!s:6} both {both:7d} alone {alone:7d} look {look:7d} "
-                f"ratio {ratios[-1]:.3f}",
-                flush=True,
-            )
-    print(f"mean {fmean(ratios):.3f}, largest {max(ratios):.3f}, of {len(ratios)}")
-
-
-def encoding_command() -> None:
+def main() -> None:
     """Print the table of `encoding`."""
-    parser = _parser()
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("meshes", metavar="MESH", nargs="+", type=Path)
+    parser.add_argument("--with", dest="options", nargs="*", type=keyword, default=[], metavar="NAME=VALUE")
     parser.add_argument("--repeat", type=int, default=3, metavar="N", help="turns, of which the fastest count (3)")
     parser.add_argument("--json", type=Path, help="write the figures here")
     parser.add_argument("--over", type=Path, help="figures of another run, to compare with")
     encoding(parser.parse_args())
 
 
-def targets_command() -> None:
-    """Print the table of `targets`."""
-    parser = _parser()
-    parser.add_argument("--targets", nargs="*", default=TARGETS, metavar="NAME=VALUE")
-    targets(parser.parse_args())
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("meshes", metavar="MESH", nargs="+", type=Path)
-    parser.add_argument("--with", dest="options", nargs="*", type=keyword, default=[], metavar="NAME=VALUE")
-    return parser
-
-
 if __name__ == "__main__":
-    {"encoding": encoding_command, "targets": targets_command}[sys.argv.pop(1)]()
+    main()
