@@ -7,10 +7,10 @@ decoded, only counted: its decoding time is not known.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 from unittest.mock import patch
 
@@ -29,7 +29,7 @@ from bsm.codec.static.options import EncodeOptions, changed
 from bsm.decoding import decode
 from bsm.options import encode_options, sequence_options
 from tools.replicate.fetch import Source
-from tools.replicate.rates import Row, spread
+from tools.replicate.rates import Row, by_turns, spread
 
 Patches = Sequence[tuple[Any, str, Any]]
 
@@ -160,16 +160,9 @@ def ablate_mesh(source: Source) -> Row:
 
 
 def _decode_ratio(first: bytes, second: bytes) -> float:
-    """Seconds to decode one over those for another, the least of three by turns."""
-    least = [math.inf, math.inf]
-    for _ in range(3):
-        for k, data in enumerate((first, second)):
-            begin, runs = time.process_time(), 0
-            while runs == 0 or time.process_time() - begin < 0.01:
-                decode(data, threads=1)
-                runs += 1
-            least[k] = min(least[k], (time.process_time() - begin) / runs)
-    return least[0] / least[1]
+    """Seconds to decode one over those for another, by turns."""
+    seconds = by_turns({str(k): partial(decode, data, threads=1) for k, data in enumerate((first, second))})
+    return seconds["0"] / seconds["1"]
 
 
 MOVING_TOOLS: dict[str, Tool] = {

@@ -31,6 +31,7 @@ from bsm.codec.geometry.metrics import Reference, decibel
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.decoding import decode
+from bsm.evaluation.bench import least_time
 from bsm.evaluation.curve import (
     COLD_STARTS,
     EXACT_BASES,
@@ -275,13 +276,8 @@ class Study:
 
 def fastest(work: Callable[[], object], repeats: int) -> float:
     """CPU seconds of the fastest run, with one BLAS thread, so that what else the machine does counts for little."""
-    seconds = []
     with threadpool_limits(1):
-        for _ in range(repeats):
-            begin = time.process_time()
-            work()
-            seconds.append(time.process_time() - begin)
-    return min(seconds)
+        return least_time(work, repeats, time.process_time)
 
 
 # ------------------------------------------------------------------------------- section 6: segments, how they overlap

@@ -91,6 +91,12 @@ def time_mesh(source: Source, rounds: int = 3) -> Row:
         data = codec.encode(mesh)[0]
         works[f"{name}, encode"] = partial(codec.encode, mesh)
         works[f"{name}, decode"] = partial(codec.decode, data)
+    seconds = by_turns(works, rounds)
+    return {"mesh": source.name, "group": source.group, "vertices": len(mesh.positions), "seconds": seconds}
+
+
+def by_turns(works: dict[str, Callable[[], Any]], rounds: int = 3) -> dict[str, float]:
+    """Processor seconds of each, the least of some rounds."""
     seconds = dict.fromkeys(works, math.inf)
     for _ in range(rounds):
         for name, work in works.items():
@@ -99,7 +105,7 @@ def time_mesh(source: Source, rounds: int = 3) -> Row:
                 work()
                 runs += 1
             seconds[name] = min(seconds[name], (time.process_time() - begin) / runs)
-    return {"mesh": source.name, "group": source.group, "vertices": len(mesh.positions), "seconds": seconds}
+    return seconds
 
 
 def curve_of(row: Row, names: Iterable[str], measure: str) -> RateCurve:
