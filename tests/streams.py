@@ -7,8 +7,8 @@ import tracemalloc
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from bsm.decoding import Decoder, SequenceDecoder
-from bsm.events import END_OF_STREAM, FrameEvent, Signal
+from bsm.codec.decoding import Decoder, SequenceDecoder
+from bsm.codec.events import END_OF_STREAM, FrameEvent, Signal
 from tools.surgery import scan
 
 

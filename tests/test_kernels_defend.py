@@ -12,6 +12,7 @@ import pytest
 
 from bsm.bitstream import _kernels as of_bytes
 from bsm.codec import _kernels as of_arrays
+from bsm.codec.decoding import decode, decode_sequence
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
@@ -21,7 +22,6 @@ from bsm.codec.signal.smooth import local_frames
 from bsm.codec.static.choice.settling import Sensitivity
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions, changed
-from bsm.decoding import decode, decode_sequence
 from tests.codec.static.attributes.test_attributes import dressed
 from tests.motion import bending
 from tests.shapes import torus

@@ -19,7 +19,7 @@ from bsm.bitstream.entropy.range_coder import POSITION, Bank, Coder
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.fields.corners import Corners, Field
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.decoded import CONNECTIVITY, NEED_DATA
+from bsm.codec.decoding import CONNECTIVITY, NEED
 
 Ints = npt.NDArray[np.int32]
 AHEAD = 4  # bytes that a reader holds besides those that a writer is done with
@@ -56,7 +56,7 @@ def decode_connectivity(payload: bytes, vertices: int, faces: int, limits: Limit
     packets: list[Packet] = [header, Connectivity(payload), Grid(0, vertices, b"")]
     stream = b"".join([writer.start(), *map(writer.write, packets)])
     decoder.push(np.frombuffer(stream, np.uint8))
-    decoder.next(1 << NEED_DATA | 1 << CONNECTIVITY)
+    decoder.next(1 << NEED | 1 << CONNECTIVITY)
     return decoder.faces(faces)
 
 

@@ -12,7 +12,8 @@ import numpy.typing as npt
 from bsm.bitstream.errors import BsmError, LimitError, VerificationError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces, Order, Positions
-from bsm.codec.decoded import CONNECTIVITY, END, FRAME, FrameDecoder
+from bsm.codec.decoding import SequenceDecoder
+from bsm.codec.events import ConnectivityEvent, EndEvent, FrameEvent, Signal
 from bsm.codec.geometry.mesh import Metadata
 from bsm.codec.sequence.attributes import Expected
 from bsm.codec.static.attributes.encoding import PreparedAttribute
@@ -33,7 +34,7 @@ class SequenceVerifier:
     def __init__(
         self, limits: Limits, metadata: Metadata, threads: int | None, shown: list[Positions] | None = None
     ) -> None:
-        self._decoder = FrameDecoder(limits, threads)
+        self._decoder = SequenceDecoder(limits, threads)
         self._metadata, self._shown = metadata, shown
         self._meshes: deque[tuple[Original, tuple[PreparedAttribute, ...]]] = deque()
         self._frames: deque[ExpectedFrame] = deque()
@@ -50,13 +51,17 @@ class SequenceVerifier:
     def take(self, chunk: bytes, *, last: bool = False) -> bytes:
         """Decode a chunk of the stream and return it; `VerificationError` if a decoder makes something else of it."""
         try:
-            for kind, vertices, faces in self._decoder.take(chunk, last=last):
-                if kind == CONNECTIVITY:
-                    self._begin(self._decoder.faces(faces), vertices)
-                elif kind == FRAME:
-                    self._compare(self._decoder.positions(vertices))
-                elif kind == END:
-                    self._ended = True
+            self._decoder.receive_data(chunk)
+            if last:
+                self._decoder.receive_eof()
+            while not isinstance(event := self._decoder.next_event(), Signal):
+                match event:
+                    case ConnectivityEvent(faces, vertices):
+                        self._begin(faces, vertices)
+                    case FrameEvent():
+                        self._compare(event)
+                    case EndEvent():
+                        self._ended = True
         except (LimitError, VerificationError):
             raise
         except BsmError as error:
@@ -72,19 +77,19 @@ class SequenceVerifier:
         self._matched = self._original.matched(faces, vertices)
         self._checked, self.faces = False, faces
 
-    def _compare(self, positions: Positions) -> None:
+    def _compare(self, frame: FrameEvent) -> None:
         require(bool(self._frames), "the decoder returned a frame that was not encoded")
         expected = self._frames.popleft()
-        require_positions(positions, expected.positions, self._matched, self._original.given.positions)
-        attributes = self._decoder.attributes()
+        require_positions(frame.positions, expected.positions, self._matched, self._original.given.positions)
         if not self._checked:
-            still = [attribute for attribute in attributes if not attribute.moves]
+            moving = {each.number for each in expected.moving}
+            still = [attribute for number, attribute in enumerate(frame.attributes) if number not in moving]
             require_attributes(still, self._carried, self.faces, self._original)
             self._checked = True
-        for moving in expected.moving:
-            _require_near(attributes[moving.number].values, moving, self._matched)
+        for each in expected.moving:
+            _require_near(frame.attributes[each.number].values, each, self._matched)
         if self._shown is not None:
-            self._shown.append(positions)
+            self._shown.append(frame.positions)
 
 
 def _require_near(decoded: npt.NDArray[np.generic], moving: Expected, matched: Order) -> None:

@@ -13,7 +13,8 @@ from bsm.bitstream.container.header import FACE, RECOMPUTED
 from bsm.bitstream.errors import BsmError, LimitError, VerificationError
 from bsm.bitstream.limits import Limits
 from bsm.codec.arrays import Faces, Order, Positions
-from bsm.codec.decoded import DecodedAttribute, decoded_mesh
+from bsm.codec.decoding import decode
+from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.static.attributes.encoding import SEMANTICS, PreparedAttribute
 from bsm.codec.static.attributes.levels import restored
@@ -85,7 +86,7 @@ def verify(
     Positions must be equal bit for bit, faces, metadata and orders as promised, attributes equal but for rounding.
     """
     try:
-        decoded = decoded_mesh(b"".join(draft.frames), limits, threads)
+        decoded = decode(b"".join(draft.frames), limits, threads)
     except LimitError:
         raise
     except BsmError as error:
@@ -106,7 +107,7 @@ def require_positions(decoded: Positions, expected: Positions, matched: Order, g
 
 
 def require_attributes(
-    decoded: Sequence[DecodedAttribute], carried: Sequence[PreparedAttribute], faces: Faces, original: Original
+    decoded: Sequence[Attribute], carried: Sequence[PreparedAttribute], faces: Faces, original: Original
 ) -> None:
     """Require what the closed loop has for attributes at corners and faces, but for rounding."""
     require(len(decoded) == len(carried), f"{len(decoded)} attributes came back of {len(carried)}")

@@ -383,8 +383,8 @@ def decode_frames(
     >>> for frame in bsm.decode_frames("dance.bsm"):
     ...     bounds = frame.positions.min(axis=0), frame.positions.max(axis=0)
     """
-    from bsm.decoding import SequenceDecoder
-    from bsm.events import FrameEvent
+    from bsm.codec.decoding import SequenceDecoder
+    from bsm.codec.events import FrameEvent
 
     with SequenceDecoder(limits, threads) as decoder:
         for event in decoder.events(read_chunks(stream)):
@@ -422,7 +422,7 @@ def decode_sequence(
     >>> positions.ndim, faces.shape[1]
     (3, 3)
     """
-    from bsm.decoding import decode_sequence as decode_frames
+    from bsm.codec.decoding import decode_sequence as decode_frames
 
     with watched("decoding", progress) as reported:
         return decode_frames(read_bytes(stream), limits, threads, reported)

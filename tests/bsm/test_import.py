@@ -45,7 +45,7 @@ def test_a_command_loads_nothing_that_speaks_http(tmp_path):
     words = ["decode", "-q", str(stream), "-o", str(tmp_path / "decoded.npz")]
     program = f"import sys; from bsm.cli import main; code = main({words}); print(code, *sys.modules)"
     code, *loaded = run(program).split()
-    assert code == "0" and "bsm.decoding" in loaded
+    assert code == "0" and "bsm.codec.decoding" in loaded
     assert not {"urllib.request", "http.client", "ssl", "scipy"} & set(loaded)
 
 

@@ -11,9 +11,9 @@ import pytest
 import bsm
 from bsm.bitstream.errors import ArgumentError, BsmError, OptionError
 from bsm.bitstream.limits import Limits
+from bsm.codec.decoding import Decoder, SequenceDecoder
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.static.options import EncodeOptions
-from bsm.decoding import Decoder, SequenceDecoder
 from tools.vectors.meshes import torus
 
 

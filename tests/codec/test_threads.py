@@ -8,11 +8,11 @@ import pytest
 from bsm.codec.basis.laplacian import factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.threads import ordered_map, side_by_side
-from bsm.decoding import decode
 from tests.shapes import patch
 
 

@@ -14,8 +14,8 @@ import pytest
 
 from bsm.api import decode_frames
 from bsm.bitstream import errors
-from bsm.decoding import Decoder, decode, decode_sequence
-from bsm.events import END_OF_STREAM, AttributeEvent
+from bsm.codec.decoding import Decoder, decode, decode_sequence
+from bsm.codec.events import END_OF_STREAM, AttributeEvent
 from tools.vectors.__main__ import try_product
 from tools.vectors.bad_attributes import BAD_ATTRIBUTES
 from tools.vectors.large import LARGE

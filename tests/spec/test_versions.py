@@ -10,7 +10,7 @@ import pytest
 
 import bsm
 from bsm.cli import main
-from bsm.decoding import decode as decode_mesh
+from bsm.codec.decoding import decode as decode_mesh
 from tests.engine.decoding import build, decode, of_sequence, released
 from tests.spec.test_law import RULES
 from tools.vectors.good_attributes import charts, colors, creases, groups, with_attributes

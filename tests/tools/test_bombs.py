@@ -8,7 +8,7 @@ import pytest
 
 from bsm.bitstream.errors import CorruptError, LimitError
 from bsm.bitstream.limits import Limits
-from bsm.decoding import Decoder
+from bsm.codec.decoding import Decoder
 from tools.attack.bombs import THINGS, YARDSTICK, things
 from tools.attack.streams import BOMBS
 from tools.attack.taken import decode_all, taken_by, warm_up

@@ -6,8 +6,8 @@ from collections import Counter
 import pytest
 
 from bsm.bitstream.errors import BsmError, CorruptError, FormatError
-from bsm.decoding import Decoder
-from bsm.events import END_OF_STREAM
+from bsm.codec.decoding import Decoder
+from bsm.codec.events import END_OF_STREAM
 from bsm.files.mesh import format_mesh, read_mesh
 from tools.attack.mutate import mutate_stream
 from tools.surgery import frames_of, scan, stream_of, with_header

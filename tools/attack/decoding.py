@@ -10,9 +10,8 @@ import numpy as np
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
-from bsm.codec.geometry.attributes import Attribute
-from bsm.decoding import Decoder, SequenceDecoder, decode
-from bsm.events import (
+from bsm.codec.decoding import Decoder, SequenceDecoder, decode
+from bsm.codec.events import (
     END_OF_STREAM,
     NEED_DATA,
     AttributeEvent,
@@ -22,6 +21,7 @@ from bsm.events import (
     LossEvent,
     RefinementEvent,
 )
+from bsm.codec.geometry.attributes import Attribute
 from tools.attack.tally import Decoded, Outcome
 from tools.surgery import first_entries
 from tools.vectors.store import Arrays, arrays_of, arrays_of_frames

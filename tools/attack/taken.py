@@ -22,9 +22,9 @@ from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import Cursor, FrameType
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.codec.decoding import Decoder, SequenceDecoder
+from bsm.codec.events import END_OF_STREAM, NEED_DATA, FrameEvent, HeaderEvent, LossEvent
 from bsm.codec.static.encoder import encode
-from bsm.decoding import Decoder, SequenceDecoder
-from bsm.events import END_OF_STREAM, NEED_DATA, FrameEvent, HeaderEvent, LossEvent
 from bsm.files.stream import peek_header
 from tools.payloads import parse_stretches
 from tools.surgery import frames_of, header_entries

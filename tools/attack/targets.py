@@ -14,8 +14,8 @@ from bsm.bitstream.container.scanner import Scanner
 from bsm.bitstream.container.wire import FrameType
 from bsm.bitstream.errors import BsmError
 from bsm.bitstream.limits import Limits
-from bsm.decoding import Decoder, SequenceDecoder, decode
-from bsm.events import END_OF_STREAM, BlockEvent, FrameEvent
+from bsm.codec.decoding import Decoder, SequenceDecoder, decode
+from bsm.codec.events import END_OF_STREAM, BlockEvent, FrameEvent
 from bsm.files.mesh import MESH_FORMATS, read_mesh
 from tools.surgery import frames_of, scan
 

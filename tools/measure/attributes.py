@@ -20,11 +20,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, at_corners, compare_values
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.decoding import decode
 from bsm.files.mesh import read_mesh
 
 TEXCOORD_BITS, NORMAL_BITS = 12, 8

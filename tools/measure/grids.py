@@ -7,10 +7,10 @@ import time
 import numpy as np
 import numpy.typing as npt
 
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
-from bsm.decoding import decode
 from bsm.files.mesh import read_mesh
 
 Faces = npt.NDArray[np.int32]

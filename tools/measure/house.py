@@ -34,14 +34,14 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_738,
-    "product Python, lines": 33_619,
+    "product in all languages, lines": 61_652,
+    "product Python, lines": 33_533,
     "product C and C++, lines": 20_554,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 614,
-    "all Python, lines": 73_687,
-    "product modules": 201,
+    "all Python, lines": 73_596,
+    "product modules": 200,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,
     "numbers of a header": 36,

@@ -19,6 +19,7 @@ import numpy as np
 from bsm.bitstream.coefficients import adaptive
 from bsm.bitstream.container.gop import GopMethod
 from bsm.bitstream.errors import BsmError
+from bsm.codec.decoding import decode
 from bsm.codec.sequence import gop, step_search
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.signal import transform
@@ -26,7 +27,6 @@ from bsm.codec.static.choice import blocks, search
 from bsm.codec.static.choice.grids import Gridded
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
-from bsm.decoding import decode
 from bsm.options import encode_options, sequence_options
 from tools.replicate.fetch import Source
 from tools.replicate.rates import Row, by_turns, spread

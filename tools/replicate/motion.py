@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.decoding import decode_sequence
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.targets import compare_sequences
-from bsm.decoding import decode_sequence
 from bsm.evaluation.curve import decode_draco, encode_draco, positions_in_order, rate_curve
 from bsm.files.formats.npz import read_arrays
 from bsm.options import sequence_options

@@ -23,6 +23,7 @@ from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.basis.laplacian import dense_laplacian
 from bsm.codec.blocks.overlap import Blocks, block_size, degree_weights, derive_partition, grow_blocks, metis_partition
+from bsm.codec.decoding import decode
 from bsm.codec.denoise.coarse import OVERLAP, RULES, CoarseFilter
 from bsm.codec.denoise.normals import guided_normal_filtering
 from bsm.codec.geometry.graph import graph_of_faces
@@ -30,7 +31,6 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference, decibel
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
-from bsm.decoding import decode
 from bsm.evaluation.bench import least_time
 from bsm.evaluation.curve import (
     COLD_STARTS,

@@ -15,9 +15,9 @@ import sys
 import numpy as np
 
 from bsm.bitstream.errors import BsmError
+from bsm.codec.decoding import SequenceDecoder, decode
+from bsm.codec.events import END_OF_STREAM, ConnectivityEvent, FrameEvent
 from bsm.codec.geometry.attributes import Attribute
-from bsm.decoding import SequenceDecoder, decode
-from bsm.events import END_OF_STREAM, ConnectivityEvent, FrameEvent
 from tools.vectors.example import example
 from tools.vectors.store import (
     NEXT,

@@ -14,10 +14,10 @@ import zstandard
 from bsm.bitstream.connectivity.partition import encode_labels
 from bsm.bitstream.container.header import HEADER_FIELDS, LAW
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import changed
-from bsm.decoding import decode
 from tools.attack.streams import one_block
 from tools.surgery import Frames, frames_of, header_entries, stream_of, with_header, with_payload
 from tools.vectors.good import BASE

@@ -13,10 +13,10 @@ from bsm.bitstream.container.packets import Header
 from bsm.bitstream.container.scanner import Scanner
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map, write_preamble, write_varint
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.signal.chain import Chain
 from bsm.codec.static.coding import rules_of
-from bsm.decoding import decode
 from tools.payloads import decode_coefficients
 from tools.surgery import frames_of, header_entries
 from tools.vectors.store import FOLDER

@@ -29,9 +29,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
         refuse_to_overwrite(path, args.force)
     Path(args.output).mkdir(parents=True, exist_ok=True)
 
+    from bsm.codec.decoding import decode
     from bsm.codec.geometry.metrics import compare
     from bsm.codec.static.encoder import Encoder
-    from bsm.decoding import decode
     from bsm.evaluation.sample import knot
 
     sample = knot(args.vertices)

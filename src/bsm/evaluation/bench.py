@@ -21,12 +21,12 @@ from bsm.codec.arrays import Matrix
 from bsm.codec.basis.laplacian import dense_laplacian, factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, hash_columns, orthogonal_iteration
 from bsm.codec.blocks.overlap import Blend, Block, block_size, degree_weights, derive_partition, grow_blocks
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.decoding import decode
 from bsm.evaluation.curve import decode_draco, encode_draco, number, table
 from bsm.files.mesh import read_mesh
 

@@ -16,6 +16,7 @@ from scipy.interpolate import PchipInterpolator
 from bsm.bitstream.errors import CorruptError, MeshError, imported
 from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import canonical
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Reference
@@ -26,7 +27,6 @@ from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
 from bsm.codec.static.targets import Target
 from bsm.console import finite
-from bsm.decoding import decode
 from bsm.evaluation.sample import knot
 from bsm.files.inspection import inspect_stream
 from bsm.files.output import write_output

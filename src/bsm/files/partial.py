@@ -11,10 +11,18 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
+from bsm.codec.decoding import Decoder
+from bsm.codec.events import (
+    AttributeEvent,
+    BlockEvent,
+    ConnectivityEvent,
+    EndEvent,
+    HeaderEvent,
+    LossEvent,
+    RefinementEvent,
+)
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.decoding import Decoder
-from bsm.events import AttributeEvent, BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent, RefinementEvent
 
 Progress = Callable[[int, int], None]
 

@@ -33,7 +33,7 @@ def decode_whole(
     layers: int | None = None,
     progress: Progress | None = None,
 ) -> TriangleMesh:
-    from bsm.decoding import Decoder
+    from bsm.codec.decoding import Decoder
 
     with Decoder(limits, threads, layers=layers) as decoder:
         for chunk in chunks:
@@ -65,8 +65,8 @@ class SequenceStream:
     def __init__(
         self, chunks: Iterator[bytes], note: Note | None = None, start: int = 0, limits: Limits = DEFAULT_LIMITS
     ) -> None:
-        from bsm.decoding import SequenceDecoder
-        from bsm.events import ConnectivityEvent, HeaderEvent
+        from bsm.codec.decoding import SequenceDecoder
+        from bsm.codec.events import ConnectivityEvent, HeaderEvent
 
         self.header: Header
         self.faces: Faces
@@ -102,7 +102,7 @@ class SequenceStream:
 
     def changing_frames(self) -> Iterator[tuple[int, Positions]]:
         """Frames and their indices, where `faces` may change from frame to frame."""
-        from bsm.events import FrameEvent, LossEvent
+        from bsm.codec.events import FrameEvent, LossEvent
 
         given = False
         for event in self._events:

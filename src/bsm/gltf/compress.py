@@ -18,9 +18,9 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, FormatError, OptionError, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.decoding import decode
 from bsm.gltf import document as gltf
 
 _TRIANGLES = 4

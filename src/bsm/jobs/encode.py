@@ -15,10 +15,10 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import MeshError, OptionError, counted
 from bsm.codec.arrays import Positions
+from bsm.codec.events import Signal
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
-from bsm.events import Signal
 from bsm.files.mesh import read_mesh
 from bsm.files.motion.frames import Frames, Loops, Wanted, describe_runs
 from bsm.files.output import open_output, refuse_to_overwrite
@@ -31,8 +31,8 @@ from bsm.libraries import PROVENANCE, with_metadata
 from bsm.options import encode_options, sequence_options
 
 if TYPE_CHECKING:
+    from bsm.codec.events import FrameEvent
     from bsm.codec.sequence.options import SequenceOptions
-    from bsm.events import FrameEvent
 
 READ = 0.08  # of the time of a mesh
 _OF_SEQUENCES = ("kg", "bpvf", "gop", "low_delay", "frame_rate", "runs")
@@ -213,7 +213,7 @@ class VerifyingDecoder:
     _extent: float = 0.0
 
     def __post_init__(self) -> None:
-        from bsm.decoding import SequenceDecoder
+        from bsm.codec.decoding import SequenceDecoder
 
         self._decoder = SequenceDecoder()
 
@@ -231,7 +231,7 @@ class VerifyingDecoder:
 
     def compare(self, chunk: bytes, order: np.ndarray) -> None:
         """Decode a piece of the stream and add up the error of its frames; vertex j of a decoded one is `order[j]`."""
-        from bsm.events import FrameEvent
+        from bsm.codec.events import FrameEvent
 
         self._decoder.receive_data(chunk)
         while not isinstance(event := self._decoder.next_event(), Signal):

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from bsm.codec.basis.orthogonal_iteration import dynamic_size, hash_columns, residual_norms
+from bsm.codec.decoding import decode
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions, changed
-from bsm.decoding import decode
 from tests.shapes import torus
 
 

@@ -10,11 +10,11 @@ import pytest
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.errors import CorruptError, MeshError, OptionError
+from bsm.codec.events import FrameEvent
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.events import FrameEvent
 from tests.shapes import torus
 from tests.streams import frames_in, moving_events_of, packets_of, without
 

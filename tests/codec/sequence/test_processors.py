@@ -17,7 +17,7 @@ from tests.shapes import torus
 ROOT = Path(__file__).parents[3]
 PROCESSORS = ("SkylakeX", "Prescott")
 DECODE = (
-    "import sys, numpy; from bsm.decoding import decode_sequence;"
+    "import sys, numpy; from bsm.codec.decoding import decode_sequence;"
     "numpy.savez(sys.argv[1], *(decode_sequence(open(name, 'rb').read())[0] for name in sys.argv[2:]))"
 )
 

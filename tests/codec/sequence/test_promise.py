@@ -9,12 +9,12 @@ import pytest
 
 from bsm.bitstream.errors import OptionError, TargetError
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.decoding import decode_sequence
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
 from bsm.codec.sequence.step_search import Measured, Shading, StepSearch
-from bsm.decoding import decode_sequence
 from tests.motion import bending
 
 

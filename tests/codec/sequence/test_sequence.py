@@ -14,13 +14,13 @@ from bsm.bitstream.errors import (
     VerificationError,
 )
 from bsm.bitstream.limits import NAMED_LIMITS, Limits
+from bsm.codec.decoding import SequenceDecoder, decode_sequence
+from bsm.codec.events import END_OF_STREAM, NEED_DATA, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from bsm.codec.sequence import tracks
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.gop import FrameHistory
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences
-from bsm.decoding import SequenceDecoder, decode_sequence
-from bsm.events import END_OF_STREAM, NEED_DATA, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from tests.motion import bending, turning
 from tests.shapes import patch, tetrahedron, together, torus
 from tests.streams import frames_in, moving_events_of, packets_of, peak_of, without

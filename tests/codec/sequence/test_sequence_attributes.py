@@ -5,11 +5,11 @@ import pytest
 
 from bsm.bitstream.container import packets
 from bsm.bitstream.errors import BsmError, OptionError
+from bsm.codec.decoding import SequenceDecoder, decode_sequence
+from bsm.codec.events import END_OF_STREAM, AttributeEvent, FrameEvent, LossEvent
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.decoding import SequenceDecoder, decode_sequence
-from bsm.events import END_OF_STREAM, AttributeEvent, FrameEvent, LossEvent
 from tests.shapes import torus
 from tests.streams import packets_of, without
 

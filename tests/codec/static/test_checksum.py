@@ -3,8 +3,8 @@
 import pytest
 
 from bsm.bitstream.errors import CorruptError
-from bsm.decoding import Decoder, SequenceDecoder, decode
-from bsm.events import END_OF_STREAM, EndEvent, FrameEvent, LossEvent
+from bsm.codec.decoding import Decoder, SequenceDecoder, decode
+from bsm.codec.events import END_OF_STREAM, EndEvent, FrameEvent, LossEvent
 from tools.surgery import frames_of, stream_of
 from tools.vectors.bad import unlike
 from tools.vectors.store import FOLDER

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsm.bitstream.errors import MeshError, OptionError, TargetError
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import Original, Reference
@@ -21,7 +22,6 @@ from bsm.codec.static.choice.search import Search
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
 from bsm.codec.static.targets import Contract, Target
-from bsm.decoding import decode
 from bsm.evaluation.sample import knot
 from tests.shapes import patch, tetrahedron, together, torus
 

@@ -9,10 +9,10 @@ import pytest
 
 import bsm
 from bsm.bitstream.errors import OptionError
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions
-from bsm.decoding import decode
 from bsm.files.mesh import read_mesh
 from tests.shapes import patch, torus
 

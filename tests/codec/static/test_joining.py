@@ -8,11 +8,11 @@ from hypothesis import strategies as st
 
 from bsm.bitstream.connectivity.faces import encode_connectivity
 from bsm.bitstream.container.splits import Splits, encode_order
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import join
-from bsm.decoding import decode
 from tests.shapes import patch, torus
 
 

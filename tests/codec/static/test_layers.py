@@ -10,11 +10,11 @@ import pytest
 from bsm.bitstream.container.wire import FrameType, parse_frame
 from bsm.bitstream.errors import CorruptError, OptionError, TruncatedError
 from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.decoding import Decoder, decode
+from bsm.codec.events import BlockEvent, ConnectivityEvent, EndEvent, LossEvent, RefinementEvent
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions
-from bsm.decoding import Decoder, decode
-from bsm.events import BlockEvent, ConnectivityEvent, EndEvent, LossEvent, RefinementEvent
 from tests.streams import events_of
 from tools.vectors.good_fields import LAYER, base, on_grid, refined, soup
 from tools.vectors.meshes import torus

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from bsm.bitstream.errors import BsmError, MeshError
+from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import look
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS
-from bsm.decoding import decode
 from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder
 from tests.shapes import torus

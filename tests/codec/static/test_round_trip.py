@@ -3,12 +3,12 @@ import pytest
 
 from bsm.bitstream.errors import CorruptError, LimitError, OptionError, TruncatedError
 from bsm.bitstream.limits import Limits
+from bsm.codec.decoding import decode
+from bsm.codec.events import BlockEvent
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import compare
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import EncodeOptions, changed
-from bsm.decoding import decode
-from bsm.events import BlockEvent
 from tests.shapes import patch, tetrahedron, together, torus
 from tests.streams import events_of
 

@@ -7,11 +7,11 @@ from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.basis.laplacian import dictionary_cost, laplacian_of, solve_cost
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
+from bsm.codec.decoding import Decoder, decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
-from bsm.decoding import Decoder, decode
 from tools.vectors.meshes import torus
 
 NOTHING_ELSE = {"work_per_vertex": 0.0, "work_per_byte": 0.0}

@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import RECOMPUTED
 from bsm.bitstream.errors import BsmError, OptionError, TargetError
+from bsm.codec.decoding import Decoder, decode
+from bsm.codec.events import AttributeEvent, EndEvent, LossEvent
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
@@ -18,8 +20,6 @@ from bsm.codec.look.measure import AttributeLook, look, look_values
 from bsm.codec.static.encoder import Encoder, encode
 from bsm.codec.static.options import PRESETS, EncodeOptions
 from bsm.codec.static.targets import Target
-from bsm.decoding import Decoder, decode
-from bsm.events import AttributeEvent, EndEvent, LossEvent
 from tests.shapes import curved, patch, tetrahedron, torus
 from tests.streams import packets_of, without
 from tools.surgery import frames_of, stream_of

@@ -17,11 +17,7 @@ from bsm.bitstream.container.wire import PREAMBLE_BYTES
 from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, MeshError, OptionError, UnsupportedError, public
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.arrays import Faces, Positions
-from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
-from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.progress import Progress, silent
-from bsm.codec.threads import threads_of
-from bsm.events import (
+from bsm.codec.events import (
     END_OF_STREAM,
     NEED_DATA,
     AttributeEvent,
@@ -36,6 +32,10 @@ from bsm.events import (
     RefinementEvent,
     Signal,
 )
+from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.progress import Progress, silent
+from bsm.codec.threads import threads_of
 
 Buffer: TypeAlias = bytes | bytearray | memoryview | npt.NDArray[Any]
 Event: TypeAlias = (
