@@ -68,13 +68,13 @@ BSM_ARRAY(Doubles, double)
 #endif
 
 /* A file *.simd.c is compiled as a whole for each level of x86-64, with a name of its own for what others call, since
- * the shape of its vectors depends on the level; `codec/levels.c` chooses when the program runs. */
-#ifdef KERNEL_LEVEL
-#define LEVEL_OF(name, level) name##_v##level
-#define LEVEL_NAME(name, level) LEVEL_OF(name, level)
-#define LEVEL(name) LEVEL_NAME(name, KERNEL_LEVEL)
+ * the shape of its vectors depends on the level; `codec/isa.c` chooses when the program runs. */
+#ifdef KERNEL_ISA
+#define ISA_OF(name, level) name##_v##level
+#define ISA_NAME(name, level) ISA_OF(name, level)
+#define ISA(name) ISA_NAME(name, KERNEL_ISA)
 #else
-#define LEVEL(name) name
+#define ISA(name) name
 #endif
 /* Copied to every call, but where a decoder is built alone that has to be small: what that costs time is little. */
 #ifdef BSM_LEAN

@@ -52,7 +52,7 @@ NB_MODULE(_kernels, m) {
     m.def("code_degenerate", checked<code_degenerate>, "coder"_a, "corners"_a, "count"_a, Unlocked());
     m.def("code_steps", checked<code_steps>, "coder"_a, "bank"_a, "values"_a, "tree"_a, Unlocked());
     m.def("code_turns", checked<code_turns>, "coder"_a, "bank"_a, "values"_a, Unlocked());
-    m.def("code_labels", checked<code_labels>, "coder"_a, "bank"_a, "offsets"_a, "neighbours"_a, "labels"_a, "parts"_a,
+    m.def("code_labels", checked<code_labels>, "coder"_a, "bank"_a, "offsets"_a, "neighbors"_a, "labels"_a, "parts"_a,
         Unlocked());
 
     m.def("points_of_levels", &points_of_levels, "levels"_a, "points"_a, Unlocked());

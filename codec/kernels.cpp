@@ -48,21 +48,21 @@ NB_MODULE(_kernels, m) {
           "scratch"_a, "sums"_a, "map"_a, Unlocked());
     m.def("hash_columns", &hash_columns, "columns"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
-    m.def("bisect", &bisect, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
-    m.def("bisect_once", &bisect_once, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "scratch"_a, "second"_a,
+    m.def("bisect", &bisect, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
+    m.def("bisect_once", &bisect_once, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "scratch"_a, "second"_a,
           Unlocked());
-    m.def("bisect_half", &bisect_half, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "half"_a, "scratch"_a,
+    m.def("bisect_half", &bisect_half, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "half"_a, "scratch"_a,
           Unlocked());
-    m.def("refine_partition", &refine_partition, "offsets"_a, "neighbours"_a, "labels"_a, "passes"_a, "sizes"_a,
+    m.def("refine_partition", &refine_partition, "offsets"_a, "neighbors"_a, "labels"_a, "passes"_a, "sizes"_a,
           "votes"_a, Unlocked());
     m.def("label_parts", checked<&label_parts>, "order"_a, "bounds"_a, "labels"_a, Unlocked());
     m.def("group_by_label", &group_by_label, "labels"_a, "bounds"_a, "order"_a, Unlocked());
-    m.def("chain_blocks", checked<&chain_blocks>, "offsets"_a, "neighbours"_a, "order"_a, "bounds"_a, "labels"_a,
+    m.def("chain_blocks", checked<&chain_blocks>, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "labels"_a,
           "size"_a, "links"_a, "shares"_a, "scratch"_a, "seen"_a, "chain"_a, "starts"_a, "edges"_a, "members"_a,
           Unlocked());
     m.def("order_scratch", &order_scratch, "rows"_a, "edges"_a);
-    m.def("order_block", &order_block, "offsets"_a, "neighbours"_a, "rows"_a, "vertices"_a, "local_offsets"_a,
-          "local_neighbours"_a, "scratch"_a, Unlocked());
+    m.def("order_block", &order_block, "offsets"_a, "neighbors"_a, "rows"_a, "vertices"_a, "local_offsets"_a,
+          "local_neighbors"_a, "scratch"_a, Unlocked());
     m.def("add_copies", &add_copies, "sums"_a, "total"_a, "vertices"_a, "positions"_a, "weights"_a, Unlocked());
     m.def("collect_edges", &collect_edges, "faces"_a, "offsets"_a, "filled"_a, "ends"_a, "second"_a, Unlocked());
     m.def("minus_mean", &minus_mean, "values"_a, "starts"_a, "members"_a, "rest"_a, Unlocked());
@@ -84,9 +84,9 @@ NB_MODULE(_kernels, m) {
     m.def("vertex_normals", &vertex_normals, "normals"_a, "starts"_a, "around"_a, "averaged"_a, Unlocked());
     m.def("follow_normals", &follow_normals, "positions"_a, "faces"_a, "starts"_a, "around"_a, "normals"_a,
           "iterations"_a, "free"_a, "planes"_a, "sums"_a, Unlocked());
-    m.def("find_fronts", checked<&find_fronts>, "offsets"_a, "neighbours"_a, "leaf"_a, "most_work"_a, "scratch"_a,
+    m.def("find_fronts", checked<&find_fronts>, "offsets"_a, "neighbors"_a, "leaf"_a, "most_work"_a, "scratch"_a,
         "rows"_a, "steps"_a, "owners"_a, "firsts"_a, "starts"_a, "borders"_a, "places"_a, "sums"_a, Unlocked());
-    m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a,
+    m.def("factorize_fronts", &factorize_fronts, "offsets"_a, "neighbors"_a, "weights"_a, "diagonal"_a, "fronts"_a,
           "column"_a, "scratch"_a, "values"_a, "inverse"_a, Unlocked());
     m.def("solve_columns", &solve_columns, "fronts"_a, "values"_a, "inverse"_a, "columns"_a, "scratch"_a, "solution"_a,
         Unlocked());
@@ -104,22 +104,22 @@ NB_MODULE(_kernels, m) {
     m.def("multiply_matrices", checked<&multiply_matrices>, "left"_a, "right"_a, "result"_a, Unlocked());
     m.def("turn_columns", checked<&turn_columns>, "free"_a, "vector"_a, "shares"_a, Unlocked());
     m.def("back_into_unit", checked<&back_into_unit>, "positions"_a, "scale"_a, "center"_a, "moved"_a, Unlocked());
-    m.def("look_around", &look_around, "offsets"_a, "neighbours"_a, "vertices"_a, "inside"_a, "sums"_a, "weights"_a,
+    m.def("look_around", &look_around, "offsets"_a, "neighbors"_a, "vertices"_a, "inside"_a, "sums"_a, "weights"_a,
           "stiffness"_a, "springs"_a, "pulls"_a, Unlocked());
     m.def("continue_known", checked<&continue_known>, "fronts"_a, "values"_a, "inverse"_a, "springs"_a, "pulls"_a,
           "scratch"_a, "continued"_a, Unlocked());
-    m.def("suspend", checked<&suspend>, "offsets"_a, "neighbours"_a, "weights"_a, "diagonal"_a, "fronts"_a, "springs"_a,
+    m.def("suspend", checked<&suspend>, "offsets"_a, "neighbors"_a, "weights"_a, "diagonal"_a, "fronts"_a, "springs"_a,
           "pulls"_a, "shift"_a, "sums"_a, "column"_a, "scratch"_a, "values"_a, "inverse"_a, "continued"_a, Unlocked());
     m.def("place_block", checked<&place_block>, "prediction"_a, "subspace"_a, "levels"_a, "half_step"_a, "scratch"_a,
           "positions"_a, Unlocked());
-    m.def("apply_powers", &apply_powers, "offsets"_a, "neighbours"_a, "terms"_a, "degree"_a, Unlocked());
+    m.def("apply_powers", &apply_powers, "offsets"_a, "neighbors"_a, "terms"_a, "degree"_a, Unlocked());
     m.def("combine_powers", &combine_powers, "positions"_a, "terms"_a, "weights"_a, "smoothed"_a, Unlocked());
-    m.def("smooth_all", checked<&smooth_all>, "offsets"_a, "neighbours"_a, "positions"_a, "weights"_a, "scratch"_a,
+    m.def("smooth_all", checked<&smooth_all>, "offsets"_a, "neighbors"_a, "positions"_a, "weights"_a, "scratch"_a,
           "smoothed"_a, Unlocked());
-    m.def("cotangents", &cotangents, "offsets"_a, "neighbours"_a, "faces"_a, "positions"_a, "flatness"_a,
+    m.def("cotangents", &cotangents, "offsets"_a, "neighbors"_a, "faces"_a, "positions"_a, "flatness"_a,
           "smallness"_a, "weights"_a, Unlocked());
-    m.def("hold", &hold, "offsets"_a, "neighbours"_a, "weights"_a, "rank"_a, "vertices"_a, "own_offsets"_a,
-          "own_neighbours"_a, "inner"_a, "springs"_a, "starts"_a, "outer"_a, "stiffness"_a, Unlocked());
+    m.def("hold", &hold, "offsets"_a, "neighbors"_a, "weights"_a, "rank"_a, "vertices"_a, "own_offsets"_a,
+          "own_neighbors"_a, "inner"_a, "springs"_a, "starts"_a, "outer"_a, "stiffness"_a, Unlocked());
     m.def("pull", &pull, "starts"_a, "outer"_a, "stiffness"_a, "field"_a, "pulls"_a, Unlocked());
     m.def("learn_around", &learn_around, "known"_a, "field"_a, "moments"_a, "step"_a, "rules"_a, "mean"_a, "row"_a,
         Unlocked());
@@ -128,9 +128,9 @@ NB_MODULE(_kernels, m) {
     m.def("search_rows", &search_rows, "known"_a, "targets"_a, "prices"_a, "weight"_a, "levels"_a, "decoded"_a,
         "moments"_a, "step"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, "values"_a, "ways"_a, "origins"_a,
         Unlocked());
-    m.def("component_sizes", checked<&component_sizes>, "offsets"_a, "neighbours"_a, "seen"_a, "waiting"_a, "sizes"_a,
+    m.def("component_sizes", checked<&component_sizes>, "offsets"_a, "neighbors"_a, "seen"_a, "waiting"_a, "sizes"_a,
           Unlocked());
-    m.def("reaches_all", checked<&reaches_all>, "offsets"_a, "neighbours"_a, "scratch"_a, Unlocked());
+    m.def("reaches_all", checked<&reaches_all>, "offsets"_a, "neighbors"_a, "scratch"_a, Unlocked());
     m.def("weighted_angle", &weighted_angle, "normals"_a, "weights"_a, "decoded"_a, "faces"_a, "lost"_a, Unlocked());
     m.def("farthest_apart", &farthest_apart, "original"_a, "decoded"_a, Unlocked());
     m.def("local_frames", checked<&local_frames>, "positions"_a, "faces"_a, "frames"_a, Unlocked());

@@ -67,7 +67,7 @@ static void work(void *context, int index) {
     end_arithmetic(host);
 }
 
-static void run(const bsmdec *decoder, int64_t tasks, void (*task)(void *context, int index), void *context) {
+static void run_tasks(const bsmdec *decoder, int64_t tasks, void (*task)(void *context, int index), void *context) {
     HostTask own = {task, context};
     decoder->parallel.run(decoder->parallel.host, (int)tasks, work, &own);
 }
@@ -111,7 +111,7 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
     int64_t place = 0, room = 0, vertex = 0;
     Packet packet;
     const Context *context = &decoder->context;
-    if (!header->refined || levels_charge(n, m) > context->limits.field_bytes || layer_memory(n, m) > memory_left(context)) return;
+    if (!header->refined || layer_field_bytes(n, m) > context->limits.field_bytes || layer_memory(n, m) > memory_left(context)) return;
     for (; next_block < header->blocks; next_block++)
         if (!peek_packet(reader, &place, &packet) || packet.type != BLOCK_FRAME || packet.index != next_block) return;
     while (vertex < header->vertices && peek_packet(reader, &place, &packet) && packet.type == REFINEMENT_FRAME
@@ -179,7 +179,7 @@ bool build_beside(bsmdec *decoder) {
     find_levels(ahead, decoder->mesh.next_block + 1);
     if (ahead->levels.count == 0 || ahead->levels.progress == GIVEN_UP) return build(decoder);
     ahead->job = 0;
-    run(decoder, 2, build_or_read, ahead);
+    run_tasks(decoder, 2, build_or_read, ahead);
     return ahead->built;
 }
 
@@ -189,12 +189,12 @@ static void decode_chain(Ahead *ahead, Lane *lane, ReadyBlock *ready, int64_t co
     context->spent = ahead->decoder->context.spent;
     for (int64_t i = 0; i < count && done; i++) {
         Mark mark = mark_of(&lane->scratch);
-        ReadyBlock *one = ready + i;
+        ReadyBlock *slot = ready + i;
         DecodedBlock block;
-        one->ledger = (Ledger){.count = 0};
-        context->ledger = &one->ledger;
-        done = decode_block(&lane->chains, one->index, one->coefficients, one->data, &lane->scratch, &block)
-            && copy_block(&block, &lane->results, &one->block);
+        slot->ledger = (Ledger){.count = 0};
+        context->ledger = &slot->ledger;
+        done = decode_block(&lane->chains, slot->index, slot->coefficients, slot->data, &lane->scratch, &block)
+            && copy_block(&block, &lane->results, &slot->block);
         release_to(&lane->scratch, mark);
     }
     for (int64_t i = 0; i < count; i++) ready[i].done = done;
@@ -269,7 +269,7 @@ void look_ahead(bsmdec *decoder, const Packet *packet) {
     ahead->jobs = ahead->chains + (levels->count > 0 && levels->progress <= UNDER_WAY);
     if (ahead->chains > 0 && ahead->jobs > 1 && open_lanes(ahead, least(ahead->jobs, threads))) {
         ahead->job = 0;
-        run(decoder, least(ahead->jobs, threads), take_jobs, ahead);
+        run_tasks(decoder, least(ahead->jobs, threads), take_jobs, ahead);
     } else {
         forget_ready(ahead);
     }

@@ -58,7 +58,7 @@ bool blend_all(const Assembly *assembly, const Header *header, const Graph *grap
         double powers[POWERS];
         filter_polynomial(header->smoothing, powers);
         if (smoothing)
-            smooth_all(graph->offsets, graph->neighbours, const_doubles2(blended), (ConstDoubles){powers, POWERS}, room,
+            smooth_all(graph->offsets, graph->neighbors, const_doubles2(blended), (ConstDoubles){powers, POWERS}, room,
                 *positions);
     }
     release_to(scratch, mark);
@@ -73,7 +73,7 @@ static bool spread_marks(const Graph *graph, Bytes marks, int rings, Arena *scra
         memcpy(before.data, marks.data, (size_t)marks.size);
         for (int64_t v = 0; v < graph->size; v++)
             for (int64_t i = graph->offsets.data[v]; i < graph->offsets.data[v + 1]; i++)
-                marks.data[v] |= before.data[graph->neighbours.data[i]];
+                marks.data[v] |= before.data[graph->neighbors.data[i]];
     }
     return true;
 }

@@ -3,8 +3,8 @@
 
 enum { MOST_WHOLE = (1 << 20) - 1, PIECE_BITS = 16 };
 
-bool take_values(Arena *arena, const Attribute *one, void **values) {
-    return is_there(*values = find_zeros(arena, one->rows * one->declaration.components, kind_size(one->declaration.kind)));
+bool take_values(Arena *arena, const Attribute *attribute, void **values) {
+    return is_there(*values = find_zeros(arena, attribute->rows * attribute->declaration.components, kind_size(attribute->declaration.kind)));
 }
 
 void store_number(void *values, int64_t place, int kind, double number) {
@@ -33,16 +33,16 @@ double load_number(const void *values, int64_t place, int kind) {
     }
 }
 
-void beyond_one(const Attribute *one, Doubles2 beyond) {
+void relative_values(const Attribute *attribute, Doubles2 beyond) {
     for (int64_t i = 0; i < beyond.rows * beyond.columns; i++)
-        beyond.data[i] = load_number(one->values, i, one->declaration.kind) - load_number(one->values, i % beyond.columns, one->declaration.kind);
+        beyond.data[i] = load_number(attribute->values, i, attribute->declaration.kind) - load_number(attribute->values, i % beyond.columns, attribute->declaration.kind);
 }
 
-bool move_values(Context *context, Attribute *one, ConstDoubles2 change, void *moved) {
+bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, void *moved) {
     static const double LOW[] = {0, -128, 0, -32768, 0, -2147483648.0}, HIGH[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647.0};
-    int kind = one->declaration.kind;
+    int kind = attribute->declaration.kind;
     for (int64_t i = 0; i < change.rows * change.columns; i++) {
-        double number = load_number(one->values, i, kind) + change.data[i];
+        double number = load_number(attribute->values, i, kind) + change.data[i];
         if (kind == BSMDEC_FLOAT32 && number * 0.0 == 0.0) number = (float)number;
         if (number * 0.0 != 0.0) return FAIL(context, NUMERIC, "values of an attribute that moves are not finite");
         if (kind < BSMDEC_FLOAT32) {
@@ -51,7 +51,7 @@ bool move_values(Context *context, Attribute *one, ConstDoubles2 change, void *m
         }
         store_number(moved, i, kind, number);
     }
-    one->moved = moved;
+    attribute->moved = moved;
     return true;
 }
 
@@ -100,21 +100,21 @@ static void restore(const Declaration *d, const int64_t *word, int64_t row, void
     }
 }
 
-bool restore_values(Context *context, Attribute *one, int64_t first, int64_t count) {
-    const Declaration *d = &one->declaration;
+bool restore_values(Context *context, Attribute *attribute, int64_t first, int64_t count) {
+    const Declaration *d = &attribute->declaration;
     for (int64_t i = first; i < first + count; i++) {
-        int64_t row = one->group[0].order.size > 0 ? one->group[0].order.data[i] : i, word[MOST_WORDS];
+        int64_t row = attribute->group[0].order.size > 0 ? attribute->group[0].order.data[i] : i, word[MOST_WORDS];
         int32_t piece[MOST_PIECES];
         int at = 0;
-        for (int g = 0; g < one->groups; g++)
-            for (int j = 0; j < one->group[g].columns; j++) piece[at++] = one->group[g].pieces.data[row * one->group[g].columns + j];
+        for (int g = 0; g < attribute->groups; g++)
+            for (int j = 0; j < attribute->group[g].columns; j++) piece[at++] = attribute->group[g].pieces.data[row * attribute->group[g].columns + j];
         at = 0;
         for (int w = 0; w < d->words; w++) {
             word[w] = piece[at++];
             if (d->largest[w] > MOST_WHOLE) word[w] = word[w] << PIECE_BITS | piece[at++];
             if (word[w] > d->largest[w]) return FAIL(context, CORRUPT, "a level is above #", d->largest[w]);
         }
-        restore(d, word, row, one->values);
+        restore(d, word, row, attribute->values);
     }
     return true;
 }
@@ -128,15 +128,15 @@ static void cross_of(const double *a, const double *b, const double *c, double *
     }
 }
 
-bool recompute(Attribute *one, ConstDoubles2 positions, Arena *scratch) {
-    int64_t rows = one->rows;
+bool recompute(Attribute *attribute, ConstDoubles2 positions, Arena *scratch) {
+    int64_t rows = attribute->rows;
     Doubles2 sums; /* of first corners, second ones, third ones */
     if (!zero_doubles2(scratch, 3 * rows, 3, &sums)) return false;
-    for (int64_t f = 0; f < one->faces.rows; f++) {
-        const int32_t *face = one->faces.data + 3 * f;
+    for (int64_t f = 0; f < attribute->faces.rows; f++) {
+        const int32_t *face = attribute->faces.data + 3 * f;
         const double *at[3];
         double across[3];
-        for (int k = 0; k < 3; k++) at[k] = positions.data + 3 * (int64_t)one->vertices.data[face[k]];
+        for (int k = 0; k < 3; k++) at[k] = positions.data + 3 * (int64_t)attribute->vertices.data[face[k]];
         cross_of(at[0], at[1], at[2], across);
         for (int k = 0; k < 3; k++)
             for (int d = 0; d < 3; d++) sums.data[3 * (k * rows + face[k]) + d] += across[d];
@@ -149,37 +149,37 @@ bool recompute(Attribute *one, ConstDoubles2 positions, Arena *scratch) {
         }
         double length = __builtin_sqrt((squares[0] + squares[1]) + squares[2]);
         for (int d = 0; d < 3; d++)
-            store_number(one->values, 3 * r + d, one->declaration.kind, length > 0.0 ? normal[d] / length : d == 2 ? 1.0 : 0.0);
+            store_number(attribute->values, 3 * r + d, attribute->declaration.kind, length > 0.0 ? normal[d] / length : d == 2 ? 1.0 : 0.0);
     }
-    return one->whole = true;
+    return attribute->whole = true;
 }
 
-static bool by_vertex(const Attribute *one, const Numbering *numbering) {
-    return is_by_vertex(&one->declaration) && (one->declaration.domain == BSMDEC_VERTEX || numbering->is_split);
+static bool by_vertex(const Attribute *attribute, const Numbering *numbering) {
+    return is_by_vertex(&attribute->declaration) && (attribute->declaration.domain == BSMDEC_VERTEX || numbering->is_split);
 }
 
-Given given_shape(const Attribute *one, const Numbering *numbering) {
-    if (one->declaration.domain == BSMDEC_FACE) return (Given){BSMDEC_FACE, one->rows};
-    if (!by_vertex(one, numbering)) return (Given){BSMDEC_CORNER, one->rows};
+Given given_shape(const Attribute *attribute, const Numbering *numbering) {
+    if (attribute->declaration.domain == BSMDEC_FACE) return (Given){BSMDEC_FACE, attribute->rows};
+    if (!by_vertex(attribute, numbering)) return (Given){BSMDEC_CORNER, attribute->rows};
     return (Given){BSMDEC_VERTEX, numbering->size};
 }
 
-int32_t row_of_corner(const Attribute *one, const Numbering *numbering, int64_t corner) {
-    return one->faces.data[numbering->corners.size > 0 ? numbering->corners.data[corner] : corner];
+int32_t row_of_corner(const Attribute *attribute, const Numbering *numbering, int64_t corner) {
+    return attribute->faces.data[numbering->corners.size > 0 ? numbering->corners.data[corner] : corner];
 }
 
-bool given_rows(const Attribute *one, const Numbering *numbering, Arena *scratch, Longs rows) {
-    const Declaration *d = &one->declaration;
+bool given_rows(const Attribute *attribute, const Numbering *numbering, Arena *scratch, Longs rows) {
+    const Declaration *d = &attribute->declaration;
     Ints first = {NULL, 0};
     for (int64_t i = 0; i < rows.size; i++) rows.data[i] = i;
     if (d->domain == BSMDEC_FACE && numbering->corners.size > 0)
         for (int64_t f = 0; f < rows.size; f++) rows.data[f] = numbering->corners.data[3 * f] / 3;
-    if (d->domain == BSMDEC_FACE || !by_vertex(one, numbering) || numbering->source.size == 0) return true;
+    if (d->domain == BSMDEC_FACE || !by_vertex(attribute, numbering) || numbering->source.size == 0) return true;
     if (d->domain == BSMDEC_CORNER) { /* the value of the first corner of each vertex */
         if (!zero_ints(scratch, numbering->size, &first)) return false;
-        for (int64_t i = 3 * numbering->faces.rows - 1; i >= 0; i--) first.data[numbering->faces.data[i]] = row_of_corner(one, numbering, i);
+        for (int64_t i = 3 * numbering->faces.rows - 1; i >= 0; i--) first.data[numbering->faces.data[i]] = row_of_corner(attribute, numbering, i);
     }
-    int64_t loose = one->rows - numbering->loose.rows;
+    int64_t loose = attribute->rows - numbering->loose.rows;
     for (int64_t v = 0; v < rows.size; v++) {
         int32_t coded = numbering->source.data[v];
         rows.data[v] = coded < 0 ? loose++ : d->domain == BSMDEC_CORNER ? first.data[v] : coded;

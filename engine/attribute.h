@@ -41,16 +41,16 @@ typedef struct {
 } Attribute;
 
 /* Zeros for the values of all rows. */
-MUST_CHECK bool take_values(Arena *arena, const Attribute *one, void **values);
+MUST_CHECK bool take_values(Arena *arena, const Attribute *attribute, void **values);
 /* Normals that follow from positions (D 4.4). */
-bool recompute(Attribute *one, ConstDoubles2 positions, Arena *scratch);
+bool recompute(Attribute *attribute, ConstDoubles2 positions, Arena *scratch);
 
 /* What first values have beyond those of vertex 0; the values of a frame that differs from the first by so much (S 10). */
-void beyond_one(const Attribute *one, Doubles2 beyond);
-bool move_values(Context *context, Attribute *one, ConstDoubles2 change, void *moved);
+void relative_values(const Attribute *attribute, Doubles2 beyond);
+bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, void *moved);
 
 /* Values of rows from their pieces (D 3.2, D 4). */
-bool restore_values(Context *context, Attribute *one, int64_t first, int64_t count);
+bool restore_values(Context *context, Attribute *attribute, int64_t first, int64_t count);
 INLINE size_t kind_size(int kind) {
     static const size_t SIZES[] = {1, 1, 2, 2, 4, 4, 4, 8};
     return SIZES[kind];
@@ -66,10 +66,10 @@ typedef struct {
     int domain;
     int64_t rows;
 } Given;
-Given given_shape(const Attribute *one, const Numbering *numbering);
+Given given_shape(const Attribute *attribute, const Numbering *numbering);
 /* The row that each of the user's values is. */
-bool given_rows(const Attribute *one, const Numbering *numbering, Arena *scratch, Longs rows);
+bool given_rows(const Attribute *attribute, const Numbering *numbering, Arena *scratch, Longs rows);
 /* The row of each of the user's corners. */
-int32_t row_of_corner(const Attribute *one, const Numbering *numbering, int64_t corner);
+int32_t row_of_corner(const Attribute *attribute, const Numbering *numbering, int64_t corner);
 
 #endif

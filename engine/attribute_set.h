@@ -12,7 +12,7 @@ typedef struct {
     ConstInts2 faces;
     Arena *arena;
     Arena coding;          /* what the attribute takes whose values come */
-    Attribute *one[MOST_ATTRIBUTES];
+    Attribute *list[MOST_ATTRIBUTES];
     int count;
     bool has_corners, begun;
     Corners corners;

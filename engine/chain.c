@@ -6,7 +6,7 @@
 #include "engine/zstd.h"
 
 static const double STIFFNESS = 8;
-enum { LEVEL_LIMIT = 400, LEVEL_RATE = 4, PRIOR_WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBOURS, PRIOR_MIXES = SELECTORS * NODES * EXPECTATIONS };
+enum { LEVEL_LIMIT = 400, LEVEL_RATE = 4, PRIOR_WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBORS, PRIOR_MIXES = SELECTORS * NODES * EXPECTATIONS };
 
 bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, Arena *arena) {
     *chains = (Chains){.context = context, .header = header, .graph = graph, .blocks = blocks, .number = -1};
@@ -68,10 +68,10 @@ static bool begin_chain(Chains *chains, int64_t number) {
     if (!make_bank(arena, (BankPlan){.slots = LEVEL_SLOTS, .selectors = SELECTORS * NODES, .inputs = EXPECTATIONS,
                               .limit = LEVEL_LIMIT, .rate = LEVEL_RATE}, &chains->bank)
         || !zero_ints2(arena, rows, 3, &past->current) || !zero_ints2(arena, rows, 3, &past->before) || !zero_ints2(arena, rows, 3, &past->usual)
-        || !zero_longs(arena, 1, &past->blocks) || !take_ints2(arena, EXPECTATIONS * SITUATIONS, NEIGHBOURS, &chains->expectations))
+        || !zero_longs(arena, 1, &past->blocks) || !take_ints2(arena, EXPECTATIONS * SITUATIONS, NEIGHBORS, &chains->expectations))
         return false;
     learn_beforehand(chains);
-    return !chains->knows || spend(chains->context, chain_work((double)chains->graph->size), 0);
+    return !chains->knows || charge(chains->context, chain_work((double)chains->graph->size), 0);
 }
 
 /* Packed coefficients (F 6, M 9.10), `count` rows of three, times the step. */
@@ -114,9 +114,9 @@ static bool suspend_patch(Chains *chains, const Patch *patch, Arena *scratch, Do
         || !take_words(scratch, n + 1, &column) || !take_factor(scratch, patch, factor))
         return false;
     if (chains->knows)
-        look_around(chains->graph->offsets, chains->graph->neighbours, patch->vertices, chains->inside, const_doubles2(chains->known.sums),
+        look_around(chains->graph->offsets, chains->graph->neighbors, patch->vertices, chains->inside, const_doubles2(chains->known.sums),
             const_doubles(chains->known.weights), STIFFNESS, springs, pulls);
-    suspend(patch->offsets, patch->neighbours, patch->weights, const_doubles(patch->diagonal), patch->fronts, const_doubles(springs),
+    suspend(patch->offsets, patch->neighbors, patch->weights, const_doubles(patch->diagonal), patch->fronts, const_doubles(springs),
         const_doubles2(pulls), chains->header->paper.shift, sums, column, room, factor->values, factor->inverse, continued);
     return true;
 }
@@ -154,7 +154,7 @@ static bool place(Chains *chains, const Patch *patch, int64_t index, int64_t wid
         || !suspend_patch(chains, patch, scratch, springs, &factor, continued))
         return false;
     if (!make_dictionary(chains, patch, const_doubles(springs), &factor, width, scratch, &dictionary)
-        || !spend(context, ground_work(&patch->fronts, width), 0))
+        || !charge(context, ground_work(&patch->fronts, width), 0))
         return false;
     if (chains->header->paper.bits > 0) {
         reconstruct(const_singles2(dictionary), const_doubles2(coefficients), positions);
@@ -176,7 +176,7 @@ static bool decode_next(Chains *chains, int64_t index, int64_t width, Span paylo
     Patch patch;
     Ints2 levels = {NULL, 0, 3};
     Doubles2 coefficients = {NULL, 0, 3};
-    if (!spend(context, work, (double)payload.size + BLOCK_FRAME_BYTES)
+    if (!charge(context, work, (double)payload.size + BLOCK_FRAME_BYTES)
         || !order_patch(chains->graph, members_of(chains->blocks, index, rows), scratch, &patch))
         return false;
     if (width < 1 || width > rows) return FAIL(context, CORRUPT, "# coefficients for a block of # vertices", width, rows);
@@ -185,7 +185,7 @@ static bool decode_next(Chains *chains, int64_t index, int64_t width, Span paylo
     } else {
         if (!zero_ints2(scratch, width, 3, &levels) || !read_levels(chains, payload, levels)) return false;
     }
-    return find_patch_fronts(context, scratch, &patch) && afford(context, patch_memory(&patch.fronts, width))
+    return find_patch_fronts(context, scratch, &patch) && fits_memory(context, patch_memory(&patch.fronts, width))
         && place(chains, &patch, index, width, levels, coefficients, scratch, decoded);
 }
 

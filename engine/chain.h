@@ -18,14 +18,14 @@ typedef struct {
     const Header *header;
     const Graph *graph;
     const Blocks *blocks;
-    Arena chain, subspaces[2]; /* what the coder has learnt; the present dictionary, and the next */
+    Arena chain, subspaces[2]; /* what the coder has learned; the present dictionary, and the next */
     int present;
     Singles2 subspace;         /* of the block before; no rows if there is none */
     bool knows;                /* whether blocks know of others' positions */
     Blended known;
     Bytes inside;
     int64_t number, first, next;
-    bool elsewhere;            /* what the chain has learnt is not here: its blocks were decoded ahead */
+    bool elsewhere;            /* what the chain has learned is not here: its blocks were decoded ahead */
     Bank bank;
     Past past;
     Ints2 expectations;

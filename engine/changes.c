@@ -79,12 +79,12 @@ static bool find(bsmdec *decoder, ConstInts given, int64_t rings, Longs *starts,
     Changes *changes = &decoder->changes;
     int64_t edges = 0;
     if (!take_longs(&changes->answer, rings + 1, starts)) return false;
-    *count = find_rings(graph->offsets, graph->neighbours, changes->number, given, changes->ringed, *starts);
+    *count = find_rings(graph->offsets, graph->neighbors, changes->number, given, changes->ringed, *starts);
     for (int64_t i = 0; i < *count; i++) {
         const int32_t *offset = graph->offsets.data + changes->ringed.data[i];
         edges += offset[1] - offset[0];
     }
-    return spend(&decoder->context, CALL + LOOK * (double)edges, 0);
+    return charge(&decoder->context, CALL + LOOK * (double)edges, 0);
 }
 
 static void forget_rings(const Changes *changes, int64_t count) {
@@ -132,7 +132,7 @@ static bool smooth_some(bsmdec *decoder, ConstInts vertices, Doubles2 smoothed) 
         return false;
     filter_polynomial(decoder->mesh.header.smoothing, powers);
     for (int64_t i = 0; i < count; i++) changes->number.data[changes->ringed.data[i]] = (int32_t)i;
-    filter_rows(graph->offsets, graph->neighbours, const_ints(changes->number), const_doubles2(changes->blended),
+    filter_rows(graph->offsets, graph->neighbors, const_ints(changes->number), const_doubles2(changes->blended),
         (ConstDoubles){powers, POWERS}, (ConstInts){changes->ringed.data, count}, (ConstLongs){starts.data, starts.size}, current,
         following, smoothed);
     forget_rings(changes, count);
@@ -195,7 +195,7 @@ static bool read_blocks(bsmdec *decoder, bsmdec_changes *answer) {
         && !smooth_some(decoder, const_ints(finished), (Doubles2){positions.data + 3 * moved, finished.size, 3}))
         return false;
     bool lasting = mesh->header.gop_frames == 0; /* frames move them later */
-    if (!spend(context, COPY * (double)count_copies(changes, const_ints(vertices)), 0) || !into_unit(context, &mesh->header, positions)) return false;
+    if (!charge(context, COPY * (double)count_copies(changes, const_ints(vertices)), 0) || !into_unit(context, &mesh->header, positions)) return false;
     return answer_with(decoder, const_ints(vertices), const_doubles2(positions), lasting ? moved : vertices.size, answer);
 }
 
@@ -311,7 +311,7 @@ bsmdec_status bsmdec_read_losses(bsmdec *decoder, bsmdec_losses *losses) {
     Arena *answer = &decoder->changes.answer;
     *losses = (bsmdec_losses){0, NULL, 0, NULL};
     if (failed(context)) return context->error.status;
-    if (decoder->sequence.is_one || !(mesh->has_grid || mesh->has_chains)) return BSMDEC_OK;
+    if (decoder->sequence.active || !(mesh->has_grid || mesh->has_chains)) return BSMDEC_OK;
     release_all(answer);
     Bytes states;
     Ints missing, degraded;
@@ -326,7 +326,7 @@ bsmdec_status bsmdec_read_losses(bsmdec *decoder, bsmdec_losses *losses) {
 }
 
 bsmdec_status bsmdec_read_values(bsmdec *decoder, int index, bsmdec_values *values) {
-    const Attribute *attribute = begun_attribute(decoder, index);
+    const Attribute *attribute = started_attribute(decoder, index);
     if (attribute == NULL || !can_answer(decoder, values)) return BSMDEC_MISUSED;
     Context *context = &decoder->context;
     Arena *answer = &decoder->changes.answer;

@@ -162,13 +162,13 @@ static double lesser(double a, double b) { return a < b ? a : b; }
 static bool note(Context *context, double amount, double received) {
     Ledger *ledger = context->ledger;
     if (ledger == NULL) return true;
-    if (ledger->count == MOST_CHARGES) return FAIL(context, LIMIT, "more than # charges ahead", MOST_CHARGES);
-    ledger->charge[ledger->count++] = (Charge){amount, received};
+    if (ledger->count == MOST_COSTS) return FAIL(context, LIMIT, "more than # charges ahead", MOST_COSTS);
+    ledger->cost[ledger->count++] = (Cost){amount, received};
     return true;
 }
 
 /* Work to come, and the bytes that ask for it (M 14.3, M 14.9). */
-bool spend(Context *context, double work, double received) {
+bool charge(Context *context, double work, double received) {
     const bsmdec_limits *limits = &context->limits;
     Spent *spent = &context->spent;
     if (context->prepaid) return true;
@@ -185,32 +185,32 @@ static double granted_memory(const bsmdec_limits *limits, int64_t vertices, doub
     return lesser(limits->memory + limits->memory_per_vertex * (double)vertices + limits->memory_per_byte * received, limits->most_memory);
 }
 
-bool affords_memory(Context *context, double memory, int64_t vertices, double received) {
+bool within_memory(Context *context, double memory, int64_t vertices, double received) {
     return within_limit(context, "memory", memory, granted_memory(&context->limits, vertices, received));
 }
 
 double memory_left(const Context *context) {
     const Spent *spent = &context->spent;
-    return granted_memory(&context->limits, spent->vertices - spent->gone, spent->received) - spent->kept;
+    return granted_memory(&context->limits, spent->vertices - spent->gone, spent->received) - spent->reserved;
 }
 
 /* Memory for a while, beside what is kept (M 14.8). */
-bool afford(Context *context, double memory) {
+bool fits_memory(Context *context, double memory) {
     const Spent *spent = &context->spent;
-    return note(context, memory, -1) && affords_memory(context, spent->kept + memory, spent->vertices - spent->gone, spent->received);
+    return note(context, memory, -1) && within_memory(context, spent->reserved + memory, spent->vertices - spent->gone, spent->received);
 }
 
 bool charge_ledger(Context *context, const Ledger *ledger, int first, int end) {
     for (int i = first; i < end; i++) {
-        Charge charge = ledger->charge[i];
-        if (charge.received < 0 ? !afford(context, charge.amount) : !spend(context, charge.amount, charge.received)) return false;
+        Cost cost = ledger->cost[i];
+        if (cost.received < 0 ? !fits_memory(context, cost.amount) : !charge(context, cost.amount, cost.received)) return false;
     }
     return true;
 }
 
 /* Memory that is reserved to the end, and the bytes that pay for it. */
-bool keep(Context *context, double memory, double received) {
-    context->spent.kept += memory;
+bool reserve(Context *context, double memory, double received) {
+    context->spent.reserved += memory;
     context->spent.received += received;
-    return afford(context, 0.0);
+    return fits_memory(context, 0.0);
 }

@@ -9,18 +9,18 @@
 
 /* How much work and memory a stream has asked for (specification, M 14). */
 typedef struct {
-    double spent, owed, kept, received;
+    double spent, owed, reserved, received;
     int64_t vertices, shown, gone;
 } Spent;
 
-/* A charge that was made ahead of its turn: work, or memory for a while if `received` is below 0. */
+/* A cost that was charged ahead of its turn: work, or memory for a while if `received` is below 0. */
 typedef struct {
     double amount, received;
-} Charge;
-enum { MOST_CHARGES = 20 };
+} Cost;
+enum { MOST_COSTS = 20 };
 typedef struct {
-    Charge charge[MOST_CHARGES];
-    int begun, count; /* of the `count` charges, the first `begun` are those of beginning a chain */
+    Cost cost[MOST_COSTS];
+    int begun, count; /* of the `count` costs, the first `begun` are those of beginning a chain */
 } Ledger;
 
 typedef struct {
@@ -126,13 +126,13 @@ ARENA_ARRAYS(Doubles, double, doubles)
 /* Limits and charges: false where one is exceeded. */
 bool within_limit(Context *context, const char *name, double value, double limit);
 #define WITHIN(context, name, value) within_limit(context, #name, (double)(value), (context)->limits.name)
-bool spend(Context *context, double work, double received);
-bool keep(Context *context, double memory, double received);
-bool afford(Context *context, double memory);
+bool charge(Context *context, double work, double received);
+bool reserve(Context *context, double memory, double received);
+bool fits_memory(Context *context, double memory);
 /* Make the charges of a ledger from number `first` up to `end`. */
 bool charge_ledger(Context *context, const Ledger *ledger, int first, int end);
 /* Bytes for which there is room. */
 double memory_left(const Context *context);
-bool affords_memory(Context *context, double memory, int64_t vertices, double received);
+bool within_memory(Context *context, double memory, int64_t vertices, double received);
 
 #endif

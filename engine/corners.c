@@ -1,7 +1,7 @@
 /* What all fields of integers begin with: corners, orders, models (specification, V 1 to V 6). */
 #include "engine/corners.h"
 
-enum { MODEL_SLOTS = CONTEXTS * CONTEXT_SIZE * VALUE_NODES, UNLEARNT_HIT = 1 << 28, SLOT_WEIGHT = 6000 };
+enum { MODEL_SLOTS = CONTEXTS * CONTEXT_SIZE * VALUE_NODES, UNLEARNED_HIT = 1 << 28, SLOT_WEIGHT = 6000 };
 
 bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners) {
     int64_t size = 3 * faces.rows;
@@ -33,7 +33,7 @@ bool make_value_model(Arena *arena, ValueModel *model) {
         || !zero_ints2(arena, PREDICTIONS * SCALE_CONTEXTS, 2, &model->scales))
         return false;
     for (int64_t i = 0; i < model->slots.size; i++) model->slots.data[i] = 1u << 31;
-    for (int64_t i = 0; i < model->hits.size; i++) model->hits.data[i] = UNLEARNT_HIT;
+    for (int64_t i = 0; i < model->hits.size; i++) model->hits.data[i] = UNLEARNED_HIT;
     for (int row = 0; row < VALUE_NODES; row++)
         for (int i = 0; i < VALUE_INPUTS - 1; i++)
             model->weights.data[row * VALUE_INPUTS + i] = i < PREDICTIONS ? ONE * 9 / (8 * PREDICTIONS) : SLOT_WEIGHT;

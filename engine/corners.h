@@ -8,7 +8,7 @@
 /* Corners of faces, their partners, and the rank of each vertex, which is its number until it is ordered (V 1). */
 bool link_mesh(Context *context, ConstInts2 faces, int64_t vertices, Arena *arena, Arena *scratch, Corners *corners);
 bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order);
-/* Models and learners that have learnt nothing (V 4.3, V 6.1); a learner starts from the weights of its row of
+/* Models and learners that have learned nothing (V 4.3, V 6.1); a learner starts from the weights of its row of
  * `starts`. */
 MUST_CHECK bool make_value_model(Arena *arena, ValueModel *model);
 MUST_CHECK bool make_learners(Arena *arena, int64_t count, Longs2 *learners);

@@ -157,10 +157,10 @@ static bool is_for_helpers(const Packet *packet) {
 static bool accept_packet(bsmdec *decoder, const Packet *packet) {
     if (decoder->share.helps && !is_for_helpers(packet)) return true;
     Mark mark = mark_of(&decoder->scratch);
-    bool in_sequence = decoder->sequence.is_one || (packet->type == HEADER_FRAME && packet->header->gop_frames > 0);
+    bool in_sequence = decoder->sequence.active || (packet->type == HEADER_FRAME && packet->header->gop_frames > 0);
     decoder->has_checksum = packet->has_positions && decoder->sequence.start == 0;
-    decoder->told = packet->positions;
-    bool done = in_sequence ? accept_in_sequence(decoder, packet) : take_in(decoder, packet);
+    decoder->expected_sum = packet->positions;
+    bool done = in_sequence ? accept_in_sequence(decoder, packet) : accept_section(decoder, packet);
     release_to(&decoder->scratch, mark);
     return done;
 }
@@ -169,11 +169,11 @@ static bool accept_damage(bsmdec *decoder) {
     decoder->context.error = decoder->reader.damage.why;
     decoder->context.error.status = BSMDEC_CORRUPT;
     locate(&decoder->context.error, decoder->reader.damaged_offset, -1, -1);
-    return decoder->sequence.is_one ? accept_damage_in_sequence(decoder) : accept_damage_in_mesh(decoder);
+    return decoder->sequence.active ? accept_damage_in_sequence(decoder) : accept_damage_in_mesh(decoder);
 }
 
 /* Nothing follows. */
-static bool accept_end(bsmdec *decoder) { return decoder->sequence.is_one ? end_sequence(decoder) : finish_mesh(decoder); }
+static bool accept_end(bsmdec *decoder) { return decoder->sequence.active ? end_sequence(decoder) : finish_mesh(decoder); }
 
 /* Take in what has come, until there is an event, an error, or nothing more. */
 static bsmdec_event_type advance(bsmdec *decoder) {
@@ -239,7 +239,7 @@ const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose) {
 bool has_places(bsmdec *decoder) {
     if (decoder->has_positions || (!decoder->ended && look_at_positions(decoder))) return true;
     return REFUSE(decoder,
-               decoder->sequence.is_one ? "positions are known after FRAME"
+               decoder->sequence.active ? "positions are known after FRAME"
                                         : "positions are known after the first BLOCK"),
            false;
 }
@@ -270,15 +270,15 @@ EXACTLY(bsmdec_status, bsmdec_positions_single,
     return BSMDEC_OK;
 }
 
-static bsmdec_metadata entry_of(const Saying *said) {
-    return (bsmdec_metadata){(const char *)said->name.data, said->kind, said->whole, said->number, said->bytes.data,
-        (size_t)said->bytes.size};
+static bsmdec_metadata entry_of(const MetadataEntry *own) {
+    return (bsmdec_metadata){(const char *)own->name.data, own->kind, own->whole, own->number, own->bytes.data,
+        (size_t)own->bytes.size};
 }
 
 bsmdec_status bsmdec_metadata_find(bsmdec *decoder, const char *name, bsmdec_metadata *entry) {
     if (decoder == NULL) return BSMDEC_MISUSED;
     if (name == NULL || entry == NULL) return REFUSE(decoder, "name or entry is NULL");
-    const Saying *found = find_name(&decoder->reader.metadata, (Span){(const uint8_t *)name, (int64_t)strlen(name)});
+    const MetadataEntry *found = find_name(&decoder->reader.metadata, (Span){(const uint8_t *)name, (int64_t)strlen(name)});
     if (found == NULL) return REFUSE(decoder, "no entry of metadata has this name");
     *entry = entry_of(found);
     return BSMDEC_OK;
@@ -289,15 +289,15 @@ bsmdec_status bsmdec_metadata_at(bsmdec *decoder, int64_t index, bsmdec_metadata
     if (entry == NULL) return REFUSE(decoder, "entry is NULL");
     int64_t known = decoder->reader.metadata.count;
     if (index < 0 || index >= known) return REFUSE(decoder, "entry # of metadata, # are known", index, known);
-    *entry = entry_of(decoder->reader.metadata.said[index]);
+    *entry = entry_of(decoder->reader.metadata.entries[index]);
     return BSMDEC_OK;
 }
 
-const Attribute *begun_attribute(bsmdec *decoder, int index) {
+const Attribute *started_attribute(bsmdec *decoder, int index) {
     if (decoder == NULL) return NULL;
     int count = bsmdec_attribute_count(decoder);
     if (index < 0 || index >= count) return REFUSE(decoder, "attribute #, # are known", index, count), NULL;
-    const Attribute *attribute = decoder->mesh.announced ? decoder->mesh.attributes.one[index] : NULL;
+    const Attribute *attribute = decoder->mesh.announced ? decoder->mesh.attributes.list[index] : NULL;
     if (attribute == NULL || attribute->values == NULL)
         return REFUSE(decoder, "attribute # is known after its ATTRIBUTE", index), NULL;
     return attribute;
@@ -305,7 +305,7 @@ const Attribute *begun_attribute(bsmdec *decoder, int index) {
 
 /* An attribute that is available; NULL, and the reason is noted, if there is none with this number. */
 static const Attribute *attribute_of(bsmdec *decoder, int index) {
-    const Attribute *attribute = begun_attribute(decoder, index);
+    const Attribute *attribute = started_attribute(decoder, index);
     if (attribute != NULL && !attribute->whole)
         return REFUSE(decoder, "attribute # is known after its ATTRIBUTE", index), NULL;
     return attribute;
@@ -323,38 +323,38 @@ bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute) {
 }
 
 bsmdec_status bsmdec_attribute_at(bsmdec *decoder, int index, bsmdec_attribute *attribute) {
-    const Attribute *one = attribute_of(decoder, index);
-    if (one == NULL) return BSMDEC_MISUSED;
+    const Attribute *found = attribute_of(decoder, index);
+    if (found == NULL) return BSMDEC_MISUSED;
     if (attribute == NULL) return REFUSE(decoder, "attribute is NULL");
-    *attribute = shape_of(decoder, one);
+    *attribute = shape_of(decoder, found);
     return BSMDEC_OK;
 }
 
 EXACTLY(bsmdec_status, bsmdec_attribute_values,
     (bsmdec *decoder, int index, void *values, size_t size),
     (decoder, index, values, size)) {
-    const Attribute *one = attribute_of(decoder, index);
+    const Attribute *found = attribute_of(decoder, index);
     bsmdec_attribute shape;
     if (bsmdec_attribute_at(decoder, index, &shape) != BSMDEC_OK) return BSMDEC_MISUSED;
     size_t each = (size_t)shape.components * kind_size(shape.kind);
     if (!fits(decoder, values, size, shape.rows * (int64_t)each)) return BSMDEC_MISUSED;
     Arena own = arena_of(&decoder->context);
     Longs rows;
-    bool done = take_longs(&own, shape.rows, &rows) && given_rows(one, &decoder->mesh.numbering, &own, rows);
+    bool done = take_longs(&own, shape.rows, &rows) && given_rows(found, &decoder->mesh.numbering, &own, rows);
     for (int64_t i = 0; done && i < shape.rows; i++)
         memcpy((char *)values + (size_t)i * each,
-            (const char *)(one->moved != NULL ? one->moved : one->values) + (size_t)rows.data[i] * each, each);
+            (const char *)(found->moved != NULL ? found->moved : found->values) + (size_t)rows.data[i] * each, each);
     release_all(&own);
     return done ? BSMDEC_OK : decoder->context.error.status;
 }
 
 bsmdec_status bsmdec_attribute_indices(bsmdec *decoder, int index, uint32_t *indices, size_t count) {
-    const Attribute *one = begun_attribute(decoder, index);
-    if (one == NULL) return BSMDEC_MISUSED;
-    bsmdec_attribute shape = shape_of(decoder, one);
+    const Attribute *found = started_attribute(decoder, index);
+    if (found == NULL) return BSMDEC_MISUSED;
+    bsmdec_attribute shape = shape_of(decoder, found);
     if (shape.indices == 0) return REFUSE(decoder, "attribute # has no indices: it is not of corners", index);
     if (!fits(decoder, indices, count, shape.indices)) return BSMDEC_MISUSED;
-    for (size_t i = 0; i < count; i++) indices[i] = (uint32_t)row_of_corner(one, &decoder->mesh.numbering, (int64_t)i);
+    for (size_t i = 0; i < count; i++) indices[i] = (uint32_t)row_of_corner(found, &decoder->mesh.numbering, (int64_t)i);
     return BSMDEC_OK;
 }
 

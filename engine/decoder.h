@@ -22,7 +22,7 @@ bool has_places(bsmdec *decoder);
 /* Where vertex v of the user is; `loose` counts those in no face. */
 const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose);
 /* An attribute of which values may have come; NULL, and the reason is noted, if there is none. */
-const Attribute *begun_attribute(bsmdec *decoder, int index);
+const Attribute *started_attribute(bsmdec *decoder, int index);
 bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute);
 
 #endif

@@ -32,7 +32,7 @@ bool factorize_patch(const Patch *patch, ConstDoubles springs, double shift, Are
         || !take_factor(arena, patch, factor))
         return false;
     for (int64_t r = 0; r < n; r++) diagonal.data[r] = patch->diagonal.data[r] + (springs.data[r] + shift);
-    factorize_fronts(patch->offsets, patch->neighbours, patch->weights, const_doubles(diagonal), patch->fronts, column, scratch,
+    factorize_fronts(patch->offsets, patch->neighbors, patch->weights, const_doubles(diagonal), patch->fronts, column, scratch,
         factor->values, factor->inverse);
     return true;
 }
@@ -41,7 +41,7 @@ bool factorize_patch(const Patch *patch, ConstDoubles springs, double shift, Are
 static bool look_for_pieces(const Patch *patch, Arena *scratch, bool *in_pieces) {
     Ints room;
     if (!take_ints(scratch, 2 * patch->size + 1, &room)) return false;
-    *in_pieces = !reaches_all(patch->offsets, patch->neighbours, room);
+    *in_pieces = !reaches_all(patch->offsets, patch->neighbors, room);
     return true;
 }
 
@@ -64,7 +64,7 @@ static bool iterate_columns(Context *context, const Patch *patch, const Factor *
     Singles room;
     if (!take_singles(scratch, iteration_space(rows, columns), &room)) return false;
     for (int64_t care = 0; found == NEEDS_CARE; care = care > 0 ? 4 * care : FIRST_CARE) {
-        if (!spend(context, dictionary_work(&patch->fronts, columns, (double)solutions, (double)care), 0)) return false;
+        if (!charge(context, dictionary_work(&patch->fronts, columns, (double)solutions, (double)care), 0)) return false;
         found = iterate(patch->fronts, factor->values, const_singles(factor->inverse), const_singles2(start), solutions, care, room, subspace);
     }
     return found != LOST || FAIL(context, NUMERIC, "the columns of a dictionary cannot be made orthonormal");
@@ -79,7 +79,7 @@ static bool iterate_and_complete(Context *context, const Patch *patch, const Fac
     if (first < width && !take_singles2(scratch, rows, first, &iterated)) return false;
     if (!iterate_columns(context, patch, factor, start, plan, scratch, iterated)) return false;
     if (first == width) return true;
-    if (!spend(context, completion_work((double)rows, (double)plan.most, (double)width), 0)) return false;
+    if (!charge(context, completion_work((double)rows, (double)plan.most, (double)width), 0)) return false;
     Singles room;
     if (!take_singles(scratch, completion_space(first), &room)) return false;
     return complete_columns(const_singles2(iterated), LEAST_PIVOT, room, *dictionary)

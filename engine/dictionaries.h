@@ -2,7 +2,7 @@
 #ifndef BSMDEC_DICTIONARIES_H
 #define BSMDEC_DICTIONARIES_H
 
-#include "engine/charges.h"
+#include "engine/costs.h"
 #include "engine/structure.h"
 
 /* C and D^-1 of L + diagonal. */

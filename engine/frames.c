@@ -23,17 +23,17 @@ static void gather_rows(ConstDoubles2 field, ConstInts vertices, Doubles2 rows) 
 
 /* S 3.7. */
 typedef struct {
-    double centre[3], radius;
+    double center[3], radius;
 } Bend;
 
 static Bend bend_of(ConstDoubles2 x) {
     Bend bend = {{0, 0, 0}, 0};
     double n = (double)x.rows;
     for (int64_t r = 0; r < x.rows; r++)
-        for (int d = 0; d < 3; d++) bend.centre[d] += x.data[3 * r + d];
-    for (int d = 0; d < 3; d++) bend.centre[d] /= n;
+        for (int d = 0; d < 3; d++) bend.center[d] += x.data[3 * r + d];
+    for (int d = 0; d < 3; d++) bend.center[d] /= n;
     for (int64_t r = 0; r < x.rows; r++) {
-        double a = x.data[3 * r] - bend.centre[0], b = x.data[3 * r + 1] - bend.centre[1], c = x.data[3 * r + 2] - bend.centre[2];
+        double a = x.data[3 * r] - bend.center[0], b = x.data[3 * r + 1] - bend.center[1], c = x.data[3 * r + 2] - bend.center[2];
         bend.radius += a * a + b * b + c * c;
     }
     bend.radius = __builtin_sqrt(bend.radius / n + SMALLEST_RADIUS);
@@ -45,7 +45,7 @@ static void fill_bends(Bend bend, ConstDoubles2 x, Doubles2 columns) {
         double own[3], *to = columns.data + r * columns.columns;
         for (int d = 0; d < 3; d++) {
             *to++ = x.data[3 * r + d];
-            own[d] = (x.data[3 * r + d] - bend.centre[d]) / bend.radius;
+            own[d] = (x.data[3 * r + d] - bend.center[d]) / bend.radius;
         }
         for (int a = 0; a < 3; a++)
             for (int b = a; b < 3; b++) *to++ = SQUARES * bend.radius * own[a] * own[b];
@@ -56,22 +56,22 @@ static void fill_bends(Bend bend, ConstDoubles2 x, Doubles2 columns) {
 }
 
 /* Bends and first values at some vertices. */
-static bool fill_known(Bend bend, ConstDoubles2 first_frame, const Mover *movers, int count, ConstInts vertices, Arena *scratch, Doubles2 known) {
+static bool fill_known(Bend bend, ConstDoubles2 first_frame, const MovingAttribute *moving, int count, ConstInts vertices, Arena *scratch, Doubles2 known) {
     Doubles2 places;
     if (!take_doubles2(scratch, vertices.size, 3, &places)) return false;
     gather_rows(first_frame, vertices, places);
     fill_bends(bend, const_doubles2(places), known);
     for (int64_t r = 0; r < vertices.size; r++) {
         double *to = known.data + r * known.columns + BENDING;
-        for (int k = 0; k < count; to += movers[k++].width)
-            for (int64_t d = 0; d < movers[k].width; d++)
-                to[d] = movers[k].start.rows > 0 ? movers[k].start.data[vertices.data[r] * movers[k].width + d] : 0.0;
+        for (int k = 0; k < count; to += moving[k++].width)
+            for (int64_t d = 0; d < moving[k].width; d++)
+                to[d] = moving[k].start.rows > 0 ? moving[k].start.data[vertices.data[r] * moving[k].width + d] : 0.0;
     }
     return true;
 }
 
 /* What is known of a part: around it, and its differences. */
-static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, const Mover *movers, int count, int64_t columns, Arena *scratch) {
+static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, const MovingAttribute *moving, int count, int64_t columns, Arena *scratch) {
     const Site *part = gops->parts.part + index;
     int64_t n = part->patch.size, ends = part->around.size;
     Singles2 dictionary;
@@ -82,8 +82,8 @@ static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, cons
         return false;
     gather_rows(first_frame, part->patch.vertices, places);
     Bend bend = bend_of(const_doubles2(places));
-    if (!fill_known(bend, first_frame, movers, count, part->patch.vertices, scratch, here)
-        || !fill_known(bend, first_frame, movers, count, const_ints(part->around), scratch, around)
+    if (!fill_known(bend, first_frame, moving, count, part->patch.vertices, scratch, here)
+        || !fill_known(bend, first_frame, moving, count, const_ints(part->around), scratch, around)
         || !extend_part(part, const_doubles2(around), scratch, expected))
         return false;
     for (int64_t i = 0; i < n * columns; i++) here.data[i] -= expected.data[i];
@@ -99,21 +99,21 @@ static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, cons
 }
 
 bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, ConstInts2 faces,
-    ConstDoubles2 first_frame, int64_t given, const Mover *movers, int count, Arena *scratch) {
+    ConstDoubles2 first_frame, int64_t given, const MovingAttribute *moving, int count, Arena *scratch) {
     const Arena none = arena_of(context);
     *gops = (Gops){.given = (double)given, .tracks = count + 1, .begun = true, .arena = none, .history = none,
         .levels = none, .frames = none};
     gops->parts = (Parts){.context = context, .header = header, .graph = graph, .blocks = blocks, .arena = &gops->arena, .dictionaries = none};
     double work, widths = 0, n = (double)graph->size;
     int64_t columns = BENDING;
-    for (int k = 0; k < count; k++) widths += (double)movers[k].width;
-    if (!find_parts(&gops->parts, faces, first_frame, scratch) || !reserve_dictionaries(&gops->parts, 0, 0, &work) || !keep(context, TRACK_MEMORY * n * widths, 0)
-        || !keep(context, 8 * (BENDING + widths) * gops->parts.around, 0))
+    for (int k = 0; k < count; k++) widths += (double)moving[k].width;
+    if (!find_parts(&gops->parts, faces, first_frame, scratch) || !reserve_dictionaries(&gops->parts, 0, 0, &work) || !reserve(context, TRACK_MEMORY * n * widths, 0)
+        || !reserve(context, 8 * (BENDING + widths) * gops->parts.around, 0))
         return false;
     if (!TAKE_ZEROS(&gops->arena, gops->tracks, gops->track)) return false;
     for (int k = 0; k <= count; k++) {
         Track *track = gops->track + k;
-        track->width = k > 0 ? movers[k - 1].width : 3;
+        track->width = k > 0 ? moving[k - 1].width : 3;
         track->kept = k > 0 ? 2 : least(MOST_KEPT, largest(2, (1 << 19) / graph->size));
         if (!take_doubles2(&gops->arena, gops->parts.rows, k > 0 ? track->width : BENDING, &track->known)) return false;
         track->starts_at_first = k == 0;
@@ -122,7 +122,7 @@ bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph 
     bool done = true;
     for (int64_t i = 0; done && i < gops->parts.count; i++) {
         Mark mark = mark_of(scratch);
-        done = know_part(gops, i, first_frame, movers, count, columns, scratch);
+        done = know_part(gops, i, first_frame, moving, count, columns, scratch);
         release_to(scratch, mark);
     }
     return done;
@@ -255,15 +255,15 @@ typedef struct {
     Ints *levels;        /* of each track */
     Doubles2 *found;     /* of each track: what is inherited, or what low-delay frames are; stacked rows */
     Doubles2 time;
-} Telling;
+} GopContext;
 
-/* Differences of a part in a learnt field (S 7.1), which is `ends` around it. */
-static bool decode_learnt_part(Gops *gops, const Telling *telling, int k, const Site *part, ConstDoubles2 ends, ConstInts2 levels, Arena *scratch, Doubles2 differences) {
-    const GopField *field = telling->gop->field + k;
+/* Differences of a part in a learned field (S 7.1), which is `ends` around it. */
+static bool decode_learned_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends, ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+    const GopField *field = decoding->gop->field + k;
     Track *track = gops->track + k;
     int64_t m = ends.rows, c = part->width;
-    Doubles2 before = telling->gop->method == LEARNT_NEXT ? track->inherited : (Doubles2){NULL, gops->parts.rows, 0};
-    Doubles2 known, found = telling->found[k];
+    Doubles2 before = decoding->gop->method == LEARNED_NEXT ? track->inherited : (Doubles2){NULL, gops->parts.rows, 0};
+    Doubles2 known, found = decoding->found[k];
     if (!join_columns(rows_from(track->known, part->first, m + c), rows_from(before, part->first, m + c), scratch, &known)) return false;
     if (field->components > 0
         && !follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), ends, const_doubles2(rows_from(known, m, c)), levels,
@@ -312,12 +312,12 @@ static void fill_references(const Track *track, const GopField *field, int64_t f
 }
 
 /* What a part is in low-delay frames, as cosines over time. */
-static bool decode_next_part(Gops *gops, const Telling *telling, int k, const Site *part, ConstDoubles2 ends, ConstInts2 levels, Arena *scratch, Doubles2 differences) {
-    const GopField *field = telling->gop->field + k;
+static bool decode_next_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends, ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+    const GopField *field = decoding->gop->field + k;
     Track *track = gops->track + k;
     int64_t m = ends.rows, c = part->width, columns = ends.columns;
-    Doubles2 own = rows_from(telling->found[k], part->first, m + c), inside = rows_from(own, m, c);
-    fill_base(track, field, const_doubles2(telling->time), part->first, own);
+    Doubles2 own = rows_from(decoding->found[k], part->first, m + c), inside = rows_from(own, m, c);
+    fill_base(track, field, const_doubles2(decoding->time), part->first, own);
     if (field->components > 0) {
         int64_t wide = track->width * (2 + lags_of(track->kept) + (field->back > 0));
         Doubles2 known, changes;
@@ -335,7 +335,7 @@ static bool decode_next_part(Gops *gops, const Telling *telling, int k, const Si
 }
 
 /* Fill a part of the field from its coded values. */
-static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_t *begin, Arena *scratch) {
+static bool place_part(Gops *gops, const GopContext *decoding, int64_t index, int64_t *begin, Arena *scratch) {
     const Site *part = gops->parts.part + index;
     int64_t n = part->patch.size, m = part->around.size, c = part->width, total = gops->field.columns, place = 0;
     Singles2 dictionary;
@@ -351,8 +351,8 @@ static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_
         Doubles2 ends, own;
         if (!take_doubles2(scratch, m, columns, &ends) || !take_doubles2(scratch, c, columns, &own)) return false;
         copy_columns(const_doubles2(around), place, columns, ends, 0);
-        ConstInts2 levels = {telling->levels[k].data + *begin * columns, c, columns};
-        bool done = (has_basis(telling->gop) ? decode_learnt_part : decode_next_part)(gops, telling, k, part, const_doubles2(ends), levels, scratch, own);
+        ConstInts2 levels = {decoding->levels[k].data + *begin * columns, c, columns};
+        bool done = (has_basis(decoding->gop) ? decode_learned_part : decode_next_part)(gops, decoding, k, part, const_doubles2(ends), levels, scratch, own);
         if (!done) return false;
         copy_columns(const_doubles2(own), 0, columns, differences, place);
         place += columns;
@@ -368,12 +368,12 @@ static bool place_part(Gops *gops, const Telling *telling, int64_t index, int64_
     return true;
 }
 
-static bool place_parts(Gops *gops, const Telling *telling, Arena *scratch) {
+static bool place_parts(Gops *gops, const GopContext *decoding, Arena *scratch) {
     int64_t begin = 0;
     bool done = true;
     for (int64_t i = 0; done && i < gops->parts.count; i++) {
         Mark mark = mark_of(scratch);
-        done = place_part(gops, telling, i, &begin, scratch);
+        done = place_part(gops, decoding, i, &begin, scratch);
         release_to(scratch, mark);
     }
     return done;
@@ -413,37 +413,37 @@ static bool begin_field(Gops *gops, const Gop *gop) {
     return true;
 }
 
-static bool decode_learnt(Gops *gops, const Gop *gop, Arena *scratch) {
+static bool decode_learned(Gops *gops, const Gop *gop, Arena *scratch) {
     Context *context = gops->parts.context;
-    bool follows = gop->method == LEARNT_NEXT;
+    bool follows = gop->method == LEARNED_NEXT;
     if (follows && !gops->can_inherit) return FAIL(context, CORRUPT, "a GOP refers to one that is not there");
     forget_frames(gops);
-    Telling telling = {.gop = gop};
-    if (!TAKE(scratch, gops->tracks, telling.levels) || !TAKE(scratch, gops->tracks, telling.found)) return false;
+    GopContext decoding = {.gop = gop};
+    if (!TAKE(scratch, gops->tracks, decoding.levels) || !TAKE(scratch, gops->tracks, decoding.found)) return false;
     for (int k = 0; k < gops->tracks; k++) {
         const GopField *field = gop->field + k;
         if (field->step > 0) {
-            if (!decode_basis(context, field, gop->told, &gops->frames, scratch, gops->basis + k)) return false;
+            if (!decode_basis(context, field, gop->coded, &gops->frames, scratch, gops->basis + k)) return false;
         } else {
-            gops->basis[k] = (Doubles2){NULL, field->width * gop->told, 0};
+            gops->basis[k] = (Doubles2){NULL, field->width * gop->coded, 0};
         }
     }
     for (int k = 0; k < gops->tracks; k++) {
         const GopField *field = gop->field + k;
         Bank bank;
-        if (!zero_ints(scratch, coded_rows(gops) * field->components, telling.levels + k)
-            || !take_doubles2(scratch, gops->parts.rows, least(field->components, INHERITED), telling.found + k))
+        if (!zero_ints(scratch, coded_rows(gops) * field->components, decoding.levels + k)
+            || !take_doubles2(scratch, gops->parts.rows, least(field->components, INHERITED), decoding.found + k))
             return false;
         Mark mark = mark_of(scratch);
         if (!make_level_bank(scratch, &bank)
-            || (field->step > 0 && !read_levels(gops, bank, field, NULL, field->components, scratch, telling.levels[k])))
+            || (field->step > 0 && !read_levels(gops, bank, field, NULL, field->components, scratch, decoding.levels[k])))
             return false;
         release_to(scratch, mark);
     }
-    if (!begin_field(gops, gop) || !place_parts(gops, &telling, scratch)) return false;
+    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)) return false;
     release_all(&gops->history);
     for (int k = 0; k < gops->tracks; k++) {
-        Doubles2 found = telling.found[k], *inherited = &gops->track[k].inherited;
+        Doubles2 found = decoding.found[k], *inherited = &gops->track[k].inherited;
         if (!take_doubles2(&gops->history, gops->parts.rows, found.columns, inherited)) return false;
         copy_columns(const_doubles2(found), 0, found.columns, *inherited, 0);
     }
@@ -503,10 +503,10 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
         return FAIL(context, CORRUPT, "a frame refers to one that is not there");
     }
     forget_frames(gops);
-    Telling telling = {.gop = gop};
+    GopContext decoding = {.gop = gop};
     int64_t rows = coded_rows(gops);
-    if (!TAKE(scratch, gops->tracks, telling.levels) || !TAKE(scratch, gops->tracks, telling.found)
-        || !time_cosines(gop->frames, &gops->frames, &telling.time))
+    if (!TAKE(scratch, gops->tracks, decoding.levels) || !TAKE(scratch, gops->tracks, decoding.found)
+        || !time_cosines(gop->frames, &gops->frames, &decoding.time))
         return false;
     if (gops->together != gop->frames) release_all(&gops->levels);
     for (int k = 0; k < gops->tracks; k++) {
@@ -515,17 +515,17 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
         int64_t columns = track->width * gop->frames;
         if (field->back > track->count) return FAIL(context, CORRUPT, "a frame refers to one # before it, where # are kept", field->back, track->count);
         if (gops->together != gop->frames && !zero_ints(&gops->levels, rows * columns, &track->levels)) return false;
-        if (!zero_ints(scratch, rows * columns, telling.levels + k) || !take_doubles2(scratch, gops->parts.rows, columns, telling.found + k)
-            || !hold_cosines(track->width, const_doubles2(telling.time), &gops->frames, gops->basis + k))
+        if (!zero_ints(scratch, rows * columns, decoding.levels + k) || !take_doubles2(scratch, gops->parts.rows, columns, decoding.found + k)
+            || !hold_cosines(track->width, const_doubles2(decoding.time), &gops->frames, gops->basis + k))
             return false;
-        if (field->components > 0 && !read_levels(gops, track->bank, field, track->levels.data, columns, scratch, telling.levels[k])) return false;
+        if (field->components > 0 && !read_levels(gops, track->bank, field, track->levels.data, columns, scratch, decoding.levels[k])) return false;
     }
     gops->together = gop->frames;
-    if (!begin_field(gops, gop) || !place_parts(gops, &telling, scratch)) return false;
+    if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)) return false;
     for (int k = 0; k < gops->tracks; k++) {
         Track *track = gops->track + k;
-        memcpy(track->levels.data, telling.levels[k].data, (size_t)track->levels.size * sizeof *track->levels.data);
-        if (!keep_frames(gops, track, const_doubles2(telling.time), const_doubles2(telling.found[k]))) return false;
+        memcpy(track->levels.data, decoding.levels[k].data, (size_t)track->levels.size * sizeof *track->levels.data);
+        if (!keep_frames(gops, track, const_doubles2(decoding.time), const_doubles2(decoding.found[k]))) return false;
     }
     gops->can_follow = true;
     return true;
@@ -539,7 +539,7 @@ bool decode_gop(Gops *gops, const Gop *gop, Arena *scratch) {
     memcpy(shown.data, gop->shown.data, (size_t)gop->frames * sizeof *shown.data);
     gops->gop.shown = shown;
     Mark mark = mark_of(scratch);
-    bool done = (has_basis(gop) ? decode_learnt : decode_next)(gops, gop, scratch);
+    bool done = (has_basis(gop) ? decode_learned : decode_next)(gops, gop, scratch);
     release_to(scratch, mark);
     return done;
 }
@@ -548,13 +548,13 @@ static bool show_batch(Gops *gops, int64_t first, Arena *scratch) {
     int64_t shown = least(BATCH, gops->gop.frames - first), n = gops->parts.graph->size, place = 0;
     for (int k = 0; k < gops->tracks; k++) {
         Doubles2 basis = gops->basis[k], weights;
-        int64_t width = gops->track[k].width, told = basis.rows / width;
+        int64_t width = gops->track[k].width, coded = basis.rows / width;
         Mark mark = mark_of(scratch);
         if (!zero_doubles2(scratch, basis.columns, width * BATCH, &weights)) return false;
         for (int64_t i = 0; i < basis.columns; i++)
             for (int64_t d = 0; d < width; d++)
                 for (int64_t t = 0; t < shown; t++)
-                    weights.data[i * weights.columns + d * BATCH + t] = basis.data[(d * told + gops->gop.shown.data[first + t]) * basis.columns + i];
+                    weights.data[i * weights.columns + d * BATCH + t] = basis.data[(d * coded + gops->gop.shown.data[first + t]) * basis.columns + i];
         show_frames(const_doubles2(gops->field), place, const_doubles2(weights), (Doubles2){gops->batch[k].data, shown * n, width});
         release_to(scratch, mark);
         place += basis.columns;

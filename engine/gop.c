@@ -10,10 +10,10 @@ static int64_t zigzag(int64_t code) { return code % 2 == 0 ? code / 2 : -(code /
 /* S 2.5. */
 static bool parse_stretches(Cursor *cursor, Gop *gop) {
     int64_t pieces = take_varint(cursor), at = 0, due = 0;
-    gop->told = 0;
+    gop->coded = 0;
     for (int64_t t = 0; t < gop->frames; t++) gop->shown.data[t] = t;
     if (pieces == 0) {
-        gop->told = gop->frames;
+        gop->coded = gop->frames;
         return fine(cursor->context);
     }
     for (; pieces > 0; pieces--) {
@@ -23,7 +23,7 @@ static bool parse_stretches(Cursor *cursor, Gop *gop) {
             || first + way * (length - 1) >= gop->frames)
             return FAIL(cursor->context, CORRUPT, "a stretch of # frames from frame # on, of a GOP of #", length, first, gop->frames);
         for (; length > 0; length--, first += way) {
-            gop->told = largest(gop->told, first + 1);
+            gop->coded = largest(gop->coded, first + 1);
             gop->shown.data[at++] = first;
             due = first + 1;
         }
@@ -56,8 +56,8 @@ static bool parse_field(Context *context, Span data, const Gop *gop, Arena *aren
     field->step = step;
     if (has_basis(gop)) {
         field->components = take_varint(&cursor);
-        if (field->components > field->width * gop->told)
-            return FAIL(context, CORRUPT, "# components for # frames", field->components, gop->told);
+        if (field->components > field->width * gop->coded)
+            return FAIL(context, CORRUPT, "# components for # frames", field->components, gop->coded);
         if (!parse_exponents(&cursor, field->components, arena, &field->exponents)) return false;
         field->basis = take_span(&cursor, take_varint(&cursor));
     } else {
@@ -71,16 +71,16 @@ static bool parse_field(Context *context, Span data, const Gop *gop, Arena *aren
 }
 
 /* Fields of attributes, which come before that of positions (S 10.2). */
-static bool parse_attributes(Cursor *cursor, const Mover *movers, bool tolerant, Arena *arena, Gop *gop) {
+static bool parse_attributes(Cursor *cursor, const MovingAttribute *moving, bool tolerant, Arena *arena, Gop *gop) {
     Context *context = cursor->context;
-    int64_t told = take_varint(cursor), before = -1;
-    if (fine(context) && told == 0) return FAIL(context, CORRUPT, "a GOP that tells of no attribute, and says that it does");
-    for (; told > 0; told--) {
+    int64_t fields = take_varint(cursor), before = -1;
+    if (fine(context) && fields == 0) return FAIL(context, CORRUPT, "a GOP that tells of no attribute, and says that it does");
+    for (; fields > 0; fields--) {
         int64_t number = take_varint(cursor);
         Span part = take_span(cursor, take_varint(cursor));
         if (failed(context)) return false;
         int k = 0;
-        while (k < gop->count - 1 && movers[k].number != number) k++;
+        while (k < gop->count - 1 && moving[k].number != number) k++;
         bool moves = k < gop->count - 1;
         if (number <= before || !(tolerant || moves))
             return FAIL(context, CORRUPT, "a GOP tells of attribute #, which does not move, or is not the next one", number);
@@ -90,20 +90,20 @@ static bool parse_attributes(Cursor *cursor, const Mover *movers, bool tolerant,
     return fine(context);
 }
 
-bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const Mover *movers, int count, bool tolerant, Arena *arena, Gop *gop) {
+bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const MovingAttribute *moving, int count, bool tolerant, Arena *arena, Gop *gop) {
     Cursor cursor = {context, data};
     Span first = take_span(&cursor, 1);
     if (failed(context)) return false;
     *gop = (Gop){.method = first.data[0] % WITH_ATTRIBUTES, .count = count + 1};
     if (first.data[0] / METHODS != run % RUNS) return FAIL(context, CORRUPT, "a GOP of another run than run #", run);
-    gop->frames = gop->told = take_varint(&cursor);
+    gop->frames = gop->coded = take_varint(&cursor);
     if (failed(context)) return false;
     if (gop->frames < 1 || gop->frames > longest) return FAIL(context, CORRUPT, "a GOP of # frames where 1 to # are legal", gop->frames, longest);
     if (!take_longs(arena, gop->frames, &gop->shown) || !TAKE_ZEROS(arena, count + 1, gop->field)) return false;
     for (int64_t t = 0; t < gop->frames; t++) gop->shown.data[t] = t;
-    for (int k = 0; k <= count; k++) gop->field[k].width = k > 0 ? movers[k - 1].width : 3;
+    for (int k = 0; k <= count; k++) gop->field[k].width = k > 0 ? moving[k - 1].width : 3;
     if (has_basis(gop) && !parse_stretches(&cursor, gop)) return false;
-    if (first.data[0] % METHODS >= WITH_ATTRIBUTES && !parse_attributes(&cursor, movers, tolerant, arena, gop)) return false;
+    if (first.data[0] % METHODS >= WITH_ATTRIBUTES && !parse_attributes(&cursor, moving, tolerant, arena, gop)) return false;
     return parse_field(context, take_rest(&cursor), gop, arena, gop->field);
 }
 
@@ -121,7 +121,7 @@ double gop_memory(int64_t vertices, const Gop *gop, double around) {
         double own = (double)gop->field[k].width, r = (double)gop->field[k].components;
         width += own;
         bases += r * (40 * own * t + 24 * r);
-        kept += (r < INHERITED ? r : INHERITED) + (gop->method == LEARNT_NEXT ? INHERITED : 0);
+        kept += (r < INHERITED ? r : INHERITED) + (gop->method == LEARNED_NEXT ? INHERITED : 0);
     }
     double left = has_basis(gop) ? 8 * kept * (n + around)
         : 24 * (double)frames_kept(vertices) * (n + around) + width * (4 * t * n + 8 * (t + 4) * around);
@@ -138,9 +138,9 @@ static double part_work(const Site *part, double columns, double loop, double ar
 }
 
 static double gop_work(const Gops *gops, const Gop *gop) {
-    bool more = gop->method == LEARNT_NEXT, learnt = has_basis(gop);
+    bool more = gop->method == LEARNED_NEXT, learned = has_basis(gop);
     double t = (double)gop->frames, columns = columns_of_gop(gop), work = t * FRAME_WORK * gop->count, rows = gops->parts.around, others = 0;
-    for (int k = 1; k < gop->count; k++) others += !learnt || gop->field[k].components > 0;
+    for (int k = 1; k < gop->count; k++) others += !learned || gop->field[k].components > 0;
     work += (PART_WORK + ANOTHER_WORK * others) * (double)gops->parts.count;
     for (int64_t i = 0; i < gops->parts.count; i++) {
         rows += (double)gops->parts.part[i].width;
@@ -150,7 +150,7 @@ static double gop_work(const Gops *gops, const Gop *gop) {
         const GopField *field = gop->field + k;
         double width = (double)field->width, r = (double)field->components;
         double known = width * (double)(2 + lags_of(gops->track[k].kept) + (field->back > 0));
-        work += learnt ? t * width * r * (10 + 2 * r) : REFERRED * rows * known * known;
+        work += learned ? t * width * r * (10 + 2 * r) : REFERRED * rows * known * known;
         work += t * width * (gops->given * SHOWN_WORK + (double)gops->parts.graph->size * r / 15);
     }
     return work;
@@ -159,5 +159,5 @@ static double gop_work(const Gops *gops, const Gop *gop) {
 bool reserve_gop(Gops *gops, const Gop *gop, double received) {
     double work, memory = gop_memory(gops->parts.graph->size, gop, gops->parts.around);
     double use = 48 * (double)gops->parts.largest * columns_of_gop(gop);
-    return reserve_dictionaries(&gops->parts, memory, use, &work) && spend(gops->parts.context, work + gop_work(gops, gop), received);
+    return reserve_dictionaries(&gops->parts, memory, use, &work) && charge(gops->parts.context, work + gop_work(gops, gop), received);
 }

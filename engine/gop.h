@@ -5,7 +5,7 @@
 #include "engine/coding.h"
 #include "engine/parts.h"
 
-enum { LEARNT, KEY_FRAMES, NEXT_FRAMES, LEARNT_NEXT };
+enum { LEARNED, KEY_FRAMES, NEXT_FRAMES, LEARNED_NEXT };
 enum { BENDING = 19, INHERITED = 24, MOST_KEPT = 64, BATCH = 8 };
 
 /* A field of a GOP: positions, or an attribute that moves; it is not coded if `step` is 0. */
@@ -18,22 +18,22 @@ typedef struct {
 
 typedef struct {
     int method;
-    int64_t frames, told; /* T and Q */
+    int64_t frames, coded; /* T and Q */
     Longs shown;          /* the coded frame of each frame */
     int count;
     GopField *field;
 } Gop;
 
-INLINE bool has_basis(const Gop *gop) { return gop->method == LEARNT || gop->method == LEARNT_NEXT; }
+INLINE bool has_basis(const Gop *gop) { return gop->method == LEARNED || gop->method == LEARNED_NEXT; }
 
 /* An attribute that moves, and what its first values have beyond those of vertex 0; no rows if they are lost. */
 typedef struct {
     int64_t number, width;
     Doubles2 start;
-} Mover;
+} MovingAttribute;
 
 /* What a GOP says, whose bytes have to stay; attributes that do not move are passed over if that is `tolerant`. */
-bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const Mover *movers, int count, bool tolerant, Arena *arena, Gop *gop);
+bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const MovingAttribute *moving, int count, bool tolerant, Arena *arena, Gop *gop);
 double gop_memory(int64_t vertices, const Gop *gop, double around);
 /* The number of earlier changes between frames that predict those of a GOP, if `kept` are available (S 7.2). */
 enum { LAGS = 8 };

@@ -221,6 +221,6 @@ void advance_grammar(Grammar *grammar, const Packet *packet, Declaration *declar
     }
     grammar->last = packet->type;
     grammar->resuming = false;
-    bool again = packet->type == HEADER_FRAME && packet->header->again >= 0;
-    grammar->allowed = again ? BIT(GOP_FRAME) : followers(packet->type);
+    bool resumes = packet->type == HEADER_FRAME && packet->header->mesh_of >= 0;
+    grammar->allowed = resumes ? BIT(GOP_FRAME) : followers(packet->type);
 }

@@ -1,7 +1,7 @@
 /* Positions on a grid (specification, V 7 to V 10, V 12, V 15, V 16). */
 #include "engine/grid.h"
 
-#include "engine/charges.h"
+#include "engine/costs.h"
 #include "engine/corners.h"
 
 enum { AXES = 3, SUM_LEARNERS = 48, SIZE_LEARNERS = 12, FLOAT_SLOTS = 27 };
@@ -14,13 +14,13 @@ static int32_t most_of(const Header *header) {
     return most;
 }
 
-static bool charge(Context *context, const Header *header) {
+static bool charge_grid(Context *context, const Header *header) {
     double n = (double)header->vertices, m = (double)header->faces, span = most_of(header);
     bool light = header->light == LIGHT;
-    if (!keep(context, grid_memory(n, m), 0) || !spend(context, light ? light_work(n, m) : grid_work(n, m), 0)
-        || !WITHIN(context, field_bytes, grid_charge(n, m)))
+    if (!reserve(context, grid_memory(n, m), 0) || !charge(context, light ? light_work(n, m) : grid_work(n, m), 0)
+        || !WITHIN(context, field_bytes, grid_field_bytes(n, m)))
         return false;
-    return header->light != EXACT_FLOATS || (keep(context, 24 * (span + 1), 0) && spend(context, floats_work(n, span), 0));
+    return header->light != EXACT_FLOATS || (reserve(context, 24 * (span + 1), 0) && charge(context, floats_work(n, span), 0));
 }
 
 static bool begin_full(GridField *field, Arena *arena, Arena *scratch) {
@@ -60,7 +60,7 @@ static bool begin_floats(GridField *field, Arena *arena) {
 bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena, Arena *scratch) {
     int64_t n = header->vertices;
     *field = (GridField){.context = context, .header = header, .faces = faces};
-    if (!charge(context, header) || !link_mesh(context, faces, n, arena, scratch, &field->corners)) return false;
+    if (!charge_grid(context, header) || !link_mesh(context, faces, n, arena, scratch, &field->corners)) return false;
     if (!take_ints(arena, AXES, &field->largest) || !zero_ints2(arena, n, AXES, &field->values) || !take_doubles2(arena, n, AXES, &field->positions))
         return false;
     for (int64_t i = 0; i < AXES * n; i++) field->positions.data[i] = __builtin_nan("");
@@ -140,7 +140,7 @@ static bool place_floats(GridField *field, ConstInts vertices, Span payload, Are
 bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch) {
     Context *context = field->context;
     double bytes = (double)payload.size;
-    if (!spend(context, field->header->light == LIGHT ? light_chunk_work(bytes) : grid_chunk_work(bytes), bytes)) return false;
+    if (!charge(context, field->header->light == LIGHT ? light_chunk_work(bytes) : grid_chunk_work(bytes), bytes)) return false;
     if (first != field->coded)
         return FAIL(context, CORRUPT, "positions from number # on are missing; others depend on them", field->coded);
     bool exact = field->header->light == EXACT_FLOATS;

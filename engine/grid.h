@@ -5,7 +5,7 @@
 #include "bitstream/fields/fields.h"
 #include "engine/header.h"
 
-/* Positions on a grid, and what is learnt of them. */
+/* Positions on a grid, and what is learned of them. */
 typedef struct {
     Context *context;
     const Header *header;

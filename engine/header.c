@@ -52,7 +52,7 @@ static void set_header(const Record *record, Header *header) {
         .refinement = {number[REFINEMENT][0], number[REFINEMENT][1]},
         .light = (int)number[LIGHT_KEY][0], .counted = count[CORNER] > 0,
         .frames = (int64_t)number[SEQUENCE][0], .gop_frames = (int64_t)number[SEQUENCE][1],
-        .run = (int64_t)number[RUN][0], .again = count[RUN] > 1 ? (int64_t)number[RUN][1] : -1,
+        .run = (int64_t)number[RUN][0], .mesh_of = count[RUN] > 1 ? (int64_t)number[RUN][1] : -1,
         .paper = {.power = 3, .iterations = count[SEQUENCE] > 0 ? 2 : 1, .key_iterations = 2, .springs = 1,
             .shift = count[SEQUENCE] > 0 ? 0x1p-5 : 0x1p-7},
     };
@@ -133,8 +133,8 @@ static bool check_header(Context *context, const Record *record, const Header *h
         && agrees(context, count[RUN] != 1 || header->run > 0, "a run that is stored although it is the first")))
         return false;
     if (header->on_grid) return check_grid(context, record, header);
-    if (header->again < 0) return check_blocks(context, record, header);
-    return agrees(context, header->again < header->run, "the mesh of a run that has not been")
+    if (header->mesh_of < 0) return check_blocks(context, record, header);
+    return agrees(context, header->mesh_of < header->run, "the mesh of a run that has not been")
         && agrees(context, (record->stored & ~OF_A_RUN) == 0, "the mesh of another run, and fields of its own");
 }
 
@@ -155,7 +155,7 @@ void list_header(const Header *h, double *numbers) {
     const double all[HEADER_NUMBERS] = {
         (double)h->vertices, (double)h->faces, (double)h->blocks, (double)h->block_size, (double)h->coefficients,
         (double)h->key_interval, h->step, h->scale, h->smoothing, (double)h->attributes, h->light, (double)h->frames,
-        (double)h->gop_frames, (double)h->run, (double)h->again, h->center[0], h->center[1], h->center[2], h->refined,
+        (double)h->gop_frames, (double)h->run, (double)h->mesh_of, h->center[0], h->center[1], h->center[2], h->refined,
         h->refinement[0], h->refinement[1], h->on_grid, h->grid[0], h->grid[1], h->grid[2], (double)h->cells,
         (double)h->points, h->counted, (double)h->corner[0], (double)h->corner[1], (double)h->corner[2], p->bits,
         p->coarser, p->exact, p->power, p->iterations, p->key_iterations, p->shift, p->springs, h->is_sequence,

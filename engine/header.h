@@ -21,7 +21,7 @@ typedef struct {
     int64_t cells, points, corner[3]; /* of a lattice, 0 without */
     bool counted;                     /* there is a corner */
     int light;
-    int64_t frames, gop_frames, run, again; /* `again`: the run whose mesh this one has, or -1 */
+    int64_t frames, gop_frames, run, mesh_of; /* `again`: the run whose mesh this one has, or -1 */
     Paper paper;
 } Header;
 

@@ -2,7 +2,7 @@
 #include "engine/layer.h"
 
 #include "codec/signal/signal.h"
-#include "engine/charges.h"
+#include "engine/costs.h"
 #include "engine/corners.h"
 
 enum { AXES = 3, LEARNERS = 12, LEVEL_SLOTS_ALL = 2 * 5 * 512 * 32, LEVEL_SELECTORS = 2 * 32, LEVEL_INPUTS = 5, LEVEL_RATE = 16, BENT_BY = 2 };
@@ -36,8 +36,8 @@ void end_layer(Layer *layer) {
 bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch) {
     int64_t n = header->vertices;
     double size = (double)n, m = (double)faces.rows;
-    if (!keep(context, layer_memory(size, m), 0) || !spend(context, layer_work(size, m, AXES), 0)
-        || !WITHIN(context, field_bytes, levels_charge(size, m)) || !(layer->begun || begin_levels(layer, context, header, faces, scratch)))
+    if (!reserve(context, layer_memory(size, m), 0) || !charge(context, layer_work(size, m, AXES), 0)
+        || !WITHIN(context, field_bytes, layer_field_bytes(size, m)) || !(layer->begun || begin_levels(layer, context, header, faces, scratch)))
         return false;
     layer->base = base;
     layer->whole = whole;
@@ -95,7 +95,7 @@ static bool slide(Layer *layer, Arena *scratch) {
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch) {
     Context *context = layer->context;
     Reading reading;
-    if (!spend(context, chunk_work((double)payload.size, 0), (double)payload.size)) return false;
+    if (!charge(context, chunk_work((double)payload.size, 0), (double)payload.size)) return false;
     if (layer->coded == layer->positions.rows) return FAIL(context, CORRUPT, "levels come behind the last vertex");
     if (first != layer->coded) return FAIL(context, CORRUPT, "the layer lacks the vertices before #: the rest is lost", first);
     if (first + count > layer->read) {

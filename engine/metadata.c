@@ -3,7 +3,7 @@
 
 struct Branch {
     int64_t bit;       /* the first in which the names on both sides differ; behind its end a name is a 0, then a 1 */
-    void *side[2];     /* branches, or sayings with their lowest bit set */
+    void *side[2];     /* branches, or entries with their lowest bit set */
 };
 
 /* Bit `bit` of a name that is followed by a length of its own: no name begins another then. */
@@ -13,16 +13,16 @@ static int bit_of(Span name, int64_t bit) {
     return bit % 9 == 0 ? 1 : name.data[byte] >> (8 - bit % 9) & 1;
 }
 
-static Saying *saying_of(void *node) { return (Saying *)((char *)node - 1); }
-static bool is_saying(const void *node) { return (uintptr_t)node & 1; }
+static MetadataEntry *leaf_entry(void *node) { return (MetadataEntry *)((char *)node - 1); }
+static bool is_entry(const void *node) { return (uintptr_t)node & 1; }
 
-static Saying *nearest(const Metadata *metadata, Span name) {
+static MetadataEntry *nearest(const Metadata *metadata, Span name) {
     void *node = metadata->root;
-    while (node != NULL && !is_saying(node)) {
+    while (node != NULL && !is_entry(node)) {
         Branch *branch = node;
         node = branch->side[bit_of(name, branch->bit)];
     }
-    return node != NULL ? saying_of(node) : NULL;
+    return node != NULL ? leaf_entry(node) : NULL;
 }
 
 /* The first bit in which two names differ; -1 for the same name. */
@@ -35,9 +35,9 @@ static int64_t difference(Span a, Span b) {
     return bit;
 }
 
-const Saying *find_name(const Metadata *metadata, Span name) {
-    const Saying *saying = nearest(metadata, name);
-    return saying != NULL && difference(saying->name, name) < 0 ? saying : NULL;
+const MetadataEntry *find_name(const Metadata *metadata, Span name) {
+    const MetadataEntry *entry = nearest(metadata, name);
+    return entry != NULL && difference(entry->name, name) < 0 ? entry : NULL;
 }
 
 static bool copy_span(Arena *arena, Span *bytes) {
@@ -49,37 +49,37 @@ static bool copy_span(Arena *arena, Span *bytes) {
     return true;
 }
 
-static bool list_saying(Metadata *metadata, Saying *saying) {
+static bool list_entry(Metadata *metadata, MetadataEntry *entry) {
     if (metadata->count == metadata->room) {
         int64_t room = 2 * metadata->room + 16;
-        Saying **said;
-        if (!TAKE(&metadata->arena, room, said)) return false;
-        if (metadata->count > 0) memcpy(said, metadata->said, (size_t)metadata->count * sizeof *said);
-        metadata->said = said;
+        MetadataEntry **entries;
+        if (!TAKE(&metadata->arena, room, entries)) return false;
+        if (metadata->count > 0) memcpy(entries, metadata->entries, (size_t)metadata->count * sizeof *entries);
+        metadata->entries = entries;
         metadata->room = room;
     }
-    metadata->said[metadata->count++] = saying;
+    metadata->entries[metadata->count++] = entry;
     return true;
 }
 
 /* Take note of an entry whose name is not known yet. */
-bool add_saying(Metadata *metadata, const Value *key, const Value *value) {
+bool add_entry(Metadata *metadata, const Value *key, const Value *value) {
     Arena *arena = &metadata->arena;
-    Saying *saying, *beside = nearest(metadata, key->bytes);
+    MetadataEntry *entry, *beside = nearest(metadata, key->bytes);
     Branch *branch = NULL;
     Span name = key->bytes, bytes = value->bytes;
-    if (!TAKE(arena, 1, saying) || !copy_span(arena, &name) || !copy_span(arena, &bytes) || (beside != NULL && !TAKE(arena, 1, branch))
-        || !list_saying(metadata, saying))
+    if (!TAKE(arena, 1, entry) || !copy_span(arena, &name) || !copy_span(arena, &bytes) || (beside != NULL && !TAKE(arena, 1, branch))
+        || !list_entry(metadata, entry))
         return false;
-    *saying = (Saying){name, value->kind, value->whole, value->number, bytes};
-    void *leaf = (char *)saying + 1;
+    *entry = (MetadataEntry){name, value->kind, value->whole, value->number, bytes};
+    void *leaf = (char *)entry + 1;
     if (branch == NULL) {
         metadata->root = leaf;
         return true;
     }
     branch->bit = difference(beside->name, name);
     void **place = &metadata->root;
-    while (!is_saying(*place) && ((Branch *)*place)->bit < branch->bit) {
+    while (!is_entry(*place) && ((Branch *)*place)->bit < branch->bit) {
         Branch *above = *place;
         place = &above->side[bit_of(name, above->bit)];
     }

@@ -11,19 +11,19 @@ typedef struct {
     int64_t whole;
     double number;
     Span bytes;
-} Saying;
+} MetadataEntry;
 
 typedef struct Branch Branch;
 /* Entries by name: a tree by the first bit in which names differ, so that no names take longer than their bits. */
 typedef struct {
     Arena arena;
     void *root;
-    Saying **said;
+    MetadataEntry **entries;
     int64_t count, room;
 } Metadata;
 
 /* The entry of a name, NULL if there is none. */
-const Saying *find_name(const Metadata *metadata, Span name);
-bool add_saying(Metadata *metadata, const Value *key, const Value *value);
+const MetadataEntry *find_name(const Metadata *metadata, Span name);
+bool add_entry(Metadata *metadata, const Value *key, const Value *value);
 
 #endif

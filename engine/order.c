@@ -3,7 +3,7 @@
 
 #include "bitstream/coefficients/coefficients.h"
 #include "bitstream/connectivity/connectivity.h"
-#include "engine/charges.h"
+#include "engine/costs.h"
 #include "engine/coding.h"
 
 enum { MOST_GIVEN = 1 << 24, STEP_UNARY = 6, STEP_SPAN = SIGNED_SPAN(STEP_UNARY) + 1, STEP_INPUTS = 4, CLASSES = 32, TURN_SLOTS = 108 };
@@ -158,7 +158,7 @@ static bool read_order(Reading *reading, ConstInts2 faces, int64_t vertices, int
 bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *header, Arena *arena, Arena *scratch, Numbering *numbering) {
     double n = (double)header->vertices, m = (double)header->faces, bytes = (double)data.size;
     Cursor cursor = {context, data};
-    if (!keep(context, order_memory(n, m), bytes) || !spend(context, order_work(n, m, bytes), bytes)) return false;
+    if (!reserve(context, order_memory(n, m), bytes) || !charge(context, order_work(n, m, bytes), bytes)) return false;
     int64_t copies = take_varint(&cursor), loose = take_varint(&cursor), size = header->vertices + copies + loose;
     if (failed(context) || !WITHIN(context, vertices, size)) return false;
     if (header->vertices + copies > 3 * faces.rows || size >= MOST_GIVEN)

@@ -2,7 +2,7 @@
 #include "engine/parts.h"
 
 #include "codec/signal/signal.h"
-#include "engine/charges.h"
+#include "engine/costs.h"
 
 static const double FLATNESS = 0x1p-12, SMALLNESS = 0x1p-48, SMALLEST_WEIGHT = 0x1p-5, LARGEST_WEIGHT = 8, BEND = 0x1p-6, TETHER = 0x1p-16;
 static const double SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4, SPARE_MEMORY = 4 * 0x1p20;
@@ -10,7 +10,7 @@ static const double SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4, SP
 /* S 3.1. */
 static bool weigh_edges(Context *context, const Graph *graph, ConstInts2 faces, ConstDoubles2 positions, Doubles weights) {
     bool finite = true;
-    cotangents(graph->offsets, graph->neighbours, faces, positions, FLATNESS, SMALLNESS, weights);
+    cotangents(graph->offsets, graph->neighbors, faces, positions, FLATNESS, SMALLNESS, weights);
     for (int64_t i = 0; i < weights.size; i++) {
         double t = weights.data[i];
         finite = finite && t - t == 0.0;
@@ -61,11 +61,11 @@ static bool hang_part(const Graph *graph, ConstDoubles weights, ConstInts rank, 
     int64_t n = patch->size, room = 0;
     for (int64_t r = 0; r < n; r++) room += graph->offsets.data[patch->vertices.data[r] + 1] - graph->offsets.data[patch->vertices.data[r]];
     Doubles inner;
-    if (!take_doubles(scratch, patch->neighbours.size, &inner) || !take_doubles(scratch, n, &part->springs) || !take_ints(scratch, n + 1, &part->starts)
+    if (!take_doubles(scratch, patch->neighbors.size, &inner) || !take_doubles(scratch, n, &part->springs) || !take_ints(scratch, n + 1, &part->starts)
         || !take_ints(scratch, room, &part->outer) || !take_doubles(scratch, room, &part->stiffness))
         return false;
-    part->outer.size = part->stiffness.size = hold(graph->offsets, graph->neighbours, weights, rank, patch->vertices, patch->offsets,
-        patch->neighbours, inner, part->springs, part->starts, part->outer, part->stiffness);
+    part->outer.size = part->stiffness.size = hold(graph->offsets, graph->neighbors, weights, rank, patch->vertices, patch->offsets,
+        patch->neighbors, inner, part->springs, part->starts, part->outer, part->stiffness);
     if (!number_around(part->outer, place, scratch, &part->around)) return false;
     patch->weights = const_doubles(inner);
     for (int64_t r = 0; r < n; r++) {
@@ -88,7 +88,7 @@ static void *copied(Arena *arena, const void *data, int64_t bytes) {
 static bool keep_part(Arena *arena, Site *part) {
     Patch *patch = &part->patch;
     Fronts *fronts = &patch->fronts;
-    return STAYS(arena, patch->vertices) && STAYS(arena, patch->offsets) && STAYS(arena, patch->neighbours) && STAYS(arena, patch->weights)
+    return STAYS(arena, patch->vertices) && STAYS(arena, patch->offsets) && STAYS(arena, patch->neighbors) && STAYS(arena, patch->weights)
         && STAYS(arena, patch->diagonal) && STAYS(arena, fronts->rows) && STAYS(arena, fronts->steps) && STAYS(arena, fronts->owners)
         && STAYS(arena, fronts->firsts) && STAYS(arena, fronts->starts) && STAYS(arena, fronts->borders) && STAYS(arena, fronts->places)
         && STAYS(arena, fronts->sums) && STAYS(arena, part->springs) && STAYS(arena, part->stiffness) && STAYS(arena, part->starts)
@@ -99,13 +99,13 @@ static bool find_part(Parts *parts, int64_t index, ConstDoubles weights, ConstIn
     Context *context = parts->context;
     int64_t size = parts->blocks->cores.data[index];
     *part = (Site){.work = -1, .first = parts->rows};
-    if (!spend(context, block_work((double)size, (double)parts->blocks->edges.data[index], 0) - UNCODED_WORK, 0)
+    if (!charge(context, block_work((double)size, (double)parts->blocks->edges.data[index], 0) - UNCODED_WORK, 0)
         || !order_patch(parts->graph, members_of(parts->blocks, index, size), scratch, &part->patch)
         || !hang_part(parts->graph, weights, rank, place, scratch, part) || !find_patch_fronts(context, scratch, &part->patch))
         return false;
     const Fronts *fronts = &part->patch.fronts;
     double factor = fronts->places.data[fronts->places.size - 1];
-    if (!keep(context, SITE_MEMORY + ROW_MEMORY * (double)size + 8 * factor, 0) || !spend(context, 2 * factor_work(fronts), 0)
+    if (!reserve(context, SITE_MEMORY + ROW_MEMORY * (double)size + 8 * factor, 0) || !charge(context, 2 * factor_work(fronts), 0)
         || !keep_part(parts->arena, part))
         return false;
     part->width = least(parts->header->coefficients, size);
@@ -119,7 +119,7 @@ bool find_parts(Parts *parts, ConstInts2 faces, ConstDoubles2 first_frame, Arena
     const Blocks *blocks = parts->blocks;
     Doubles weights;
     Ints rank, place;
-    if (!zero_doubles(scratch, graph->neighbours.size, &weights) || !take_ints(scratch, graph->size, &rank) || !take_ints(scratch, graph->size, &place)
+    if (!zero_doubles(scratch, graph->neighbors.size, &weights) || !take_ints(scratch, graph->size, &rank) || !take_ints(scratch, graph->size, &place)
         || !TAKE_ZEROS(parts->arena, blocks->count, parts->part))
         return false;
     parts->count = blocks->count;
@@ -153,7 +153,7 @@ static void drop_from(Parts *parts, int64_t count) {
 
 void release_dictionaries(Parts *parts) {
     if (parts->part != NULL) drop_from(parts, 0);
-    parts->context->spent.kept -= parts->reserved;
+    parts->context->spent.reserved -= parts->reserved;
     parts->reserved = parts->use = 0;
     parts->kept = 0;
 }
@@ -169,9 +169,9 @@ bool reserve_dictionaries(Parts *parts, double memory, double use, double *work)
         all += dictionary_memory(parts->part + i);
     }
     double making = whole && all <= room ? 0 : parts->making;
-    if (!afford(context, free_memory - room + making)) return false;
+    if (!fits_memory(context, free_memory - room + making)) return false;
     while (count < parts->count && held + dictionary_memory(parts->part + count) <= room - making) held += dictionary_memory(parts->part + count++);
-    if (!keep(context, memory + held - parts->reserved, 0)) return false;
+    if (!reserve(context, memory + held - parts->reserved, 0)) return false;
     parts->reserved = memory + held;
     parts->use = use;
     drop_from(parts, count);
@@ -186,7 +186,7 @@ bool lend_dictionary(Parts *parts, int64_t index, Arena *scratch, Singles2 *dict
     Site *part = parts->part + index;
     *dictionary = part->dictionary;
     if (part->dictionary.rows > 0) return true;
-    if (!afford(context, part->making + parts->use)) return false;
+    if (!fits_memory(context, part->making + parts->use)) return false;
     bool stays = index < parts->kept;
     Mark mark = mark_of(scratch);
     double before = context->spent.spent;

@@ -60,7 +60,7 @@ static Arrival incomplete(Reader *reader) {
 
 /* Spend; what there is no more work or memory for is no damage. */
 static bool pay(Reader *reader, double work, double received) {
-    if (spend(reader->context, work, received)) return true;
+    if (charge(reader->context, work, received)) return true;
     reader->refused = true;
     return false;
 }
@@ -144,7 +144,7 @@ static bool read_metadata(Reader *reader, Span payload, bool adding) {
         if (map->key[i].kind != TEXT || map->value[i].kind == LIST) done = FAIL(context, CORRUPT, "metadata of a wrong type");
     }
     for (int i = 0; done && i < map->count; i++) {
-        if (adding) done = add_saying(&reader->metadata, &map->key[i], &map->value[i]);
+        if (adding) done = add_entry(&reader->metadata, &map->key[i], &map->value[i]);
         else if (reader->grammar.header != NULL && find_name(&reader->metadata, map->key[i].bytes))
             done = FAIL(context, CORRUPT, "METADATA speaks of a name again");
     }
@@ -212,10 +212,10 @@ static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
     if (!announces(grammar, frame.type))
         return FAIL(context, UNSUPPORTED, "frame type # is none that the header announces", frame.type);
     if (!read_payload(reader, frame, packet)) return false;
-    bool told = packet->type == METADATA_FRAME;
-    if (told && !read_metadata(reader, frame.payload, false)) return false;
+    bool is_metadata = packet->type == METADATA_FRAME;
+    if (is_metadata && !read_metadata(reader, frame.payload, false)) return false;
     if (!check_packet(context, grammar, packet)) return false;
-    if (told && !WITHIN(context, metadata_bytes, reader->told + frame.payload.size)) return false;
+    if (is_metadata && !WITHIN(context, metadata_bytes, reader->metadata_bytes + frame.payload.size)) return false;
     if (packet->type != END_FRAME) return true;
     if (reader->damaged || grammar->joined) {
         packet->has_positions = false;
@@ -240,7 +240,7 @@ static bool accept_frame(Reader *reader, Frame frame, const Packet *packet) {
         }
         if (packet->type == METADATA_FRAME) {
             if (!read_metadata(reader, frame.payload, true)) return false;
-            reader->told += frame.payload.size;
+            reader->metadata_bytes += frame.payload.size;
         }
         advance_grammar(&reader->grammar, packet, own);
     }

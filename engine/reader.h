@@ -24,7 +24,7 @@ typedef struct {
     uint8_t *buffer;
     int64_t room, begin, end;
     int64_t last_offset, last_frame; /* where the last packet began, and its number */
-    int64_t offset, frames, told; /* bytes and frames behind; bytes of metadata */
+    int64_t offset, frames, metadata_bytes; /* bytes and frames behind; bytes of metadata */
     uint32_t sum;
     bool started, finished;
     Header headers[2];            /* that of the present run, and that of a packet */

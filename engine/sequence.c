@@ -2,7 +2,7 @@
 #include "engine/sequence.h"
 
 #include "engine/ahead.h"
-#include "engine/charges.h"
+#include "engine/costs.h"
 #include "engine/stages.h"
 
 static bool is_tolerable(const bsmdec *decoder) {
@@ -39,34 +39,34 @@ static bool report_loss(bsmdec *decoder, int64_t frames) {
     sequence->next += frames;
     sequence->missing += frames;
     sequence->lossy = true;
-    return tell_loss(decoder, sequence->damage, first, frames);
+    return emit_loss(decoder, sequence->damage, first, frames);
 }
 
 /* The place of a mesh on the shelf, -1 if it is not there. */
 static int place_of_mesh(const Sequence *sequence, int64_t run) {
-    int place = sequence->shelved - 1;
-    while (place >= 0 && sequence->shelf[place]->run != run) place--;
+    int place = sequence->cached - 1;
+    while (place >= 0 && sequence->cache[place]->run != run) place--;
     return place;
 }
 
-static Shelved *take_off(Sequence *sequence, int place) {
-    Shelved *taken = sequence->shelf[place];
-    for (sequence->shelved--; place < sequence->shelved; place++) sequence->shelf[place] = sequence->shelf[place + 1];
+static CachedMesh *take_cached(Sequence *sequence, int place) {
+    CachedMesh *taken = sequence->cache[place];
+    for (sequence->cached--; place < sequence->cached; place++) sequence->cache[place] = sequence->cache[place + 1];
     return taken;
 }
 
-static void drop_shelved(Context *context, Shelved *one) {
-    end_mesh(&one->mesh);
-    host_give(context, one, sizeof *one);
+static void drop_cached(Context *context, CachedMesh *cached) {
+    end_mesh(&cached->mesh);
+    host_give(context, cached, sizeof *cached);
 }
 
 static void count_anew(bsmdec *decoder) {
-    decoder->sequence.kept = decoder->context.spent.kept;
+    decoder->sequence.kept = decoder->context.spent.reserved;
     decoder->sequence.vertices = decoder->context.spent.vertices;
 }
 
 static void give_back(Context *context, double memory, int64_t vertices) {
-    context->spent.kept -= memory;
+    context->spent.reserved -= memory;
     context->spent.gone += vertices;
 }
 
@@ -77,13 +77,13 @@ static void leave_run(bsmdec *decoder) {
     forget(decoder);
     forget_changes(&decoder->changes);
     suspend_gops(&decoder->mesh.gops);
-    double memory = context->spent.kept - sequence->kept;
+    double memory = context->spent.reserved - sequence->kept;
     int64_t vertices = context->spent.vertices - sequence->vertices;
     int place = decoder->has_mesh ? place_of_mesh(sequence, sequence->mesh) : -1;
     if (place >= 0) {
-        sequence->shelf[place]->memory += memory;
-        sequence->shelf[place]->vertices += vertices;
-        sequence->shelf[place]->mesh = decoder->mesh;
+        sequence->cache[place]->memory += memory;
+        sequence->cache[place]->vertices += vertices;
+        sequence->cache[place]->mesh = decoder->mesh;
     } else {
         give_back(context, memory, vertices);
         if (decoder->has_mesh) end_mesh(&decoder->mesh);
@@ -97,30 +97,30 @@ static void leave_run(bsmdec *decoder) {
 /* Another mesh comes: where there is no room for it, the one that was used longest ago is given up. */
 static void make_room(bsmdec *decoder) {
     Sequence *sequence = &decoder->sequence;
-    if (sequence->shelved < SHELF) return;
-    Shelved *oldest = take_off(sequence, 0);
+    if (sequence->cached < MOST_CACHED) return;
+    CachedMesh *oldest = take_cached(sequence, 0);
     give_back(&decoder->context, oldest->memory, oldest->vertices);
-    drop_shelved(&decoder->context, oldest);
+    drop_cached(&decoder->context, oldest);
     count_anew(decoder);
 }
 
 /* Keep the present mesh, from now on. */
-static bool put_on_shelf(bsmdec *decoder) {
+static bool cache_mesh(bsmdec *decoder) {
     Sequence *sequence = &decoder->sequence;
     if (place_of_mesh(sequence, sequence->mesh) >= 0) return true;
-    Shelved *place;
+    CachedMesh *place;
     if (!TAKE_OF_HOST(&decoder->context, 1, place)) return false;
-    *place = (Shelved){.run = sequence->mesh, .mesh.arena = arena_of(&decoder->context)};
-    sequence->shelf[sequence->shelved++] = place;
+    *place = (CachedMesh){.run = sequence->mesh, .mesh.arena = arena_of(&decoder->context)};
+    sequence->cache[sequence->cached++] = place;
     return true;
 }
 
 void close_sequence(bsmdec *decoder) {
     Sequence *sequence = &decoder->sequence;
     int present = decoder->has_mesh ? place_of_mesh(sequence, sequence->mesh) : -1;
-    for (int i = 0; i < sequence->shelved; i++) {
-        if (i == present) host_give(&decoder->context, sequence->shelf[i], sizeof *sequence->shelf[i]);
-        else drop_shelved(&decoder->context, sequence->shelf[i]);
+    for (int i = 0; i < sequence->cached; i++) {
+        if (i == present) host_give(&decoder->context, sequence->cache[i], sizeof *sequence->cache[i]);
+        else drop_cached(&decoder->context, sequence->cache[i]);
     }
     forget_skipped(sequence);
 }
@@ -130,9 +130,9 @@ static bool resume(bsmdec *decoder, const Header *header) {
     Sequence *sequence = &decoder->sequence;
     Context *context = &decoder->context;
     int place = place_of_mesh(sequence, sequence->mesh);
-    if (place < 0) return FAIL(context, CORRUPT, "run # has the mesh of run #, which is not there any more", header->run, header->again);
-    Shelved *found = take_off(sequence, place);
-    sequence->shelf[sequence->shelved++] = found;
+    if (place < 0) return FAIL(context, CORRUPT, "run # has the mesh of run #, which is not there any more", header->run, header->mesh_of);
+    CachedMesh *found = take_cached(sequence, place);
+    sequence->cache[sequence->cached++] = found;
     decoder->mesh = found->mesh;
     found->mesh = (Mesh){.arena = arena_of(context)};
     decoder->has_mesh = true;
@@ -143,32 +143,32 @@ static bool resume(bsmdec *decoder, const Header *header) {
     own->gop_frames = header->gop_frames;
     own->run = header->run;
     for (int k = 0; k < MOST_ATTRIBUTES; k++)
-        if (decoder->mesh.attributes.one[k] != NULL) decoder->mesh.attributes.one[k]->moved = NULL;
-    return tell(decoder, BSMDEC_HEADER, header->run, 0) && tell(decoder, BSMDEC_CONNECTIVITY, 0, 0);
+        if (decoder->mesh.attributes.list[k] != NULL) decoder->mesh.attributes.list[k]->moved = NULL;
+    return emit_event(decoder, BSMDEC_HEADER, header->run, 0) && emit_event(decoder, BSMDEC_CONNECTIVITY, 0, 0);
 }
 
 static bool begin_run(bsmdec *decoder, const Header *header) {
     Sequence *sequence = &decoder->sequence;
     Context *context = &decoder->context;
-    if (sequence->is_one) leave_run(decoder);
+    if (sequence->active) leave_run(decoder);
     sequence->announced = header->frames;
-    sequence->mesh = header->again >= 0 ? header->again : header->run;
-    if (header->again >= 0) {
+    sequence->mesh = header->mesh_of >= 0 ? header->mesh_of : header->run;
+    if (header->mesh_of >= 0) {
         if (!resume(decoder, header)) return false;
     } else {
         make_room(decoder);
         if (header->smoothing != 0.0) return FAIL(context, UNSUPPORTED, "smoothing of sequences is unknown to this decoder");
         if (!WITHIN(context, sequence_bytes, 8.0 * (double)header->vertices * (double)header->coefficients)) return false;
         begin_mesh(decoder, header);
-        if (!tell(decoder, BSMDEC_HEADER, header->run, 0)) return false;
+        if (!emit_event(decoder, BSMDEC_HEADER, header->run, 0)) return false;
     }
     sequence->lost = false;
-    return sequence->is_one = true;
+    return sequence->active = true;
 }
 
 /* What comes before the GOPs of the run is not whole; the next run is waited for. */
 static bool lose_run(bsmdec *decoder) {
-    if (!is_tolerable(decoder) || !decoder->sequence.is_one) return false;
+    if (!is_tolerable(decoder) || !decoder->sequence.active) return false;
     locate(&decoder->context.error, decoder->reader.last_offset, decoder->reader.last_frame, -1);
     decoder->sequence.why = take_error(&decoder->context);
     lose(&decoder->sequence, decoder->sequence.why);
@@ -182,21 +182,21 @@ static bool begin_first_frame(bsmdec *decoder) {
     return build(decoder) && (!mesh->has_attributes || begin_values(&mesh->attributes, &mesh->numbering, &decoder->scratch));
 }
 
-static bool find_movers(bsmdec *decoder) {
+static bool find_moving(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     Context *context = &decoder->context;
-    if (!TAKE_ZEROS(&mesh->arena, mesh->has_attributes ? mesh->attributes.count : 0, mesh->movers)) return false;
+    if (!TAKE_ZEROS(&mesh->arena, mesh->has_attributes ? mesh->attributes.count : 0, mesh->moving)) return false;
     for (int k = 0; mesh->has_attributes && k < MOST_ATTRIBUTES; k++) {
-        const Attribute *one = mesh->attributes.one[k];
-        if (one == NULL || !one->declaration.moves) continue;
-        if (one->declaration.rows != mesh->header.vertices)
-            return FAIL(context, CORRUPT, "attribute '$' moves, and what no face uses has values of it", .name = one->declaration.name);
-        if (!one->whole && !decoder->tolerant)
-            return FAIL(context, CORRUPT, "attribute '$' moves, and not all of its first values have come", .name = one->declaration.name);
-        Mover *mover = mesh->movers + mesh->mover_count++;
-        *mover = (Mover){.number = k, .width = one->declaration.components};
-        if (!take_doubles2(&mesh->arena, one->whole ? one->rows : 0, mover->width, &mover->start)) return false;
-        beyond_one(one, mover->start);
+        const Attribute *attribute = mesh->attributes.list[k];
+        if (attribute == NULL || !attribute->declaration.moves) continue;
+        if (attribute->declaration.rows != mesh->header.vertices)
+            return FAIL(context, CORRUPT, "attribute '$' moves, and what no face uses has values of it", .name = attribute->declaration.name);
+        if (!attribute->whole && !decoder->tolerant)
+            return FAIL(context, CORRUPT, "attribute '$' moves, and not all of its first values have come", .name = attribute->declaration.name);
+        MovingAttribute *moving = mesh->moving + mesh->moving_count++;
+        *moving = (MovingAttribute){.number = k, .width = attribute->declaration.components};
+        if (!take_doubles2(&mesh->arena, attribute->whole ? attribute->rows : 0, moving->width, &moving->start)) return false;
+        relative_values(attribute, moving->start);
     }
     return true;
 }
@@ -210,7 +210,7 @@ static bool enter_gops(bsmdec *decoder) {
         return FAIL(&decoder->context, CORRUPT, "the first frame ends after # of # blocks", mesh->next_block, mesh->header.blocks);
     end_chains(&mesh->chains);
     end_ahead(mesh);
-    mesh->in_gops = find_movers(decoder)
+    mesh->in_gops = find_moving(decoder)
         && blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &mesh->first_frame);
     return mesh->in_gops;
 }
@@ -226,7 +226,7 @@ static bool lose_gop(bsmdec *decoder) {
 
 static bool read_gop(bsmdec *decoder, Span data, Gop *gop) {
     Mesh *mesh = &decoder->mesh;
-    return parse_gop(&decoder->context, data, mesh->header.gop_frames, mesh->header.run, mesh->movers, mesh->mover_count, decoder->tolerant,
+    return parse_gop(&decoder->context, data, mesh->header.gop_frames, mesh->header.run, mesh->moving, mesh->moving_count, decoder->tolerant,
         &decoder->scratch, gop);
 }
 
@@ -244,24 +244,24 @@ static bool parse_next(bsmdec *decoder, const Packet *packet, Gop *gop) {
 static bool pay_for(bsmdec *decoder, const Gop *gop, double received) {
     Mesh *mesh = &decoder->mesh;
     Context *context = &decoder->context;
-    if (!keep(context, 0, received)) return false;
+    if (!reserve(context, 0, received)) return false;
     context->spent.shown += mesh->header.vertices * gop->frames;
     if (mesh->gops.begun) return true;
     bool begun = begin_gops(&mesh->gops, context, &mesh->header, &mesh->graph, &mesh->blocks, const_ints2(mesh->faces),
-        const_doubles2(mesh->first_frame), mesh->numbering.size, mesh->movers, mesh->mover_count, &decoder->scratch);
+        const_doubles2(mesh->first_frame), mesh->numbering.size, mesh->moving, mesh->moving_count, &decoder->scratch);
     if (!begun) end_gops(&mesh->gops);
     return begun;
 }
 
 static bool skip_gop(Sequence *sequence, Span data) {
-    Skipped *one;
+    Skipped *skipped;
     uint8_t *copy;
-    if (!TAKE(&sequence->waiting, 1, one) || !TAKE(&sequence->waiting, data.size, copy)) return false;
+    if (!TAKE(&sequence->waiting, 1, skipped) || !TAKE(&sequence->waiting, data.size, copy)) return false;
     memcpy(copy, data.data, (size_t)data.size);
-    *one = (Skipped){NULL, {copy, data.size}};
-    if (sequence->first == NULL) sequence->first = one;
-    else sequence->last->next = one;
-    sequence->last = one;
+    *skipped = (Skipped){NULL, {copy, data.size}};
+    if (sequence->first == NULL) sequence->first = skipped;
+    else sequence->last->next = skipped;
+    sequence->last = skipped;
     return true;
 }
 
@@ -270,12 +270,12 @@ static bool decode_frames(bsmdec *decoder, const Gop *gop, Span data) {
     Sequence *sequence = &decoder->sequence;
     Gops *gops = &decoder->mesh.gops;
     if (!reserve_gop(gops, gop, (double)data.size)) return false;
-    if (gop->method == LEARNT || gop->method == KEY_FRAMES) forget_skipped(sequence);
+    if (gop->method == LEARNED || gop->method == KEY_FRAMES) forget_skipped(sequence);
     if (sequence->next + gop->frames <= sequence->start) return skip_gop(sequence, data);
-    for (const Skipped *one = sequence->first; one != NULL; one = one->next) {
+    for (const Skipped *skipped = sequence->first; skipped != NULL; skipped = skipped->next) {
         Gop earlier;
         Mark mark = mark_of(&decoder->scratch);
-        bool done = read_gop(decoder, one->data, &earlier) && decode_gop(gops, &earlier, &decoder->scratch);
+        bool done = read_gop(decoder, skipped->data, &earlier) && decode_gop(gops, &earlier, &decoder->scratch);
         release_to(&decoder->scratch, mark);
         if (!done) return false;
     }
@@ -300,7 +300,7 @@ static bool accept_gop(bsmdec *decoder, const Packet *packet) {
     sequence->gop = sequence->next;
     sequence->next += gop.frames;
     for (int64_t t = sequence->gop; t < sequence->next; t++)
-        if (t >= sequence->start && !tell(decoder, BSMDEC_FRAME, t, 0)) return false;
+        if (t >= sequence->start && !emit_event(decoder, BSMDEC_FRAME, t, 0)) return false;
     return true;
 }
 
@@ -313,12 +313,12 @@ bool show(bsmdec *decoder, int64_t index) {
     decoder->positions = frame;
     decoder->has_positions = into_unit(&decoder->context, &mesh->header, (Doubles2){(double *)frame.data, frame.rows, 3});
     if (decoder->has_positions) decoder->shown_sum = crc32_of_positions(&decoder->reader.sums, frame, decoder->shown_sum);
-    for (int k = 0; k < mesh->mover_count && decoder->has_positions; k++) {
-        Attribute *one = mesh->attributes.one[mesh->movers[k].number];
-        if (!one->whole) continue;
-        void *moved = one->moved;
-        if ((moved == NULL && !take_values(&mesh->arena, one, &moved)) || !show_frame(gops, t, &decoder->scratch, k + 1, &frame)) return false;
-        decoder->has_positions = move_values(&decoder->context, one, frame, moved);
+    for (int k = 0; k < mesh->moving_count && decoder->has_positions; k++) {
+        Attribute *attribute = mesh->attributes.list[mesh->moving[k].number];
+        if (!attribute->whole) continue;
+        void *moved = attribute->moved;
+        if ((moved == NULL && !take_values(&mesh->arena, attribute, &moved)) || !show_frame(gops, t, &decoder->scratch, k + 1, &frame)) return false;
+        decoder->has_positions = move_values(&decoder->context, attribute, frame, moved);
     }
     return decoder->has_positions;
 }
@@ -334,41 +334,41 @@ static bool accept_block(bsmdec *decoder, const Packet *packet) {
     if (!begin_first_frame(decoder)) return false;
     if (packet->index != mesh->next_block)
         return FAIL(&decoder->context, CORRUPT, "block # of the first frame where block # belongs", packet->index, mesh->next_block);
-    return keep(&decoder->context, 0, (double)packet->data.size + BLOCK_FRAME_BYTES) && take_in(decoder, packet);
+    return reserve(&decoder->context, 0, (double)packet->data.size + BLOCK_FRAME_BYTES) && accept_section(decoder, packet);
 }
 
 static bool accept_values(bsmdec *decoder, const Packet *packet) {
     if (!begin_first_frame(decoder) || decoder->mesh.next_block < decoder->mesh.header.blocks) return enter_gops(decoder);
-    return take_in(decoder, packet) || bear(decoder, -1, true);
+    return accept_section(decoder, packet) || tolerate_error(decoder, -1, true);
 }
 
-static bool take_in_run(bsmdec *decoder, const Packet *packet) {
+static bool accept_in_run(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     if (packet->type == HEADER_FRAME) return begin_run(decoder, packet->header);
-    if (packet->type == METADATA_FRAME) return take_in(decoder, packet);
+    if (packet->type == METADATA_FRAME) return accept_section(decoder, packet);
     if (decoder->sequence.lost) return true;
     if (!mesh->in_gops) {
         if (!mesh->has_faces && packet->type != CONNECTIVITY_FRAME)
             return FAIL(&decoder->context, CORRUPT, "a frame of type # may not come here", packet->type);
         if (packet->type == BLOCK_FRAME) return accept_block(decoder, packet);
         if (packet->type == VALUES_FRAME) return accept_values(decoder, packet);
-        if (!mesh->has_chains && packet->type != GOP_FRAME && packet->type != END_FRAME) return take_in(decoder, packet);
+        if (!mesh->has_chains && packet->type != GOP_FRAME && packet->type != END_FRAME) return accept_section(decoder, packet);
     }
     if (!enter_gops(decoder)) return false;
     bool done = packet->type == GOP_FRAME ? accept_gop(decoder, packet) : packet->type == END_FRAME || misplaced(decoder, packet);
-    return done && put_on_shelf(decoder);
+    return done && cache_mesh(decoder);
 }
 
-bool accept_in_sequence(bsmdec *decoder, const Packet *packet) { return take_in_run(decoder, packet) || lose_run(decoder); }
+bool accept_in_sequence(bsmdec *decoder, const Packet *packet) { return accept_in_run(decoder, packet) || lose_run(decoder); }
 
-static bool take_in_damage(bsmdec *decoder, FrameType type) {
+static bool accept_damage_in_run(bsmdec *decoder, FrameType type) {
     Mesh *mesh = &decoder->mesh;
     bool before = mesh->has_faces && !mesh->has_chains && (type == BLOCK_FRAME || type == ATTRIBUTE_FRAME);
     bool behind = mesh->has_chains && !mesh->in_gops && mesh->next_block == mesh->header.blocks && type == VALUES_FRAME;
-    if (before || behind) return bear(decoder, -1, true);
+    if (before || behind) return tolerate_error(decoder, -1, true);
     if (!mesh->has_chains || mesh->next_block < mesh->header.blocks) return false;
     bsmdec_error error = take_error(&decoder->context);
-    if (!enter_gops(decoder) || !put_on_shelf(decoder)) return false;
+    if (!enter_gops(decoder) || !cache_mesh(decoder)) return false;
     if (type == END_FRAME && decoder->sequence.lossy) return true;
     decoder->context.error = error;
     return lose_gop(decoder);
@@ -380,7 +380,7 @@ bool accept_damage_in_sequence(bsmdec *decoder) {
         take_error(&decoder->context);
         return true;
     }
-    return take_in_damage(decoder, decoder->reader.damage.type) || lose_run(decoder);
+    return accept_damage_in_run(decoder, decoder->reader.damage.type) || lose_run(decoder);
 }
 
 /* Nothing follows. */
@@ -395,5 +395,5 @@ bool end_sequence(bsmdec *decoder) {
     if ((missing != 0 || (sequence->damaged && sequence->announced == 0)) && !report_loss(decoder, missing)) return false;
     if (!sequence->lossy && !check_sum(decoder, decoder->shown_sum)) return false;
     decoder->ended = true;
-    return tell(decoder, BSMDEC_END, 0, 0);
+    return emit_event(decoder, BSMDEC_END, 0, 0);
 }

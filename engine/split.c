@@ -64,8 +64,8 @@ static bool split_corners(bsmdec *decoder, Arena *scratch) {
     for (int64_t i = 0; i < corners; i++) order.data[i] = (int32_t)i;
     for (int k = 0; k < MOST_ATTRIBUTES; k++) {
         if (!split->by[k]) continue;
-        rows_of_corners(mesh->attributes.one[k], numbering, key);
-        if (!sort_corners(const_ints(key), mesh->attributes.one[k]->rows, scratch, &order, &room)) return false;
+        rows_of_corners(mesh->attributes.list[k], numbering, key);
+        if (!sort_corners(const_ints(key), mesh->attributes.list[k]->rows, scratch, &order, &room)) return false;
     }
     if (!sort_corners((ConstInts){numbering->faces.data, corners}, numbering->size, scratch, &order, &room))
         return false;
@@ -73,7 +73,7 @@ static bool split_corners(bsmdec *decoder, Arena *scratch) {
         differs.data[i] = i == 0 || numbering->faces.data[order.data[i]] != numbering->faces.data[order.data[i - 1]];
     for (int k = 0; k < MOST_ATTRIBUTES; k++) {
         if (!split->by[k]) continue;
-        rows_of_corners(mesh->attributes.one[k], numbering, key);
+        rows_of_corners(mesh->attributes.list[k], numbering, key);
         for (int64_t i = 1; i < corners; i++) differs.data[i] |= key.data[order.data[i]] != key.data[order.data[i - 1]];
     }
     return number_vertices(split, numbering, const_ints(order), const_bytes(differs));
@@ -196,7 +196,7 @@ static bsmdec_status write_positions(bsmdec *decoder, const Conversion *how, siz
 
 static bsmdec_status write_values(
     bsmdec *decoder, int index, const bsmdec_attribute *shape, const Conversion *how, size_t stride, char *to) {
-    const Attribute *attribute = decoder->mesh.attributes.one[index];
+    const Attribute *attribute = decoder->mesh.attributes.list[index];
     const Numbering *numbering = &decoder->mesh.numbering;
     const Split *split = &decoder->split;
     const void *values = attribute->moved != NULL ? attribute->moved : attribute->values;

@@ -2,11 +2,11 @@
 #include "engine/stages.h"
 
 #include "engine/ahead.h"
-#include "engine/charges.h"
+#include "engine/costs.h"
 #include "engine/topology.h"
 
 /* Whether a frame's place is before what has begun: behind a loss the grammar does not know what came before it. */
-static bool comes_late(const Mesh *mesh, FrameType type) {
+static bool is_too_late(const Mesh *mesh, FrameType type) {
     const uint32_t early = 1u << CONNECTIVITY_FRAME | 1u << PARTITION_FRAME | 1u << ORDER_FRAME | 1u << BLOCK_FRAME;
     const uint32_t positions = mesh->values_begun ? 1u << GRID_FRAME | 1u << REFINEMENT_FRAME : 0;
     return (mesh->has_layer || mesh->values_begun) && (early | positions) >> type & 1;
@@ -30,15 +30,15 @@ static bool accept_connectivity(bsmdec *decoder, Span data) {
     context->spent.vertices += header->vertices;
     mesh->has_faces = true;
     mesh->numbering = (Numbering){.size = header->vertices, .faces = const_ints2(mesh->faces)};
-    return keep(context, mesh_memory(n, m), bytes) && spend(context, mesh_work(n, m, bytes), bytes);
+    return reserve(context, mesh_memory(n, m), bytes) && charge(context, mesh_work(n, m, bytes), bytes);
 }
 
 static bool accept_partition(bsmdec *decoder, Span data) {
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
     if (!graph_of(decoder)) return false;
-    double n = (double)mesh->graph.size, ends = (double)mesh->graph.neighbours.size, bytes = (double)data.size;
-    return zero_ints(&mesh->arena, mesh->graph.size, &mesh->labels) && spend(context, labels_work(n, ends, bytes), bytes)
+    double n = (double)mesh->graph.size, ends = (double)mesh->graph.neighbors.size, bytes = (double)data.size;
+    return zero_ints(&mesh->arena, mesh->graph.size, &mesh->labels) && charge(context, labels_work(n, ends, bytes), bytes)
         && decode_labels(context, data, &mesh->graph, mesh->header.blocks, &decoder->scratch, mesh->labels);
 }
 
@@ -48,7 +48,7 @@ static bool skip_to(bsmdec *decoder, int64_t index) {
     for (; mesh->next_block < index; mesh->next_block++) {
         FAIL(&decoder->context, CORRUPT, "the frame of the block is missing");
         locate(&decoder->context.error, -1, -1, mesh->next_block);
-        if (!bear(decoder, mesh->next_block, mesh->header.gop_frames == 0)) return false;
+        if (!tolerate_error(decoder, mesh->next_block, mesh->header.gop_frames == 0)) return false;
     }
     return true;
 }
@@ -83,16 +83,16 @@ static bool accept_block(bsmdec *decoder, const Packet *packet) {
     DecodedBlock block;
     if (!(mesh->has_chains ? build(decoder) : build_beside(decoder)) || !skip_to(decoder, packet->index)) return false;
     mesh->next_block++;
-    if (!is_own(&decoder->share, &mesh->header, packet->index)) return decoder->share.helps || tell(decoder, (bsmdec_event_type)BLOCK_OF_HELPER, packet->index, 0);
+    if (!is_own(&decoder->share, &mesh->header, packet->index)) return decoder->share.helps || emit_event(decoder, (bsmdec_event_type)BLOCK_OF_HELPER, packet->index, 0);
     bool last = ends_with_blocks(decoder) && mesh->next_block == mesh->header.blocks;
     if (!find_block(decoder, packet, &block))
-        return bear(decoder, packet->index, mesh->header.gop_frames == 0) && (!last || end_with_blocks(decoder));
+        return tolerate_error(decoder, packet->index, mesh->header.gop_frames == 0) && (!last || end_with_blocks(decoder));
     if (!decoder->share.helps) add_block(&mesh->assembly, &block);
     else if (!hand_over(decoder, &block)) return false;
-    return tell(decoder, BSMDEC_BLOCK, packet->index, 0) && (!last || end_with_blocks(decoder));
+    return emit_event(decoder, BSMDEC_BLOCK, packet->index, 0) && (!last || end_with_blocks(decoder));
 }
 
-static bool begun_grid(bsmdec *decoder) {
+static bool ensure_grid(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (mesh->has_grid) return true;
     mesh->has_grid = begin_grid(&mesh->grid, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena, &decoder->scratch);
@@ -101,14 +101,14 @@ static bool begun_grid(bsmdec *decoder) {
 
 static bool accept_grid(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
-    if (!begun_grid(decoder)) return false;
+    if (!ensure_grid(decoder)) return false;
     if (mesh->grid.broken) return true;
-    if (decode_grid(&mesh->grid, packet->first, packet->count, packet->data, &decoder->scratch)) return tell(decoder, BSMDEC_BLOCK, mesh->chunks++, 0);
+    if (decode_grid(&mesh->grid, packet->first, packet->count, packet->data, &decoder->scratch)) return emit_event(decoder, BSMDEC_BLOCK, mesh->chunks++, 0);
     mesh->grid.broken = true;
-    return bear(decoder, -1, true);
+    return tolerate_error(decoder, -1, true);
 }
 
-static bool begun_layer(bsmdec *decoder) {
+static bool ensure_layer(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     Doubles2 base;
     Bytes whole;
@@ -126,25 +126,25 @@ static bool begun_layer(bsmdec *decoder) {
 static bool accept_refinement(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     if (ends_with_blocks(decoder)) return end_with_blocks(decoder);
-    if (!begun_layer(decoder)) return false;
+    if (!ensure_layer(decoder)) return false;
     if (decode_layer(&mesh->layer, packet->first, packet->count, packet->data, &decoder->scratch))
-        return tell(decoder, BSMDEC_REFINEMENT, packet->first + packet->count, 0);
+        return emit_event(decoder, BSMDEC_REFINEMENT, packet->first + packet->count, 0);
     mesh->layer.lossy = true;
-    return bear(decoder, -1, true);
+    return tolerate_error(decoder, -1, true);
 }
 
 static bool accept_attribute(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     if (!mesh->has_attributes) begin_attributes(&mesh->attributes, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena);
     mesh->has_attributes = true;
-    return declare_attribute(&mesh->attributes, packet->index, packet->declaration, packet->data, &decoder->scratch) || bear(decoder, -1, true);
+    return declare_attribute(&mesh->attributes, packet->index, packet->declaration, packet->data, &decoder->scratch) || tolerate_error(decoder, -1, true);
 }
 
 /* All positions are there, or known to be lost. */
-static bool begun_values(bsmdec *decoder) {
+static bool ensure_values(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (mesh->values_begun) return true;
-    if (mesh->header.on_grid ? !begun_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
+    if (mesh->header.on_grid ? !ensure_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
     mesh->values_begun = true;
     return begin_values(&mesh->attributes, &mesh->numbering, &decoder->scratch);
 }
@@ -153,10 +153,10 @@ static bool accept_values(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     ConstInts2 places = {NULL, 0, 3};
     if (!mesh->has_attributes) return FAIL(&decoder->context, CORRUPT, "attribute # is not declared", packet->index);
-    if (!begun_values(decoder)) return false;
+    if (!ensure_values(decoder)) return false;
     if (mesh->has_grid && !mesh->grid.broken && mesh->grid.coded == mesh->header.vertices) places = const_ints2(mesh->grid.values);
-    if (!decode_values(&mesh->attributes, packet, places, &decoder->scratch)) return bear(decoder, -1, mesh->header.gop_frames == 0);
-    return tell(decoder, mesh->attributes.one[packet->index]->whole ? BSMDEC_ATTRIBUTE : BSMDEC_VALUES, packet->index, 0);
+    if (!decode_values(&mesh->attributes, packet, places, &decoder->scratch)) return tolerate_error(decoder, -1, mesh->header.gop_frames == 0);
+    return emit_event(decoder, mesh->attributes.list[packet->index]->whole ? BSMDEC_ATTRIBUTE : BSMDEC_VALUES, packet->index, 0);
 }
 
 /* Positions as the encoder had them, in whatever unit, if they are there; no rows otherwise. */
@@ -179,25 +179,25 @@ static bool finish_attributes(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     ConstDoubles2 solid = {NULL, 0, 3};
     if (!mesh->has_attributes) return true;
-    if (!begun_values(decoder)) return false;
+    if (!ensure_values(decoder)) return false;
     for (int k = 0; k < MOST_ATTRIBUTES; k++) {
-        Attribute *one = mesh->attributes.one[k];
-        if (one == NULL || one->declaration.coding != RECOMPUTED) continue;
+        Attribute *attribute = mesh->attributes.list[k];
+        if (attribute == NULL || attribute->declaration.coding != RECOMPUTED) continue;
         if (solid.rows == 0 && !find_solid(decoder, &solid)) return false;
-        if (solid.rows > 0 && (!recompute(one, solid, &decoder->scratch) || !tell(decoder, BSMDEC_ATTRIBUTE, k, 0))) return false;
+        if (solid.rows > 0 && (!recompute(attribute, solid, &decoder->scratch) || !emit_event(decoder, BSMDEC_ATTRIBUTE, k, 0))) return false;
     }
     return true;
 }
 
-bool take_in(bsmdec *decoder, const Packet *packet) {
+bool accept_section(bsmdec *decoder, const Packet *packet) {
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
-    if (comes_late(mesh, packet->type)) return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
+    if (is_too_late(mesh, packet->type)) return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
     switch (packet->type) {
         case HEADER_FRAME:
             begin_mesh(decoder, packet->header);
-            return tell(decoder, BSMDEC_HEADER, 0, 0);
-        case METADATA_FRAME: return tell(decoder, BSMDEC_METADATA, decoder->reader.metadata.count, 0);
+            return emit_event(decoder, BSMDEC_HEADER, 0, 0);
+        case METADATA_FRAME: return emit_event(decoder, BSMDEC_METADATA, decoder->reader.metadata.count, 0);
         case CONNECTIVITY_FRAME: return accept_connectivity(decoder, packet->data);
         case PARTITION_FRAME: return accept_partition(decoder, packet->data);
         case ORDER_FRAME:
@@ -216,10 +216,10 @@ bool accept_damage_in_mesh(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     FrameType type = decoder->reader.damage.type;
     bool started = mesh->has_chains || mesh->has_grid;
-    bool bearable = started || (mesh->has_faces && (type == BLOCK_FRAME || type == ATTRIBUTE_FRAME));
+    bool tolerable = started || (mesh->has_faces && (type == BLOCK_FRAME || type == ATTRIBUTE_FRAME));
     if (mesh->has_grid) mesh->grid.broken = true;
     if (mesh->has_layer && !mesh->values_begun && type != VALUES_FRAME) mesh->layer.lossy = true;
-    return bearable && bear(decoder, -1, true);
+    return tolerable && tolerate_error(decoder, -1, true);
 }
 
 /* All positions, in the unit of the mesh. */
@@ -245,15 +245,15 @@ static bool finish_positions(bsmdec *decoder) {
 
 bool look_at_positions(bsmdec *decoder) {
     const Mesh *mesh = &decoder->mesh;
-    if (decoder->ended || decoder->sequence.is_one || !(mesh->has_grid || mesh->has_chains)) return false;
+    if (decoder->ended || decoder->sequence.active || !(mesh->has_grid || mesh->has_chains)) return false;
     release_all(&decoder->shown);
     return finish_positions(decoder);
 }
 
 bool check_sum(bsmdec *decoder, uint32_t found) {
-    if (!decoder->has_checksum || found == decoder->told) return true;
+    if (!decoder->has_checksum || found == decoder->expected_sum) return true;
     FAIL(&decoder->context, CORRUPT, "the checksum of decoded positions is wrong: they are not those that the encoder saw");
-    return bear(decoder, -1, true);
+    return tolerate_error(decoder, -1, true);
 }
 
 /* Whether nothing of the positions is lost. */
@@ -265,9 +265,9 @@ static bool is_whole(const Mesh *mesh) {
 bool finish_mesh(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (!decoder->has_mesh || !mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
-    if (mesh->header.on_grid ? !begun_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
+    if (mesh->header.on_grid ? !ensure_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
     if (!finish_attributes(decoder) || !finish_positions(decoder)) return false;
     if (decoder->has_checksum && is_whole(mesh) && !check_sum(decoder, crc32_of_positions(&decoder->reader.sums, decoder->positions, 0))) return false;
     decoder->has_positions = decoder->ended = true;
-    return tell(decoder, BSMDEC_END, 0, 0);
+    return emit_event(decoder, BSMDEC_END, 0, 0);
 }

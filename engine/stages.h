@@ -5,7 +5,7 @@
 #include "engine/state.h"
 
 /* Accept a packet, and queue its events. */
-bool take_in(bsmdec *decoder, const Packet *packet);
+bool accept_section(bsmdec *decoder, const Packet *packet);
 /* The error is the context's. */
 bool accept_damage_in_mesh(bsmdec *decoder);
 /* Nothing follows. */

@@ -20,7 +20,7 @@ bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t ind
         mesh->header.faces, decoder->has_mesh ? mesh->header.frames : decoder->sequence.announced};
 }
 
-bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
+bool emit_event(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count) {
     Context *context = &decoder->context;
     if (decoder->waiting == decoder->room) {
         int64_t room = 2 * decoder->room + 16;
@@ -36,7 +36,7 @@ bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count)
     return true;
 }
 
-bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count) {
+bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count) {
     Context *context = &decoder->context;
     if (decoder->loss_count == decoder->loss_room) {
         int64_t room = 2 * decoder->loss_room + 16;
@@ -48,15 +48,15 @@ bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count
         decoder->loss_room = room;
     }
     decoder->losses[decoder->loss_count++] = error;
-    return tell(decoder, BSMDEC_LOSS, index, count);
+    return emit_event(decoder, BSMDEC_LOSS, index, count);
 }
 
-bool bear(bsmdec *decoder, int64_t block, bool anywhere) {
+bool tolerate_error(bsmdec *decoder, int64_t block, bool anywhere) {
     Context *context = &decoder->context;
     if (!decoder->tolerant || !anywhere || context->starved || fine(context)) return false;
     locate(&context->error, decoder->reader.last_offset, decoder->reader.last_frame, block);
     if (block >= 0 && decoder->mesh.has_chains) lose_block(&decoder->mesh.assembly, &decoder->mesh.blocks, block);
-    return tell_loss(decoder, take_error(context), block, 0);
+    return emit_loss(decoder, take_error(context), block, 0);
 }
 
 bool graph_of(bsmdec *decoder) {
@@ -71,7 +71,7 @@ bool announce(bsmdec *decoder) {
     if (mesh->announced) return true;
     if (mesh->has_attributes && !decoder->tolerant && !check_rows(&mesh->attributes, &mesh->numbering)) return false;
     mesh->announced = true;
-    return tell(decoder, BSMDEC_CONNECTIVITY, 0, 0);
+    return emit_event(decoder, BSMDEC_CONNECTIVITY, 0, 0);
 }
 
 bool build(bsmdec *decoder) {

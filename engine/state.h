@@ -35,19 +35,19 @@ typedef struct {
     /* Of a sequence: */
     bool in_gops;
     Doubles2 first_frame; /* in BSM units */
-    Mover *movers;
-    int mover_count;
+    MovingAttribute *moving;
+    int moving_count;
     Gops gops;
 } Mesh;
 
 /* A mesh that runs have had, the memory that is counted for it, and its vertices. */
-enum { SHELF = 8 };
+enum { MOST_CACHED = 8 };
 typedef struct {
     int64_t run;
     double memory;
     int64_t vertices;
     Mesh mesh;
-} Shelved;
+} CachedMesh;
 
 /* A GOP before what is wanted, that others may need. */
 typedef struct Skipped {
@@ -57,12 +57,12 @@ typedef struct Skipped {
 
 /* How far a sequence has come, over all of its runs (specification, S 1.3, S 9). */
 typedef struct {
-    bool is_one, lost, lossy, damaged;
+    bool active, lost, lossy, damaged;
     int64_t start, next, announced, missing; /* frames: the first wanted, the next, of all runs, lost so far */
     int64_t mesh, gop;                       /* the run that brought the present mesh; first frame of the GOP that is shown */
     bsmdec_error damage, why;                /* the first since frames were lost; why the run is */
-    Shelved *shelf[SHELF];                   /* the one used last at the end */
-    int shelved;
+    CachedMesh *cache[MOST_CACHED];                   /* the one used last at the end */
+    int cached;
     double kept;
     int64_t vertices;                        /* when the run began */
     Arena waiting;
@@ -124,7 +124,7 @@ struct bsmdec {
     ConstDoubles2 positions;
     Arena shown;
     bool has_checksum;    /* whether the stream has a checksum of all positions: */
-    uint32_t told, shown_sum; /* the stream's, and that of all frames so far */
+    uint32_t expected_sum, shown_sum; /* the stream's, and that of all frames so far */
     Split split;
     char misuse[128];     /* why the last call was refused */
     bsmdec_error loss;
@@ -143,15 +143,15 @@ void begin_mesh(bsmdec *decoder, const Header *header);
 /* An event of the present mesh: what its header claims, and what it is once the faces are known. */
 bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
 /* Queue an event. */
-bool tell(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
+bool emit_event(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
 /* Report an error as a loss: of `count` frames of a sequence from `index` on, or of a block. */
-bool tell_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
+bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
 /* Build the graph of the faces, or the blocks with their chains and assembly, unless that was done. */
 bool graph_of(bsmdec *decoder);
 bool build(bsmdec *decoder);
 /* Report once that faces are known. Without tolerance, attributes must have as many rows as the faces ask for. */
 bool announce(bsmdec *decoder);
 /* Record the error as a loss of `block`, or with -1 of something else, and continue; false if it is fatal. */
-bool bear(bsmdec *decoder, int64_t block, bool anywhere);
+bool tolerate_error(bsmdec *decoder, int64_t block, bool anywhere);
 
 #endif

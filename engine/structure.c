@@ -3,20 +3,20 @@
 
 #include "codec/blocks/blocks.h"
 #include "codec/geometry/geometry.h"
-#include "engine/charges.h"
+#include "engine/costs.h"
 
 enum { PASSES = 2, CHAIN_NUMBERS = 7, LEAF = 8, MOST_WORK = 1 << 16, FULL = -1, TOO_MUCH = -2 };
 
 bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *graph) {
     Mark mark = mark_of(scratch);
-    Ints offsets, filled, ends, second, neighbours;
+    Ints offsets, filled, ends, second, neighbors;
     bool done = take_ints(arena, size + 1, &offsets) && take_ints(scratch, size, &filled)
         && take_ints(scratch, 6 * faces.rows, &ends) && take_ints(scratch, 6 * faces.rows, &second);
     if (done) {
         int64_t kept = collect_edges(const_ints2(faces), offsets, filled, ends, second);
-        done = take_ints(arena, kept, &neighbours);
-        if (done) memcpy(neighbours.data, ends.data, (size_t)kept * sizeof *ends.data);
-        if (done) *graph = (Graph){size, const_ints(offsets), const_ints(neighbours)};
+        done = take_ints(arena, kept, &neighbors);
+        if (done) memcpy(neighbors.data, ends.data, (size_t)kept * sizeof *ends.data);
+        if (done) *graph = (Graph){size, const_ints(offsets), const_ints(neighbors)};
     }
     release_to(scratch, mark);
     return done;
@@ -30,10 +30,10 @@ static bool derive_labels(Context *context, const Graph *graph, int64_t parts, A
     if (!take_ints(scratch, graph->size, &order) || !take_ints(scratch, parts + 1, &bounds) || !take_ints(scratch, parts, &votes)
         || !take_words(scratch, bisection_scratch(graph->size), &room) || !take_longs(scratch, parts, &sizes))
         return false;
-    if (!bisect(graph->offsets, graph->neighbours, order, bounds, room))
+    if (!bisect(graph->offsets, graph->neighbors, order, bounds, room))
         return FAIL(context, CORRUPT, "# vertices cannot be cut into # parts", graph->size, parts);
     label_parts(const_ints(order), const_ints(bounds), labels);
-    refine_partition(graph->offsets, graph->neighbours, labels, PASSES, sizes, votes);
+    refine_partition(graph->offsets, graph->neighbors, labels, PASSES, sizes, votes);
     return true;
 }
 
@@ -49,12 +49,12 @@ static bool grow(Context *context, const Header *header, const Graph *graph, Int
     for (int64_t p = 0; p < parts; p++) most = largest(most, bounds.data[p + 1] - bounds.data[p]);
     if (most > size) return FAIL(context, CORRUPT, "a part of # vertices in blocks of #", most, size);
     double pairs = (double)parts * (double)(parts - 1);
-    int64_t links = pairs < (double)graph->neighbours.size ? parts * (parts - 1) : graph->neighbours.size;
+    int64_t links = pairs < (double)graph->neighbors.size ? parts * (parts - 1) : graph->neighbors.size;
     blocks->count = parts;
     if (!take_ints(scratch, links, &linked) || !take_longs(scratch, links, &shares) || !take_longs(scratch, CHAIN_NUMBERS * parts, &room)
         || !take_ints(arena, parts, &blocks->cores) || !take_longs(arena, parts + 1, &blocks->starts) || !take_longs(arena, parts, &blocks->edges))
         return false;
-    int64_t count = chain_blocks(graph->offsets, graph->neighbours, const_ints(order), const_ints(bounds), const_ints(labels), size,
+    int64_t count = chain_blocks(graph->offsets, graph->neighbors, const_ints(order), const_ints(bounds), const_ints(labels), size,
         linked, shares, room, seen, chain, blocks->starts, blocks->edges, members);
     if (!take_ints(arena, count, &blocks->members)) return false;
     memcpy(blocks->members.data, members.data, (size_t)count * sizeof *members.data);
@@ -64,7 +64,7 @@ static bool grow(Context *context, const Header *header, const Graph *graph, Int
 
 bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch, Blocks *blocks) {
     double copies = (double)header->blocks * (double)header->block_size, n = (double)graph->size;
-    if (!keep(context, COPY_MEMORY * copies, 0) || !spend(context, partition_work(n, (double)graph->neighbours.size, header->blocks, copies), 0))
+    if (!reserve(context, COPY_MEMORY * copies, 0) || !charge(context, partition_work(n, (double)graph->neighbors.size, header->blocks, copies), 0))
         return false;
     Mark mark = mark_of(scratch);
     bool done = labels.size > 0
@@ -76,14 +76,14 @@ bool make_blocks(Context *context, const Header *header, const Graph *graph, Int
 
 bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *patch) {
     int64_t size = members.size, room = 8 * size;
-    Ints vertices, offsets, neighbours;
+    Ints vertices, offsets, neighbors;
     Words scratch;
     if (!take_ints(arena, size, &vertices) || !take_ints(arena, size + 1, &offsets)) return false;
     for (;;) {
-        if (!take_ints(arena, room, &neighbours) || !take_words(arena, order_scratch(size, room), &scratch)) return false;
-        int64_t ends = order_block(graph->offsets, graph->neighbours, members, vertices, offsets, neighbours, scratch);
+        if (!take_ints(arena, room, &neighbors) || !take_words(arena, order_scratch(size, room), &scratch)) return false;
+        int64_t ends = order_block(graph->offsets, graph->neighbors, members, vertices, offsets, neighbors, scratch);
         if (ends <= room) {
-            *patch = (Patch){.size = size, .vertices = const_ints(vertices), .offsets = const_ints(offsets), .neighbours = {neighbours.data, ends}};
+            *patch = (Patch){.size = size, .vertices = const_ints(vertices), .offsets = const_ints(offsets), .neighbors = {neighbors.data, ends}};
             break;
         }
         room = ends;
@@ -106,7 +106,7 @@ bool find_patch_fronts(Context *context, Arena *arena, Patch *patch) {
         return false;
     for (; count == FULL; room *= 4) {
         if (!take_words(arena, room, &borders)) return false;
-        count = find_fronts(patch->offsets, patch->neighbours, LEAF, (double)MOST_WORK * (double)n, scratch, rows, steps, owners,
+        count = find_fronts(patch->offsets, patch->neighbors, LEAF, (double)MOST_WORK * (double)n, scratch, rows, steps, owners,
             firsts, starts, borders, places, sums);
     }
     if (count == TOO_MUCH) return FAIL(context, LIMIT, "the faces of a block of # vertices are too entangled", n);

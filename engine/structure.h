@@ -7,7 +7,7 @@
 
 typedef struct {
     int64_t size;
-    ConstInts offsets, neighbours;
+    ConstInts offsets, neighbors;
 } Graph;
 
 /* All blocks of a mesh, in the order of their chain. */
@@ -21,8 +21,8 @@ typedef struct {
 /* One block, or the part of one: its vertices row after row, and L among them. */
 typedef struct {
     int64_t size;
-    ConstInts vertices, offsets, neighbours;
-    ConstDoubles weights; /* of the entries of `neighbours`; empty: all are 1 */
+    ConstInts vertices, offsets, neighbors;
+    ConstDoubles weights; /* of the entries of `neighbors`; empty: all are 1 */
     Doubles diagonal;
     Fronts fronts;
 } Patch;
@@ -31,7 +31,7 @@ bool make_graph(Ints2 faces, int64_t size, Arena *arena, Arena *scratch, Graph *
 /* `labels`: the part of each vertex, or no array for what follows from the graph. */
 bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch,
     Blocks *blocks);
-/* Order the rows of a block of these vertices (M 6), and find what its factorisation needs. */
+/* Order the rows of a block of these vertices (M 6), and find what its factorization needs. */
 bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *patch);
 bool find_patch_fronts(Context *context, Arena *arena, Patch *patch);
 /* Members of a block, or the `count` first of them. */

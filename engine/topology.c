@@ -91,7 +91,7 @@ static bool read_faces(Reading *reading, const Header *header, Arena *arena, Are
         return nonsense(reading, "the counts at the start of a connectivity payload contradict each other");
     double memory = FACE_MEMORY * (double)header->faces + VERTEX_MEMORY * (double)header->vertices + FAN_MEMORY * (double)(surplus + dummies);
     if (!WITHIN(context, vertices, fans + dummies)
-        || !affords_memory(context, memory, header->vertices, (double)reading->coder.data.size))
+        || !within_memory(context, memory, header->vertices, (double)reading->coder.data.size))
         return false;
     if (!take_ints2(arena, header->faces, 3, faces)) return false;
     Ints2 surface = {faces->data, proper, 3};
@@ -119,7 +119,7 @@ bool decode_labels(Context *context, Span payload, const Graph *graph, int64_t p
     if (!make_bank(scratch, (BankPlan){.slots = INPUTS * LABEL_CONTEXTS, .selectors = CANDIDATES + 1, .inputs = INPUTS}, &bank)
         || !begin_reading(context, payload, &reading))
         return false;
-    int64_t used = code_labels(reading.coder, bank, graph->offsets, graph->neighbours, labels, parts);
+    int64_t used = code_labels(reading.coder, bank, graph->offsets, graph->neighbors, labels, parts);
     return finish_reading(&reading)
         && (used == parts || FAIL(context, CORRUPT, "the partition has # parts where the header has #", used, parts));
 }

@@ -133,7 +133,7 @@ static bool decode_next(Whole *whole) {
     }
     given->frame = event.type == BSMDEC_FRAME ? event.index : -1;
     given->frames = event.frames;
-    if (event.type == BSMDEC_END_OF_STREAM || (event.type == BSMDEC_END && decoder->sequence.is_one)) return true;
+    if (event.type == BSMDEC_END_OF_STREAM || (event.type == BSMDEC_END && decoder->sequence.active)) return true;
     if (!decoder->split.is_made && (!split_by_fields(whole) || !make_buffers(whole, event.faces))) return false;
     return write_fields(whole);
 }
@@ -173,7 +173,7 @@ EXACTLY(bsmdec_status, bsmdec_decode,
     whole->index_size = options.index_size;
     bool done = known && fine(context) && bsmdec_push(decoder, bytes, size) == BSMDEC_OK && bsmdec_finish(decoder) == BSMDEC_OK
         && (whole->finds_fields || copy_fields(whole, &options)) && decode_next(whole);
-    while (done && !decoder->sequence.is_one && event.type != BSMDEC_END_OF_STREAM)
+    while (done && !decoder->sequence.active && event.type != BSMDEC_END_OF_STREAM)
         done = bsmdec_next(decoder, &event) == BSMDEC_OK;
     return status_of(whole, done);
 }

@@ -2,7 +2,7 @@
 #include "engine/zstd.h"
 
 enum { MOST_WINDOW = 1 << 23, MOST_BLOCK = 1 << 17, MOST_BITS = 11, MOST_LOG = 9, MOST_SYMBOLS = 256 };
-enum { RAW, RLE, PACKED, AGAIN };
+enum { RAW, RLE, PACKED, REPEAT };
 
 /* A table of finite state entropy: the symbol of a state, and the base and number of bits of the next state. */
 typedef struct {
@@ -197,13 +197,13 @@ static bool read_streams(Unpacker *own, Span bytes, int64_t count, bool four) {
 static int64_t read_literals(Unpacker *own, Span block, int64_t most) {
     if (block.size == 0) return 0;
     int type = block.data[0] & 3, format = block.data[0] >> 2 & 3;
-    bool packed = type == PACKED || type == AGAIN;
+    bool packed = type == PACKED || type == REPEAT;
     int head = packed ? (format < 2 ? 3 : format + 2) : format == 1 ? 2 : format == 3 ? 3 : 1;
     if (block.size < head) return 0;
-    uint64_t said = little_endian(block.data, head);
+    uint64_t fields = little_endian(block.data, head);
     int width = format < 2 ? 10 : format == 2 ? 14 : 18;
-    int64_t count = (int64_t)(packed ? said >> 4 & ((1u << width) - 1) : head == 1 ? said >> 3 : said >> 4);
-    int64_t size = packed ? (int64_t)(said >> (4 + width)) : type == RLE ? 1 : count;
+    int64_t count = (int64_t)(packed ? fields >> 4 & ((1u << width) - 1) : head == 1 ? fields >> 3 : fields >> 4);
+    int64_t size = packed ? (int64_t)(fields >> (4 + width)) : type == RLE ? 1 : count;
     if (count > most || size > block.size - head) return 0;
     Span bytes = {block.data + head, size};
     own->literal_count = count;
@@ -240,7 +240,7 @@ typedef struct {
 /* The table of a kind of codes, by the mode that a block says; false for nonsense. */
 static bool choose_table(int mode, TablePlan plan, Span *bytes, StateTable *table) {
     if (mode == RAW) return make_states(plan.counts, plan.symbols, plan.log, table);
-    if (mode == AGAIN) return table->log >= 0;
+    if (mode == REPEAT) return table->log >= 0;
     int64_t size = 1;
     if (mode == RLE) {
         if (bytes->size < 1 || bytes->data[0] > plan.most_symbol) return false;
@@ -350,7 +350,7 @@ static bool unpack_blocks(Unpacker *own, Span frame, int64_t at, int64_t most) {
         int64_t size = (int64_t)(head >> 3), taken = type == RLE ? 1 : size;
         last = head & 1;
         at += 3;
-        if (size > most || taken > frame.size - at || type == AGAIN) return false;
+        if (size > most || taken > frame.size - at || type == REPEAT) return false;
         if (type != PACKED && size > own->size - own->done) return false;
         if (type == RAW) memcpy(own->content + own->done, frame.data + at, (size_t)size);
         if (type == RLE) memset(own->content + own->done, frame.data[at], (size_t)size);

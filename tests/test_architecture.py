@@ -155,7 +155,7 @@ def words(path: Path) -> set[str]:
 def defined(path: Path) -> list[str]:
     """The functions of a C file that others may call."""
     kinds = r"(?!static|typedef|return|else|INLINE|SHARED|KERNEL static|OFTEN static)(?:\w+[ *]+)+"
-    return re.findall(rf"^{kinds}(?:LEVEL\()?(\w+)\)?\([^;{{}}]*\)\s*\{{", SOURCES[path], re.MULTILINE)
+    return re.findall(rf"^{kinds}(?:ISA\()?(\w+)\)?\([^;{{}}]*\)\s*\{{", SOURCES[path], re.MULTILINE)
 
 
 def arrows_of_c() -> dict[str, set[str]]:

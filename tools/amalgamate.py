@@ -30,9 +30,9 @@ _MANY = """
 /* GCC for Windows keeps vectors of 32 and 64 bytes in a stack that is aligned to 16. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(_MSC_VER) && !defined(__AVX512F__) \\
     && !defined(KERNEL_ONE_TARGET) && (!defined(_WIN32) || defined(__clang__))
-#define KERNEL_LEVELS 3
+#define KERNEL_ISAS 3
 #else
-#define KERNEL_LEVELS 1
+#define KERNEL_ISAS 1
 #endif
 """
 _BEGIN = """#if defined(__clang__)
@@ -52,10 +52,10 @@ _OWN = re.compile(r'^#include "([^"]+)"\n', re.MULTILINE)
 _WORDS = r"(?!typedef|static|extern|return|INLINE|SHARED|KERNEL|OFTEN|struct|enum|union)(?:const )?"
 _PROTOTYPE = re.compile(rf"^(?={_WORDS}\w+ \**(?!bsmdec_)[^=;{{]*\([^;{{]*\);)", re.MULTILINE)
 _FUNCTION = re.compile(
-    r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:const )?\w+ \**(?:LEVEL\()?(\w+)\)?\(", re.MULTILINE
+    r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:const )?\w+ \**(?:ISA\()?(\w+)\)?\(", re.MULTILINE
 )
 _BARE = re.compile(
-    rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_)(?:LEVEL\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE
+    rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE
 )
 _DOUBLES = '#define VECTORS_OF_DOUBLES\n#include "codec/basis/vectors.h"\n'
 _TYPE = re.compile(r"^(?:typedef .*?|\} )(\w+);$", re.MULTILINE)
@@ -147,23 +147,23 @@ def amalgamated() -> str:
     own = {path: _names(texts[path]) for path in files}
     shared = {name for text in headers.values() for name in re.findall(r"\w+", _bare(text))}
     count = Counter(name for names in own.values() for name in names)
-    pieces, leveled = [_HEAD, *(_private(text) for text in headers.values())], [_private(headers[VECTORS])]
+    pieces, per_isa = [_HEAD, *(_private(text) for text in headers.values())], [_private(headers[VECTORS])]
     for path in files:
         suffix = re.sub(r"\W", "_", path[:-2])
         clashing = [name for name in own[path] if count[name] > 1 or name in shared]
         text = f"\n/* {path} */\n{_private(_renamed(texts[path], clashing, suffix))}"
-        (leveled if path.endswith(".simd.c") else pieces).append(text)
-    return "".join([*pieces, *_levels("".join(leveled)), _OWN.sub("", _read("codec/levels.c")), _private(priors())])
+        (per_isa if path.endswith(".simd.c") else pieces).append(text)
+    return "".join([*pieces, *_each_isa("".join(per_isa)), _OWN.sub("", _read("codec/isa.c")), _private(priors())])
 
 
-def _levels(text: str) -> Iterator[str]:
+def _each_isa(text: str) -> Iterator[str]:
     """Files *.simd.c for each level of x86-64, with names of their own; for other processors the first of them."""
     names = _names(text)
     yield _MANY
     for level, target in LEVELS.items():
-        yield f"\n#define KERNEL_LEVEL {level}\n{_BEGIN.format(target) if target else ''}"
-        yield f"{_renamed(text, names, f'v{level}')}\n{_END if target else ''}#undef KERNEL_LEVEL\n"
-        yield "" if target else "#if KERNEL_LEVELS > 1\n"
+        yield f"\n#define KERNEL_ISA {level}\n{_BEGIN.format(target) if target else ''}"
+        yield f"{_renamed(text, names, f'v{level}')}\n{_END if target else ''}#undef KERNEL_ISA\n"
+        yield "" if target else "#if KERNEL_ISAS > 1\n"
     yield "#endif\n"
 
 

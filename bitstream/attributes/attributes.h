@@ -18,7 +18,7 @@ typedef struct {
     ConstInts2 geometry; /* n x 3: where the vertices are; or 0 x 3, if that is not known */
     Ints2 values;        /* n x c */
     Ints2 gaps;          /* n x c: value less guess, in 1/16 */
-    Longs2 sums;         /* n x (c + 1): values of the known neighbours, added, and how many they are */
+    Longs2 sums;         /* n x (c + 1): values of the known neighbors, added, and how many they are */
     Longs2 seen;         /* c x words: bit v of a component tells that it has taken the value v */
     Longs2 learners;
     Ints2 directions;    /* normals: n x 12, their own, and what the surface tells */

@@ -145,8 +145,8 @@ int64_t expect_normals(Corners corners, Values values) {
 /* The known direction, here or around, that is nearest to d; `otherwise` if there is none. */
 static Direction nearest_known(const Values *g, const Place *p, const Direction *d, Direction otherwise) {
     int64_t least_away = INT64_MAX;
-    for (int i = -1; i < p->around.neighbours; i++) {
-        int32_t u = i < 0 ? p->twin : p->around.neighbour[i];
+    for (int i = -1; i < p->around.neighbors; i++) {
+        int32_t u = i < 0 ? p->twin : p->around.neighbor[i];
         if (u < 0) continue;
         Direction own = directions_of(g, u)[OWN];
         int64_t away = 0;
@@ -162,8 +162,8 @@ static void look(const Work *w, int32_t v, int32_t last, Sight *s) {
     int64_t mean[AXES] = {0, 0, 0}, drift[AXES] = {0, 0, 0}, across[AXES] = {0, 0, 0};
     survey_values(w, v, &s->place);
     const Around *r = &s->place.around;
-    for (int i = 0; i < r->neighbours; i++) {
-        const Direction *d = directions_of(g, r->neighbour[i]);
+    for (int i = 0; i < r->neighbors; i++) {
+        const Direction *d = directions_of(g, r->neighbor[i]);
         for (int j = 0; j < AXES; j++) mean[j] += d[OWN].axis[j], drift[j] += d[OWN].axis[j] - d[BY_AREA].axis[j];
     }
     for (int i = 0; i < r->flaps; i++) {
@@ -171,13 +171,13 @@ static void look(const Work *w, int32_t v, int32_t last, Sight *s) {
         const Direction *a = directions_of(g, f.a), *b = directions_of(g, f.b), *c = directions_of(g, f.c);
         for (int j = 0; j < AXES; j++) across[j] += (int64_t)a->axis[j] + b->axis[j] - c->axis[j];
     }
-    Direction m = r->neighbours == 0 && last >= 0 ? directions_of(g, last)[OWN] : scaled(mean, size);
+    Direction m = r->neighbors == 0 && last >= 0 ? directions_of(g, last)[OWN] : scaled(mean, size);
     Direction *own = directions_of(g, v), d = own[BY_AREA];
     if (d.axis[0] == 0 && d.axis[1] == 0 && d.axis[2] == 0) own[BY_AREA] = own[BY_ANGLE] = own[RING] = d = m;
-    for (int j = 0; j < AXES; j++) drift[j] = d.axis[j] + (r->neighbours > 0 ? divided(drift[j], r->neighbours) : 0);
+    for (int j = 0; j < AXES; j++) drift[j] = d.axis[j] + (r->neighbors > 0 ? divided(drift[j], r->neighbors) : 0);
     Direction fixed = scaled(drift, size), beyond = r->flaps > 0 ? scaled(across, size) : m;
     Direction nearest = nearest_known(g, &s->place, &d, m), twin = m;
-    if (r->neighbours > 0) twin = directions_of(g, r->neighbour[0])[OWN];
+    if (r->neighbors > 0) twin = directions_of(g, r->neighbor[0])[OWN];
     if (s->place.twin >= 0) twin = directions_of(g, s->place.twin)[OWN];
     s->view = view_from(&d, size);
     see(&s->view, &d, s->by_area);

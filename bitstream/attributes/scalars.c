@@ -1,12 +1,12 @@
-/* Colours and other numbers, predicted from coded neighbours (specification, A 4). */
+/* Colors and other numbers, predicted from coded neighbors (specification, A 4). */
 #include "bitstream/attributes/attributes.h"
 
 typedef struct { /* of the components of this vertex so far */
-    int32_t hits, gap[MOST_COMPONENTS], off[MOST_COMPONENTS]; /* off: value less mean of the neighbours */
+    int32_t hits, gap[MOST_COMPONENTS], off[MOST_COMPONENTS]; /* off: value less mean of the neighbors */
 } Before;
 
 typedef struct { /* of one component around the vertex, in 1/16 */
-    int32_t mean, spread, drift, error; /* of the neighbours: values, how far from the mean, gaps, their sizes */
+    int32_t mean, spread, drift, error; /* of the neighbors: values, how far from the mean, gaps, their sizes */
     int32_t straight, best;             /* what continues the triangles as parallelograms, and the best one */
     int32_t beside;                     /* what lies between the ends of the edges */
     int32_t length, fold, closing;
@@ -15,14 +15,14 @@ typedef struct { /* of one component around the vertex, in 1/16 */
 static void find_trend(const Work *w, const Place *p, int32_t v, int32_t last, int j, Trend *t) {
     const Values *g = &w->values;
     const Around *r = &p->around;
-    int32_t most = FINE * g->largest.data[j], near = r->neighbours;
+    int32_t most = FINE * g->largest.data[j], near = r->neighbors;
     int64_t sum = 0, drift = 0, errors = 0, spread = 0;
     for (int i = 0; i < near; i++) {
-        int32_t gap = gap_at(g, r->neighbour[i], j);
-        sum += value_at(g, r->neighbour[i], j), drift += gap, errors += size_of(gap);
+        int32_t gap = gap_at(g, r->neighbor[i], j);
+        sum += value_at(g, r->neighbor[i], j), drift += gap, errors += size_of(gap);
     }
     t->mean = near > 0 ? divided(sum * FINE, near) : last >= 0 ? value_at(g, last, j) * FINE : most / 2;
-    for (int i = 0; i < near; i++) spread += size_of(value_at(g, r->neighbour[i], j) * FINE - t->mean);
+    for (int i = 0; i < near; i++) spread += size_of(value_at(g, r->neighbor[i], j) * FINE - t->mean);
     t->drift = near > 0 ? divided(drift, near) : 0;
     t->spread = near > 0 ? divided(spread, near) : 0;
     t->error = near > 0 ? divided(errors, near) : most;
@@ -48,12 +48,12 @@ static void find_trend(const Work *w, const Place *p, int32_t v, int32_t last, i
     t->closing = balance(&w->corners, &g->values, &g->sums, r, j, t->straight);
 }
 
-/* The neighbour, or the twin, that is most like v in the components before j; none before the first. */
+/* The neighbor, or the twin, that is most like v in the components before j; none before the first. */
 static int32_t find_like(const Values *g, const Place *p, int32_t v, int j) {
     int32_t like = -1;
     int64_t least_away = INT64_MAX;
-    for (int i = -1; i < p->around.neighbours && j > 0; i++) {
-        int32_t u = i < 0 ? p->twin : p->around.neighbour[i];
+    for (int i = -1; i < p->around.neighbors && j > 0; i++) {
+        int32_t u = i < 0 ? p->twin : p->around.neighbor[i];
         if (u < 0) continue;
         int64_t away = 0;
         for (int k = 0; k < j; k++) away += size_of(value_at(g, u, k) - value_at(g, v, k));
@@ -65,7 +65,7 @@ static int32_t find_like(const Values *g, const Place *p, int32_t v, int j) {
 static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int j, Before *own) {
     const Values *g = &w->values;
     const Around *r = &p->around;
-    int32_t most = g->largest.data[j], far = FINE * most, near = r->neighbours, twin = p->twin;
+    int32_t most = g->largest.data[j], far = FINE * most, near = r->neighbors, twin = p->twin;
     int32_t one = j > 0 ? own->gap[j - 1] : 0, two = j > 1 ? own->gap[j - 2] : 0;
     Trend t;
     find_trend(w, p, v, last, j, &t);
@@ -78,8 +78,8 @@ static bool code_component(Work *w, const Place *p, int32_t v, int32_t last, int
     foresee_error(&f, far, near > 0);
     int32_t guess = mean + f.shift, bucket = size_class(f.typical >> 1), unit = f.typical / 2 + 4;
 
-    int32_t first = near > 0 ? value_at(g, r->neighbour[0], j) * FINE : mean, like = find_like(g, p, v, j);
-    int32_t second = near > 1 ? value_at(g, r->neighbour[1], j) * FINE : mean;
+    int32_t first = near > 0 ? value_at(g, r->neighbor[0], j) * FINE : mean, like = find_like(g, p, v, j);
+    int32_t second = near > 1 ? value_at(g, r->neighbor[1], j) * FINE : mean;
     Expectation e;
     e.prediction[0] = mean;
     e.prediction[1] = t.best;

@@ -3,7 +3,7 @@
 
 enum { AXES = 2, WHOLE = 1 << 16, NARROW = 1 << 14, MOST_RATIO = 8 * WHOLE };
 
-/* What is kept: triangles that are counter-clockwise less those that are clockwise; how far neighbours are apart, in
+/* What is kept: triangles that are counter-clockwise less those that are clockwise; how far neighbors are apart, in
  * 1/256. */
 enum { TURN, STRIDE };
 
@@ -92,12 +92,12 @@ static void average(const Values *g, int32_t last, Chart *p) {
     for (int j = 0; j < AXES; j++) {
         int64_t near = 0, drift = 0, similar = 0, affine = 0, across = 0, spread = 0;
         int32_t weights = 0;
-        for (int i = 0; i < r->neighbours; i++) {
-            near += at(g, r->neighbour[i])[j] * FINE;
-            drift += g->gaps.data[AXES * (int64_t)r->neighbour[i] + j];
+        for (int i = 0; i < r->neighbors; i++) {
+            near += at(g, r->neighbor[i])[j] * FINE;
+            drift += g->gaps.data[AXES * (int64_t)r->neighbor[i] + j];
         }
-        p->mean[j] = r->neighbours > 0 ? divided(near, r->neighbours) : last < 0 ? 0 : at(g, last)[j] * FINE;
-        p->drift[j] = r->neighbours > 0 ? divided(drift, r->neighbours) : 0;
+        p->mean[j] = r->neighbors > 0 ? divided(near, r->neighbors) : last < 0 ? 0 : at(g, last)[j] * FINE;
+        p->drift[j] = r->neighbors > 0 ? divided(drift, r->neighbors) : 0;
         p->all.similar[j] = p->all.affine[j] = p->all.across[j] = p->mean[j];
         p->spread[j] = p->run[j] = p->rise[j] = 0;
         if (bases == 0) continue;
@@ -133,7 +133,7 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     int32_t most = g->largest.data[j], far = FINE * most, base = p->all.affine[j], number = p->place.number;
     int32_t twin = p->place.twin, like = p->all.similar[j] - base;
     const Claim *one = p->place.bases > 0 ? &p->claim[0] : &p->all, *two = p->place.bases > 1 ? &p->claim[1] : one;
-    int32_t usual = r->neighbours > 0 ? (int32_t)(g->chart.data[STRIDE] >> 4) : far;
+    int32_t usual = r->neighbors > 0 ? (int32_t)(g->chart.data[STRIDE] >> 4) : far;
     Forecast f = {.term = {like, p->all.across[j] - base, p->mean[j] - base, followed(*first, p->rise[0], p->rise[1]),
                       followed(*first, p->run[0], p->run[1]), p->drift[j], one->affine[j] - base},
         .hint = {number > 0 ? p->place.error : usual, p->spread[j], size_of(*first), size_of(like)}};
@@ -148,7 +148,7 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
     e.prediction[2] = one->affine[j];
     e.prediction[3] = twin >= 0 ? at(g, twin)[j] * FINE : two->affine[j];
     e.prediction[4] = near_seen(g, j, within(whole(guess), 0, most)) * FINE;
-    e.prediction[5] = r->neighbours > 0 ? at(g, r->neighbour[0])[j] * FINE : p->mean[j];
+    e.prediction[5] = r->neighbors > 0 ? at(g, r->neighbor[0])[j] * FINE : p->mean[j];
     e.prediction[6] = guess;
     int32_t off[PREDICTIONS];
     settle(&e, 0, far, off);
@@ -179,7 +179,7 @@ static bool code_axis(Work *w, const Chart *p, int32_t v, int j, int32_t *hits, 
 static void pass_chart(const Values *g, const Chart *p, int32_t v) {
     int64_t *kept = g->chart.data, away = 0;
     for (int j = 0; j < AXES; j++) away += size_of(at(g, v)[j] * FINE - p->mean[j]);
-    if (p->place.around.neighbours > 0) kept[STRIDE] += (FINE / 2 * away - kept[STRIDE]) >> 4;
+    if (p->place.around.neighbors > 0) kept[STRIDE] += (FINE / 2 * away - kept[STRIDE]) >> 4;
     for (int i = 0; i < p->place.bases; i++) kept[TURN] += turn_of(g, p->place.base[i].a, p->place.base[i].b, v);
 }
 

@@ -65,8 +65,8 @@ void survey_values(const Work *w, int32_t v, Place *p) {
     for (int32_t t = g->twin.data[v], steps = 0; t != v && steps < MOST_TWINS; t = g->twin.data[t], steps++)
         if (rank[t] < now && (p->twin < 0 || rank[t] > rank[p->twin])) p->twin = t;
     int64_t errors = 0;
-    int32_t near = p->around.neighbours;
-    for (int i = 0; i < near; i++) errors += error_at(&g->gaps, p->around.neighbour[i]);
+    int32_t near = p->around.neighbors;
+    for (int i = 0; i < near; i++) errors += error_at(&g->gaps, p->around.neighbor[i]);
     p->error = near > 0 ? divided(errors, (int32_t)g->gaps.columns * near) : -1;
 }
 

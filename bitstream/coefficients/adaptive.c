@@ -54,7 +54,7 @@ KERNEL int64_t code_block(Coder given, Bank bank, Past past, ConstInts2 expectat
     for (int64_t row = 0; row < levels.rows && !overran(&coder); row++) {
         int32_t *now = chain.now + 3 * row, *before = chain.before + 3 * row, *usual = chain.usual + 3 * row;
         for (int d = 0; d < 3; d++) {
-            int32_t inputs[NEIGHBOURS];
+            int32_t inputs[NEIGHBORS];
             int64_t contexts[EXPECTATIONS];
             gather_inputs(now, before, usual, row, d, inputs);
             set_contexts(expectations, situation(&chain, d), inputs, contexts);

@@ -7,13 +7,13 @@
 
 /* What surrounds a coefficient, and what that lets expect (specification, M 9.3 to M 9.5, M 9.7). See contexts.py. */
 enum {
-    NEIGHBOURS = 20,
+    NEIGHBORS = 20,
     SITUATIONS = 6,
     UNIT = 16,
     WEIGHT_BITS = 10,
     BINS = 48,
     CEILING = 1 << 15,
-    ABOVE = 8,  /* rows of zeros in front of the first frequency, as far as any neighbour reaches */
+    ABOVE = 8,  /* rows of zeros in front of the first frequency, as far as any neighbor reaches */
     BEYOND = 3, /* and behind the last */
     MEMORY = 8, /* blocks over which the usual magnitudes are averaged */
 };
@@ -80,7 +80,7 @@ INLINE void gather_inputs(
 /* Logarithm of an expectation, in thirds of an octave (each of them linear inside), 0 .. BINS - 1 (M 9.5). */
 INLINE int expectation_bin(const int32_t *weights, const int32_t *inputs) {
     int64_t total = 0;
-    for (int i = 0; i < NEIGHBOURS; i++) total += (int64_t)weights[i] * inputs[i];
+    for (int i = 0; i < NEIGHBORS; i++) total += (int64_t)weights[i] * inputs[i];
     total >>= WEIGHT_BITS;
     if (total < 1) return 0;
     int octave = 63 - __builtin_clzll((unsigned long long)total);
@@ -131,13 +131,13 @@ INLINE int second_bit_node(int size, int first) {
 
 /* Weights of all expectations, a row for each expectation and situation. */
 INLINE bool are_expectations(ConstInts2 weights) {
-    return weights.rows == EXPECTATIONS * SITUATIONS && weights.columns == NEIGHBOURS;
+    return weights.rows == EXPECTATIONS * SITUATIONS && weights.columns == NEIGHBORS;
 }
 
 /* The contexts of a coefficient with these inputs, in this situation. */
 INLINE void set_contexts(ConstInts2 expectations, int situation, const int32_t *inputs, int64_t *contexts) {
     for (int i = 0; i < EXPECTATIONS; i++) {
-        const int32_t *weights = expectations.data + (i * SITUATIONS + situation) * NEIGHBOURS;
+        const int32_t *weights = expectations.data + (i * SITUATIONS + situation) * NEIGHBORS;
         contexts[i] = NODES * (BINS * i + expectation_bin(weights, inputs));
     }
 }
@@ -162,7 +162,7 @@ int64_t price_matrix(Coder coder, Bank bank, Ints2 levels, ConstInts2 reference,
 int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, ConstLongs2 targets, double price,
     ConstLongs costs, Ints2 ways, Bytes2 origins, Ints2 levels, Doubles kept);
 
-/* The learnt numbers that adaptive coefficients start from: the bytes of spec/priors.bin, which the build turns into
+/* The learned numbers that adaptive coefficients start from: the bytes of spec/priors.bin, which the build turns into
  * C. */
 #define PRIORS_BYTES 12120
 

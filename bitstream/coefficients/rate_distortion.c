@@ -1,7 +1,7 @@
 /* The best way through the trellis of a block, by dynamic programming (an encoder's choice, no part of the format).
  *
  * For each state of the trellis the best way there survives, by squared error and price times bits. Bits are those that
- * adaptive.c would spend with the model in its present state; each survivor has its own neighbours as contexts.
+ * adaptive.c would spend with the model in its present state; each survivor has its own neighbors as contexts.
  */
 #include "bitstream/coefficients/coefficients.h"
 
@@ -103,7 +103,7 @@ KERNEL int64_t search_levels(Bank bank, Past past, ConstInts2 expectations, Cons
         for (int s = 0; s < STATES; s++) new[s].cost = NEVER;
         for (int state = 0; state < STATES; state++) {
             if (old[state].cost == NEVER) continue;
-            int32_t inputs[NEIGHBOURS];
+            int32_t inputs[NEIGHBORS];
             gather_inputs(old[state].near + 3 * ABOVE, chain.before + 3 * row, chain.usual + 3 * row, row, d, inputs);
             set_contexts(expectations, situation(&chain, d), inputs, prices.contexts);
             for (int node = 0; node < NODES; node++) prices.probability[node] = 0;

@@ -119,7 +119,7 @@ typedef struct {
 
 /* What contexts see of a vertex; a row of two numbers of 64 bits in Python. */
 typedef struct {
-    int64_t sum;    /* of the known neighbours' labels less 6 each */
+    int64_t sum;    /* of the known neighbors' labels less 6 each */
     int32_t label;  /* valence up to 15, 0 for a dummy */
     int32_t rank;   /* number among the real vertices, -1 for a dummy */
 } Vertex;
@@ -162,7 +162,7 @@ INLINE uint64_t nibble(int64_t value) { return value < 0 ? 0 : (uint64_t)least(v
 
 /* Set the contexts for what lies beyond the gate of node `f`.
  *
- * The third vertex of the triangle beyond the edge from f to n, its next node, is neighbour to both; p is the node
+ * The third vertex of the triangle beyond the edge from f to n, its next node, is neighbor to both; p is the node
  * before f. Labels (l), labels of apexes (a), free degrees (g) and sums (s) of these and of the nodes further along are
  * the evidence, and the label of the latest vertex. */
 INLINE void look_beyond(
@@ -267,7 +267,7 @@ int64_t find_fans(ConstInts origin, ConstInts twin, Ints corner, Ints vertex);
 int64_t fill_loops(ConstInts twin, ConstInts corner, Ints leaving, Ints full_twin, Ints full_corner);
 
 /* The part of each vertex. See partition.py. */
-int64_t code_labels(Coder coder, Bank bank, ConstInts offsets, ConstInts neighbours, Ints labels, int64_t parts);
+int64_t code_labels(Coder coder, Bank bank, ConstInts offsets, ConstInts neighbors, Ints labels, int64_t parts);
 
 /* Permutations and rotations. See permutation.py. */
 int64_t code_steps(Coder coder, Bank bank, Ints values, Ints tree);

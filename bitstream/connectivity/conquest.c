@@ -151,7 +151,7 @@ static bool start_component(Walk *walk) {
     return emit(walk, first, first + 1, first + 2, start);
 }
 
-/* Add the triangle of a node without free edges and its neighbours p and n, which makes an edge from p to n (C 6.4). */
+/* Add the triangle of a node without free edges and its neighbors p and n, which makes an edge from p to n (C 6.4). */
 INLINE bool close_node(Walk *walk, int32_t f) {
     Polygons *front = &walk->front;
     Node *nodes = front->nodes;

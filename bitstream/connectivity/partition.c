@@ -1,4 +1,4 @@
-/* The part of each vertex, by those of its neighbours that are known already (specification, C 10). */
+/* The part of each vertex, by those of its neighbors that are known already (specification, C 10). */
 #include "bitstream/connectivity/connectivity.h"
 
 enum {
@@ -10,15 +10,15 @@ enum {
 typedef struct {
     int32_t label[CANDIDATES], votes[CANDIDATES];
     int count;     /* of candidates */
-    int64_t known; /* neighbours */
+    int64_t known; /* neighbors */
 } Poll;
 
-/* The different labels of the neighbours before v, the later neighbour first: most votes first, draws as they came. */
-static void ask_neighbours(Poll *poll, ConstInts offsets, const int32_t *neighbours, const int32_t *labels, int64_t v) {
+/* The different labels of the neighbors before v, the later neighbor first: most votes first, draws as they came. */
+static void ask_neighbors(Poll *poll, ConstInts offsets, const int32_t *neighbors, const int32_t *labels, int64_t v) {
     poll->count = 0;
     poll->known = 0;
     for (int64_t i = offsets.data[v + 1]; i-- > offsets.data[v];) {
-        int32_t w = neighbours[i];
+        int32_t w = neighbors[i];
         if (w >= v) continue;
         poll->known++;
         int k = 0;
@@ -64,20 +64,20 @@ INLINE int64_t code_label(
 
 /* Code all labels in place, over a graph in compressed rows. Returns how many distinct ones there are, or -1 where the
  * data is beyond its end or has more than `parts`. */
-int64_t code_labels(Coder given, Bank bank, ConstInts offsets, ConstInts neighbours, Ints labels, int64_t parts) {
+int64_t code_labels(Coder given, Bank bank, ConstInts offsets, ConstInts neighbors, Ints labels, int64_t parts) {
     RangeCoder coder;
     Mixer mixer;
     int64_t size = labels.size, used = 0;
     if (!open_coder(&coder, given) || !open_bank(&mixer, bank, INPUTS * CONTEXTS, CANDIDATES + 1, INPUTS)
-        || size > INT32_MAX || offsets.size != size + 1 || offsets.data[0] < 0 || offsets.data[size] > neighbours.size)
+        || size > INT32_MAX || offsets.size != size + 1 || offsets.data[0] < 0 || offsets.data[size] > neighbors.size)
         return MISUSED;
     for (int64_t v = 0; v < size; v++)
         if (offsets.data[v] > offsets.data[v + 1]) return MISUSED;
-    for (int64_t i = 0; i < neighbours.size; i++)
-        if (neighbours.data[i] < 0) return MISUSED;
+    for (int64_t i = 0; i < neighbors.size; i++)
+        if (neighbors.data[i] < 0) return MISUSED;
     for (int64_t v = 0; v < size && used >= 0; v++) {
         Poll poll;
-        ask_neighbours(&poll, offsets, neighbours.data, labels.data, v);
+        ask_neighbors(&poll, offsets, neighbors.data, labels.data, v);
         int64_t label = code_label(&coder, &mixer, &poll, labels.data[v], used, parts);
         labels.data[v] = (int32_t)label;
         used += label == used;

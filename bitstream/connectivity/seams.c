@@ -7,7 +7,7 @@ enum {
     SEAM_SLOTS = CANDIDATE + 2 * CANDIDATES,
 };
 
-/* What is known of a neighbour along the boundary: nothing, a vertex that was new, or one that was not. */
+/* What is known of a neighbor along the boundary: nothing, a vertex that was new, or one that was not. */
 INLINE int state_of(const Seams *seams, int32_t fan) {
     if (fan < 0 || seams->vertex.data[fan] < 0) return 0;
     return seams->sibling.data[fan] < 0 ? 1 : 2;
@@ -18,14 +18,14 @@ static int find_candidates(const Seams *seams, int32_t fan, int32_t *candidates)
     const int32_t *vertex = seams->vertex.data, *after = seams->after.data, *before = seams->before.data;
     int number = 0;
     for (int side = 0; side < 2; side++) {
-        int32_t neighbour = side == 0 ? after[fan] : before[fan];
-        if (neighbour < 0 || vertex[neighbour] < 0) continue;
-        int32_t other = seams->latest.data[vertex[neighbour]];
+        int32_t neighbor = side == 0 ? after[fan] : before[fan];
+        if (neighbor < 0 || vertex[neighbor] < 0) continue;
+        int32_t other = seams->latest.data[vertex[neighbor]];
         for (int visit = 0; visit < CANDIDATES && other >= 0; visit++) {
             for (int turn = 0; turn < 2; turn++) {
                 int32_t beyond = turn == side ? before[other] : after[other];
                 if (number == CANDIDATES || beyond < 0 || vertex[beyond] < 0) continue;
-                bool fresh = vertex[beyond] != vertex[neighbour];
+                bool fresh = vertex[beyond] != vertex[neighbor];
                 for (int k = 0; k < number; k++) fresh = fresh && candidates[k] != vertex[beyond];
                 if (fresh) candidates[number++] = vertex[beyond];
             }
@@ -63,7 +63,7 @@ int64_t code_fans(Coder given, Bank bank, ConstInts known, Seams seams) {
     int32_t count = 0;
     for (int32_t fan = 0; fan < size && !overran(&coder); fan++) {
         int32_t after = seams.after.data[fan], before = seams.before.data[fan], u = known.data[fan];
-        /* 0 inside, else 1 to 9: each neighbour along the boundary is not known yet, or new, or a repetition. */
+        /* 0 inside, else 1 to 9: each neighbor along the boundary is not known yet, or new, or a repetition. */
         int64_t context = after < 0 ? 0 : 1 + 3 * state_of(&seams, after) + state_of(&seams, before);
         if (code_mixed_bit(&coder, &mixer, 1, &context, 0, 0, u < count) && count > 0) {
             u = code_vertex(&coder, &mixer, &seams, fan, u, count);

@@ -78,7 +78,7 @@ INLINE bool has_room(const RangeCoder *coder, int64_t capacity) {
 INLINE bool overran(const RangeCoder *coder) { return is_reading(coder) && coder->position > coder->size + 4; }
 
 /* Shift bytes out of (or into) the range until it is large again: at most two of them after one decision (C 1.3). */
-INLINE void renormalise(RangeCoder *coder) {
+INLINE void renormalize(RangeCoder *coder) {
     while (coder->range < CODER_TOP) {
         coder->range <<= 8;
         if (is_reading(coder)) {
@@ -114,7 +114,7 @@ INLINE int code_bit(RangeCoder *coder, uint32_t probability, int bit) {
         raise_low(coder, bound);
     }
     coder->range = bit ? bound : coder->range - bound;
-    if (coder->range < CODER_TOP) renormalise(coder);
+    if (coder->range < CODER_TOP) renormalize(coder);
     return bit;
 }
 
@@ -128,7 +128,7 @@ INLINE uint32_t code_small_uniform(RangeCoder *coder, uint32_t value, uint32_t c
     else raise_low(coder, below);
     /* The last value takes what the division leaves over. */
     coder->range = value < count - 1 ? unit : coder->range - below;
-    if (coder->range < CODER_TOP) renormalise(coder);
+    if (coder->range < CODER_TOP) renormalize(coder);
     return value;
 }
 

@@ -134,17 +134,17 @@ int64_t order_vertices(Corners c, Ints order, Ints2 scratch) {
     return 0;
 }
 
-/* The coded neighbours of a vertex and its flaps, in the order of its corners. */
+/* The coded neighbors of a vertex and its flaps, in the order of its corners. */
 void gather_around(const Corners *c, int32_t v, Around *around) {
     const int32_t *vertex = c->faces.data, *rank = c->rank.data;
     int32_t now = rank[v];
-    around->neighbours = around->flaps = 0;
+    around->neighbors = around->flaps = 0;
     for (int32_t i = c->starts.data[v]; i < c->starts.data[v + 1]; i++) {
         int32_t k = c->corners.data[i], ends[2] = {vertex[next_corner(k)], vertex[previous_corner(k)]};
         for (int side = 0; side < 2; side++) {
-            bool skip = rank[ends[side]] >= now || around->neighbours == MOST_NEIGHBOURS;
-            for (int j = 0; j < around->neighbours && !skip; j++) skip = around->neighbour[j] == ends[side];
-            if (!skip) around->neighbour[around->neighbours++] = ends[side];
+            bool skip = rank[ends[side]] >= now || around->neighbors == MOST_NEIGHBORS;
+            for (int j = 0; j < around->neighbors && !skip; j++) skip = around->neighbor[j] == ends[side];
+            if (!skip) around->neighbor[around->neighbors++] = ends[side];
         }
         int32_t beyond = c->opposite.data[k];
         if (rank[ends[0]] < now && rank[ends[1]] < now && beyond >= 0 && rank[vertex[beyond]] < now

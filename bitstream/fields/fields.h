@@ -5,7 +5,7 @@
 #include "bitstream/entropy/entropy.h"
 
 /* What both sides know of a mesh before its values: the corners at each vertex, and those beyond its edges. */
-enum { MOST_NEIGHBOURS = 16, MOST_FLAPS = 8 };
+enum { MOST_NEIGHBORS = 16, MOST_FLAPS = 8 };
 
 /* Corner k is corner k % 3 of face k / 3. Made by link_corners and order_vertices, which check. */
 typedef struct {
@@ -22,8 +22,8 @@ typedef struct {
 } Flap;
 
 typedef struct { /* what is coded around a vertex */
-    int neighbours, flaps;
-    int32_t neighbour[MOST_NEIGHBOURS];
+    int neighbors, flaps;
+    int32_t neighbor[MOST_NEIGHBORS];
     Flap flap[MOST_FLAPS];
 } Around;
 
@@ -39,8 +39,8 @@ int64_t order_vertices(Corners corners, Ints order, Ints2 scratch);
 
 /* One integer, given predictions of it and what their errors may depend on (specification, V 3 to V 5).
  *
- * Each prediction is taken as the middle of a distribution whose width is learnt; each decision about the value then
- * mixes what these distributions and some adaptive slots say. The front-ends (grid.c, levels.c) make the predictions.
+ * Each prediction is taken as the middle of a distribution whose width is learned; each decision about the value then
+ * mixes what these distributions and some adaptive slots say. The front-ends (grid.c, layer.c) make the predictions.
  */
 enum {
     FINE = 16, /* predictions and their errors are in 1/16 */
@@ -118,7 +118,7 @@ INLINE void mark_seen(int64_t *seen, int32_t v) { seen[v >> 6] |= (int64_t)(UINT
 /* The value seen that is nearest to v, downwards if two are; v if none is near. */
 int32_t nearest_seen(const int64_t *seen, int64_t words, int32_t v);
 
-/* A sum of terms whose weights are learnt on the way: recursive least squares, by one sweep of Gauss-Seidel for each
+/* A sum of terms whose weights are learned on the way: recursive least squares, by one sweep of Gauss-Seidel for each
  * sample, in integers (specification, V 6). */
 enum {
     MOST_TERMS = 7,
@@ -176,7 +176,7 @@ INLINE void learn_in_turn(Learner *l, int terms, const int32_t *term, int32_t ta
     solve_for(l, terms, turn);
 }
 
-/* A learnt sum that tells a value, and one that tells how far off that will be (specification, V 9, A 4.5). */
+/* A learned sum that tells a value, and one that tells how far off that will be (specification, V 9, A 4.5). */
 enum { TERMS = 7, HINTS = 4, VALENCES = 6 };
 
 typedef struct { /* all in 1/16 */
@@ -235,9 +235,9 @@ bool fits_seen(ConstInts largest, Longs2 seen);
 
 /* Sizes of the gaps of a vertex, added. */
 int32_t error_at(const Ints2 *gaps, int32_t v);
-/* Tell the neighbours of v, which is known now. */
+/* Tell the neighbors of v, which is known now. */
 void pass_on(const Corners *corners, const Ints2 *values, const Longs2 *sums, int32_t v);
-/* What component j would be, less `otherwise`, if it balanced the others around neighbours where it is all that is
+/* What component j would be, less `otherwise`, if it balanced the others around neighbors where it is all that is
  * missing. */
 int32_t balance(const Corners *corners, const Ints2 *values, const Longs2 *sums, const Around *around, int j,
     int32_t otherwise);
@@ -258,7 +258,7 @@ typedef struct {
     ConstInts order;   /* n: vertices as they are coded */
     Ints2 values;      /* n x 3 */
     Ints2 gaps;        /* n x 3: value less guess, in 1/16 */
-    Longs2 sums;       /* n x 4: values of the coded neighbours, added, and how many they are */
+    Longs2 sums;       /* n x 4: values of the coded neighbors, added, and how many they are */
     Longs2 seen;       /* 3 x words: bit v of an axis tells that it has taken the value v */
     Longs2 learners;
 } Grid;
@@ -285,7 +285,7 @@ typedef struct {
 int64_t code_light(Coder coder, Corners corners, Light light, int64_t first, int64_t count);
 
 /* Which float of the cell of a grid each coordinate is. See light.c. */
-/* What has been learnt, as Python keeps it. */
+/* What has been learned, as Python keeps it. */
 typedef struct {
     Words slots;  /* 3 x 9: by the last three answers where a value comes again, and one where it is new */
     Longs latest; /* 3: bits of the last three answers on each axis where a value came again */
@@ -295,12 +295,12 @@ typedef struct {
 int64_t code_floats(Coder coder, Floats floats, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest,
     ConstLongs2 high, Longs2 chosen);
 
-/* Levels around a prediction. See levels.c. */
+/* Levels around a prediction. See layer.c. */
 /* As Python keeps it; each n x 3 but the last. */
 typedef struct {
     Ints2 levels; /* at most 2^20 in magnitude */
     Ints2 gaps;   /* level less guess, in 1/16 */
-    Ints2 means;  /* of a level and those of its coded neighbours, in 1/16 */
+    Ints2 means;  /* of a level and those of its coded neighbors, in 1/16 */
     Longs2 learners;
 } Levels;
 

@@ -1,4 +1,4 @@
-/* Positions on a grid, vertex after vertex, predicted from coded neighbours (specification, V 7 to V 10). */
+/* Positions on a grid, vertex after vertex, predicted from coded neighbors (specification, V 7 to V 10). */
 #include "bitstream/fields/fields.h"
 
 
@@ -103,14 +103,14 @@ static void average(const Grid *g, int32_t last, Place *p) {
             int64_t a = x[AXES * (int64_t)f.a + j], b = x[AXES * (int64_t)f.b + j], c = x[AXES * (int64_t)f.c + j];
             across += p->across[i][j] = (int32_t)(a + b - c) * FINE;
         }
-        for (int i = 0; i < r->neighbours; i++) {
-            near += x[AXES * (int64_t)r->neighbour[i] + j] * FINE;
-            error += size_of(g->gaps.data[AXES * (int64_t)r->neighbour[i] + j]);
+        for (int i = 0; i < r->neighbors; i++) {
+            near += x[AXES * (int64_t)r->neighbor[i] + j] * FINE;
+            error += size_of(g->gaps.data[AXES * (int64_t)r->neighbor[i] + j]);
         }
         int32_t most = g->largest.data[j];
-        p->mean[j] = r->neighbours > 0 ? divided(near, r->neighbours) : last < 0 ? 0
+        p->mean[j] = r->neighbors > 0 ? divided(near, r->neighbors) : last < 0 ? 0
             : x[AXES * (int64_t)last + j] * FINE;
-        p->error_near[j] = r->neighbours > 0 ? divided(error, r->neighbours) : last < 0 ? FINE * most : most;
+        p->error_near[j] = r->neighbors > 0 ? divided(error, r->neighbors) : last < 0 ? FINE * most : most;
         p->base[j] = r->flaps > 0 ? divided(across, r->flaps) : p->mean[j];
         p->apart[j] = r->flaps > 1 ? size_of(p->across[0][j] - p->across[1][j]) : 0;
         for (int i = 0; i < SHAPES; i++) p->shape[i][j] = 0;
@@ -186,7 +186,7 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     e.prediction[2] = second;
     e.prediction[3] = r->flaps > 1 ? second + tilt(&p->plane[1], j) : mean;
     e.prediction[4] = nearest_seen(g->seen.data + j * words, words, within(whole(in_first), 0, most)) * FINE;
-    e.prediction[5] = r->neighbours > 0 ? x[AXES * (int64_t)r->neighbour[0] + j] * FINE : mean;
+    e.prediction[5] = r->neighbors > 0 ? x[AXES * (int64_t)r->neighbor[0] + j] * FINE : mean;
     e.prediction[6] = base + shift;
     int32_t off[PREDICTIONS];
     settle(&e, 0, far, off);

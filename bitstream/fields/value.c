@@ -76,7 +76,7 @@ OFTEN static int decide(Work *w, int node, int kind, int bit) {
 INLINE int32_t bounded(int32_t odds) { return within(odds, -MOST_ODDS, MOST_ODDS); }
 INLINE int32_t first_scale(const Expectation *e) { return e->scale < 2 ? 2 : e->scale; }
 
-/* The learnt sizes of errors, the expected one counting as if seen twice; returns that of the guess, 1/16 (V 5.3). */
+/* The learned sizes of errors, the expected one counting as if seen twice; returns that of the guess, 1/16 (V 5.3). */
 INLINE int32_t find_scales(Work *w) {
     int64_t mean = 0;
     for (int j = 0; j < PREDICTIONS; j++) {
@@ -200,14 +200,14 @@ OFTEN int32_t code_value(RangeCoder *coder, const ValueModel *model, const Expec
     int32_t typical = find_scales(&w), asked[MOST_ASKS];
     int asks;
     if (!ask(&w, &value, asked, &asks)) {
-        int32_t centre = whole(e->prediction[PREDICTIONS - 1]), start = centre, lean = 0;
+        int32_t center = whole(e->prediction[PREDICTIONS - 1]), start = center, lean = 0;
         for (int i = 0; i < asks; i++) {
-            lean += (asked[i] > centre) - (asked[i] < centre);
-            if (asked[i] == centre) start = centre + 1;
+            lean += (asked[i] > center) - (asked[i] < center);
+            if (asked[i] == center) start = center + 1;
         }
         int node = SIDE_NODE + (asks == 0 ? 0 : lean < 0 ? 1 : lean == 0 ? 2 : 3);
         int up = choose_side(&w, start, node, value >= start), direction = up ? 1 : -1;
-        int32_t from = up ? start : centre - 1;
+        int32_t from = up ? start : center - 1;
         int k = (int)largest(bit_length((uint32_t)(typical / FINE)) - 1, 0);
         int64_t distance = code_distance(&w, from, direction, k, asked, asks, (int64_t)direction * (value - from));
         value = from + direction * (int32_t)distance;
@@ -271,8 +271,8 @@ int32_t balance(const Corners *corners, const Ints2 *values, const Longs2 *sums,
     int32_t otherwise) {
     int64_t columns = values->columns, total = 0;
     int32_t found = 0;
-    for (int i = 0; i < around->neighbours; i++) {
-        int32_t u = around->neighbour[i];
+    for (int i = 0; i < around->neighbors; i++) {
+        int32_t u = around->neighbor[i];
         const int64_t *sum = sums->data + (columns + 1) * u;
         if (faces_at(corners, u) - sum[columns] > 1) continue;
         total += limited(FINE * ((sum[columns] + 1) * values->data[columns * u + j] - sum[j]) - otherwise);

@@ -19,21 +19,21 @@ INLINE bool fits_factor(const Fronts *fronts, int64_t n, Singles values, ConstSi
         && values.size >= (int64_t)fronts->places.data[count] + 15;
 }
 
-int64_t find_fronts(ConstInts offsets, ConstInts neighbours, int64_t leaf, double most_work, Words scratch, Words rows,
+int64_t find_fronts(ConstInts offsets, ConstInts neighbors, int64_t leaf, double most_work, Words scratch, Words rows,
                     Words steps, Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums);
-void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal,
+void ISA(factorize_fronts)(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal,
                              Fronts fronts, Words column, Singles scratch, Singles values, Singles inverse);
-void LEVEL(solve_columns)(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch,
+void ISA(solve_columns)(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch,
                           Doubles2 solution);
-int64_t LEVEL(iteration_space)(int64_t n, int64_t c);
-int64_t LEVEL(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions,
+int64_t ISA(iteration_space)(int64_t n, int64_t c);
+int64_t ISA(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions,
                        int64_t care, Singles scratch, Singles2 subspace);
-int64_t LEVEL(completion_space)(int64_t h);
-int64_t LEVEL(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole);
-void LEVEL(cosines)(Doubles table, Doubles2 columns);
-void LEVEL(resize_columns)(ConstSingles2 previous, Doubles table, Singles2 columns);
+int64_t ISA(completion_space)(int64_t h);
+int64_t ISA(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole);
+void ISA(cosines)(Doubles table, Doubles2 columns);
+void ISA(resize_columns)(ConstSingles2 previous, Doubles table, Singles2 columns);
 void hash_columns(Doubles2 columns);
-bool LEVEL(are_vectors_exact)(void);
+bool ISA(are_vectors_exact)(void);
 
 /* Entry of a hash column (specification, M 8.6): the splitmix64 of row * 2^32 + column, as a number in [-1, 1). */
 INLINE double hash_at(int64_t row, int64_t column) {
@@ -43,10 +43,10 @@ INLINE double hash_at(int64_t row, int64_t column) {
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
 }
 
-void cotangents(ConstInts offsets, ConstInts neighbours, ConstInts2 faces, ConstDoubles2 positions, double flatness,
+void cotangents(ConstInts offsets, ConstInts neighbors, ConstInts2 faces, ConstDoubles2 positions, double flatness,
                 double smallness, Doubles weights);
-int64_t hold(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstInts rank, ConstInts vertices,
-             ConstInts own_offsets, ConstInts own_neighbours, Doubles inner, Doubles springs, Ints starts, Ints outer,
+int64_t hold(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstInts rank, ConstInts vertices,
+             ConstInts own_offsets, ConstInts own_neighbors, Doubles inner, Doubles springs, Ints starts, Ints outer,
              Doubles stiffness);
 void pull(ConstInts starts, ConstInts outer, ConstDoubles stiffness, ConstDoubles2 field, Doubles2 pulls);
 

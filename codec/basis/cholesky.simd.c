@@ -1,4 +1,4 @@
-/* Sparse Cholesky factorisation front by front: L + delta I = P^T C D C^T P, the R^-1 of the paper's section 4.
+/* Sparse Cholesky factorization front by front: L + delta I = P^T C D C^T P, the R^-1 of the paper's section 4.
  *
  * A front gets its part of the matrix, eliminates its own steps, and takes what they leave to the steps of its border
  * straight from the fronts that own those. Every entry is its number in the matrix less the terms of all steps before
@@ -73,10 +73,10 @@ INLINE void find_places(const Fronts *fronts, const Front *front, int64_t i, int
     }
 }
 
-/* Factorise the matrix that has `diagonal`, and minus its weight, one without any, for every edge, to the columns of
+/* Factorize the matrix that has `diagonal`, and minus its weight, one without any, for every edge, to the columns of
  * -C, as rows of the fronts' matrices, and D^-1. `column` is scratch of n + 1, `scratch` of three rows of a front's
  * matrix, at most 3 (n + 16), and 15 more. */
-void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal,
+void ISA(factorize_fronts)(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal,
                              Fronts fronts, Words column, Singles scratch, Singles values, Singles inverse) {
     int64_t n = fronts.rows.size, count = fronts.firsts.size - 1, filled = fronts.places.data[count];
     float *matrices = aligned(values.data), *left = aligned(scratch.data);
@@ -91,7 +91,7 @@ void LEVEL(factorize_fronts)(ConstInts offsets, ConstInts neighbours, ConstDoubl
             uint32_t r = fronts.rows.data[front.first + k];
             row[k] = (float)diagonal.data[r];
             for (int64_t i = offsets.data[r]; i < offsets.data[r + 1]; i++) {
-                uint32_t step = fronts.steps.data[neighbours.data[i]];
+                uint32_t step = fronts.steps.data[neighbors.data[i]];
                 if (step > front.first + k) row[column.data[step]] = weights.size > 0 ? -(float)weights.data[i] : -1.0f;
             }
         }
@@ -226,7 +226,7 @@ INLINE void substitute_panel(const int vectors, float *x, int64_t lane, const Fr
 }
 
 /* Overwrite panels of X, their rows in the order of elimination, by (C D C^T)^-1 X. */
-void LEVEL(substitute)(Fronts fronts, const float *matrices, const float *inverse, Panels panels) {
+void ISA(substitute)(Fronts fronts, const float *matrices, const float *inverse, Panels panels) {
     for (int64_t b = 0; b < panel_count(&panels); b++) {
         Panel panel = panel_at(&panels, b);
         WITH_VECTORS(panel.apart / WIDTH, panel.data, substitute_panel, panel.apart, &fronts, matrices, inverse);
@@ -234,7 +234,7 @@ void LEVEL(substitute)(Fronts fronts, const float *matrices, const float *invers
 }
 
 /* R X for X of shape (n, c) and a factor of `factorize_fronts`; X is rounded to single precision. */
-void LEVEL(solve_columns)(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch,
+void ISA(solve_columns)(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch,
                           Doubles2 solution) {
     Panels panels = {aligned(scratch.data), padded_rows(columns.rows), whole_vectors(columns.columns)};
     for (int64_t i = 0; i < panels_size(&panels); i += WIDTH) store(panels.data + i, zeros());
@@ -250,6 +250,6 @@ void LEVEL(solve_columns)(Fronts fronts, Singles values, ConstSingles inverse, C
                     else row[j] = (float)columns.data[at + j];
             }
         }
-        if (!back) LEVEL(substitute)(fronts, aligned(values.data), inverse.data, panels);
+        if (!back) ISA(substitute)(fronts, aligned(values.data), inverse.data, panels);
     }
 }

@@ -2,7 +2,7 @@
  *
  * With U the h columns that are there, E the first h columns of I, and A = I + E^T U, the matrix
  * I - (U + E) A^-T (U + E)^T is orthogonal and takes E to -U; so its columns from h on are orthogonal to U. A has a
- * symmetric part that is not indefinite, which is why it is factorised without exchanges.
+ * symmetric part that is not indefinite, which is why it is factorized without exchanges.
  */
 #include "codec/basis/vectors.h"
 
@@ -20,7 +20,7 @@ INLINE Completion completion_of(int64_t h, float *memory) {
 }
 
 /* Numbers of scratch that completing h columns takes. */
-int64_t LEVEL(completion_space)(int64_t h) {
+int64_t ISA(completion_space)(int64_t h) {
     int64_t size = whole_vectors(h);
     return 2 * size * size + size * LANES + ROWS * size + LINE - 1;
 }
@@ -96,9 +96,9 @@ static void solve_panel(Completion own) {
 
 /* Fill `whole`, first of all by the columns that are there, `first`. Returns whether A has no pivot below
  * `least_pivot`. */
-int64_t LEVEL(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole) {
+int64_t ISA(complete_columns)(ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole) {
     int64_t h = first.columns, n = first.rows, c = whole.columns;
-    if (whole.rows != n || c < h || c > n || scratch.size < LEVEL(completion_space)(h)) return MISUSED;
+    if (whole.rows != n || c < h || c > n || scratch.size < ISA(completion_space)(h)) return MISUSED;
     Completion own = completion_of(h, aligned(scratch.data));
     for (int64_t r = 0; r < n; r++)
         for (int64_t b = 0; b < h; b++) whole.data[r * c + b] = first.data[r * h + b];

@@ -37,7 +37,7 @@ INLINE double cosine_at(const double *table, int64_t n, int64_t angle) {
 }
 
 /* All columns; `table` is scratch of n + 1, and 7 more. */
-void LEVEL(cosines)(Doubles table, Doubles2 columns) {
+void ISA(cosines)(Doubles table, Doubles2 columns) {
     int64_t n = columns.rows;
     make_table(n, table.data);
     for (int64_t r = 0; r < n; r++)
@@ -49,7 +49,7 @@ void LEVEL(cosines)(Doubles table, Doubles2 columns) {
 }
 
 /* The first columns of `previous`, and cosines where it has fewer than `columns`; `table` as above. */
-void LEVEL(resize_columns)(ConstSingles2 previous, Doubles table, Singles2 columns) {
+void ISA(resize_columns)(ConstSingles2 previous, Doubles table, Singles2 columns) {
     int64_t n = columns.rows, kept = least(previous.columns, columns.columns);
     if (kept < columns.columns) make_table(n, table.data);
     for (int64_t r = 0; r < n; r++) {

@@ -6,7 +6,7 @@
 static const volatile float LATE_ONE = 1;
 
 /* Lanes do not fuse products and sums, and keep numbers below the least normal one. */
-bool LEVEL(are_vectors_exact)(void) {
+bool ISA(are_vectors_exact)(void) {
     Vector ones;
     EACH(i, PARTS) ones.part[i] = spread(LATE_ONE);
     Vector above = add_scaled(ones, 0x1p-13f, ones), below = add_scaled(ones, -0x1p-13f, ones),

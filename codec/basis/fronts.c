@@ -9,12 +9,12 @@
 
 /* Elimination order of a graph whose rows are in bisection order: `rows` and, at the end of `firsts`, the first step of
  * each front. Returns the number of fronts; `cuts`, one entry a row, is scratch, `firsts` has room for one more. */
-static int64_t dissect(ConstInts offsets, ConstInts neighbours, int64_t leaf, Ints cuts, Words rows, Words firsts) {
+static int64_t dissect(ConstInts offsets, ConstInts neighbors, int64_t leaf, Ints cuts, Words rows, Words firsts) {
     int64_t n = offsets.size - 1;
-    /* The widest cut between a row and its farthest later neighbour has the row in its separator. */
+    /* The widest cut between a row and its farthest later neighbor has the row in its separator. */
     for (int64_t r = 0; r < n; r++) {
         int64_t top = r, first = 0, last = n;
-        for (int64_t i = offsets.data[r]; i < offsets.data[r + 1]; i++) top = largest(top, neighbours.data[i]);
+        for (int64_t i = offsets.data[r]; i < offsets.data[r + 1]; i++) top = largest(top, neighbors.data[i]);
         cuts.data[r] = 0;
         while (top > r && last - first > leaf) {
             int64_t middle = (first + last) / 2;
@@ -92,11 +92,11 @@ static void leave_set(Sets *sets, uint32_t set, int64_t from, uint32_t owner) {
 
 /* The borders of the fronts that `dissect` found, and all else that `Fronts` holds.
  *
- * Returns the size of `borders`; -1 if there is no room for them; -2 if a factorisation takes more operations than
+ * Returns the size of `borders`; -1 if there is no room for them; -2 if a factorization takes more operations than
  * `most_work`, or rows are not in the order of a bisection. `scratch` has room for 3 n, `starts` and `places` for t +
  * 1.
  */
-static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords rows, ConstWords firsts,
+static int64_t find_borders(ConstInts offsets, ConstInts neighbors, ConstWords rows, ConstWords firsts,
     double most_work, Words scratch, Words steps, Words owners, Words starts, Words borders, Words places) {
     int64_t n = rows.size, count = firsts.size - 1;
     Sets sets = open_sets(scratch.data, n);
@@ -117,7 +117,7 @@ static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords 
         StepBits *bits = sets.bits + set * sets.words;
         for (int64_t k = first; k < end; k++) {
             for (int64_t i = offsets.data[rows.data[k]]; i < offsets.data[rows.data[k] + 1]; i++) {
-                uint32_t step = steps.data[neighbours.data[i]];
+                uint32_t step = steps.data[neighbors.data[i]];
                 bits[step >> 6] |= UINT64_C(1) << (step & 63);
             }
         }
@@ -142,15 +142,15 @@ static int64_t find_borders(ConstInts offsets, ConstInts neighbours, ConstWords 
 /* All that `Fronts` holds, of a graph of n rows in bisection order: `dissect`, `find_borders`, and of each front the
  * own steps times the width, once and twice, summed. Returns how many fronts there are, or what `find_borders` does
  * where that is below zero. `firsts`, `starts` and `places` have room for n + 1, `scratch` for 3 n. */
-int64_t find_fronts(ConstInts offsets, ConstInts neighbours, int64_t leaf, double most_work, Words scratch, Words rows,
+int64_t find_fronts(ConstInts offsets, ConstInts neighbors, int64_t leaf, double most_work, Words scratch, Words rows,
                     Words steps, Words owners, Words firsts, Words starts, Words borders, Words places, Doubles sums) {
     int64_t n = offsets.size - 1;
-    if (!fits_graph(offsets, neighbours) || scratch.size < 3 * n || rows.size != n || steps.size != n
+    if (!fits_graph(offsets, neighbors) || scratch.size < 3 * n || rows.size != n || steps.size != n
         || owners.size != n || firsts.size != n + 1 || starts.size != n + 1 || places.size != n + 1 || sums.size != 2)
         return MISUSED;
-    int64_t count = dissect(offsets, neighbours, leaf, (Ints){(int32_t *)scratch.data, n}, rows, firsts);
+    int64_t count = dissect(offsets, neighbors, leaf, (Ints){(int32_t *)scratch.data, n}, rows, firsts);
     for (int64_t t = 0; t <= count; t++) firsts.data[t] = firsts.data[n - count + t];
-    int64_t size = find_borders(offsets, neighbours, (ConstWords){rows.data, n}, (ConstWords){firsts.data, count + 1},
+    int64_t size = find_borders(offsets, neighbors, (ConstWords){rows.data, n}, (ConstWords){firsts.data, count + 1},
                                 most_work, scratch, steps, owners, starts, borders, places);
     if (size < 0) return size;
     sums.data[0] = sums.data[1] = 0.0;

@@ -44,9 +44,9 @@ static void unpack(Panels panels, const uint32_t *order, Singles2 columns) {
  * depends on a later one.
  */
 
-#define LITTLE 0x1p-14f /* of a column's squared length: if less is left of it, this is too much */
-#define MUCH 0.25f      /* of one that had length 1: it is orthogonal to those before it */
-#define TIMES 4         /* that a column is taken before it is replaced */
+#define REORTHOGONALIZE_BELOW 0x1p-14f /* of a column's squared length: if less is left of it, this is too much */
+#define ORTHOGONAL_ENOUGH 0.25f      /* of one that had length 1: it is orthogonal to those before it */
+#define MAX_PASSES 4         /* that a column is taken before it is replaced */
 
 /* `rows` rows and some vectors side by side of X^T Y. */
 INLINE void gram_tile(const int vectors, const int rows, const float *left, int64_t left_apart, const float *right,
@@ -106,7 +106,7 @@ static int64_t factorize_gram(float *product, int64_t apart, int64_t c, const fl
         int64_t skip = j / WIDTH;
         WITH_VECTORS(apart / WIDTH - skip, product + skip * WIDTH, reduce_row, apart, j, product + j);
         float squared = row[j];
-        if (!(squared > LITTLE * lengths[j] && squared < __builtin_inff())) return j;
+        if (!(squared > REORTHOGONALIZE_BELOW * lengths[j] && squared < __builtin_inff())) return j;
         float scale = 1.0f / __builtin_sqrtf(squared);
         for (int64_t p = skip * WIDTH; p < apart; p += WIDTH) store(row + p, scaled(load(row + p), scale));
         row[j] = scale;
@@ -243,19 +243,19 @@ static bool clean_column(Panels *panels, int64_t n, int64_t j, const uint32_t *o
     Panel panel = panel_at(panels, j / LANES);
     float *v = scratch, *shares = scratch + n, *column = panel.data + (j - panel.first);
     for (int64_t r = 0; r < n; r++) v[r] = column[r * panel.apart];
-    for (int times = 0; times < 2 * TIMES; times++) {
+    for (int pass = 0; pass < 2 * MAX_PASSES; pass++) {
         float length = square(v, n);
         bool some = length > 0.0f && length < __builtin_inff();
-        if (times == TIMES || (times < TIMES && !some)) {
+        if (pass == MAX_PASSES || (pass < MAX_PASSES && !some)) {
             for (int64_t r = 0; r < n; r++) v[r] = (float)hash_at(order[r], j);
             length = square(v, n);
-            times = TIMES;
+            pass = MAX_PASSES;
         } else if (!some)
             return false;
         scale_by(v, n, 1.0f / __builtin_sqrtf(length));
         take_out_all(panels, n, j, v, shares);
         length = square(v, n);
-        if (!(length > MUCH)) continue;
+        if (!(length > ORTHOGONAL_ENOUGH)) continue;
         scale_by(v, n, 1.0f / __builtin_sqrtf(length));
         for (int64_t r = 0; r < n; r++) column[r * panel.apart] = v[r];
         return true;
@@ -295,17 +295,17 @@ INLINE Panels panels_of(int64_t n, int64_t c, float *memory) {
 
 /* Numbers of scratch that a matrix of n rows and c columns takes: itself, two matrices of a panel's columns, a column,
  * and two numbers for each. */
-int64_t LEVEL(iteration_space)(int64_t n, int64_t c) {
+int64_t ISA(iteration_space)(int64_t n, int64_t c) {
     Panels panels = panels_of(n, c, 0);
     return panels_size(&panels) + 2 * LANES * LANES + n + 2 * panels.columns + LINE - 1;
 }
 
 /* A number of solutions with a factor of `factorize_fronts`, Onorm after each and once more, of as many of the columns
  * of `start` as `subspace` has; at most `care` columns are made orthonormal one by one. */
-int64_t LEVEL(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions,
+int64_t ISA(iterate)(Fronts fronts, Singles values, ConstSingles inverse, ConstSingles2 start, int64_t solutions,
                        int64_t care, Singles scratch, Singles2 subspace) {
     int64_t n = start.rows, c = subspace.columns, found = DONE;
-    if (subspace.rows != n || c > start.columns || c < 1 || scratch.size < LEVEL(iteration_space)(n, c) ||
+    if (subspace.rows != n || c > start.columns || c < 1 || scratch.size < ISA(iteration_space)(n, c) ||
         !fits_factor(&fronts, n, values, inverse))
         return MISUSED;
     float *memory = aligned(scratch.data);
@@ -313,7 +313,7 @@ int64_t LEVEL(iterate)(Fronts fronts, Singles values, ConstSingles inverse, Cons
     const uint32_t *order = fronts.rows.data;
     pack(start, c, order, panels);
     for (int64_t k = 0; k <= solutions && found == DONE; k++) {
-        if (k < solutions) LEVEL(substitute)(fronts, aligned(values.data), inverse.data, panels);
+        if (k < solutions) ISA(substitute)(fronts, aligned(values.data), inverse.data, panels);
         found = onorm(&panels, n, c, &care, order, memory + panels_size(&panels));
     }
     unpack(panels, order, subspace);

@@ -22,12 +22,12 @@ typedef float Real;
 /* Numbers that a register and a vector hold, how many vectors side by side have room in registers for several rows of
  * them, and rows of one vector that are summed side by side: eight registers, so that as many are left for what is
  * added. Where registers are short, so are vectors: fewer lanes are beyond the last column. */
-#if defined(__AVX512F__) || KERNEL_LEVEL == 4
+#if defined(__AVX512F__) || KERNEL_ISA == 4
 #define REGISTER LINE
 #define WIDTH LINE
 #define SIDE VECTORS
 #define ROWS 4
-#elif defined(__AVX__) || KERNEL_LEVEL == 3
+#elif defined(__AVX__) || KERNEL_ISA == 3
 #define REGISTER (32 / REAL_BYTES)
 #define WIDTH LINE
 #define SIDE 1
@@ -158,7 +158,7 @@ INLINE Front front_at(const Fronts *fronts, int64_t t) {
 }
 
 #ifndef VECTORS_OF_DOUBLES
-void LEVEL(substitute)(Fronts fronts, const float *matrices, const float *inverse, Panels panels);
+void ISA(substitute)(Fronts fronts, const float *matrices, const float *inverse, Panels panels);
 #endif
 
 #endif

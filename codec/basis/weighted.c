@@ -26,9 +26,9 @@ INLINE double soft_cotangent(const double *p, const double *q, const double *s, 
     return product / __builtin_sqrt(x * x + y * y + z * z + flatness * sides * sides + smallness);
 }
 
-/* Half the sum of the soft cotangents opposite to each edge, added to `weights`, one for every entry of `neighbours`;
+/* Half the sum of the soft cotangents opposite to each edge, added to `weights`, one for every entry of `neighbors`;
  * the graph has every edge of `faces`. */
-void cotangents(ConstInts offsets, ConstInts neighbours, ConstInts2 faces, ConstDoubles2 positions, double flatness,
+void cotangents(ConstInts offsets, ConstInts neighbors, ConstInts2 faces, ConstDoubles2 positions, double flatness,
                 double smallness, Doubles weights) {
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
@@ -37,17 +37,17 @@ void cotangents(ConstInts offsets, ConstInts neighbours, ConstInts2 faces, Const
             if (a == b || a == c || b == c) continue;
             double half = 0.5 * soft_cotangent(positions.data + 3 * (int64_t)a, positions.data + 3 * (int64_t)b,
                                                positions.data + 3 * (int64_t)c, flatness, smallness);
-            weights.data[lower_bound(neighbours.data, offsets.data[b], offsets.data[b + 1] - 1, c)] += half;
-            weights.data[lower_bound(neighbours.data, offsets.data[c], offsets.data[c + 1] - 1, b)] += half;
+            weights.data[lower_bound(neighbors.data, offsets.data[b], offsets.data[b + 1] - 1, c)] += half;
+            weights.data[lower_bound(neighbors.data, offsets.data[c], offsets.data[c + 1] - 1, b)] += half;
         }
     }
 }
 
 /* The weights of a part's edges, `inner`, one for every entry of its own graph, and the springs on which it hangs: its
  * edges to vertices of a lower rank. Row r has those from `starts[r]` on, together as stiff as `springs[r]`. Returns
- * how many there are; there is room for as many as the vertices have neighbours. */
-int64_t hold(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstInts rank, ConstInts vertices,
-             ConstInts own_offsets, ConstInts own_neighbours, Doubles inner, Doubles springs, Ints starts, Ints outer,
+ * how many there are; there is room for as many as the vertices have neighbors. */
+int64_t hold(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstInts rank, ConstInts vertices,
+             ConstInts own_offsets, ConstInts own_neighbors, Doubles inner, Doubles springs, Ints starts, Ints outer,
              Doubles stiffness) {
     int64_t count = 0;
     starts.data[0] = 0;
@@ -55,14 +55,14 @@ int64_t hold(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, Cons
         int32_t v = vertices.data[r];
         int64_t first = offsets.data[v], last = offsets.data[v + 1];
         for (int64_t i = own_offsets.data[r]; i < own_offsets.data[r + 1]; i++) {
-            int32_t w = vertices.data[own_neighbours.data[i]];
-            inner.data[i] = weights.data[lower_bound(neighbours.data, first, last - 1, w)];
+            int32_t w = vertices.data[own_neighbors.data[i]];
+            inner.data[i] = weights.data[lower_bound(neighbors.data, first, last - 1, w)];
         }
         springs.data[r] = 0.0;
         for (int64_t i = first; i < last; i++) {
-            if (rank.data[neighbours.data[i]] >= rank.data[v]) continue;
+            if (rank.data[neighbors.data[i]] >= rank.data[v]) continue;
             springs.data[r] += weights.data[i];
-            outer.data[count] = neighbours.data[i];
+            outer.data[count] = neighbors.data[i];
             stiffness.data[count++] = weights.data[i];
         }
         starts.data[r + 1] = (int32_t)count;

@@ -7,16 +7,16 @@
 /* Words of scratch that a graph of `size` vertices takes. */
 INLINE int64_t bisection_scratch(int64_t size) { return 13 * size + 5; }
 
-bool bisect(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch);
-bool bisect_once(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch, Words second);
-bool bisect_half(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, int64_t half, Words scratch);
-void refine_partition(ConstInts offsets, ConstInts neighbours, Ints labels, int64_t passes, Longs sizes, Ints votes);
+bool bisect(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch);
+bool bisect_once(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch, Words second);
+bool bisect_half(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, int64_t half, Words scratch);
+void refine_partition(ConstInts offsets, ConstInts neighbors, Ints labels, int64_t passes, Longs sizes, Ints votes);
 int64_t label_parts(ConstInts order, ConstInts bounds, Ints labels);
 void group_by_label(ConstInts labels, Ints bounds, Ints order);
 int64_t order_scratch(int64_t rows, int64_t edges);
-int64_t order_block(ConstInts offsets, ConstInts neighbours, ConstInts rows, Ints vertices, Ints local_offsets,
-                    Ints local_neighbours, Words scratch);
-int64_t chain_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
+int64_t order_block(ConstInts offsets, ConstInts neighbors, ConstInts rows, Ints vertices, Ints local_offsets,
+                    Ints local_neighbors, Words scratch);
+int64_t chain_blocks(ConstInts offsets, ConstInts neighbors, ConstInts order, ConstInts bounds, ConstInts labels,
                      int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
                      Longs edges, Ints members);
 void add_copies(Doubles2 sums, Doubles total, ConstInts vertices, ConstDoubles2 positions, ConstDoubles weights);

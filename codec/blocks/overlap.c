@@ -4,9 +4,9 @@
 
 static const uint32_t FREE = 0xFFFFFFFFu;
 
-/* Breadth-first from each part, neighbours in ascending order, until `size` vertices are found; vertices with more than
- * `size` neighbours are left out. Returns the number of members. `seen` is scratch, one entry a vertex. */
-static int64_t grow_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts chain,
+/* Breadth-first from each part, neighbors in ascending order, until `size` vertices are found; vertices with more than
+ * `size` neighbors are left out. Returns the number of members. `seen` is scratch, one entry a vertex. */
+static int64_t grow_blocks(ConstInts offsets, ConstInts neighbors, ConstInts order, ConstInts bounds, ConstInts chain,
                     int64_t size, Ints seen, Longs starts, Ints members) {
     int64_t count = 0;
     for (int64_t v = 0; v < seen.size; v++) seen.data[v] = -1;
@@ -20,7 +20,7 @@ static int64_t grow_blocks(ConstInts offsets, ConstInts neighbours, ConstInts or
         while (head < count && count < full) {
             int32_t v = members.data[head++];
             for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
-                int32_t w = neighbours.data[i];
+                int32_t w = neighbors.data[i];
                 if (seen.data[w] != index && count < full && offsets.data[w + 1] - offsets.data[w] <= size) {
                     seen.data[w] = (int32_t)index;
                     members.data[count++] = w;
@@ -52,17 +52,17 @@ int64_t order_scratch(int64_t rows, int64_t edges) {
 
 /* The graph among the vertices `rows`, with its rows in the order of a full bisection.
  *
- * Returns the ends of edges that there are; where they are more than `local_neighbours` has room for, nothing else has
+ * Returns the ends of edges that there are; where they are more than `local_neighbors` has room for, nothing else has
  * been done. */
-int64_t order_block(ConstInts offsets, ConstInts neighbours, ConstInts rows, Ints vertices, Ints local_offsets,
-                    Ints local_neighbours, Words scratch) {
+int64_t order_block(ConstInts offsets, ConstInts neighbors, ConstInts rows, Ints vertices, Ints local_offsets,
+                    Ints local_neighbors, Words scratch) {
     int64_t n = rows.size;
     uint64_t capacity = table_size(n), mask = capacity - 1;
     uint32_t *table = scratch.data, *number = table + capacity;
     int32_t *first_offsets = (int32_t *)(number + capacity), *order = first_offsets + n + 1, *rank = order + n;
-    int32_t *bounds = rank + n, *first_neighbours = bounds + n + 1;
-    uint32_t *rest = (uint32_t *)(first_neighbours + local_neighbours.size + 1);
-    if (scratch.size < order_scratch(n, local_neighbours.size) || vertices.size < n || local_offsets.size < n + 1)
+    int32_t *bounds = rank + n, *first_neighbors = bounds + n + 1;
+    uint32_t *rest = (uint32_t *)(first_neighbors + local_neighbors.size + 1);
+    if (scratch.size < order_scratch(n, local_neighbors.size) || vertices.size < n || local_offsets.size < n + 1)
         return -1;
     for (uint64_t k = 0; k < capacity; k++) table[k] = FREE;
     for (int64_t r = 0; r < n; r++) {
@@ -70,21 +70,21 @@ int64_t order_block(ConstInts offsets, ConstInts neighbours, ConstInts rows, Int
         table[slot] = (uint32_t)rows.data[r];
         number[slot] = (uint32_t)r;
     }
-    int64_t filled = 0, room = local_neighbours.size;
+    int64_t filled = 0, room = local_neighbors.size;
     first_offsets[0] = 0;
     for (int64_t r = 0; r < n; r++) {
         int32_t v = rows.data[r];
         for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
             /* Without a branch, which the processor could not predict: what is not in `rows` is overwritten. */
-            uint64_t slot = slot_of(table, mask, (uint32_t)neighbours.data[i]);
-            first_neighbours[least(filled, room)] = (int32_t)number[slot];
+            uint64_t slot = slot_of(table, mask, (uint32_t)neighbors.data[i]);
+            first_neighbors[least(filled, room)] = (int32_t)number[slot];
             filled += table[slot] != FREE;
         }
         first_offsets[r + 1] = (int32_t)filled;
     }
     if (filled > room) return filled;
     Words left = {rest, bisection_scratch(n)};
-    if (!bisect((ConstInts){first_offsets, n + 1}, (ConstInts){first_neighbours, filled}, (Ints){order, n},
+    if (!bisect((ConstInts){first_offsets, n + 1}, (ConstInts){first_neighbors, filled}, (Ints){order, n},
                 (Ints){bounds, n + 1}, left))
         return -1;
     for (int64_t r = 0; r < n; r++) rank[order[r]] = (int32_t)r;
@@ -94,14 +94,14 @@ int64_t order_block(ConstInts offsets, ConstInts neighbours, ConstInts rows, Int
         int32_t source = order[r];
         vertices.data[r] = rows.data[source];
         for (int64_t i = first_offsets[source]; i < first_offsets[source + 1]; i++)
-            local_neighbours.data[end++] = rank[first_neighbours[i]];
+            local_neighbors.data[end++] = rank[first_neighbors[i]];
         local_offsets.data[r + 1] = (int32_t)end;
     }
     return end;
 }
 
-/* The chain of parts: from part 0 on, the unvisited neighbour that shares most edges with all parts visited so far;
- * where there is none, the lowest unvisited neighbour of the latest part that has one; else the lowest unvisited.
+/* The chain of parts: from part 0 on, the unvisited neighbor that shares most edges with all parts visited so far;
+ * where there is none, the lowest unvisited neighbor of the latest part that has one; else the lowest unvisited.
  *
  * `starts`, `ends`, `edges`: the graph of the parts in compressed rows, with the number of edges between them. The rest
  * is scratch, one entry a part; `seen` holds the first entry of each row when it comes. */
@@ -127,7 +127,7 @@ static bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Lon
             shared.data[p] += edges.data[i];
             if (!visited.data[p] && (best == -1 || shared.data[p] > shared.data[best])) best = p;
         }
-        /* The way back: a part leaves it once it has no unvisited neighbours, and is not looked at again. */
+        /* The way back: a part leaves it once it has no unvisited neighbors, and is not looked at again. */
         while (best == -1 && length > 0) {
             int32_t last = trail.data[length - 1];
             while (seen.data[last] < starts.data[last + 1] && visited.data[ends.data[seen.data[last]]])
@@ -147,10 +147,10 @@ static bool chain_parts(ConstLongs starts, ConstInts ends, ConstLongs edges, Lon
     return true;
 }
 
-/* The graph of the parts, as `chain_parts` takes it: a part's neighbours in ascending order. Vertices before the
+/* The graph of the parts, as `chain_parts` takes it: a part's neighbors in ascending order. Vertices before the
  * `first` are in no part; `labels` are those of the others. `counts`, one entry a part, is scratch. False where `ends`
  * and `edges` have no room. */
-static bool link_parts(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
+static bool link_parts(ConstInts offsets, ConstInts neighbors, ConstInts order, ConstInts bounds, ConstInts labels,
                        Longs counts, Longs starts, Ints ends, Longs edges) {
     int64_t found = 0, first = offsets.size - 1 - labels.size;
     for (int64_t p = 0; p < counts.size; p++) counts.data[p] = 0;
@@ -159,8 +159,8 @@ static bool link_parts(ConstInts offsets, ConstInts neighbours, ConstInts order,
         for (int64_t k = bounds.data[p]; k < bounds.data[p + 1]; k++) {
             int32_t v = order.data[k];
             for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
-                if (neighbours.data[i] < first) continue;
-                int32_t other = labels.data[neighbours.data[i] - first];
+                if (neighbors.data[i] < first) continue;
+                int32_t other = labels.data[neighbors.data[i] - first];
                 if (other == p || counts.data[other]++ > 0) continue;
                 if (found == ends.size || found == edges.size) return false;
                 ends.data[found++] = other;
@@ -179,23 +179,23 @@ static bool link_parts(ConstInts offsets, ConstInts neighbours, ConstInts order,
 /* The parts in a chain and grown to blocks: `chain_parts` and `grow_blocks`. Block i, in the order of the chain, sees
  * `edges[i]` ends of edges. `links` and `shares` have room for each pair of parts that share an
  * edge, `scratch` has seven entries a part. Returns the number of members. */
-int64_t chain_blocks(ConstInts offsets, ConstInts neighbours, ConstInts order, ConstInts bounds, ConstInts labels,
+int64_t chain_blocks(ConstInts offsets, ConstInts neighbors, ConstInts order, ConstInts bounds, ConstInts labels,
                      int64_t size, Ints links, Longs shares, Longs scratch, Ints seen, Ints chain, Longs starts,
                      Longs edges, Ints members) {
     int64_t n = offsets.size - 1, parts = bounds.size - 1;
-    if (!fits_graph(offsets, neighbours) || parts < 1 || order.size != labels.size || labels.size > n || seen.size != n
+    if (!fits_graph(offsets, neighbors) || parts < 1 || order.size != labels.size || labels.size > n || seen.size != n
         || scratch.size < 7 * parts || chain.size != parts || starts.size != parts + 1 || edges.size != parts)
         return MISUSED;
     int64_t *room = scratch.data;
     Longs shared = {room, parts}, next = {room + parts, parts}, first = {room + 4 * parts, parts + 1};
     Ints trail = {(int32_t *)(room + 2 * parts), parts};
     Bytes visited = {(uint8_t *)(room + 3 * parts), parts};
-    if (!link_parts(offsets, neighbours, order, bounds, labels, shared, first, links, shares) ||
+    if (!link_parts(offsets, neighbors, order, bounds, labels, shared, first, links, shares) ||
         !chain_parts((ConstLongs){first.data, first.size}, (ConstInts){links.data, links.size},
                      (ConstLongs){shares.data, shares.size}, shared, next, trail, visited, chain))
         return MISUSED;
     int64_t count =
-        grow_blocks(offsets, neighbours, order, bounds, (ConstInts){chain.data, parts}, size, seen, starts, members);
+        grow_blocks(offsets, neighbors, order, bounds, (ConstInts){chain.data, parts}, size, seen, starts, members);
     for (int64_t p = 0; p < parts; p++) {
         edges.data[p] = 0;
         for (int64_t i = starts.data[p]; i < starts.data[p + 1]; i++)

@@ -7,8 +7,8 @@
 enum { LEAF = 8, DEPTH = 64 };
 
 typedef struct {
-    const int32_t *offsets, *neighbours;
-    uint32_t *colours;
+    const int32_t *offsets, *neighbors;
+    uint32_t *colors;
     int32_t *distances[2]; /* to the low and to the high end of the segment that a vertex is in */
     uint32_t *queue, *keys, *buckets;
 } Work;
@@ -20,13 +20,13 @@ typedef struct {
 
 /* Breadth-first distances from `start` within a segment; `queue` gets its vertices in the order of discovery.
  *
- * The vertices of a segment share a colour, which the sweep raises by one. Where it comes to an end before all are
+ * The vertices of a segment share a color, which the sweep raises by one. Where it comes to an end before all are
  * found, it goes on, one step farther away, from the last vertex of the segment that is still missing. */
 static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t start, int32_t *distance) {
-    uint32_t *colours = work->colours, *queue = work->queue;
-    const int32_t *offsets = work->offsets, *neighbours = work->neighbours;
-    uint32_t colour = colours[start];
-    colours[start] = colour + 1;
+    uint32_t *colors = work->colors, *queue = work->queue;
+    const int32_t *offsets = work->offsets, *neighbors = work->neighbors;
+    uint32_t color = colors[start];
+    colors[start] = color + 1;
     queue[0] = start;
     int64_t head = 0, tail = 1, missing = size;
     for (int32_t level = 0;; level++) {
@@ -34,12 +34,12 @@ static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t st
         while (head < end) {
             uint32_t v = queue[head++];
             distance[v] = level;
-            const int32_t *last = neighbours + offsets[v + 1];
-            for (const int32_t *next = neighbours + offsets[v]; next < last; next++) {
+            const int32_t *last = neighbors + offsets[v + 1];
+            for (const int32_t *next = neighbors + offsets[v]; next < last; next++) {
                 /* Without a branch, which the processor could not predict: what is not new is overwritten. */
-                uint32_t w = (uint32_t)*next, seen = colours[w];
-                uint64_t fresh = seen == colour;
-                colours[w] = seen + (uint32_t)fresh;
+                uint32_t w = (uint32_t)*next, seen = colors[w];
+                uint64_t fresh = seen == color;
+                colors[w] = seen + (uint32_t)fresh;
                 queue[tail] = w;
                 tail += (int64_t)fresh;
             }
@@ -47,9 +47,9 @@ static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t st
         if (tail == end) {
             if (tail == size) return;
             do missing--;
-            while (colours[segment[missing]] != colour);
+            while (colors[segment[missing]] != color);
             queue[tail++] = segment[missing];
-            colours[segment[missing]]++;
+            colors[segment[missing]]++;
         }
     }
 }
@@ -88,12 +88,12 @@ static void sort_segment(Work *work, uint32_t *segment, int64_t size) {
         for (int64_t i = 0; i < size; i++) segment[i] = source[i];
 }
 
-static bool open_work(Work *work, ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch) {
+static bool open_work(Work *work, ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch) {
     int64_t size = offsets.size - 1;
     if (size < 0 || bounds.size < 2 || order.size < size || scratch.size < bisection_scratch(size)) return false;
-    if (neighbours.size < offsets.data[size]) return false;
+    if (neighbors.size < offsets.data[size]) return false;
     uint32_t *room = scratch.data;
-    *work = (Work){.offsets = offsets.data, .neighbours = neighbours.data, .colours = room};
+    *work = (Work){.offsets = offsets.data, .neighbors = neighbors.data, .colors = room};
     work->distances[0] = (int32_t *)(room + size);
     work->distances[1] = (int32_t *)(room + 2 * size);
     work->queue = room + 3 * size;
@@ -107,7 +107,7 @@ static Segment begin(Work *work, uint32_t *segments, int64_t size, Ints bounds) 
     int64_t parts = bounds.size - 1;
     for (int64_t v = 0; v < size; v++) {
         segments[v] = (uint32_t)v;
-        work->colours[v] = 0;
+        work->colors[v] = 0;
     }
     for (int64_t p = 0; p < parts; p++) bounds.data[p] = 0;
     bounds.data[parts] = (int32_t)size;
@@ -125,8 +125,8 @@ static Segment upper(Segment s, int64_t cut) {
     return (Segment){cut, s.last, s.part + s.parts / 2, s.parts - s.parts / 2, 1};
 }
 
-/* Cut a segment of several parts in two, of `colour` and of the one after the next; returns where. */
-static int64_t cut_segment(Work *work, uint32_t *segments, Segment s, uint32_t colour) {
+/* Cut a segment of several parts in two, of `color` and of the one after the next; returns where. */
+static int64_t cut_segment(Work *work, uint32_t *segments, Segment s, uint32_t color) {
     uint32_t *segment = segments + s.first;
     int64_t count = s.last - s.first;
     if (count > LEAF) {
@@ -138,73 +138,73 @@ static int64_t cut_segment(Work *work, uint32_t *segments, Segment s, uint32_t c
         sort_segment(work, segment, count);
     }
     int64_t cut = s.first + count * (s.parts / 2) / s.parts;
-    for (int64_t i = s.first; i < cut; i++) work->colours[segments[i]] = colour;
-    for (int64_t i = cut; i < s.last; i++) work->colours[segments[i]] = colour + 2;
+    for (int64_t i = s.first; i < cut; i++) work->colors[segments[i]] = color;
+    for (int64_t i = cut; i < s.last; i++) work->colors[segments[i]] = color + 2;
     return cut;
 }
 
-/* Cut a segment into its parts, with colours from `colour` on. */
-static void cut_on(Work *work, uint32_t *segments, Segment whole, uint32_t colour, Ints bounds) {
+/* Cut a segment into its parts, with colors from `color` on. */
+static void cut_on(Work *work, uint32_t *segments, Segment whole, uint32_t color, Ints bounds) {
     Segment stack[DEPTH];
     stack[0] = whole;
     for (int depth = 1; depth > 0;) {
         Segment s = stack[--depth];
         if (s.parts == 1) continue;
-        int64_t cut = cut_segment(work, segments, s, colour);
+        int64_t cut = cut_segment(work, segments, s, color);
         bounds.data[s.part + s.parts / 2] = (int32_t)cut;
         stack[depth++] = upper(s, cut);
         stack[depth++] = lower(s, cut);
-        colour += 4;
+        color += 4;
     }
 }
 
-enum { FIRST_COLOUR = 6 };
+enum { FIRST_COLOR = 6 };
 
 /* Cut a graph into `bounds.size - 1` parts: part p is `order[bounds[p]:bounds[p + 1]]`. */
-bool bisect(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch) {
+bool bisect(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch) {
     Work work;
-    if (!open_work(&work, offsets, neighbours, order, bounds, scratch)) return false;
+    if (!open_work(&work, offsets, neighbors, order, bounds, scratch)) return false;
     uint32_t *segments = (uint32_t *)order.data;
-    cut_on(&work, segments, begin(&work, segments, offsets.size - 1, bounds), FIRST_COLOUR, bounds);
+    cut_on(&work, segments, begin(&work, segments, offsets.size - 1, bounds), FIRST_COLOR, bounds);
     return true;
 }
 
 /* The first cut of `bisect`, after which `bisect_half` can go on with both halves at once: one with `scratch`, the
  * other one with `second`. */
-bool bisect_once(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, Words scratch, Words second) {
+bool bisect_once(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch, Words second) {
     Work work, other;
-    if (!open_work(&work, offsets, neighbours, order, bounds, scratch) ||
-        !open_work(&other, offsets, neighbours, order, bounds, second) || bounds.size < 3)
+    if (!open_work(&work, offsets, neighbors, order, bounds, scratch) ||
+        !open_work(&other, offsets, neighbors, order, bounds, second) || bounds.size < 3)
         return false;
     int64_t size = offsets.size - 1;
     uint32_t *segments = (uint32_t *)order.data;
     Segment whole = begin(&work, segments, size, bounds);
-    bounds.data[whole.parts / 2] = (int32_t)cut_segment(&work, segments, whole, FIRST_COLOUR);
+    bounds.data[whole.parts / 2] = (int32_t)cut_segment(&work, segments, whole, FIRST_COLOR);
     for (int64_t v = 0; v < size; v++) {
-        other.colours[v] = work.colours[v];
+        other.colors[v] = work.colors[v];
         for (int end = 0; end < 2; end++) other.distances[end][v] = work.distances[end][v];
     }
     return true;
 }
 
 /* Half 0 or 1 of what `bisect_once` has cut. */
-bool bisect_half(ConstInts offsets, ConstInts neighbours, Ints order, Ints bounds, int64_t half, Words scratch) {
+bool bisect_half(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, int64_t half, Words scratch) {
     Work work;
-    if (!open_work(&work, offsets, neighbours, order, bounds, scratch) || bounds.size < 3) return false;
+    if (!open_work(&work, offsets, neighbors, order, bounds, scratch) || bounds.size < 3) return false;
     Segment whole = {0, offsets.size - 1, 0, bounds.size - 1, 0};
     int64_t cut = bounds.data[whole.parts / 2];
     if (cut < 0 || cut > whole.last) return false;
-    cut_on(&work, (uint32_t *)order.data, half ? upper(whole, cut) : lower(whole, cut), FIRST_COLOUR + 4, bounds);
+    cut_on(&work, (uint32_t *)order.data, half ? upper(whole, cut) : lower(whole, cut), FIRST_COLOR + 4, bounds);
     return true;
 }
 
-/* The derived partition: boundary vertices move to where most of their neighbours are (specification, M 4). */
+/* The derived partition: boundary vertices move to where most of their neighbors are (specification, M 4). */
 
-static int32_t better_part(ConstInts offsets, ConstInts neighbours, const int32_t *labels, const int64_t *sizes,
+static int32_t better_part(ConstInts offsets, ConstInts neighbors, const int32_t *labels, const int64_t *sizes,
                            const int32_t *votes, int64_t room, int64_t v) {
     int32_t own = labels[v], best = own;
     for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
-        int32_t part = labels[neighbours.data[i]];
+        int32_t part = labels[neighbors.data[i]];
         if (part == own || part == best || sizes[part] >= room) continue;
         if (votes[part] > votes[best] || (votes[part] == votes[best] && sizes[part] + (best == own) < sizes[best]))
             best = part;
@@ -212,10 +212,10 @@ static int32_t better_part(ConstInts offsets, ConstInts neighbours, const int32_
     return best;
 }
 
-/* Greedy, `passes` times over all vertices: a vertex moves to the part that most of its neighbours have, unless that
+/* Greedy, `passes` times over all vertices: a vertex moves to the part that most of its neighbors have, unless that
  * part is full. On a draw it moves only from a larger part to one at least two smaller; a part holds at most 3 % more
  * than its share, and never less than one vertex. `sizes` and `votes` are scratch, one entry a part. */
-void refine_partition(ConstInts offsets, ConstInts neighbours, Ints labels, int64_t passes, Longs sizes, Ints votes) {
+void refine_partition(ConstInts offsets, ConstInts neighbors, Ints labels, int64_t passes, Longs sizes, Ints votes) {
     int64_t n = labels.size, parts = sizes.size, room = n * 103 / (parts * 100) + 1;
     for (int64_t p = 0; p < parts; p++) sizes.data[p] = votes.data[p] = 0;
     for (int64_t v = 0; v < n; v++) sizes.data[labels.data[v]]++;
@@ -223,11 +223,11 @@ void refine_partition(ConstInts offsets, ConstInts neighbours, Ints labels, int6
         for (int64_t v = 0; v < n; v++) {
             int32_t own = labels.data[v];
             int64_t first = offsets.data[v], last = offsets.data[v + 1], i = first;
-            while (i < last && labels.data[neighbours.data[i]] == own) i++;
+            while (i < last && labels.data[neighbors.data[i]] == own) i++;
             if (i == last) continue;
-            for (i = first; i < last; i++) votes.data[labels.data[neighbours.data[i]]]++;
-            int32_t best = better_part(offsets, neighbours, labels.data, sizes.data, votes.data, room, v);
-            for (i = first; i < last; i++) votes.data[labels.data[neighbours.data[i]]] = 0;
+            for (i = first; i < last; i++) votes.data[labels.data[neighbors.data[i]]]++;
+            int32_t best = better_part(offsets, neighbors, labels.data, sizes.data, votes.data, room, v);
+            for (i = first; i < last; i++) votes.data[labels.data[neighbors.data[i]]] = 0;
             if (best != own && sizes.data[own] > 1) {
                 labels.data[v] = best;
                 sizes.data[own]--;

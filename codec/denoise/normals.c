@@ -7,7 +7,7 @@ typedef struct {
 } Packed;
 
 /* Joint bilateral filter of face normals. `packed` is scratch: centroids and guides over their kernels' widths, and
- * normals times areas, each in four numbers, so that neighbours are read and compared whole. */
+ * normals times areas, each in four numbers, so that neighbors are read and compared whole. */
 KERNEL void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDoubles2 normals, ConstDoubles2 guide,
                            ConstLongs starts, ConstInts near, double sigma_s, double sigma_r, Doubles2 packed,
                            Doubles2 filtered) {
@@ -38,7 +38,7 @@ KERNEL void filter_normals(ConstDoubles2 centroids, ConstDoubles areas, ConstDou
     }
 }
 
-/* `steps`: distance between the normals of each pair of neighbouring faces. A low score is a consistent patch. */
+/* `steps`: distance between the normals of each pair of neighboring faces. A low score is a consistent patch. */
 KERNEL void patch_scores(ConstDoubles2 normals, ConstDoubles areas, ConstLongs starts, ConstInts members,
     ConstDoubles steps, ConstLongs inner_starts, ConstInts inner, Doubles scores, Doubles2 means) {
     for (int64_t f = 0; f < normals.rows; f++) {

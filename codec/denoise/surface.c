@@ -89,7 +89,7 @@ int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double
     reached_starts.data[0] = 0;
     for (int64_t i = begin; i < points.rows; i++) {
         if (end + points.rows > reached.size) return i;
-        Vector3 centre = row_of(points.data, i);
+        Vector3 center = row_of(points.data, i);
         int64_t head = end;
         reached.data[end++] = seen.data[i] = (int32_t)i;
         while (head < end) {
@@ -98,7 +98,7 @@ int64_t reach(ConstDoubles2 points, ConstLongs starts, ConstInts members, double
                 int32_t p = members.data[k];
                 if (seen.data[p] == i) continue;
                 seen.data[p] = (int32_t)i;
-                Vector3 apart = less(row_of(points.data, p), centre);
+                Vector3 apart = less(row_of(points.data, p), center);
                 if (dot(apart, apart) <= radius * radius) reached.data[end++] = p;
             }
         }
@@ -181,7 +181,7 @@ KERNEL void follow_normals(Doubles2 positions, ConstInts2 faces, ConstLongs star
     }
 }
 
-/* The random-walk Laplacian: every vertex less the mean of its neighbours; zero where it has none. */
+/* The random-walk Laplacian: every vertex less the mean of its neighbors; zero where it has none. */
 void minus_mean(ConstDoubles2 values, ConstLongs starts, ConstInts members, Doubles2 rest) {
     int64_t width = values.columns;
     for (int64_t v = 0; v < values.rows; v++) {

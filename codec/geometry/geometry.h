@@ -4,14 +4,14 @@
 
 #include "bitstream/kernel.h"
 
-/* Whether there are as many neighbours as the offsets of a graph say. */
-INLINE bool fits_graph(ConstInts offsets, ConstInts neighbours) {
-    return offsets.size > 0 && offsets.data[offsets.size - 1] >= 0 && neighbours.size >= offsets.data[offsets.size - 1];
+/* Whether there are as many neighbors as the offsets of a graph say. */
+INLINE bool fits_graph(ConstInts offsets, ConstInts neighbors) {
+    return offsets.size > 0 && offsets.data[offsets.size - 1] >= 0 && neighbors.size >= offsets.data[offsets.size - 1];
 }
 
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second);
-int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Ints waiting, Ints sizes);
-int64_t reaches_all(ConstInts offsets, ConstInts neighbours, Ints scratch);
+int64_t component_sizes(ConstInts offsets, ConstInts neighbors, Bytes seen, Ints waiting, Ints sizes);
+int64_t reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);
 void vertex_faces(ConstInts2 faces, Longs starts, Ints members);
 void face_normals(ConstDoubles2 positions, ConstInts2 faces, Doubles2 normals);
 void crosses_around(ConstDoubles2 positions, ConstInts2 faces, Doubles2 crosses, Doubles lengths);

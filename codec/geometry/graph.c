@@ -1,7 +1,7 @@
 /* The graph of a mesh, compressed rows in ascending order (specification, M 2). */
 #include "codec/geometry/geometry.h"
 
-/* Edges of `faces`, whose entries are below `offsets.size - 1`. Returns the number of neighbours kept in `ends`, which
+/* Edges of `faces`, whose entries are below `offsets.size - 1`. Returns the number of neighbors kept in `ends`, which
  * has room for six a face; `filled` and `second` are scratch, one entry a vertex and six a face. */
 int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, Ints second) {
     int64_t size = offsets.size - 1;
@@ -26,7 +26,7 @@ int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, In
         }
     }
     /* Each row is complete now, but in no order, and an edge stands in it once for every face beside it. Turned over,
-     * the rows are ascending: vertex v comes to its neighbours after all vertices before it. A row holds as many
+     * the rows are ascending: vertex v comes to its neighbors after all vertices before it. A row holds as many
      * entries as come to it, so that what is written twice stays within it. */
     for (int64_t v = 0; v < size; v++) filled.data[v] = offsets.data[v];
     for (int64_t v = 0; v < size; v++) {
@@ -49,7 +49,7 @@ int64_t collect_edges(ConstInts2 faces, Ints offsets, Ints filled, Ints ends, In
 
 /* Vertices of each connected component; `seen` is zero, all three arrays have an entry a vertex. Returns how many there
  * are. */
-int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Ints waiting, Ints sizes) {
+int64_t component_sizes(ConstInts offsets, ConstInts neighbors, Bytes seen, Ints waiting, Ints sizes) {
     int64_t n = offsets.size - 1, count = 0;
     if (n < 0 || seen.size != n || waiting.size != n || sizes.size != n) return MISUSED;
     for (int64_t first = 0; first < n; first++) {
@@ -59,7 +59,7 @@ int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Int
         waiting.data[end++] = (int32_t)first;
         for (int64_t i = 0; i < end; i++)
             for (int32_t k = offsets.data[waiting.data[i]]; k < offsets.data[waiting.data[i] + 1]; k++) {
-                int32_t other = neighbours.data[k];
+                int32_t other = neighbors.data[k];
                 if (seen.data[other]) continue;
                 seen.data[other] = 1;
                 waiting.data[end++] = other;
@@ -70,9 +70,9 @@ int64_t component_sizes(ConstInts offsets, ConstInts neighbours, Bytes seen, Int
 }
 
 /* Whether there is a way from vertex 0 to all others; `scratch` has two entries a vertex, and one more. */
-int64_t reaches_all(ConstInts offsets, ConstInts neighbours, Ints scratch) {
+int64_t reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch) {
     int64_t n = offsets.size - 1, tail = 1;
-    if (!fits_graph(offsets, neighbours) || scratch.size < 2 * n + 1) return MISUSED;
+    if (!fits_graph(offsets, neighbors) || scratch.size < 2 * n + 1) return MISUSED;
     int32_t *unseen = scratch.data, *waiting = scratch.data + n;
     for (int64_t v = 0; v < n; v++) unseen[v] = v > 0;
     waiting[0] = 0;
@@ -80,7 +80,7 @@ int64_t reaches_all(ConstInts offsets, ConstInts neighbours, Ints scratch) {
         int32_t v = waiting[head];
         for (int32_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
             /* Without a branch, which the processor could not predict: what is not new is overwritten. */
-            int32_t w = neighbours.data[i];
+            int32_t w = neighbors.data[i];
             waiting[tail] = w;
             tail += unseen[w];
             unseen[w] = 0;

@@ -44,7 +44,7 @@ void crosses_around(ConstDoubles2 positions, ConstInts2 faces, Doubles2 crosses,
     }
 }
 
-/* Each vertex minus the mean of its neighbours, weighted by inverse distance; zero beside a neighbour at distance 0. */
+/* Each vertex minus the mean of its neighbors, weighted by inverse distance; zero beside a neighbor at distance 0. */
 void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result) {
     for (int64_t i = 0; i < least(positions.rows, least(starts.size - 1, result.rows)); i++) {
         const double *own = positions.data + 3 * i;

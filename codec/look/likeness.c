@@ -76,13 +76,13 @@ INLINE void blur(const float *restrict from, float *restrict to, int64_t start, 
 /* The same down a column: `rows` are those that are kept, in a ring, `middle` the place of the one at hand. */
 INLINE void blur_down(const float *restrict rows, int64_t stride, int64_t middle, float *restrict to, int64_t start,
                       int64_t end, const float *weights, int64_t reach) {
-    const float *centre = rows + middle * stride, *above[WIDE], *below[WIDE];
+    const float *center = rows + middle * stride, *above[WIDE], *below[WIDE];
     for (int64_t k = 0; k < reach; k++) {
         above[k] = rows + (middle + KEPT - 1 - k) % KEPT * stride;
         below[k] = rows + (middle + 1 + k) % KEPT * stride;
     }
     for (int64_t i = start; i < end; i++) {
-        float sum = weights[0] * centre[i];
+        float sum = weights[0] * center[i];
         for (int64_t k = 0; k < reach; k++) sum += weights[k + 1] * (above[k][i] + below[k][i]);
         to[i] = sum;
     }

@@ -8,8 +8,8 @@
 #define SAMPLE 4096 /* faces that tell which half is ahead */
 #define CAMERA 15 /* three rows of a rotation with an offset each, then the light in the mesh's own axes */
 
-/* The first pixel whose centre is at `x` or behind, in 0..size. */
-INLINE int64_t first_centre(double x, int64_t size) {
+/* The first pixel whose center is at `x` or behind, in 0..size. */
+INLINE int64_t first_center(double x, int64_t size) {
     double start = x - 0.5;
     if (!(start > 0.0)) return 0;
     if (start >= (double)size) return size;
@@ -17,8 +17,8 @@ INLINE int64_t first_centre(double x, int64_t size) {
     return pixel + ((double)pixel < start);
 }
 
-/* Behind the last pixel whose centre is at `x` or before, in 0..size. */
-INLINE int64_t behind_centre(double x, int64_t size) {
+/* Behind the last pixel whose center is at `x` or before, in 0..size. */
+INLINE int64_t behind_center(double x, int64_t size) {
     double end = x + 0.5;
     if (!(end > 0.0)) return 0;
     return end >= (double)size ? size : (int64_t)end;
@@ -81,11 +81,11 @@ INLINE bool hidden(Face face, ConstSingles2 farthest) {
 INLINE void draw_face(Face face, const float *normals, const double *light, int32_t number, Singles2 depth,
                       Singles2 lengths, Singles2 picture, Ints2 owner) {
     const double *a = face.a, *b = face.b, *c = face.c;
-    int64_t first = first_centre(lower(lower(a[1], b[1]), c[1]), picture.rows);
-    int64_t end = behind_centre(higher(higher(a[1], b[1]), c[1]), picture.rows);
+    int64_t first = first_center(lower(lower(a[1], b[1]), c[1]), picture.rows);
+    int64_t end = behind_center(higher(higher(a[1], b[1]), c[1]), picture.rows);
     if (first >= end) return;
-    if (first_centre(lower(lower(a[0], b[0]), c[0]), picture.columns) >=
-        behind_centre(higher(higher(a[0], b[0]), c[0]), picture.columns))
+    if (first_center(lower(lower(a[0], b[0]), c[0]), picture.columns) >=
+        behind_center(higher(higher(a[0], b[0]), c[0]), picture.columns))
         return;
     /* Without branches, which nobody could foretell. */
     const double *above = a[1] > b[1] ? b : a, *below = a[1] > b[1] ? a : b;
@@ -98,8 +98,8 @@ INLINE void draw_face(Face face, const float *normals, const double *light, int3
     for (int64_t row = first; row < end; row++) {
         double y = (double)row + 0.5;
         double from = crossing(whole, y), to = y < middle[1] ? crossing(upper, y) : crossing(beneath, y);
-        int64_t column = first_centre(from < to ? from : to, picture.columns);
-        int64_t stop = behind_centre(from < to ? to : from, picture.columns);
+        int64_t column = first_center(from < to ? from : to, picture.columns);
+        int64_t stop = behind_center(from < to ? to : from, picture.columns);
         for (; column < stop; column++) {
             double x = (double)column + 0.5;
             double s = within(((x - a[0]) * cy - (y - a[1]) * cx) * inverse);

@@ -17,8 +17,8 @@ void follow_rows(ConstDoubles2 known, ConstInts2 levels, Doubles2 decoded, Doubl
 void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts prices, double weight, Ints2 levels,
     Doubles2 decoded, Doubles2 moments, double step, PredictionRules rules, Doubles2 factor, Doubles row,
     Doubles2 expected, Doubles2 values, Ints2 ways, Bytes2 origins);
-int64_t LEVEL(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames);
-int64_t LEVEL(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Doubles2 result);
-int64_t LEVEL(turn_columns)(Doubles2 free, Doubles vector, Doubles shares);
+int64_t ISA(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames);
+int64_t ISA(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Doubles2 result);
+int64_t ISA(turn_columns)(Doubles2 free, Doubles vector, Doubles shares);
 
 #endif

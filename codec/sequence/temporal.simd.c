@@ -32,7 +32,7 @@ INLINE void show_coordinates(const int vectors, int64_t column, ConstDoubles2 fi
 
 /* Up to WIDTH frames, one below the other, of d coordinates, from as many columns of a field, from `first` on, as there
  * are rows of `weights`. A coordinate has WIDTH columns of these, one for each frame. */
-int64_t LEVEL(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames) {
+int64_t ISA(show_frames)(ConstDoubles2 field, int64_t first, ConstDoubles2 weights, Doubles2 frames) {
     int64_t columns = weights.columns;
     if (first < 0 || first + weights.rows > field.columns || columns != WIDTH * frames.columns ||
         (field.rows ? frames.rows % field.rows || frames.rows > WIDTH * field.rows : frames.rows != 0))
@@ -53,7 +53,7 @@ INLINE void add_row(double *to, double scalar, const double *from, int64_t count
 }
 
 /* The product of two matrices, sums in the order of the columns of the first. */
-int64_t LEVEL(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Doubles2 result) {
+int64_t ISA(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Doubles2 result) {
     int64_t columns = right.columns;
     if (left.columns != right.rows || result.rows != left.rows || result.columns != columns) return MISUSED;
     for (int64_t r = 0; r < left.rows; r++) {
@@ -67,7 +67,7 @@ int64_t LEVEL(multiply_matrices)(ConstDoubles2 left, ConstDoubles2 right, Double
 
 /* Columns at right angles, of what is free in them, which they overwrite (S 5.3). `vector` has room for a column,
  * `shares` for a row. */
-int64_t LEVEL(turn_columns)(Doubles2 free, Doubles vector, Doubles shares) {
+int64_t ISA(turn_columns)(Doubles2 free, Doubles vector, Doubles shares) {
     int64_t rows = free.rows, columns = free.columns;
     if (columns > rows || vector.size < rows || shares.size < columns) return MISUSED;
     double *v = vector.data;

@@ -1,4 +1,4 @@
-/* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbours in their order; and
+/* What holds a block: the springs of the specification's M 7.3, summed over the rows' neighbors in their order; and
  * what continues the known (M 7.4), sums in the order of rows. */
 #include "bitstream/trellis.h"
 #include "codec/geometry/geometry.h"
@@ -11,7 +11,7 @@ static void hang(Doubles springs, Doubles2 pulls, int64_t row, double stiffness,
 
 /* Stiffnesses and pulls at the rows of the block of `vertices`. A vertex whose copies weigh anything is known, and is
  * at `sums` over `weights`. `inside`, one entry a vertex of the mesh, is zero before and after. */
-void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
+void look_around(ConstInts offsets, ConstInts neighbors, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
                  ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls) {
     for (int64_t r = 0; r < vertices.size; r++) inside.data[vertices.data[r]] = 1;
     for (int64_t r = 0; r < vertices.size; r++) {
@@ -20,7 +20,7 @@ void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, By
         for (int d = 0; d < 3; d++) pulls.data[3 * r + d] = 0.0;
         if (weights.data[v] > 0.0) hang(springs, pulls, r, stiffness, sums.data + 3 * v, weights.data[v]);
         for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
-            int64_t w = neighbours.data[i];
+            int64_t w = neighbors.data[i];
             if (!inside.data[w] && weights.data[w] > 0.0)
                 hang(springs, pulls, r, 1.0, sums.data + 3 * w, weights.data[w]);
         }
@@ -62,17 +62,17 @@ int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, Cons
 
 /* A block on springs (M 7.3): the factor of L + S + delta I as `factorize_fronts` leaves it, and what continues the
  * known. `sums` has room for a number a row, `column` for one more, and `scratch` is what `continue_known` asks for. */
-int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
+int64_t suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
                 ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
                 Singles values, Singles inverse, Doubles2 continued) {
     int64_t n = springs.size;
     ConstSingles pivots = {inverse.data, inverse.size};
-    if (!fits_graph(offsets, neighbours) || offsets.size != n + 1 || diagonal.size != n || pulls.rows != n
+    if (!fits_graph(offsets, neighbors) || offsets.size != n + 1 || diagonal.size != n || pulls.rows != n
         || !fits_factor(&fronts, n, values, pivots) || (weights.size > 0 && weights.size < offsets.data[n])
         || sums.size != n || column.size != n + 1 || scratch.size < 3 * (n + 16) + 15)
         return MISUSED;
     for (int64_t r = 0; r < n; r++) sums.data[r] = diagonal.data[r] + (springs.data[r] + shift);
-    factorize_fronts(offsets, neighbours, weights, (ConstDoubles){sums.data, n}, fronts, column, scratch, values,
+    factorize_fronts(offsets, neighbors, weights, (ConstDoubles){sums.data, n}, fronts, column, scratch, values,
         inverse);
     return continue_known(fronts, values, pivots, springs, pulls, scratch, continued);
 }

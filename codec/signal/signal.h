@@ -4,23 +4,23 @@
 
 #include "codec/basis/basis.h"
 
-void LEVEL(project)(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients);
-void LEVEL(reconstruct)(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values);
-void look_around(ConstInts offsets, ConstInts neighbours, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
+void ISA(project)(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients);
+void ISA(reconstruct)(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values);
+void look_around(ConstInts offsets, ConstInts neighbors, ConstInts vertices, Bytes inside, ConstDoubles2 sums,
                  ConstDoubles weights, double stiffness, Doubles springs, Doubles2 pulls);
 int64_t continue_known(Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles springs, ConstDoubles2 pulls,
                        Singles scratch, Doubles2 continued);
-int64_t suspend(ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
+int64_t suspend(ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts,
     ConstDoubles springs, ConstDoubles2 pulls, double shift, Doubles sums, Words column, Singles scratch,
     Singles values, Singles inverse, Doubles2 continued);
 int64_t place_block(ConstDoubles2 prediction, ConstSingles2 subspace, ConstInts2 levels, double half_step,
     Doubles scratch, Doubles2 positions);
-void apply_powers(ConstInts offsets, ConstInts neighbours, Doubles terms, int64_t degree);
+void apply_powers(ConstInts offsets, ConstInts neighbors, Doubles terms, int64_t degree);
 void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDoubles weights, Doubles2 smoothed);
-int64_t smooth_all(ConstInts offsets, ConstInts neighbours, ConstDoubles2 positions, ConstDoubles weights,
+int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, ConstDoubles weights,
                    Doubles scratch, Doubles2 smoothed);
-int64_t find_rings(ConstInts offsets, ConstInts neighbours, Ints number, ConstInts vertices, Ints rows, Longs starts);
-void filter_rows(ConstInts offsets, ConstInts neighbours, ConstInts number, ConstDoubles2 positions,
+int64_t find_rings(ConstInts offsets, ConstInts neighbors, Ints number, ConstInts vertices, Ints rows, Longs starts);
+void filter_rows(ConstInts offsets, ConstInts neighbors, ConstInts number, ConstDoubles2 positions,
     ConstDoubles weights, ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed);
 int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames);
 int64_t tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double step, double ratio, Doubles2 scratch,

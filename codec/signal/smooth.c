@@ -1,4 +1,4 @@
-/* A polynomial of K = I - D^-1 A on positions (specification, M 12.2): sums over neighbours in ascending order. */
+/* A polynomial of K = I - D^-1 A on positions (specification, M 12.2): sums over neighbors in ascending order. */
 #include "codec/signal/signal.h"
 
 #include "codec/geometry/geometry.h"
@@ -8,10 +8,10 @@ typedef double Four __attribute__((vector_size(32)));
 typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
 
 /* K V at one vertex. */
-INLINE Four apply(ConstInts offsets, ConstInts neighbours, const double *values, int64_t v) {
+INLINE Four apply(ConstInts offsets, ConstInts neighbors, const double *values, int64_t v) {
     int64_t first = offsets.data[v], last = offsets.data[v + 1];
     Four sum = {0.0, 0.0, 0.0, 0.0};
-    for (int64_t i = first; i < last; i++) sum += *(const UnalignedFour *)(values + 3 * (int64_t)neighbours.data[i]);
+    for (int64_t i = first; i < last; i++) sum += *(const UnalignedFour *)(values + 3 * (int64_t)neighbors.data[i]);
     double share = 1.0 / (double)largest(last - first, 1);
     Four moved = *(const UnalignedFour *)(values + 3 * v) - share * sum;
     return last == first ? (Four){0.0, 0.0, 0.0, 0.0} : moved;
@@ -19,13 +19,13 @@ INLINE Four apply(ConstInts offsets, ConstInts neighbours, const double *values,
 
 /* K^1 V to K^degree V behind V, each of 3 n numbers, in `terms`, which has room for one number more: the fourth number
  * of a vertex is overwritten by the next one. */
-KERNEL void apply_powers(ConstInts offsets, ConstInts neighbours, Doubles terms, int64_t degree) {
+KERNEL void apply_powers(ConstInts offsets, ConstInts neighbors, Doubles terms, int64_t degree) {
     int64_t n = offsets.size - 1;
     for (int64_t k = 0; k < degree; k++) {
         const double *values = terms.data + 3 * n * k;
         double *result = terms.data + 3 * n * (k + 1);
         for (int64_t v = 0; v < n; v++)
-            *(UnalignedFour *)(result + 3 * v) = apply(offsets, neighbours, values, v);
+            *(UnalignedFour *)(result + 3 * v) = apply(offsets, neighbors, values, v);
     }
 }
 
@@ -40,10 +40,10 @@ KERNEL void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDou
 }
 
 /* The same for one amount: `weights` of K^2 V and those after it. `scratch` has room for 6 n + 2 numbers. */
-KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbours, ConstDoubles2 positions, ConstDoubles weights,
+KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, ConstDoubles weights,
                           Doubles scratch, Doubles2 smoothed) {
     int64_t n = offsets.size - 1;
-    if (!fits_graph(offsets, neighbours) || positions.rows != n || positions.columns != 3 || smoothed.rows != n
+    if (!fits_graph(offsets, neighbors) || positions.rows != n || positions.columns != 3 || smoothed.rows != n
         || smoothed.columns != 3 || scratch.size < 6 * n + 2)
         return MISUSED;
     double *values = scratch.data, *result = scratch.data + 3 * n + 1;
@@ -52,7 +52,7 @@ KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbours, ConstDoubles2
     for (int64_t k = 0; k <= weights.size; k++) {
         double weight = k > 0 ? weights.data[k - 1] : 0.0;
         for (int64_t v = 0; v < n; v++) {
-            Four moved = apply(offsets, neighbours, values, v);
+            Four moved = apply(offsets, neighbors, values, v);
             *(UnalignedFour *)(result + 3 * v) = moved;
             if (k > 0)
                 for (int d = 0; d < 3; d++) smoothed.data[3 * v + d] += weight * moved[d];
@@ -66,7 +66,7 @@ KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbours, ConstDoubles2
 
 /* `vertices` and the rings around them; ring k ends before starts[k]; `number` becomes their place in the list `rows`,
  * which has room for all vertices, and is -1 everywhere before. Returns how many they are. */
-int64_t find_rings(ConstInts offsets, ConstInts neighbours, Ints number, ConstInts vertices, Ints rows, Longs starts) {
+int64_t find_rings(ConstInts offsets, ConstInts neighbors, Ints number, ConstInts vertices, Ints rows, Longs starts) {
     int64_t count = 0, head = 0;
     for (int64_t i = 0; i < vertices.size; i++) {
         int32_t v = vertices.data[i];
@@ -79,7 +79,7 @@ int64_t find_rings(ConstInts offsets, ConstInts neighbours, Ints number, ConstIn
         for (int64_t end = count; head < end; head++) {
             int32_t v = rows.data[head];
             for (int64_t i = offsets.data[v]; i < offsets.data[v + 1]; i++) {
-                int32_t w = neighbours.data[i];
+                int32_t w = neighbors.data[i];
                 if (number.data[w] >= 0) continue;
                 number.data[w] = (int32_t)count;
                 rows.data[count++] = w;
@@ -92,7 +92,7 @@ int64_t find_rings(ConstInts offsets, ConstInts neighbours, Ints number, ConstIn
 
 /* The filter on the innermost of the rings `rows`; each power of K is known on one ring less than the last. `current`
  * has a row for each of `rows`, `following` for all but those of the outermost ring. */
-void filter_rows(ConstInts offsets, ConstInts neighbours, ConstInts number, ConstDoubles2 positions,
+void filter_rows(ConstInts offsets, ConstInts neighbors, ConstInts number, ConstDoubles2 positions,
     ConstDoubles weights, ConstInts rows, ConstLongs starts, Doubles2 current, Doubles2 following, Doubles2 smoothed) {
     int64_t degree = starts.size - 1, inner = starts.data[0];
     for (int64_t r = 0; r < rows.size; r++)
@@ -104,7 +104,7 @@ void filter_rows(ConstInts offsets, ConstInts neighbours, ConstInts number, Cons
             int64_t first = offsets.data[rows.data[r]], last = offsets.data[rows.data[r] + 1];
             double x = 0.0, y = 0.0, z = 0.0;
             for (int64_t i = first; i < last; i++) {
-                const double *beside = from + 3 * (int64_t)number.data[neighbours.data[i]];
+                const double *beside = from + 3 * (int64_t)number.data[neighbors.data[i]];
                 x += beside[0];
                 y += beside[1];
                 z += beside[2];

@@ -44,7 +44,7 @@ INLINE void project_tile(const int vectors, const int axes, ConstSingles2 subspa
 }
 
 /* E = U^T V, for as many columns U of `subspace` as there are rows of `coefficients`. */
-void LEVEL(project)(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients) {
+void ISA(project)(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients) {
     int64_t count = coefficients.rows;
     for (int64_t j = 0; j < count; j += 2 * WIDTH) {
         int64_t columns = least(count - j, 2 * WIDTH), d = 0;
@@ -105,7 +105,7 @@ static void reconstruct_wide(ConstSingles2 subspace, ConstDoubles2 coefficients,
 }
 
 /* V = U E, for as many columns U of `subspace` as there are rows of `coefficients`. */
-void LEVEL(reconstruct)(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
+void ISA(reconstruct)(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values) {
     if (values.columns >= WIDTH) {
         reconstruct_wide(subspace, coefficients, values);
         return;

@@ -6,7 +6,7 @@
 void decoder_state(const bsmdec *decoder, double *state) {
     const Spent *spent = &decoder->context.spent;
     const double all[STATE_NUMBERS] = {(double)decoder->reader.offset, spent->spent, (double)spent->vertices,
-        (double)(spent->vertices + spent->shown), (double)(spent->vertices - spent->gone), spent->received, spent->kept};
+        (double)(spent->vertices + spent->shown), (double)(spent->vertices - spent->gone), spent->received, spent->reserved};
     memcpy(state, all, sizeof all);
 }
 

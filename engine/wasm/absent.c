@@ -57,29 +57,29 @@ ABSENT bool decode_values(Attributes *attributes, const Packet *packet, ConstInt
     (void)attributes, (void)packet, (void)places;
     return absent(scratch->context);
 }
-ABSENT bool recompute(Attribute *one, ConstDoubles2 positions, Arena *scratch) {
-    (void)one, (void)positions;
+ABSENT bool recompute(Attribute *attribute, ConstDoubles2 positions, Arena *scratch) {
+    (void)attribute, (void)positions;
     return absent(scratch->context);
 }
-ABSENT bool take_values(Arena *arena, const Attribute *one, void **values) {
-    (void)one, (void)values;
+ABSENT bool take_values(Arena *arena, const Attribute *attribute, void **values) {
+    (void)attribute, (void)values;
     return absent(arena->context);
 }
-ABSENT void beyond_one(const Attribute *one, Doubles2 beyond) { (void)one, (void)beyond; }
-ABSENT bool move_values(Context *context, Attribute *one, ConstDoubles2 change, void *moved) {
-    (void)one, (void)change, (void)moved;
+ABSENT void relative_values(const Attribute *attribute, Doubles2 beyond) { (void)attribute, (void)beyond; }
+ABSENT bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, void *moved) {
+    (void)attribute, (void)change, (void)moved;
     return absent(context);
 }
-ABSENT Given given_shape(const Attribute *one, const Numbering *numbering) {
-    (void)one, (void)numbering;
+ABSENT Given given_shape(const Attribute *attribute, const Numbering *numbering) {
+    (void)attribute, (void)numbering;
     return (Given){0};
 }
-ABSENT bool given_rows(const Attribute *one, const Numbering *numbering, Arena *scratch, Longs rows) {
-    (void)one, (void)numbering, (void)rows;
+ABSENT bool given_rows(const Attribute *attribute, const Numbering *numbering, Arena *scratch, Longs rows) {
+    (void)attribute, (void)numbering, (void)rows;
     return absent(scratch->context);
 }
-ABSENT int32_t row_of_corner(const Attribute *one, const Numbering *numbering, int64_t corner) {
-    (void)one, (void)numbering, (void)corner;
+ABSENT int32_t row_of_corner(const Attribute *attribute, const Numbering *numbering, int64_t corner) {
+    (void)attribute, (void)numbering, (void)corner;
     return 0;
 }
 

@@ -43,7 +43,7 @@ KERNELS = [f"bsm/{room}_kernels.abi3.so" for room in ("", "codec/", "bitstream/"
         (["bsm/py.typed", *KERNELS], None),
         (["bsm/py.typed", *KERNELS[:2]], "_kernels"),
         (["bsm/py.typed", *KERNELS, "codec/geometry.py"], "codec"),
-        (["bsm/py.typed", *KERNELS, "bsm/codec/levels.c"], "levels.c"),
+        (["bsm/py.typed", *KERNELS, "bsm/codec/isa.c"], "isa.c"),
         (["bsm/py.typed", *(name.replace("abi3", "cpython-311-aarch64-linux-gnu") for name in KERNELS)], None),
         (["bsm/py.typed", *(name.replace("abi3", "cpython-311-x86_64-linux-gnu") for name in KERNELS)], "not what"),
     ],

@@ -64,7 +64,7 @@ static void print_stream(const char *path) {
         check_host("a getter");
     }
     bsmdec_mesh *mesh;
-    for (bsmdec_status one = bsmdec_decode(bytes, size, NULL, &mesh); one == BSMDEC_OK; one = bsmdec_advance(mesh)) {
+    for (bsmdec_status status = bsmdec_decode(bytes, size, NULL, &mesh); status == BSMDEC_OK; status = bsmdec_advance(mesh)) {
         check_host("bsmdec_decode or bsmdec_advance");
         buffers = add_number(buffers, (int64_t)digest_of_buffers(mesh));
         if (mesh->frame < 0) break;

@@ -1,4 +1,4 @@
-/* What surrounds a face, as numbers in a frame of its own: filtered normals, how like its neighbours are, and how
+/* What surrounds a face, as numbers in a frame of its own: filtered normals, how like its neighbors are, and how
  * normals and heights go about it on two circles. */
 #include <math.h>
 
@@ -42,10 +42,10 @@ static Frame frame_of(Vector3 axis, const double *smooth, const double *areas, c
     return frame;
 }
 
-/* Eight neighbours side by side: what there is of them, and nothing for lanes without one. */
+/* Eight neighbors side by side: what there is of them, and nothing for lanes without one. */
 typedef struct {
     Eight areas, normal[3], apart[3], unlike_guide;
-} Neighbours;
+} Neighbors;
 
 INLINE Eight squared_length(const Eight *v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
@@ -90,7 +90,7 @@ KERNEL void describe_faces(ConstDoubles2 centroids, ConstDoubles areas, ConstDou
         double heights[RINGS][SECTORS] = {{0.0}}, covered[RINGS][SECTORS] = {{0.0}};
         for (int64_t done = 0; done < count; done += EIGHT) {
             int64_t lanes = least(EIGHT, count - done);
-            Neighbours near_by = {.areas = {0.0}};
+            Neighbors near_by = {.areas = {0.0}};
             for (int64_t k = 0; k < lanes; k++) {
                 int64_t h = row[done + k];
                 for (int c = 0; c < 3; c++) {

@@ -33,7 +33,7 @@ typedef struct {
     ConstLongs around_starts;
     ConstInts around; /* faces at each vertex */
     ConstInts beside_starts;
-    ConstInts beside; /* neighbours of each vertex */
+    ConstInts beside; /* neighbors of each vertex */
     ConstDoubles2 normals; /* m x 3 */
     ConstDoubles weights;  /* m */
 } Wanted;

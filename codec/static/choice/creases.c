@@ -74,12 +74,12 @@ KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstL
                 const double *f = crosses.data + 4 * (int64_t)around.data[i], *g = crosses.data + 4 * (int64_t)around.data[j];
                 double bend = dot(f, g), unit = f[3] * g[3];
                 if (!(bend > least * unit && bend < largest * unit)) continue;
-                const int32_t *one = faces.data + SIDES * (int64_t)around.data[i];
+                const int32_t *face = faces.data + SIDES * (int64_t)around.data[i];
                 const int32_t *other = faces.data + SIDES * (int64_t)around.data[j];
                 int shared = 0;
                 bool first = true; /* of the vertices that they share */
                 for (int k = 0; k < SIDES; k++)
-                    if (has(other, SIDES, one[k])) shared++, first &= one[k] >= v;
+                    if (has(other, SIDES, face[k])) shared++, first &= face[k] >= v;
                 if (!first) continue;
                 if (found < pairs.rows) {
                     pairs.data[2 * found] = around.data[i], pairs.data[2 * found + 1] = around.data[j];

@@ -1,7 +1,7 @@
 /* Levels chosen by what each error costs where it is, and by their bits. Encoder only: decoders see levels.
  *
  * Coordinate descent, vertex after vertex and axis after axis, over the levels that may be best: the nearest one, that
- * of the neighbours, none, and those beside the one at hand. */
+ * of the neighbors, none, and those beside the one at hand. */
 #include "codec/static/choice/choice.h"
 
 /* levels that are compared; classes of surroundings; sizes of what is coded */
@@ -22,9 +22,9 @@ INLINE int64_t class_of(double mean) {
     return found;
 }
 
-/* Which rate a level has that is expected to be `centre`. */
-INLINE int64_t size_of(int32_t level, int32_t centre) {
-    int64_t away = (int64_t)level - centre;
+/* Which rate a level has that is expected to be `center`. */
+INLINE int64_t size_of(int32_t level, int32_t center) {
+    int64_t away = (int64_t)level - center;
     return least(away < 0 ? -away : away, SIZES - 1);
 }
 
@@ -58,7 +58,7 @@ INLINE void place(const double *frame, const double *origin, const double *error
  * rate. `offsets` (n x 3) is what is wanted, along axes of which a level moves a vertex by `steps` (n x 3); those that
  * have no level keep it. An error costs `losses` (n x 2) times the square of its length, and times that of its share
  * along `normals` (n x 3, in the same axes). Rates have a row for each axis and class of what is around (mean size of
- * the neighbours' levels), and depend on the distance from `pull` times the neighbours' mean. `creases` that are wrong
+ * the neighbors' levels), and depend on the distance from `pull` times the neighbors' mean. `creases` that are wrong
  * add their costs: `moved` (n x 3) is room for where vertices come to lie, whose places are `places` (n x 3), in the
  * axes `frames` (n x 9). No vertex ends up farther from its place than its `reach`, unless it was. Counts, in the shape
  * of rates, are of the levels that were taken. Returns how often one moved. */
@@ -110,17 +110,17 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
                 sum += other;
                 sizes += size(other);
             }
-            int32_t centre = nearest(pull * sum * share);
+            int32_t center = nearest(pull * sum * share);
             int64_t row = (a * AROUND + class_of(sizes * share)) * SIZES;
             const double *rate = rates.data + row;
             int32_t ideal = nearest((offset + best_error(&x, a)) / step);
-            int32_t tried[TRIED] = {ideal, centre, 0, before - 1, before + 1};
-            double best = loss_of(&x, x.error) + rate[size_of(before, centre)];
+            int32_t tried[TRIED] = {ideal, center, 0, before - 1, before + 1};
+            double best = loss_of(&x, x.error) + rate[size_of(before, center)];
             if (hangs) best += wrong_creases(&creases, moved.data, v);
             for (int i = 0; i < TRIED; i++) {
                 double error[3] = {x.error[0], x.error[1], x.error[2]};
                 error[a] = step * tried[i] - offset;
-                double then = along(error, error), cost = loss_of(&x, error) + rate[size_of(tried[i], centre)];
+                double then = along(error, error), cost = loss_of(&x, error) + rate[size_of(tried[i], center)];
                 if (cost >= best || (then > most && then > far)) continue;
                 if (hangs) {
                     place(frame, origin, error, at);
@@ -130,7 +130,7 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
                 best = cost, *level = tried[i], far = then, x.error[a] = error[a];
             }
             if (hangs) place(frame, origin, x.error, at);
-            counts.data[row + size_of(*level, centre)] += 1.0;
+            counts.data[row + size_of(*level, center)] += 1.0;
             moves += *level != before;
         }
     }

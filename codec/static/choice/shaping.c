@@ -2,7 +2,7 @@
  *
  * Coordinate descent, vertex after vertex: of the levels nearby, the one at which the faces around are bent least, by
  * area-weighted angle (as the chord, 2 sin(angle / 2)), and cheap to code. A vertex is looked at again when it or a
- * neighbour has moved. */
+ * neighbor has moved. */
 #include "codec/static/choice/choice.h"
 
 enum { FAN = 32, MOVES = 32, LANES = 8 }; /* faces of one vertex that are looked at; moves; how many of them at once */
@@ -151,7 +151,7 @@ static bool fits(const Wanted *wanted, Doubles2 moved, Ints2 levels, Bytes open)
 }
 
 /* Levels (n x axes) along `directions` (n x 3 axes, a level long); `moved` is where they bring the vertices, and kept
- * in step. A level costs its distance from `pull` times the mean of all neighbours', over the scale of its axis.
+ * in step. A level costs its distance from `pull` times the mean of all neighbors', over the scale of its axis.
  * Returns how often a vertex moved. */
 KERNEL int64_t shape_levels(Wanted wanted, Aim aim, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
                             ConstDoubles scales, double pull, Bytes open) {

@@ -79,7 +79,7 @@ INLINE bool corners_now(const Surface *surface, int64_t face, int32_t *corners) 
     return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
-/* Whether the triangles around `a` keep their sides when it goes to `p`; counts those with `b`, and neighbours that have
+/* Whether the triangles around `a` keep their sides when it goes to `p`; counts those with `b`, and neighbors that have
  * one mark, which get the other. */
 static bool turns_around(Surface *surface, int32_t a, int32_t b, const double *p, int32_t had, int32_t given, int *shared,
                          int *others, int *common) {

@@ -1,11 +1,11 @@
 /* Which of the compiled levels of a kernel runs: the best that the processor has. */
-#ifdef KERNEL_LEVELS
+#ifdef KERNEL_ISAS
 
 #include "codec/basis/basis.h"
 #include "codec/sequence/temporal.h"
 #include "codec/signal/signal.h"
 
-#if KERNEL_LEVELS == 1
+#if KERNEL_ISAS == 1
 #define CHOOSE_BY(give, result, name, parameters, arguments)                                                           \
     result name##_v1 parameters;                                                                                       \
     result name parameters { give name##_v1 arguments; }
@@ -39,9 +39,9 @@ CHOOSE(int64_t, completion_space, (int64_t h), (h))
 CHOOSE(int64_t, complete_columns, (ConstSingles2 first, double least_pivot, Singles scratch, Singles2 whole),
        (first, least_pivot, scratch, whole))
 CHOOSE_VOID(factorize_fronts,
-    (ConstInts offsets, ConstInts neighbours, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts, Words column,
+    (ConstInts offsets, ConstInts neighbors, ConstDoubles weights, ConstDoubles diagonal, Fronts fronts, Words column,
         Singles scratch, Singles values, Singles inverse),
-       (offsets, neighbours, weights, diagonal, fronts, column, scratch, values, inverse))
+       (offsets, neighbors, weights, diagonal, fronts, column, scratch, values, inverse))
 CHOOSE_VOID(solve_columns,
        (Fronts fronts, Singles values, ConstSingles inverse, ConstDoubles2 columns, Singles scratch, Doubles2 solution),
        (fronts, values, inverse, columns, scratch, solution))
@@ -56,6 +56,6 @@ CHOOSE_VOID(reconstruct, (ConstSingles2 subspace, ConstDoubles2 coefficients, Do
 
 #else
 
-typedef int one_level_needs_no_choice;
+typedef int one_isa_needs_no_choice;
 
 #endif

@@ -1,4 +1,4 @@
-/* Levels that refine a mesh, vertex after vertex, predicted from coded neighbours (specification, V 11). */
+/* Levels that refine a mesh, vertex after vertex, predicted from coded neighbors (specification, V 11). */
 #include "bitstream/fields/fields.h"
 
 enum {
@@ -36,10 +36,10 @@ INLINE OfAxes sizes_of(OfAxes x) { return (x ^ (x >> 31)) - (x >> 31); }
 
 typedef struct { /* what is known of a vertex before its axes */
     Around around;
-    OfAxes sum, size, gaps, errors, means, across, tips; /* of at most 16 neighbours and 8 flaps: below 2^30 */
-    Divisor near, with_own, all_flaps; /* neighbours, these and the vertex itself, flaps */
+    OfAxes sum, size, gaps, errors, means, across, tips; /* of at most 16 neighbors and 8 flaps: below 2^30 */
+    Divisor near, with_own, all_flaps; /* neighbors, these and the vertex itself, flaps */
     int32_t flaps, valence, busy; /* busy: mean size of the levels around, all axes added, 1/16 */
-    int32_t latest, earliest;     /* neighbours coded last and first */
+    int32_t latest, earliest;     /* neighbors coded last and first */
 } Place;
 
 typedef struct { /* a level under way */
@@ -63,14 +63,14 @@ INLINE int32_t mean_of(int64_t sum, Divisor n) {
 static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p) {
     gather_around(corners, v, &p->around);
     const Around *r = &p->around;
-    p->near = divisor_of(r->neighbours), p->with_own = divisor_of(r->neighbours + 1),
+    p->near = divisor_of(r->neighbors), p->with_own = divisor_of(r->neighbors + 1),
         p->all_flaps = divisor_of(r->flaps);
     p->flaps = (int32_t)least(r->flaps, 3);
     p->valence = within(faces_at(corners, v) - 3, 0, 7);
-    p->latest = p->earliest = r->neighbours > 0 ? r->neighbour[0] : v;
+    p->latest = p->earliest = r->neighbors > 0 ? r->neighbor[0] : v;
     OfAxes sum = {0}, size = {0}, gaps = {0}, errors = {0}, means = {0}, across = {0}, tips = {0};
-    for (int i = 0; i < r->neighbours; i++) {
-        int32_t u = r->neighbour[i];
+    for (int i = 0; i < r->neighbors; i++) {
+        int32_t u = r->neighbor[i];
         if (u > p->latest) p->latest = u;
         if (u < p->earliest) p->earliest = u;
         OfAxes level = row_at(&l->levels, u), gap = row_at(&l->gaps, u);
@@ -83,7 +83,7 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
     }
     p->sum = sum, p->size = size, p->gaps = gaps, p->errors = errors, p->means = means, p->across = across,
         p->tips = tips;
-    p->busy = r->neighbours > 0 ? mean_of((int64_t)(size[0] + size[1] + size[2]) * FINE, p->near) : 4 * FINE;
+    p->busy = r->neighbors > 0 ? mean_of((int64_t)(size[0] + size[1] + size[2]) * FINE, p->near) : 4 * FINE;
 }
 
 INLINE int decide_level(const Level *w, int node, int bit) {
@@ -107,20 +107,20 @@ INLINE int64_t code_distance(const Level *w, int k, bool away, int64_t distance)
     return first + code_uniform(w->coder, (distance - first) & (rest - 1), rest);
 }
 
-INLINE int32_t code_level(const Level *w, int32_t centre, int32_t off, int k, int32_t level) {
-    if (!decide_level(w, MISS, level != centre)) return centre;
-    int up = decide_level(w, SIDE, level > centre), direction = up ? 1 : -1;
-    int64_t distance = code_distance(w, k, direction * off < 0, (int64_t)direction * (level - centre) - 1);
-    return centre + direction * (int32_t)(distance + 1);
+INLINE int32_t code_level(const Level *w, int32_t center, int32_t off, int k, int32_t level) {
+    if (!decide_level(w, MISS, level != center)) return center;
+    int up = decide_level(w, SIDE, level > center), direction = up ? 1 : -1;
+    int64_t distance = code_distance(w, k, direction * off < 0, (int64_t)direction * (level - center) - 1);
+    return center + direction * (int32_t)(distance + 1);
 }
 
-INLINE int32_t near_to(int32_t x, int32_t centre) { return within((int64_t)x - centre, -3, 3) + 3; }
+INLINE int32_t near_to(int32_t x, int32_t center) { return within((int64_t)x - center, -3, 3) + 3; }
 
 static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t v, int j, const Place *p,
     int32_t *own) {
     const Around *r = &p->around;
     const int64_t axes = AXES;
-    int32_t *x = l->levels.data + j, near = r->neighbours;
+    int32_t *x = l->levels.data + j, near = r->neighbors;
     int64_t sum = p->sum[j], size = p->size[j], gaps = p->gaps[j], errors = p->errors[j], means = p->means[j];
     int64_t across = p->across[j], tips = p->tips[j];
     int32_t mean = 0, typical = 2 * FINE, drift = 0, error_near = 2 * FINE, ring = 0, late = 0, early = 0;
@@ -132,13 +132,13 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     int32_t flap = r->flaps > 0 ? mean_of(across * FINE, p->all_flaps) : mean;
     int32_t tip = r->flaps > 0 ? mean_of(tips * FINE, p->all_flaps) : mean;
 
-    /* Where nothing happens, nothing is expected, and nothing learnt. */
+    /* Where nothing happens, nothing is expected, and nothing learned. */
     bool quiet = near > 0 && typical == 0 && tip == 0;
     Learner *learner = (Learner *)l->learners.data + 4 * j + p->flaps;
     int32_t term[OWN_TERMS] = {mean, flap - mean, tip - mean, early * FINE - mean, drift, ring - mean};
     int32_t guess = quiet ? 0 : foretell(learner, OWN_TERMS, term, FINE * MOST_LEVEL);
 
-    int32_t centre = whole(guess), off = guess - FINE * centre;
+    int32_t center = whole(guess), off = guess - FINE * center;
     int32_t aside = (size_of(off) > 1) + (size_of(off) > 3) + (size_of(off) > 6);
     int32_t a = (int32_t)least(size_class(typical), 23), s = (int32_t)least(size_class(error_near), 23);
     int32_t b = (int32_t)least(size_class(p->busy), 23), o = (int32_t)least(size_class(*own * 4), 11);
@@ -147,7 +147,7 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     int32_t context[INPUTS] = {
         (int32_t)least(a, 20) * 24 + s,
         s * 16 + p->flaps * 4 + aside,
-        j > 0 ? b * 12 + o : (near_to(late, centre) * 7 + near_to(early, centre)) * 7 + near_to(tip >> 4, centre),
+        j > 0 ? b * 12 + o : (near_to(late, center) * 7 + near_to(early, center)) * 7 + near_to(tip >> 4, center),
         j > 0 ? ((int32_t)least(a, 11) * 12 + o) * 3 + (int32_t)least(aside, 2)
               : (within(guess + 96, 0, 191) >> 2) * 8 + p->valence,
         around * 14 + side * 2 + (s > 8),
@@ -157,7 +157,7 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
         w.context[i] = (((j > 0) * INPUTS + i) * SPAN + context[i]) * (int64_t)NODES;
 
     int k = (int)largest(bit_length((uint32_t)(error_near / FINE)) - 1, 0);
-    int32_t level = code_level(&w, centre, off, k, is_reading(coder) ? 0 : x[axes * v]);
+    int32_t level = code_level(&w, center, off, k, is_reading(coder) ? 0 : x[axes * v]);
     if (level < -MOST_LEVEL || level > MOST_LEVEL) return false;
     x[axes * v] = level;
     l->gaps.data[axes * v + j] = level * FINE - guess;

@@ -1,7 +1,7 @@
 /* What decoding costs, in nanoseconds of a processor core and in bytes (specification, M 14.2, M 14.3): codec/static/work.py
  * and codec/basis/laplacian.py, term for term. */
-#ifndef BSMDEC_CHARGES_H
-#define BSMDEC_CHARGES_H
+#ifndef BSMDEC_COSTS_H
+#define BSMDEC_COSTS_H
 
 #include "codec/basis/basis.h"
 
@@ -29,10 +29,10 @@ INLINE double floats_work(double n, double span) { return 400 * n + 4 * span; }
 INLINE double chunk_work(double bytes, double values) { return 8e4 + 800 * bytes + 2 * values; }
 INLINE double layer_work(double n, double m, double axes) { return n * (400 + 230 * axes) + 130 * m; }
 static const double VALUE_MODEL_BYTES = 4.0 * (6 * 512 * 66 + 7 * (32 + 2 * 512)), LEVEL_MODEL_BYTES = 4.0 * (2 * 5 * 512 * 32);
-INLINE double grid_charge(double n, double m) { return 84 * n + 48 * m + VALUE_MODEL_BYTES + (1 << 20); }
-INLINE double grid_memory(double n, double m) { return 80 * n + grid_charge(n, m); }
-INLINE double levels_charge(double n, double m) { return (24 + 36) * n + 48 * m + LEVEL_MODEL_BYTES + (1 << 17); }
-INLINE double layer_memory(double n, double m) { return (28 + 48 * 3) * n + levels_charge(n, m); }
+INLINE double grid_field_bytes(double n, double m) { return 84 * n + 48 * m + VALUE_MODEL_BYTES + (1 << 20); }
+INLINE double grid_memory(double n, double m) { return 80 * n + grid_field_bytes(n, m); }
+INLINE double layer_field_bytes(double n, double m) { return (24 + 36) * n + 48 * m + LEVEL_MODEL_BYTES + (1 << 17); }
+INLINE double layer_memory(double n, double m) { return (28 + 48 * 3) * n + layer_field_bytes(n, m); }
 
 /* Dictionaries: columns count as they are computed, in vectors of sixteen. */
 INLINE double whole_columns(int64_t columns) { return (double)((columns + 15) / 16 * 16); }
