@@ -60,7 +60,7 @@ BSM_ARRAY(Singles, float)
 BSM_ARRAY(Doubles, double)
 
 /* KERNEL before a function compiles it once per instruction set; the loader picks the best that the processor has. (By
- * levels, not by names of processors: those would be matched with processors of that very name.) */
+ * levels: a processor's name would match that processor alone.) */
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(KERNEL_ONE_TARGET) && __GNUC__ >= 12
 #define KERNEL __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else

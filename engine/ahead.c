@@ -111,7 +111,9 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
     int64_t place = 0, room = 0, vertex = 0;
     Packet packet;
     const Context *context = &decoder->context;
-    if (!header->refined || layer_field_bytes(n, m) > context->limits.field_bytes || layer_memory(n, m) > memory_left(context)) return;
+    if (!header->refined || layer_field_bytes(n, m) > context->limits.field_bytes
+        || layer_memory(n, m) > memory_left(context))
+        return;
     for (; next_block < header->blocks; next_block++)
         if (!peek_packet(reader, &place, &packet) || packet.type != BLOCK_FRAME || packet.index != next_block) return;
     while (vertex < header->vertices && peek_packet(reader, &place, &packet) && packet.type == REFINEMENT_FRAME
@@ -218,7 +220,8 @@ static void take_jobs(void *context, int index) {
 static int64_t find_chains(Ahead *ahead, const Packet *first, int64_t most) {
     Reader *reader = &ahead->decoder->reader;
     const Blocks *blocks = &ahead->decoder->mesh.blocks;
-    int64_t length = chain_length(&ahead->decoder->mesh.header), end = least(first->index + most * length, blocks->count);
+    int64_t length = chain_length(&ahead->decoder->mesh.header),
+            end = least(first->index + most * length, blocks->count);
     int64_t place = 0, rows = 0, whole = 0;
     Packet packet = *first;
     if (!TAKE(&ahead->arena, end - first->index, ahead->ready)) return 0;

@@ -4,7 +4,8 @@
 enum { MOST_WHOLE = (1 << 20) - 1, PIECE_BITS = 16 };
 
 bool take_values(Arena *arena, const Attribute *attribute, void **values) {
-    return is_there(*values = find_zeros(arena, attribute->rows * attribute->declaration.components, kind_size(attribute->declaration.kind)));
+    return is_there(*values = find_zeros(arena, attribute->rows * attribute->declaration.components,
+                        kind_size(attribute->declaration.kind)));
 }
 
 void store_number(void *values, int64_t place, int kind, double number) {
@@ -35,11 +36,13 @@ double load_number(const void *values, int64_t place, int kind) {
 
 void relative_values(const Attribute *attribute, Doubles2 beyond) {
     for (int64_t i = 0; i < beyond.rows * beyond.columns; i++)
-        beyond.data[i] = load_number(attribute->values, i, attribute->declaration.kind) - load_number(attribute->values, i % beyond.columns, attribute->declaration.kind);
+        beyond.data[i] = load_number(attribute->values, i, attribute->declaration.kind)
+            - load_number(attribute->values, i % beyond.columns, attribute->declaration.kind);
 }
 
 bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, void *moved) {
-    static const double LOW[] = {0, -128, 0, -32768, 0, -2147483648.0}, HIGH[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647.0};
+    static const double LOW[] = {0, -128, 0, -32768, 0, -2147483648.0},
+                        HIGH[] = {255, 127, 65535, 32767, 4294967295.0, 2147483647.0};
     int kind = attribute->declaration.kind;
     for (int64_t i = 0; i < change.rows * change.columns; i++) {
         double number = load_number(attribute->values, i, kind) + change.data[i];
@@ -91,7 +94,8 @@ static void restore(const Declaration *d, const int64_t *word, int64_t row, void
     bool is_double = d->kind == BSMDEC_FLOAT64;
     if (d->coding == OCTAHEDRAL) unfold(word, d->largest[0] / 2, number);
     for (int j = 0; j < d->components; j++) {
-        if (d->coding == BITS) number[j] = number_of_bits(word + j * (1 + is_double), d->offset + j * (1 + is_double), is_double);
+        if (d->coding == BITS)
+            number[j] = number_of_bits(word + j * (1 + is_double), d->offset + j * (1 + is_double), is_double);
         if (d->coding == LEVELS) {
             double product = d->step[j] * (double)word[j];
             number[j] = d->offset[j] + product;
@@ -107,7 +111,8 @@ bool restore_values(Context *context, Attribute *attribute, int64_t first, int64
         int32_t piece[MOST_PIECES];
         int at = 0;
         for (int g = 0; g < attribute->groups; g++)
-            for (int j = 0; j < attribute->group[g].columns; j++) piece[at++] = attribute->group[g].pieces.data[row * attribute->group[g].columns + j];
+            for (int j = 0; j < attribute->group[g].columns; j++)
+                piece[at++] = attribute->group[g].pieces.data[row * attribute->group[g].columns + j];
         at = 0;
         for (int w = 0; w < d->words; w++) {
             word[w] = piece[at++];
@@ -149,13 +154,17 @@ bool recompute(Attribute *attribute, ConstDoubles2 positions, Arena *scratch) {
         }
         double length = __builtin_sqrt((squares[0] + squares[1]) + squares[2]);
         for (int d = 0; d < 3; d++)
-            store_number(attribute->values, 3 * r + d, attribute->declaration.kind, length > 0.0 ? normal[d] / length : d == 2 ? 1.0 : 0.0);
+            store_number(attribute->values, 3 * r + d, attribute->declaration.kind,
+                length > 0.0 ? normal[d] / length
+                    : d == 2 ? 1.0
+                             : 0.0);
     }
     return attribute->whole = true;
 }
 
 static bool by_vertex(const Attribute *attribute, const Numbering *numbering) {
-    return is_by_vertex(&attribute->declaration) && (attribute->declaration.domain == BSMDEC_VERTEX || numbering->is_split);
+    return is_by_vertex(&attribute->declaration)
+        && (attribute->declaration.domain == BSMDEC_VERTEX || numbering->is_split);
 }
 
 Given given_shape(const Attribute *attribute, const Numbering *numbering) {
@@ -177,7 +186,8 @@ bool given_rows(const Attribute *attribute, const Numbering *numbering, Arena *s
     if (d->domain == BSMDEC_FACE || !by_vertex(attribute, numbering) || numbering->source.size == 0) return true;
     if (d->domain == BSMDEC_CORNER) { /* the value of the first corner of each vertex */
         if (!zero_ints(scratch, numbering->size, &first)) return false;
-        for (int64_t i = 3 * numbering->faces.rows - 1; i >= 0; i--) first.data[numbering->faces.data[i]] = row_of_corner(attribute, numbering, i);
+        for (int64_t i = 3 * numbering->faces.rows - 1; i >= 0; i--)
+            first.data[numbering->faces.data[i]] = row_of_corner(attribute, numbering, i);
     }
     int64_t loose = attribute->rows - numbering->loose.rows;
     for (int64_t v = 0; v < rows.size; v++) {

@@ -45,7 +45,7 @@ MUST_CHECK bool take_values(Arena *arena, const Attribute *attribute, void **val
 /* Normals that follow from positions (D 4.4). */
 bool recompute(Attribute *attribute, ConstDoubles2 positions, Arena *scratch);
 
-/* What first values have beyond those of vertex 0; the values of a frame that differs from the first by so much (S 10). */
+/* First values less those of vertex 0; the values of a frame, given its change from the first (S 10). */
 void relative_values(const Attribute *attribute, Doubles2 beyond);
 bool move_values(Context *context, Attribute *attribute, ConstDoubles2 change, void *moved);
 

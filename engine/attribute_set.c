@@ -4,13 +4,15 @@
 #include "engine/costs.h"
 #include "engine/corners.h"
 
-enum { SEAM = 1, SEAM_INPUTS = 4, OTHERS = 9, SEAM_SLOTS = 32 * 32 + 9 * 16 + MOST_ATTRIBUTES + 9, MOST_WHOLE = (1 << 20) - 1 };
-enum { GUESSES_PLAIN = MOST_COMPONENTS * BASES * VALENCES, GUESSES_OTHERS = 2 * BASES * VALENCES, FACE_MEMORY = 257, DIRECTIONS = 12 };
+enum { SEAM = 1, SEAM_INPUTS = 4, OTHERS = 9, SEAM_SLOTS = 32 * 32 + 9 * 16 + MOST_ATTRIBUTES + 9,
+    MOST_WHOLE = (1 << 20) - 1 };
+enum { GUESSES_PLAIN = MOST_COMPONENTS * BASES * VALENCES, GUESSES_OTHERS = 2 * BASES * VALENCES, FACE_MEMORY = 257,
+    DIRECTIONS = 12 };
 static const double DECLARED_WORK = 6e5, ATTRIBUTE_WORK = 4e5;
 
 void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena) {
-    *attributes = (Attributes){.context = context, .header = header, .faces = faces, .arena = arena, .coding = arena_of(context),
-        .recent = arena_of(context)};
+    *attributes = (Attributes){.context = context, .header = header, .faces = faces, .arena = arena,
+        .coding = arena_of(context), .recent = arena_of(context)};
 }
 
 void end_attributes(Attributes *attributes) {
@@ -30,7 +32,8 @@ static void look_at_others(const Attributes *attributes, int64_t before, Bytes o
     for (int64_t k = before - 1; k >= 0 && factor > 0; k--) {
         const Attribute *attribute = attributes->list[k];
         if (attribute == NULL || !attribute->own_joins) continue;
-        for (int64_t i = 0; i < others.size; i++) others.data[i] += (uint8_t)(factor * (1 + (attribute->joins->seams.data[i] == SEAM)));
+        for (int64_t i = 0; i < others.size; i++)
+            others.data[i] += (uint8_t)(factor * (1 + (attribute->joins->seams.data[i] == SEAM)));
         factor = factor == 3 ? 1 : 0;
     }
 }
@@ -44,14 +47,16 @@ static bool read_seams(Attributes *attributes, int64_t index, Span payload, Aren
         || !charge(context, 5e4 + 10 * vertices + 120 * m + 800 * bytes, bytes))
         return false;
     if (!attributes->has_corners)
-        attributes->has_corners = link_mesh(context, attributes->faces, n, attributes->arena, scratch, &attributes->corners);
+        attributes->has_corners =
+            link_mesh(context, attributes->faces, n, attributes->arena, scratch, &attributes->corners);
     Bytes others;
     Ints joined, firsts;
     Ints2 ends;
     Bank bank;
     Reading reading;
-    if (!attributes->has_corners || !zero_bytes(attributes->arena, size, &joins->seams) || !zero_bytes(scratch, size, &others)
-        || !take_ints(scratch, size, &joined) || !take_ints(scratch, size, &firsts) || !take_ints2(scratch, n, 3, &ends)
+    if (!attributes->has_corners || !zero_bytes(attributes->arena, size, &joins->seams)
+        || !zero_bytes(scratch, size, &others) || !take_ints(scratch, size, &joined)
+        || !take_ints(scratch, size, &firsts) || !take_ints2(scratch, n, 3, &ends)
         || !make_bank(scratch, (BankPlan){.slots = SEAM_SLOTS, .selectors = OTHERS, .inputs = SEAM_INPUTS}, &bank)
         || !begin_reading(context, payload, &reading))
         return false;
@@ -69,10 +74,12 @@ static bool find_joins(Attributes *attributes, int64_t index, Attribute *attribu
     if (d->seams_of > 0) {
         const Attribute *shared = d->seams_of <= MOST_ATTRIBUTES ? attributes->list[d->seams_of - 1] : NULL;
         attribute->joins = shared != NULL ? shared->joins : NULL;
-        return attribute->joins != NULL || FAIL(context, CORRUPT, "the seams of '$' are those of an attribute that is missing", .name = d->name);
+        return attribute->joins != NULL
+            || FAIL(context, CORRUPT, "the seams of '$' are those of an attribute that is missing", .name = d->name);
     }
     if (attributes->count < index)
-        return FAIL(context, CORRUPT, "the seams of '$' depend on those of an attribute that is missing", .name = d->name);
+        return FAIL(context, CORRUPT, "the seams of '$' depend on those of an attribute that is missing",
+            .name = d->name);
     Joins *joins;
     if (!TAKE(attributes->arena, 1, joins) || !read_seams(attributes, index, seams, scratch, joins)) return false;
     attribute->joins = joins;
@@ -80,7 +87,8 @@ static bool find_joins(Attributes *attributes, int64_t index, Attribute *attribu
     return true;
 }
 
-bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams, Arena *scratch) {
+bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams,
+    Arena *scratch) {
     Context *context = attributes->context;
     double numbers = attributes->numbers + numbers_of(declaration, attributes->faces.rows);
     if (!charge(context, DECLARED_WORK, 0) || !WITHIN(context, attribute_values, numbers)) return false;
@@ -94,11 +102,14 @@ bool declare_attribute(Attributes *attributes, int64_t index, const Declaration 
     return true;
 }
 
-static int64_t loose_rows(const Declaration *d, const Numbering *numbering) { return is_by_vertex(d) ? numbering->loose.rows : 0; }
+static int64_t loose_rows(const Declaration *d, const Numbering *numbering) {
+    return is_by_vertex(d) ? numbering->loose.rows : 0;
+}
 
 static int64_t expected_rows(const Attributes *attributes, const Attribute *attribute, const Numbering *numbering) {
     if (attribute->declaration.domain == BSMDEC_FACE) return attributes->faces.rows;
-    return (attribute->joins != NULL ? attribute->joins->count : attributes->header->vertices) + loose_rows(&attribute->declaration, numbering);
+    return (attribute->joins != NULL ? attribute->joins->count : attributes->header->vertices)
+        + loose_rows(&attribute->declaration, numbering);
 }
 
 bool check_rows(const Attributes *attributes, const Numbering *numbering) {
@@ -107,8 +118,8 @@ bool check_rows(const Attributes *attributes, const Numbering *numbering) {
         if (attribute == NULL || attribute->declaration.coding == RECOMPUTED) continue;
         int64_t expected = expected_rows(attributes, attribute, numbering);
         if (attribute->declaration.rows != expected)
-            return FAIL(attributes->context, CORRUPT, "attribute '$' has # values where # belong", attribute->declaration.rows, expected,
-                .name = attribute->declaration.name);
+            return FAIL(attributes->context, CORRUPT, "attribute '$' has # values where # belong",
+                attribute->declaration.rows, expected, .name = attribute->declaration.name);
     }
     return true;
 }
@@ -123,7 +134,8 @@ static bool lay_out(Attributes *attributes, Attribute *attribute, const Numberin
     if (attribute->joins != NULL) {
         Ints2 joined;
         Ints first;
-        if (!take_ints2(attributes->arena, attributes->faces.rows, 3, &joined) || !take_ints(scratch, size, &first)) return false;
+        if (!take_ints2(attributes->arena, attributes->faces.rows, 3, &joined) || !take_ints(scratch, size, &first))
+            return false;
         join_corners(attributes->corners, const_bytes(attribute->joins->seams), (Ints){joined.data, size}, first);
         attribute->faces = const_ints2(joined);
         for (int64_t r = 0; r < placed; r++) attribute->vertices.data[r] = attributes->faces.data[first.data[r]];
@@ -149,7 +161,8 @@ bool begin_values(Attributes *attributes, const Numbering *numbering, Arena *scr
         double rows = (double)attribute->rows;
         bool done = reserve(context, 16.0 * d->components * rows + 12 * rows + 12 * m, 0)
             && (d->coding != RECOMPUTED || fits_memory(context, 200 * m + 100 * rows))
-            && charge(context, ATTRIBUTE_WORK + 150 * rows + 60 * m, 0) && lay_out(attributes, attribute, numbering, scratch);
+            && charge(context, ATTRIBUTE_WORK + 150 * rows + 60 * m, 0)
+            && lay_out(attributes, attribute, numbering, scratch);
         done = done && take_values(attributes->arena, attribute, &attribute->values);
         release_to(scratch, mark);
         if (!done) return false;
@@ -195,7 +208,8 @@ static bool start_learners(Arena *arena, ValueKind kind, Longs2 *learners) {
     return true;
 }
 
-static bool begin_vertex_group(Attributes *attributes, Attribute *attribute, Group *group, ConstInts largest, int32_t most, ConstInts2 geometry, Arena *scratch) {
+static bool begin_vertex_group(Attributes *attributes, Attribute *attribute, Group *group, ConstInts largest,
+    int32_t most, ConstInts2 geometry, Arena *scratch) {
     Context *context = attributes->context;
     Arena *arena = &attributes->coding;
     int64_t size = attribute->rows, columns = largest.size, words = most / 64 + 1;
@@ -206,21 +220,25 @@ static bool begin_vertex_group(Attributes *attributes, Attribute *attribute, Gro
         || !order_mesh(&group->corners, arena, scratch, &group->order)
         || !find_twins(attribute, attributes->header->vertices, scratch, twin))
         return false;
-    *values = (Values){.largest = largest, .order = const_ints(group->order), .twin = const_ints(twin), .geometry = geometry, .values = group->pieces};
+    *values = (Values){.largest = largest, .order = const_ints(group->order), .twin = const_ints(twin),
+        .geometry = geometry, .values = group->pieces};
     if (!zero_ints2(arena, size, columns, &values->gaps) || !zero_longs2(arena, size, columns + 1, &values->sums)
         || !zero_longs2(arena, columns, words, &values->seen) || !start_learners(arena, kind, &values->learners)
-        || !zero_ints2(arena, kind == NORMALS ? size : 0, DIRECTIONS, &values->directions) || !zero_longs(arena, 2, &values->chart))
+        || !zero_ints2(arena, kind == NORMALS ? size : 0, DIRECTIONS, &values->directions)
+        || !zero_longs(arena, 2, &values->chart))
         return false;
     values->chart.data[1] = 16 * (int64_t)largest.data[0];
     if (kind == NORMALS) expect_normals(group->corners, *values);
     return true;
 }
 
-static bool begin_group(Attributes *attributes, Attribute *attribute, Group *group, const int32_t *pieces, ConstInts2 geometry, Arena *scratch) {
+static bool begin_group(Attributes *attributes, Attribute *attribute, Group *group, const int32_t *pieces,
+    ConstInts2 geometry, Arena *scratch) {
     Context *context = attributes->context;
     Arena *arena = &attributes->coding;
     bool of_faces = attribute->declaration.domain == BSMDEC_FACE;
-    double n = (double)attribute->rows, m = (double)attribute->faces.rows, c = group->columns, model = VALUE_MODEL_BYTES + (1 << 17);
+    double n = (double)attribute->rows, m = (double)attribute->faces.rows, c = group->columns,
+           model = VALUE_MODEL_BYTES + (1 << 17);
     double own = value_kind(&attribute->declaration) == NORMALS ? 48 : 0;
     double needed = of_faces ? (72 + 48 + 8 * c) * m + model : (84 + 16 * c + own) * n + 48 * m + model + c * (1 << 17);
     if (!WITHIN(context, field_bytes, needed)) return false;
@@ -233,7 +251,8 @@ static bool begin_group(Attributes *attributes, Attribute *attribute, Group *gro
         largest.data[j] = pieces[j];
         most = pieces[j] > most ? pieces[j] : most;
     }
-    if (!of_faces) return begin_vertex_group(attributes, attribute, group, const_ints(largest), most, geometry, scratch);
+    if (!of_faces)
+        return begin_vertex_group(attributes, attribute, group, const_ints(largest), most, geometry, scratch);
     group->face_values = (FaceValues){.largest = const_ints(largest), .values = group->pieces};
     return zero_ints2(arena, attribute->rows, group->columns, &group->face_values.gaps)
         && zero_ints2(arena, group->columns, FACE_MEMORY, &group->face_values.memory)
@@ -244,11 +263,13 @@ static bool begin_group(Attributes *attributes, Attribute *attribute, Group *gro
 static bool find_geometry(Attributes *attributes, const Attribute *attribute, ConstInts2 places, ConstInts2 *geometry) {
     *geometry = (ConstInts2){NULL, 0, 3};
     if (!attribute->declaration.leans) return true;
-    if (places.rows == 0) return FAIL(attributes->context, CORRUPT, "positions are missing that attributes are predicted from");
+    if (places.rows == 0)
+        return FAIL(attributes->context, CORRUPT, "positions are missing that attributes are predicted from");
     Ints2 found;
     if (!zero_ints2(&attributes->coding, attribute->rows, 3, &found)) return false;
     for (int64_t r = 0; r < attribute->rows; r++)
-        if (attribute->vertices.data[r] >= 0) memcpy(found.data + 3 * r, places.data + 3 * (int64_t)attribute->vertices.data[r], 3 * sizeof(int32_t));
+        if (attribute->vertices.data[r] >= 0)
+            memcpy(found.data + 3 * r, places.data + 3 * (int64_t)attribute->vertices.data[r], 3 * sizeof(int32_t));
     *geometry = const_ints2(found);
     return true;
 }
@@ -280,7 +301,8 @@ static bool start_attribute(Attributes *attributes, Attribute *attribute, ConstI
     return true;
 }
 
-static bool decode_group(Context *context, const Attribute *attribute, Group *group, Span payload, int64_t first, int64_t count) {
+static bool decode_group(Context *context, const Attribute *attribute, Group *group, Span payload, int64_t first,
+    int64_t count) {
     Reading reading;
     int64_t done;
     if (!begin_reading(context, payload, &reading)) return false;
@@ -301,22 +323,28 @@ static bool mark_fresh(Attributes *attributes, const Attribute *attribute, const
     if (packet->count == attribute->rows) return true;
     if (!zero_bytes(&attributes->recent, attribute->rows, &attributes->fresh)) return false;
     ConstInts order = const_ints(attribute->group[0].order);
-    for (int64_t i = packet->first; i < packet->first + packet->count; i++) attributes->fresh.data[order.size > 0 ? order.data[i] : i] = 1;
+    for (int64_t i = packet->first; i < packet->first + packet->count; i++)
+        attributes->fresh.data[order.size > 0 ? order.data[i] : i] = 1;
     return true;
 }
 
-static bool decode_chunk(Attributes *attributes, Attribute *attribute, const Packet *packet, ConstInts2 places, Arena *scratch) {
+static bool decode_chunk(Attributes *attributes, Attribute *attribute, const Packet *packet, ConstInts2 places,
+    Arena *scratch) {
     Context *context = attributes->context;
     double bytes = (double)packet->data.size;
     if (attribute->whole) return FAIL(context, CORRUPT, "it has all its values already");
     if (!attribute->begun && !start_attribute(attributes, attribute, places, scratch)) return false;
-    if (!reserve(context, 0, bytes) || !charge(context, chunk_work(bytes, (double)attribute->rows), bytes)) return false;
-    if (packet->first != attribute->coded) return FAIL(context, CORRUPT, "the values before number # are missing", packet->first);
+    if (!reserve(context, 0, bytes) || !charge(context, chunk_work(bytes, (double)attribute->rows), bytes))
+        return false;
+    if (packet->first != attribute->coded)
+        return FAIL(context, CORRUPT, "the values before number # are missing", packet->first);
     Cursor cursor = {context, packet->data};
     attribute->coded = INT64_MAX; /* until all of it is there: nothing goes on behind a part */
     for (int g = 0; g < attribute->groups; g++) {
         Span part = attribute->groups > 1 ? take_span(&cursor, take_varint(&cursor)) : take_rest(&cursor);
-        if (failed(context) || !decode_group(context, attribute, &attribute->group[g], part, packet->first, packet->count)) return false;
+        if (failed(context)
+            || !decode_group(context, attribute, &attribute->group[g], part, packet->first, packet->count))
+            return false;
     }
     if (!at_end(&cursor) || !restore_values(context, attribute, packet->first, packet->count)) return false;
     attribute->coded = packet->first + packet->count;
@@ -332,5 +360,6 @@ static bool decode_chunk(Attributes *attributes, Attribute *attribute, const Pac
 bool decode_values(Attributes *attributes, const Packet *packet, ConstInts2 places, Arena *scratch) {
     Attribute *attribute = attributes->list[packet->index];
     if (attribute == NULL) return FAIL(attributes->context, CORRUPT, "attribute # is not declared", packet->index);
-    return decode_chunk(attributes, attribute, packet, places, scratch) || name_attribute(attributes->context, attribute->declaration.name);
+    return decode_chunk(attributes, attribute, packet, places, scratch)
+        || name_attribute(attributes->context, attribute->declaration.name);
 }

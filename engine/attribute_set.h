@@ -24,7 +24,8 @@ typedef struct {
 
 void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena);
 void end_attributes(Attributes *attributes);
-bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams, Arena *scratch);
+bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams,
+    Arena *scratch);
 /* Whether all of them have as many rows as they must (D 1.2). */
 bool check_rows(const Attributes *attributes, const Numbering *numbering);
 /* What is needed before values come, or where none do. */

@@ -6,15 +6,17 @@
 #include "engine/zstd.h"
 
 static const double STIFFNESS = 8;
-enum { LEVEL_LIMIT = 400, LEVEL_RATE = 4, PRIOR_WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBORS, PRIOR_MIXES = SELECTORS * NODES * EXPECTATIONS };
+enum { LEVEL_LIMIT = 400, LEVEL_RATE = 4, PRIOR_WEIGHTS = EXPECTATIONS * SITUATIONS * NEIGHBORS,
+    PRIOR_MIXES = SELECTORS * NODES * EXPECTATIONS };
 
-bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, Arena *arena) {
+bool begin_chains(Chains *chains, Context *context, const Header *header, const Graph *graph, const Blocks *blocks,
+    Arena *arena) {
     *chains = (Chains){.context = context, .header = header, .graph = graph, .blocks = blocks, .number = -1};
     chains->chain = chains->subspaces[0] = chains->subspaces[1] = arena_of(context);
     chains->knows = header->paper.springs && header->key_interval != 1;
     if (!chains->knows) return true;
-    return zero_doubles2(arena, graph->size, 3, &chains->known.sums) && zero_doubles(arena, graph->size, &chains->known.weights)
-        && zero_bytes(arena, graph->size, &chains->inside);
+    return zero_doubles2(arena, graph->size, 3, &chains->known.sums)
+        && zero_doubles(arena, graph->size, &chains->known.weights) && zero_bytes(arena, graph->size, &chains->inside);
 }
 
 void end_chains(Chains *chains) {
@@ -35,7 +37,7 @@ static void learn_beforehand(Chains *chains) {
     }
 }
 
-/* Forget where the vertices of the chain before are: those of its blocks that were decoded, and of one that was spoilt. */
+/* Forget the positions of the previous chain: of its decoded blocks, and of a spoilt one. */
 static void forget_positions(Chains *chains) {
     const int64_t *starts = chains->blocks->starts.data;
     int64_t start = starts[chains->first], end = starts[least(chains->next + 1, chains->blocks->count)];
@@ -66,9 +68,10 @@ static bool begin_chain(Chains *chains, int64_t number) {
     int64_t rows = ABOVE + chains->header->coefficients + BEYOND;
     enter_chain(chains, number);
     if (!make_bank(arena, (BankPlan){.slots = LEVEL_SLOTS, .selectors = SELECTORS * NODES, .inputs = EXPECTATIONS,
-                              .limit = LEVEL_LIMIT, .rate = LEVEL_RATE}, &chains->bank)
-        || !zero_ints2(arena, rows, 3, &past->current) || !zero_ints2(arena, rows, 3, &past->before) || !zero_ints2(arena, rows, 3, &past->usual)
-        || !zero_longs(arena, 1, &past->blocks) || !take_ints2(arena, EXPECTATIONS * SITUATIONS, NEIGHBORS, &chains->expectations))
+            .limit = LEVEL_LIMIT, .rate = LEVEL_RATE}, &chains->bank)
+        || !zero_ints2(arena, rows, 3, &past->current) || !zero_ints2(arena, rows, 3, &past->before)
+        || !zero_ints2(arena, rows, 3, &past->usual) || !zero_longs(arena, 1, &past->blocks)
+        || !take_ints2(arena, EXPECTATIONS * SITUATIONS, NEIGHBORS, &chains->expectations))
         return false;
     learn_beforehand(chains);
     return !chains->knows || charge(chains->context, chain_work((double)chains->graph->size), 0);
@@ -90,41 +93,48 @@ static bool read_packed(Chains *chains, Span payload, int64_t count, Arena *scra
         coefficients.data[i] = (double)level * chains->header->step;
     }
     for (; at < 8 * size; at++)
-        if (packed.data[at >> 3] >> (7 - (at & 7)) & 1) return FAIL(context, CORRUPT, "the bits behind the last packed coefficient are not 0");
+        if (packed.data[at >> 3] >> (7 - (at & 7)) & 1)
+            return FAIL(context, CORRUPT, "the bits behind the last packed coefficient are not 0");
     return true;
 }
 
 /* Coded coefficients (M 9.1 to M 9.11), `count` rows of three. */
 static bool read_levels(Chains *chains, Span payload, Ints2 levels) {
     Reading reading;
-    if (levels.rows > chains->header->coefficients) return FAIL(chains->context, CORRUPT, "# coefficients are too many", levels.rows);
+    if (levels.rows > chains->header->coefficients)
+        return FAIL(chains->context, CORRUPT, "# coefficients are too many", levels.rows);
     if (!begin_reading(chains->context, payload, &reading)) return false;
     code_block(reading.coder, chains->bank, chains->past, const_ints2(chains->expectations), levels);
     return finish_reading(&reading);
 }
 
 /* Springs at each row, the factor of L + S + shift, and what continues what they hang on (M 7.3, M 7.4). */
-static bool suspend_patch(Chains *chains, const Patch *patch, Arena *scratch, Doubles springs, Factor *factor, Doubles2 continued) {
+static bool suspend_patch(Chains *chains, const Patch *patch, Arena *scratch, Doubles springs, Factor *factor,
+    Doubles2 continued) {
     int64_t n = patch->size;
     Doubles2 pulls;
     Singles room;
     Doubles sums;
     Words column;
-    if (!zero_doubles2(scratch, n, 3, &pulls) || !take_singles(scratch, solving_space(n, 3), &room) || !take_doubles(scratch, n, &sums)
-        || !take_words(scratch, n + 1, &column) || !take_factor(scratch, patch, factor))
+    if (!zero_doubles2(scratch, n, 3, &pulls) || !take_singles(scratch, solving_space(n, 3), &room)
+        || !take_doubles(scratch, n, &sums) || !take_words(scratch, n + 1, &column)
+        || !take_factor(scratch, patch, factor))
         return false;
     if (chains->knows)
-        look_around(chains->graph->offsets, chains->graph->neighbors, patch->vertices, chains->inside, const_doubles2(chains->known.sums),
-            const_doubles(chains->known.weights), STIFFNESS, springs, pulls);
-    suspend(patch->offsets, patch->neighbors, patch->weights, const_doubles(patch->diagonal), patch->fronts, const_doubles(springs),
-        const_doubles2(pulls), chains->header->paper.shift, sums, column, room, factor->values, factor->inverse, continued);
+        look_around(chains->graph->offsets, chains->graph->neighbors, patch->vertices, chains->inside,
+            const_doubles2(chains->known.sums), const_doubles(chains->known.weights), STIFFNESS, springs, pulls);
+    suspend(patch->offsets, patch->neighbors, patch->weights, const_doubles(patch->diagonal), patch->fronts,
+        const_doubles(springs), const_doubles2(pulls), chains->header->paper.shift, sums, column, room, factor->values,
+        factor->inverse, continued);
     return true;
 }
 
-static bool make_dictionary(Chains *chains, const Patch *patch, ConstDoubles springs, const Factor *factor, int64_t width, Arena *scratch, Singles2 *dictionary) {
+static bool make_dictionary(Chains *chains, const Patch *patch, ConstDoubles springs, const Factor *factor,
+    int64_t width, Arena *scratch, Singles2 *dictionary) {
     Arena *arena = &chains->subspaces[!chains->present];
     if (chains->subspace.rows == patch->size)
-        return following_dictionary(chains->context, chains->header, patch, factor, chains->subspace, width, arena, scratch, dictionary);
+        return following_dictionary(chains->context, chains->header, patch, factor, chains->subspace, width, arena,
+            scratch, dictionary);
     return key_dictionary(chains->context, chains->header, patch, springs, factor, width, arena, scratch, dictionary);
 }
 
@@ -133,24 +143,28 @@ static void commit(Chains *chains, Singles2 dictionary, const DecodedBlock *deco
     chains->subspace = dictionary;
     release_all(&chains->subspaces[chains->present]);
     chains->present = !chains->present;
-    if (chains->knows) add_copies(chains->known.sums, chains->known.weights, decoded->vertices, decoded->positions, decoded->weights);
+    if (chains->knows)
+        add_copies(chains->known.sums, chains->known.weights, decoded->vertices, decoded->positions, decoded->weights);
 }
 
 static DecodedBlock decoded_block(const Patch *patch, int64_t index, Doubles2 positions, Doubles weights) {
-    for (int64_t r = 0; r < patch->size; r++) weights.data[r] = patch->diagonal.data[r] > 1.0 ? patch->diagonal.data[r] : 1.0;
+    for (int64_t r = 0; r < patch->size; r++)
+        weights.data[r] = patch->diagonal.data[r] > 1.0 ? patch->diagonal.data[r] : 1.0;
     return (DecodedBlock){index, patch->vertices, const_doubles2(positions), const_doubles(weights)};
 }
 
 /* Positions of a block whose levels are known (M 10.2). */
-static bool place(Chains *chains, const Patch *patch, int64_t index, int64_t width, Ints2 levels, Doubles2 coefficients, Arena *scratch, DecodedBlock *decoded) {
+static bool place(Chains *chains, const Patch *patch, int64_t index, int64_t width, Ints2 levels, Doubles2 coefficients,
+    Arena *scratch, DecodedBlock *decoded) {
     Context *context = chains->context;
     int64_t n = patch->size;
     Doubles springs, weights, room;
     Doubles2 continued, positions;
     Singles2 dictionary;
     Factor factor;
-    if (!zero_doubles(scratch, n, &springs) || !take_doubles(scratch, n, &weights) || !take_doubles(scratch, 3 * width, &room)
-        || !take_doubles2(scratch, n, 3, &continued) || !take_doubles2(scratch, n, 3, &positions)
+    if (!zero_doubles(scratch, n, &springs) || !take_doubles(scratch, n, &weights)
+        || !take_doubles(scratch, 3 * width, &room) || !take_doubles2(scratch, n, 3, &continued)
+        || !take_doubles2(scratch, n, 3, &positions)
         || !suspend_patch(chains, patch, scratch, springs, &factor, continued))
         return false;
     if (!make_dictionary(chains, patch, const_doubles(springs), &factor, width, scratch, &dictionary)
@@ -160,7 +174,8 @@ static bool place(Chains *chains, const Patch *patch, int64_t index, int64_t wid
         reconstruct(const_singles2(dictionary), const_doubles2(coefficients), positions);
         for (int64_t i = 0; i < 3 * n; i++) positions.data[i] = continued.data[i] + positions.data[i];
     } else {
-        place_block(const_doubles2(continued), const_singles2(dictionary), const_ints2(levels), chains->header->step / 2, room, positions);
+        place_block(const_doubles2(continued), const_singles2(dictionary), const_ints2(levels),
+            chains->header->step / 2, room, positions);
     }
     *decoded = decoded_block(patch, index, positions, weights);
     commit(chains, dictionary, decoded);
@@ -169,7 +184,8 @@ static bool place(Chains *chains, const Patch *patch, int64_t index, int64_t wid
     return spoiled == 0.0 || FAIL(context, NUMERIC, "the coefficients reconstruct to positions that are not finite");
 }
 
-static bool decode_next(Chains *chains, int64_t index, int64_t width, Span payload, Arena *scratch, DecodedBlock *decoded) {
+static bool decode_next(Chains *chains, int64_t index, int64_t width, Span payload, Arena *scratch,
+    DecodedBlock *decoded) {
     Context *context = chains->context;
     int64_t rows = size_of_block(chains->blocks, index);
     double work = block_work((double)rows, (double)chains->blocks->edges.data[index], 3.0 * (double)width);
@@ -179,9 +195,12 @@ static bool decode_next(Chains *chains, int64_t index, int64_t width, Span paylo
     if (!charge(context, work, (double)payload.size + BLOCK_FRAME_BYTES)
         || !order_patch(chains->graph, members_of(chains->blocks, index, rows), scratch, &patch))
         return false;
-    if (width < 1 || width > rows) return FAIL(context, CORRUPT, "# coefficients for a block of # vertices", width, rows);
+    if (width < 1 || width > rows)
+        return FAIL(context, CORRUPT, "# coefficients for a block of # vertices", width, rows);
     if (chains->header->paper.bits > 0) {
-        if (!take_doubles2(scratch, width, 3, &coefficients) || !read_packed(chains, payload, width, scratch, coefficients)) return false;
+        if (!take_doubles2(scratch, width, 3, &coefficients)
+            || !read_packed(chains, payload, width, scratch, coefficients))
+            return false;
     } else {
         if (!zero_ints2(scratch, width, 3, &levels) || !read_levels(chains, payload, levels)) return false;
     }
@@ -190,7 +209,8 @@ static bool decode_next(Chains *chains, int64_t index, int64_t width, Span paylo
 }
 
 /* Once a block of a chain is missing or broken, the rest of the chain cannot be decoded. */
-bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch, DecodedBlock *decoded) {
+bool decode_block(Chains *chains, int64_t index, int64_t coefficients, Span payload, Arena *scratch,
+    DecodedBlock *decoded) {
     int64_t number = index / chain_length(chains->header);
     if (number != chains->number && !begin_chain(chains, number)) return false;
     Ledger *ledger = chains->context->ledger;
@@ -223,7 +243,8 @@ bool copy_block(const DecodedBlock *block, Arena *arena, DecodedBlock *copy) {
     Ints vertices;
     Doubles2 positions;
     Doubles weights;
-    if (!take_ints(arena, n, &vertices) || !take_doubles2(arena, n, 3, &positions) || !take_doubles(arena, n, &weights)) return false;
+    if (!take_ints(arena, n, &vertices) || !take_doubles2(arena, n, 3, &positions) || !take_doubles(arena, n, &weights))
+        return false;
     memcpy(vertices.data, block->vertices.data, (size_t)n * sizeof *vertices.data);
     memcpy(positions.data, block->positions.data, (size_t)(3 * n) * sizeof *positions.data);
     memcpy(weights.data, block->weights.data, (size_t)n * sizeof *weights.data);

@@ -11,7 +11,8 @@ static bool invert_numbering(Changes *changes, const Numbering *numbering, int64
     int64_t copies = numbering->source.size - numbering->loose.rows;
     if (changes->starts.size > 0 || numbering->source.size == 0) return true;
     Ints starts, members;
-    if (!zero_ints(&changes->memory, coded + 1, &starts) || !take_ints(&changes->memory, copies, &members)) return false;
+    if (!zero_ints(&changes->memory, coded + 1, &starts) || !take_ints(&changes->memory, copies, &members))
+        return false;
     for (int64_t v = 0; v < numbering->source.size; v++)
         if (numbering->source.data[v] >= 0) starts.data[numbering->source.data[v]]++;
     int32_t end = 0;
@@ -34,7 +35,8 @@ static int64_t count_copies(const Changes *changes, ConstInts vertices) {
 }
 
 /* Answer with coded vertices, all from row `final` on being final, as the user numbers them. */
-static bool answer_with(bsmdec *decoder, ConstInts vertices, ConstDoubles2 positions, int64_t final, bsmdec_changes *answer) {
+static bool answer_with(bsmdec *decoder, ConstInts vertices, ConstDoubles2 positions, int64_t final,
+    bsmdec_changes *answer) {
     Changes *changes = &decoder->changes;
     if (!invert_numbering(changes, &decoder->mesh.numbering, decoder->mesh.header.vertices)) return false;
     int64_t count = count_copies(changes, vertices), row = 0;
@@ -64,9 +66,9 @@ static bool begin_watching(bsmdec *decoder) {
     Arena *memory = &changes->memory;
     int64_t n = mesh->graph.size;
     if (changes->begun) return true;
-    if (!zero_ints(memory, n, &changes->missing) || !take_ints(memory, n, &changes->number) || !take_ints(memory, n, &changes->ringed)
-        || !zero_bytes(memory, n, &changes->final) || !zero_bytes(memory, n, &changes->marks)
-        || !zero_doubles2(memory, n, 3, &changes->blended))
+    if (!zero_ints(memory, n, &changes->missing) || !take_ints(memory, n, &changes->number)
+        || !take_ints(memory, n, &changes->ringed) || !zero_bytes(memory, n, &changes->final)
+        || !zero_bytes(memory, n, &changes->marks) || !zero_doubles2(memory, n, 3, &changes->blended))
         return false;
     for (int64_t i = 0; i < mesh->blocks.members.size; i++) changes->missing.data[mesh->blocks.members.data[i]]++;
     for (int64_t v = 0; v < n; v++) changes->number.data[v] = -1;
@@ -102,19 +104,21 @@ static bool find_around(bsmdec *decoder, ConstInts given, int64_t rings, Ints *f
     return true;
 }
 
-/* Find the vertices that become final with the last copies of `complete` (M 12.4): no copy that smoothing sees is missing. */
+/* Find the vertices that the last copies of `complete` make final (M 12.4): smoothing misses no copy. */
 static bool find_final(bsmdec *decoder, ConstInts complete, Ints *finished) {
     Changes *changes = &decoder->changes;
     Ints all, near, waiting;
     int64_t count = 0;
-    if (!find_around(decoder, complete, 2 * (int64_t)DEGREE, &all) || !find_around(decoder, complete, DEGREE, &near)) return false;
+    if (!find_around(decoder, complete, 2 * (int64_t)DEGREE, &all) || !find_around(decoder, complete, DEGREE, &near))
+        return false;
     for (int64_t i = 0; i < all.size; i++)
         if (changes->missing.data[all.data[i]] > 0) all.data[count++] = all.data[i];
     if (!find_around(decoder, (ConstInts){all.data, count}, DEGREE, &waiting)) return false;
     for (int64_t i = 0; i < waiting.size; i++) changes->marks.data[waiting.data[i]] = 1;
     *finished = (Ints){near.data, 0};
     for (int64_t i = 0; i < near.size; i++)
-        if (!changes->final.data[near.data[i]] && !changes->marks.data[near.data[i]]) near.data[finished->size++] = near.data[i];
+        if (!changes->final.data[near.data[i]] && !changes->marks.data[near.data[i]])
+            near.data[finished->size++] = near.data[i];
     for (int64_t i = 0; i < waiting.size; i++) changes->marks.data[waiting.data[i]] = 0;
     return true;
 }
@@ -133,8 +137,8 @@ static bool smooth_some(bsmdec *decoder, ConstInts vertices, Doubles2 smoothed) 
     filter_polynomial(decoder->mesh.header.smoothing, powers);
     for (int64_t i = 0; i < count; i++) changes->number.data[changes->ringed.data[i]] = (int32_t)i;
     filter_rows(graph->offsets, graph->neighbors, const_ints(changes->number), const_doubles2(changes->blended),
-        (ConstDoubles){powers, POWERS}, (ConstInts){changes->ringed.data, count}, (ConstLongs){starts.data, starts.size}, current,
-        following, smoothed);
+        (ConstDoubles){powers, POWERS}, (ConstInts){changes->ringed.data, count},
+        (ConstLongs){starts.data, starts.size}, current, following, smoothed);
     forget_rings(changes, count);
     return true;
 }
@@ -147,7 +151,8 @@ static void take_block(bsmdec *decoder, int64_t index, Ints *touched, Ints *comp
     ConstInts members = members_of(&mesh->blocks, index, size_of_block(&mesh->blocks, index));
     for (int64_t i = 0; i < members.size; i++) {
         int32_t v = members.data[i];
-        for (int d = 0; d < 3; d++) changes->blended.data[3 * v + d] = blend->sums.data[3 * v + d] / blend->weights.data[v];
+        for (int d = 0; d < 3; d++)
+            changes->blended.data[3 * v + d] = blend->sums.data[3 * v + d] / blend->weights.data[v];
         if (--changes->missing.data[v] == 0) complete->data[complete->size++] = v;
         touched->data[touched->size++] = v;
     }
@@ -179,7 +184,9 @@ static bool read_blocks(bsmdec *decoder, bsmdec_changes *answer) {
     for (int64_t i = first; i < mesh->next_block; i++) total += size_of_block(&mesh->blocks, i);
     Ints touched, complete, vertices;
     Doubles2 positions;
-    if (!take_ints(&changes->answer, total, &touched) || !take_ints(&changes->answer, total, &complete) || !begin_watching(decoder)) return false;
+    if (!take_ints(&changes->answer, total, &touched) || !take_ints(&changes->answer, total, &complete)
+        || !begin_watching(decoder))
+        return false;
     touched.size = complete.size = 0;
     changes->blocks = mesh->next_block;
     for (int64_t i = first; i < mesh->next_block; i++)
@@ -190,13 +197,17 @@ static bool read_blocks(bsmdec *decoder, bsmdec_changes *answer) {
         || !take_doubles2(&changes->answer, vertices.size, 3, &positions))
         return false;
     int64_t moved = vertices.size - finished.size;
-    for (int64_t i = 0; i < vertices.size; i++) memcpy(positions.data + 3 * i, changes->blended.data + 3 * vertices.data[i], 3 * sizeof(double));
+    for (int64_t i = 0; i < vertices.size; i++)
+        memcpy(positions.data + 3 * i, changes->blended.data + 3 * vertices.data[i], 3 * sizeof(double));
     if (mesh->header.smoothing > 0.0 && finished.size > 0
         && !smooth_some(decoder, const_ints(finished), (Doubles2){positions.data + 3 * moved, finished.size, 3}))
         return false;
     bool lasting = mesh->header.gop_frames == 0; /* frames move them later */
-    if (!charge(context, COPY * (double)count_copies(changes, const_ints(vertices)), 0) || !into_unit(context, &mesh->header, positions)) return false;
-    return answer_with(decoder, const_ints(vertices), const_doubles2(positions), lasting ? moved : vertices.size, answer);
+    if (!charge(context, COPY * (double)count_copies(changes, const_ints(vertices)), 0)
+        || !into_unit(context, &mesh->header, positions))
+        return false;
+    return answer_with(decoder, const_ints(vertices), const_doubles2(positions), lasting ? moved : vertices.size,
+        answer);
 }
 
 static bool has_unread_blocks(const bsmdec *decoder) {
@@ -254,7 +265,9 @@ bsmdec_status bsmdec_read_changes(bsmdec *decoder, bsmdec_changes *changes) {
     if (failed(&decoder->context)) return decoder->context.error.status;
     const Mesh *mesh = &decoder->mesh;
     release_all(&decoder->changes.answer);
-    bool done = mesh->has_grid ? read_grid(decoder, changes) : mesh->has_layer ? read_layer(decoder, changes) : read_blocks(decoder, changes);
+    bool done = mesh->has_grid ? read_grid(decoder, changes)
+        : mesh->has_layer      ? read_layer(decoder, changes)
+                               : read_blocks(decoder, changes);
     int64_t block = done || mesh->has_grid || mesh->has_layer ? -1 : mesh->next_block - 1;
     if (!done) locate(&decoder->context.error, decoder->reader.last_offset, decoder->reader.last_frame, block);
     return decoder->context.error.status;
@@ -318,10 +331,12 @@ bsmdec_status bsmdec_read_losses(bsmdec *decoder, bsmdec_losses *losses) {
     if (!zero_bytes(answer, mesh->header.vertices, &states) || !take_ints(answer, mesh->numbering.size, &missing)
         || !take_ints(answer, mesh->numbering.size, &degraded))
         return context->error.status;
-    for (int64_t i = mesh->has_grid ? mesh->grid.coded : states.size; i < states.size; i++) states.data[mesh->grid.order.data[i]] = MISSING;
+    for (int64_t i = mesh->has_grid ? mesh->grid.coded : states.size; i < states.size; i++)
+        states.data[mesh->grid.order.data[i]] = MISSING;
     if (!mesh->has_grid && !judge_blocks(decoder, states)) return context->error.status;
     int64_t gone = list_states(&mesh->numbering, const_bytes(states), MISSING, missing);
-    *losses = (bsmdec_losses){gone, missing.data, list_states(&mesh->numbering, const_bytes(states), DEGRADED, degraded), degraded.data};
+    *losses = (bsmdec_losses){
+        gone, missing.data, list_states(&mesh->numbering, const_bytes(states), DEGRADED, degraded), degraded.data};
     return BSMDEC_OK;
 }
 
@@ -345,7 +360,8 @@ bsmdec_status bsmdec_read_values(bsmdec *decoder, int index, bsmdec_values *valu
     char *copies;
     if (!TAKE(answer, rows.size * (int64_t)each, copies)) return context->error.status;
     for (int64_t i = 0; i < rows.size; i++)
-        memcpy(copies + (size_t)i * each, (const char *)attribute->values + (size_t)coded.data[rows.data[i]] * each, each);
+        memcpy(copies + (size_t)i * each, (const char *)attribute->values + (size_t)coded.data[rows.data[i]] * each,
+            each);
     *values = (bsmdec_values){shape, rows.size, rows.data, copies};
     return BSMDEC_OK;
 }

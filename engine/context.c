@@ -182,7 +182,8 @@ bool charge(Context *context, double work, double received) {
 }
 
 static double granted_memory(const bsmdec_limits *limits, int64_t vertices, double received) {
-    return lesser(limits->memory + limits->memory_per_vertex * (double)vertices + limits->memory_per_byte * received, limits->most_memory);
+    return lesser(limits->memory + limits->memory_per_vertex * (double)vertices + limits->memory_per_byte * received,
+        limits->most_memory);
 }
 
 bool within_memory(Context *context, double memory, int64_t vertices, double received) {
@@ -197,13 +198,15 @@ double memory_left(const Context *context) {
 /* Memory for a while, beside what is kept (M 14.8). */
 bool fits_memory(Context *context, double memory) {
     const Spent *spent = &context->spent;
-    return note(context, memory, -1) && within_memory(context, spent->reserved + memory, spent->vertices - spent->gone, spent->received);
+    return note(context, memory, -1)
+        && within_memory(context, spent->reserved + memory, spent->vertices - spent->gone, spent->received);
 }
 
 bool charge_ledger(Context *context, const Ledger *ledger, int first, int end) {
     for (int i = first; i < end; i++) {
         Cost cost = ledger->cost[i];
-        if (cost.received < 0 ? !fits_memory(context, cost.amount) : !charge(context, cost.amount, cost.received)) return false;
+        if (cost.received < 0 ? !fits_memory(context, cost.amount) : !charge(context, cost.amount, cost.received))
+            return false;
     }
     return true;
 }

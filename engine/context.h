@@ -76,15 +76,15 @@ Mark mark_of(const Arena *arena);
 void release_to(Arena *arena, Mark mark);
 void release_all(Arena *arena);
 
-/* Memory that was asked for is there, or the caller must not go on: every function that takes memory returns whether it got
- * it, and compilers warn where that is ignored. In WebAssembly a write through NULL is not even noticed. */
+/* Memory that was asked for is there, or the caller must not go on: every function that takes memory returns whether it
+ * got it, and compilers warn where that is ignored. In WebAssembly a write through NULL is not even noticed. */
 #if defined(__GNUC__)
 #define MUST_CHECK __attribute__((warn_unused_result))
 #else
 #define MUST_CHECK
 #endif
-/* Memory for `count` things of a size; NULL, and the context has failed, if there is none. Use them in is_there or in the
- * macros below. */
+/* Memory for `count` things of a size; NULL, and the context has failed, if there is none. Use them in is_there or in
+ * the macros below. */
 void *find_memory(Arena *arena, int64_t count, size_t size);
 void *find_zeros(Arena *arena, int64_t count, size_t size);
 void *host_memory(Context *context, int64_t count, size_t size);
@@ -96,25 +96,27 @@ MUST_CHECK INLINE bool is_there(const void *memory) { return memory != NULL; }
 void host_give(Context *context, void *memory, size_t size);
 
 /* The same for arrays of the kernels: of numbers that are not set, or are 0 (`zero_...`). */
-#define ARENA_ARRAYS(Name, type, name)                                                                                  \
-    MUST_CHECK INLINE bool take_##name(Arena *arena, int64_t size, Name *taken) {                                       \
-        taken->size = size;                                                                                             \
-        return TAKE(arena, size, taken->data);                                                                          \
-    }                                                                                                                   \
-    MUST_CHECK INLINE bool zero_##name(Arena *arena, int64_t size, Name *taken) {                                       \
-        taken->size = size;                                                                                             \
-        return TAKE_ZEROS(arena, size, taken->data);                                                                    \
-    }                                                                                                                   \
-    MUST_CHECK INLINE bool take_##name##2(Arena *arena, int64_t rows, int64_t columns, Name##2 *taken) {                \
-        *taken = (Name##2){find_memory(arena, rows, (size_t)columns * sizeof(type)), rows, columns};                    \
-        return is_there(taken->data);                                                                                   \
-    }                                                                                                                   \
-    MUST_CHECK INLINE bool zero_##name##2(Arena *arena, int64_t rows, int64_t columns, Name##2 *taken) {                \
-        *taken = (Name##2){find_zeros(arena, rows, (size_t)columns * sizeof(type)), rows, columns};                     \
-        return is_there(taken->data);                                                                                   \
-    }                                                                                                                   \
-    INLINE Const##Name const_##name(Name given) { return (Const##Name){given.data, given.size}; }                        \
-    INLINE Const##Name##2 const_##name##2(Name##2 given) { return (Const##Name##2){given.data, given.rows, given.columns}; }
+#define ARENA_ARRAYS(Name, type, name)                                                                                 \
+    MUST_CHECK INLINE bool take_##name(Arena *arena, int64_t size, Name *taken) {                                      \
+        taken->size = size;                                                                                            \
+        return TAKE(arena, size, taken->data);                                                                         \
+    }                                                                                                                  \
+    MUST_CHECK INLINE bool zero_##name(Arena *arena, int64_t size, Name *taken) {                                      \
+        taken->size = size;                                                                                            \
+        return TAKE_ZEROS(arena, size, taken->data);                                                                   \
+    }                                                                                                                  \
+    MUST_CHECK INLINE bool take_##name##2(Arena * arena, int64_t rows, int64_t columns, Name##2 * taken) {             \
+        *taken = (Name##2){find_memory(arena, rows, (size_t)columns * sizeof(type)), rows, columns};                   \
+        return is_there(taken->data);                                                                                  \
+    }                                                                                                                  \
+    MUST_CHECK INLINE bool zero_##name##2(Arena * arena, int64_t rows, int64_t columns, Name##2 * taken) {             \
+        *taken = (Name##2){find_zeros(arena, rows, (size_t)columns * sizeof(type)), rows, columns};                    \
+        return is_there(taken->data);                                                                                  \
+    }                                                                                                                  \
+    INLINE Const##Name const_##name(Name given) { return (Const##Name){given.data, given.size}; }                      \
+    INLINE Const##Name##2 const_##name##2(Name##2 given) {                                                             \
+        return (Const##Name##2){given.data, given.rows, given.columns};                                                \
+    }
 
 ARENA_ARRAYS(Bytes, uint8_t, bytes)
 ARENA_ARRAYS(Ints, int32_t, ints)

@@ -1,5 +1,5 @@
-/* What decoding costs, in nanoseconds of a processor core and in bytes (specification, M 14.2, M 14.3): codec/static/work.py
- * and codec/basis/laplacian.py, term for term. */
+/* What decoding costs, in nanoseconds of a processor core and in bytes (specification, M 14.2, M 14.3):
+ * codec/static/work.py and codec/basis/laplacian.py, term for term. */
 #ifndef BSMDEC_COSTS_H
 #define BSMDEC_COSTS_H
 
@@ -14,10 +14,13 @@ INLINE double order_work(double n, double m, double bytes) { return 500 * n + 75
 INLINE double order_memory(double n, double m) { return 32 * n + 60 * m; }
 INLINE double labels_work(double n, double ends, double bytes) { return 300 * n + 30 * ends + 100 * bytes; }
 INLINE double partition_work(double n, double ends, int64_t blocks, double copies) {
-    return (n + ends) * (4.0 * (64 - __builtin_clzll((uint64_t)blocks)) + 20) + 2 * n + 100 * (double)blocks + 30 * copies;
+    return (n + ends) * (4.0 * (64 - __builtin_clzll((uint64_t)blocks)) + 20) + 2 * n + 100 * (double)blocks
+        + 30 * copies;
 }
 static const double COPY_MEMORY = 4;
-INLINE double block_work(double rows, double edges, double levels) { return 1.45e5 + 600 * rows + 25 * edges + 90 * levels; }
+INLINE double block_work(double rows, double edges, double levels) {
+    return 1.45e5 + 600 * rows + 25 * edges + 90 * levels;
+}
 INLINE double chain_work(double n) { return 2 * n < 4e6 ? 2 * n : 4e6; }
 static const double BLOCK_FRAME_BYTES = 5;
 
@@ -28,7 +31,8 @@ INLINE double light_chunk_work(double bytes) { return 5e4 + 120 * bytes; }
 INLINE double floats_work(double n, double span) { return 400 * n + 4 * span; }
 INLINE double chunk_work(double bytes, double values) { return 8e4 + 800 * bytes + 2 * values; }
 INLINE double layer_work(double n, double m, double axes) { return n * (400 + 230 * axes) + 130 * m; }
-static const double VALUE_MODEL_BYTES = 4.0 * (6 * 512 * 66 + 7 * (32 + 2 * 512)), LEVEL_MODEL_BYTES = 4.0 * (2 * 5 * 512 * 32);
+static const double VALUE_MODEL_BYTES = 4.0 * (6 * 512 * 66 + 7 * (32 + 2 * 512)),
+                    LEVEL_MODEL_BYTES = 4.0 * (2 * 5 * 512 * 32);
 INLINE double grid_field_bytes(double n, double m) { return 84 * n + 48 * m + VALUE_MODEL_BYTES + (1 << 20); }
 INLINE double grid_memory(double n, double m) { return 80 * n + grid_field_bytes(n, m); }
 INLINE double layer_field_bytes(double n, double m) { return (24 + 36) * n + 48 * m + LEVEL_MODEL_BYTES + (1 << 17); }
@@ -39,7 +43,9 @@ INLINE double whole_columns(int64_t columns) { return (double)((columns + 15) / 
 INLINE double solve_work(const Fronts *fronts, int64_t columns) {
     return 50 + fronts->sums.data[0] * (0.3 * (double)((columns + 63) / 64) + 0.02 * whole_columns(columns));
 }
-INLINE double factor_work(const Fronts *fronts) { return fronts->sums.data[1] / 6 + 50.0 * (double)fronts->rows.size + 4000; }
+INLINE double factor_work(const Fronts *fronts) {
+    return fronts->sums.data[1] / 6 + 50.0 * (double)fronts->rows.size + 4000;
+}
 INLINE double onorm_work(double rows, int64_t columns) {
     double c = whole_columns(columns);
     return rows * (3 + 0.4 * c + c * c / 80) + 3000;
@@ -57,7 +63,8 @@ INLINE double ground_work(const Fronts *fronts, int64_t columns) {
     return factor_work(fronts) + solve_work(fronts, 3) + 1.5 * (double)fronts->rows.size * (double)columns;
 }
 INLINE double patch_memory(const Fronts *fronts, int64_t columns) {
-    double rows = (double)fronts->rows.size, c = whole_columns(columns), size = fronts->places.data[fronts->places.size - 1];
+    double rows = (double)fronts->rows.size, c = whole_columns(columns),
+           size = fronts->places.data[fronts->places.size - 1];
     return 8 * (6 * rows * c + 2 * c * c + size) + 500 * rows;
 }
 

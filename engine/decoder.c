@@ -151,7 +151,8 @@ bsmdec_status bsmdec_finish(bsmdec *decoder) {
 
 /* What comes before the blocks of the first mesh, and these: all that a helper needs. */
 static bool is_for_helpers(const Packet *packet) {
-    return packet->type == HEADER_FRAME || packet->type == CONNECTIVITY_FRAME || packet->type == PARTITION_FRAME || packet->type == BLOCK_FRAME;
+    return packet->type == HEADER_FRAME || packet->type == CONNECTIVITY_FRAME || packet->type == PARTITION_FRAME
+        || packet->type == BLOCK_FRAME;
 }
 
 static bool accept_packet(bsmdec *decoder, const Packet *packet) {
@@ -173,7 +174,9 @@ static bool accept_damage(bsmdec *decoder) {
 }
 
 /* Nothing follows. */
-static bool accept_end(bsmdec *decoder) { return decoder->sequence.active ? end_sequence(decoder) : finish_mesh(decoder); }
+static bool accept_end(bsmdec *decoder) {
+    return decoder->sequence.active ? end_sequence(decoder) : finish_mesh(decoder);
+}
 
 /* Take in what has come, until there is an event, an error, or nothing more. */
 static bsmdec_event_type advance(bsmdec *decoder) {
@@ -278,7 +281,8 @@ static bsmdec_metadata entry_of(const MetadataEntry *own) {
 bsmdec_status bsmdec_metadata_find(bsmdec *decoder, const char *name, bsmdec_metadata *entry) {
     if (decoder == NULL) return BSMDEC_MISUSED;
     if (name == NULL || entry == NULL) return REFUSE(decoder, "name or entry is NULL");
-    const MetadataEntry *found = find_name(&decoder->reader.metadata, (Span){(const uint8_t *)name, (int64_t)strlen(name)});
+    const MetadataEntry *found =
+        find_name(&decoder->reader.metadata, (Span){(const uint8_t *)name, (int64_t)strlen(name)});
     if (found == NULL) return REFUSE(decoder, "no entry of metadata has this name");
     *entry = entry_of(found);
     return BSMDEC_OK;
@@ -319,7 +323,8 @@ bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute) {
     const Declaration *d = &attribute->declaration;
     Given given = given_shape(attribute, &decoder->mesh.numbering);
     int64_t corners = given.domain == BSMDEC_CORNER ? 3 * decoder->mesh.faces.rows : 0;
-    return (bsmdec_attribute){d->name, given.domain, d->semantic, d->kind, d->components, given.rows, corners, d->moves};
+    return (bsmdec_attribute){
+        d->name, given.domain, d->semantic, d->kind, d->components, given.rows, corners, d->moves};
 }
 
 bsmdec_status bsmdec_attribute_at(bsmdec *decoder, int index, bsmdec_attribute *attribute) {
@@ -354,7 +359,8 @@ bsmdec_status bsmdec_attribute_indices(bsmdec *decoder, int index, uint32_t *ind
     bsmdec_attribute shape = shape_of(decoder, found);
     if (shape.indices == 0) return REFUSE(decoder, "attribute # has no indices: it is not of corners", index);
     if (!fits(decoder, indices, count, shape.indices)) return BSMDEC_MISUSED;
-    for (size_t i = 0; i < count; i++) indices[i] = (uint32_t)row_of_corner(found, &decoder->mesh.numbering, (int64_t)i);
+    for (size_t i = 0; i < count; i++)
+        indices[i] = (uint32_t)row_of_corner(found, &decoder->mesh.numbering, (int64_t)i);
     return BSMDEC_OK;
 }
 

@@ -28,12 +28,12 @@ bool factorize_patch(const Patch *patch, ConstDoubles springs, double shift, Are
     Doubles diagonal;
     Singles scratch;
     Words column;
-    if (!take_doubles(arena, n, &diagonal) || !take_singles(arena, 3 * (n + 16) + 15, &scratch) || !take_words(arena, n + 1, &column)
-        || !take_factor(arena, patch, factor))
+    if (!take_doubles(arena, n, &diagonal) || !take_singles(arena, 3 * (n + 16) + 15, &scratch)
+        || !take_words(arena, n + 1, &column) || !take_factor(arena, patch, factor))
         return false;
     for (int64_t r = 0; r < n; r++) diagonal.data[r] = patch->diagonal.data[r] + (springs.data[r] + shift);
-    factorize_fronts(patch->offsets, patch->neighbors, patch->weights, const_doubles(diagonal), patch->fronts, column, scratch,
-        factor->values, factor->inverse);
+    factorize_fronts(patch->offsets, patch->neighbors, patch->weights, const_doubles(diagonal), patch->fronts, column,
+        scratch, factor->values, factor->inverse);
     return true;
 }
 
@@ -55,24 +55,29 @@ static bool resize(Singles2 previous, int64_t rows, int64_t width, Arena *arena,
 
 static void add_noise(Singles2 columns, double share) {
     for (int64_t r = 0; r < columns.rows; r++)
-        for (int64_t j = 0; j < columns.columns; j++) columns.data[r * columns.columns + j] += (float)(share * hash_at(r, j));
+        for (int64_t j = 0; j < columns.columns; j++)
+            columns.data[r * columns.columns + j] += (float)(share * hash_at(r, j));
 }
 
 /* U(t) = Onorm(R^z U(t - 1)) of the first `columns` of a start (M 8.4). */
-static bool iterate_columns(Context *context, const Patch *patch, const Factor *factor, Singles2 start, Schedule plan, Arena *scratch, Singles2 subspace) {
-    int64_t rows = subspace.rows, columns = subspace.columns, solutions = plan.power * plan.iterations, found = NEEDS_CARE;
+static bool iterate_columns(Context *context, const Patch *patch, const Factor *factor, Singles2 start, Schedule plan,
+    Arena *scratch, Singles2 subspace) {
+    int64_t rows = subspace.rows, columns = subspace.columns, solutions = plan.power * plan.iterations,
+            found = NEEDS_CARE;
     Singles room;
     if (!take_singles(scratch, iteration_space(rows, columns), &room)) return false;
     for (int64_t care = 0; found == NEEDS_CARE; care = care > 0 ? 4 * care : FIRST_CARE) {
-        if (!charge(context, dictionary_work(&patch->fronts, columns, (double)solutions, (double)care), 0)) return false;
-        found = iterate(patch->fronts, factor->values, const_singles(factor->inverse), const_singles2(start), solutions, care, room, subspace);
+        if (!charge(context, dictionary_work(&patch->fronts, columns, (double)solutions, (double)care), 0))
+            return false;
+        found = iterate(patch->fronts, factor->values, const_singles(factor->inverse), const_singles2(start), solutions,
+            care, room, subspace);
     }
     return found != LOST || FAIL(context, NUMERIC, "the columns of a dictionary cannot be made orthonormal");
 }
 
-/* `width` columns of U: those that iterations give, and where these are fewer, any that are orthogonal to them (M 8.7). */
-static bool iterate_and_complete(Context *context, const Patch *patch, const Factor *factor, Singles2 start, Schedule plan,
-    int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
+/* `width` columns of U: those of the iterations, then any that are orthogonal to them (M 8.7). */
+static bool iterate_and_complete(Context *context, const Patch *patch, const Factor *factor, Singles2 start,
+    Schedule plan, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
     int64_t first = least(width, plan.most), rows = patch->size;
     if (!take_singles2(arena, rows, width, dictionary)) return false;
     Singles2 iterated = *dictionary;
@@ -86,8 +91,8 @@ static bool iterate_and_complete(Context *context, const Patch *patch, const Fac
         || FAIL(context, NUMERIC, "the columns of a dictionary cannot be completed");
 }
 
-bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs, const Factor *held,
-    int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
+bool key_dictionary(Context *context, const Header *header, const Patch *patch, ConstDoubles springs,
+    const Factor *held, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
     const Paper *paper = &header->paper;
     Schedule plan = {paper->power, paper->key_iterations, iterated_columns(header, patch->size)};
     Factor own;
@@ -107,8 +112,8 @@ bool key_dictionary(Context *context, const Header *header, const Patch *patch, 
     return iterate_and_complete(context, patch, held, start, plan, width, arena, scratch, dictionary);
 }
 
-bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor, Singles2 previous,
-    int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
+bool following_dictionary(Context *context, const Header *header, const Patch *patch, const Factor *factor,
+    Singles2 previous, int64_t width, Arena *arena, Arena *scratch, Singles2 *dictionary) {
     Schedule plan = {header->paper.power, header->paper.iterations, iterated_columns(header, patch->size)};
     int64_t first = least(width, plan.most);
     Singles2 start = previous;

@@ -4,21 +4,26 @@
 #include "bitstream/coefficients/coefficients.h"
 #include "codec/signal/signal.h"
 
-static const PredictionRules RULES = {.forgetting = 0.985, .ridge = 0.004, .noise = 30, .around = 30, .dense_rows = 16, .renewal = 8};
+static const PredictionRules RULES = {.forgetting = 0.985, .ridge = 0.004, .noise = 30, .around = 30, .dense_rows = 16,
+    .renewal = 8};
 static const double SQUARES = 0.5, CUBES = 0.3, SMALLEST_RADIUS = 0x1p-24, TRACK_MEMORY = 40;
 static const double QUARTERS[4] = {1.0, 0.8408964152537145, 0.7071067811865476, 0.5946035575013605};
 
-static Doubles2 rows_from(Doubles2 all, int64_t first, int64_t count) { return (Doubles2){all.data + first * all.columns, count, all.columns}; }
+static Doubles2 rows_from(Doubles2 all, int64_t first, int64_t count) {
+    return (Doubles2){all.data + first * all.columns, count, all.columns};
+}
 
 /* Some columns of a matrix, in a matrix of their own or as part of one, from column `to` on. */
 static void copy_columns(ConstDoubles2 from, int64_t first, int64_t count, Doubles2 into, int64_t to) {
     for (int64_t r = 0; count > 0 && r < from.rows; r++)
-        memcpy(into.data + r * into.columns + to, from.data + r * from.columns + first, (size_t)count * sizeof *from.data);
+        memcpy(into.data + r * into.columns + to, from.data + r * from.columns + first,
+            (size_t)count * sizeof *from.data);
 }
 
 static void gather_rows(ConstDoubles2 field, ConstInts vertices, Doubles2 rows) {
     for (int64_t r = 0; field.columns > 0 && r < vertices.size; r++)
-        memcpy(rows.data + r * rows.columns, field.data + vertices.data[r] * field.columns, (size_t)field.columns * sizeof *field.data);
+        memcpy(rows.data + r * rows.columns, field.data + vertices.data[r] * field.columns,
+            (size_t)field.columns * sizeof *field.data);
 }
 
 /* S 3.7. */
@@ -33,7 +38,8 @@ static Bend bend_of(ConstDoubles2 x) {
         for (int d = 0; d < 3; d++) bend.center[d] += x.data[3 * r + d];
     for (int d = 0; d < 3; d++) bend.center[d] /= n;
     for (int64_t r = 0; r < x.rows; r++) {
-        double a = x.data[3 * r] - bend.center[0], b = x.data[3 * r + 1] - bend.center[1], c = x.data[3 * r + 2] - bend.center[2];
+        double a = x.data[3 * r] - bend.center[0], b = x.data[3 * r + 1] - bend.center[1],
+               c = x.data[3 * r + 2] - bend.center[2];
         bend.radius += a * a + b * b + c * c;
     }
     bend.radius = __builtin_sqrt(bend.radius / n + SMALLEST_RADIUS);
@@ -56,7 +62,8 @@ static void fill_bends(Bend bend, ConstDoubles2 x, Doubles2 columns) {
 }
 
 /* Bends and first values at some vertices. */
-static bool fill_known(Bend bend, ConstDoubles2 first_frame, const MovingAttribute *moving, int count, ConstInts vertices, Arena *scratch, Doubles2 known) {
+static bool fill_known(Bend bend, ConstDoubles2 first_frame, const MovingAttribute *moving, int count,
+    ConstInts vertices, Arena *scratch, Doubles2 known) {
     Doubles2 places;
     if (!take_doubles2(scratch, vertices.size, 3, &places)) return false;
     gather_rows(first_frame, vertices, places);
@@ -71,7 +78,8 @@ static bool fill_known(Bend bend, ConstDoubles2 first_frame, const MovingAttribu
 }
 
 /* What is known of a part: around it, and its differences. */
-static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, const MovingAttribute *moving, int count, int64_t columns, Arena *scratch) {
+static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, const MovingAttribute *moving, int count,
+    int64_t columns, Arena *scratch) {
     const Site *part = gops->parts.part + index;
     int64_t n = part->patch.size, ends = part->around.size;
     Singles2 dictionary;
@@ -92,22 +100,26 @@ static bool know_part(Gops *gops, int64_t index, ConstDoubles2 first_frame, cons
     for (int k = 0; k < gops->tracks; k++) {
         Doubles2 known = gops->track[k].known;
         copy_columns(const_doubles2(around), place, known.columns, rows_from(known, part->first, ends), 0);
-        copy_columns(const_doubles2(differences), place, known.columns, rows_from(known, part->first + ends, part->width), 0);
+        copy_columns(const_doubles2(differences), place, known.columns,
+            rows_from(known, part->first + ends, part->width), 0);
         place += known.columns;
     }
     return true;
 }
 
-bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, ConstInts2 faces,
-    ConstDoubles2 first_frame, int64_t given, const MovingAttribute *moving, int count, Arena *scratch) {
+bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks,
+    ConstInts2 faces, ConstDoubles2 first_frame, int64_t given, const MovingAttribute *moving, int count,
+    Arena *scratch) {
     const Arena none = arena_of(context);
     *gops = (Gops){.given = (double)given, .tracks = count + 1, .begun = true, .arena = none, .history = none,
         .levels = none, .frames = none};
-    gops->parts = (Parts){.context = context, .header = header, .graph = graph, .blocks = blocks, .arena = &gops->arena, .dictionaries = none};
+    gops->parts = (Parts){.context = context, .header = header, .graph = graph, .blocks = blocks, .arena = &gops->arena,
+        .dictionaries = none};
     double work, widths = 0, n = (double)graph->size;
     int64_t columns = BENDING;
     for (int k = 0; k < count; k++) widths += (double)moving[k].width;
-    if (!find_parts(&gops->parts, faces, first_frame, scratch) || !reserve_dictionaries(&gops->parts, 0, 0, &work) || !reserve(context, TRACK_MEMORY * n * widths, 0)
+    if (!find_parts(&gops->parts, faces, first_frame, scratch) || !reserve_dictionaries(&gops->parts, 0, 0, &work)
+        || !reserve(context, TRACK_MEMORY * n * widths, 0)
         || !reserve(context, 8 * (BENDING + widths) * gops->parts.around, 0))
         return false;
     if (!TAKE_ZEROS(&gops->arena, gops->tracks, gops->track)) return false;
@@ -159,8 +171,8 @@ static bool time_cosines(int64_t frames, Arena *arena, Doubles2 *columns) {
     return true;
 }
 
-/* One payload of matrices of levels, of `rows[i]` rows (S 4); references begin where `references` tells, or are none. With a
- * lead row 0 has `lead[i]` columns, and each next one `stair` more. */
+/* One payload of matrices of levels, of `rows[i]` rows (S 4); references begin where `references` tells, or are none.
+ * With a lead row 0 has `lead[i]` columns, and each next one `stair` more. */
 typedef struct {
     int64_t rows, lead;
     int32_t *levels;
@@ -168,7 +180,8 @@ typedef struct {
     int64_t reference_rows;
 } Matrix;
 
-static bool read_matrices(Context *context, Bank bank, Span payload, const Matrix *matrices, int64_t count, int64_t columns, int64_t stair, Arena *scratch) {
+static bool read_matrices(Context *context, Bank bank, Span payload, const Matrix *matrices, int64_t count,
+    int64_t columns, int64_t stair, Arena *scratch) {
     Reading reading;
     Longs slow;
     if (!take_longs(scratch, columns, &slow) || !begin_reading(context, payload, &reading)) return false;
@@ -176,7 +189,9 @@ static bool read_matrices(Context *context, Bank bank, Span payload, const Matri
         const Matrix *m = matrices + i;
         Ints2 levels = {m->levels, m->rows, columns};
         ConstInts2 reference = {m->reference, m->reference_rows, columns};
-        if (m->lead > 0) code_matrix(reading.coder, bank, levels, reference, 0, least(m->lead, columns), least(stair, columns), m->rows, columns, slow);
+        if (m->lead > 0)
+            code_matrix(reading.coder, bank, levels, reference, 0, least(m->lead, columns), least(stair, columns),
+                m->rows, columns, slow);
         else code_matrix(reading.coder, bank, levels, reference, 0, columns, 0, (m->rows + 1) / 2, 0, slow);
     }
     return finish_reading(&reading);
@@ -188,7 +203,8 @@ static void add_row(double *to, double scalar, const double *from, int64_t count
 }
 
 /* B: number 0 of all frames, then number 1, and so on (S 5.2, S 5.3). */
-static bool decode_basis(Context *context, const GopField *field, int64_t frames, Arena *arena, Arena *scratch, Doubles2 *basis) {
+static bool decode_basis(Context *context, const GopField *field, int64_t frames, Arena *arena, Arena *scratch,
+    Doubles2 *basis) {
     int64_t width = field->width, r = field->components, size = frames * r;
     Mark mark = mark_of(scratch);
     Bank bank;
@@ -196,11 +212,13 @@ static bool decode_basis(Context *context, const GopField *field, int64_t frames
     Ints levels;
     Doubles2 turned, time;
     Doubles vector, shares;
-    bool done = zero_doubles2(arena, width * frames, r, basis) && make_level_bank(scratch, &bank) && TAKE(scratch, width, matrices)
-        && zero_ints(scratch, width * size, &levels) && take_doubles2(scratch, width * frames, r, &turned)
-        && time_cosines(frames, scratch, &time) && take_doubles(scratch, width * frames, &vector) && take_doubles(scratch, r, &shares);
+    bool done = zero_doubles2(arena, width * frames, r, basis) && make_level_bank(scratch, &bank)
+        && TAKE(scratch, width, matrices) && zero_ints(scratch, width * size, &levels)
+        && take_doubles2(scratch, width * frames, r, &turned) && time_cosines(frames, scratch, &time)
+        && take_doubles(scratch, width * frames, &vector) && take_doubles(scratch, r, &shares);
     for (int64_t c = 0; done && c < width; c++)
-        matrices[c] = (Matrix){frames, c + 1, levels.data + c * size, levels.data + (c > 0 ? c - 1 : 0) * size, c > 0 ? frames : 0};
+        matrices[c] = (Matrix){
+            frames, c + 1, levels.data + c * size, levels.data + (c > 0 ? c - 1 : 0) * size, c > 0 ? frames : 0};
     done = done && read_matrices(context, bank, field->basis, matrices, width, r, width, scratch);
     for (int64_t c = 0; done && c < width; c++) {
         int state = 0;
@@ -216,13 +234,15 @@ static bool decode_basis(Context *context, const GopField *field, int64_t frames
     for (int64_t c = 0; done && c < width; c++)
         for (int64_t t = 0; t < frames; t++)
             for (int64_t f = 0; f < frames; f++)
-                add_row(basis->data + (c * frames + t) * r, time.data[t * frames + f], turned.data + (f * width + c) * r, r);
+                add_row(basis->data + (c * frames + t) * r, time.data[t * frames + f],
+                    turned.data + (f * width + c) * r, r);
     release_to(scratch, mark);
     return done;
 }
 
 /* A closed loop over the rows of a part (S 6): `decoded` from levels, given what is known around it and in it. */
-static bool follow_loop(Context *context, ConstDoubles2 around, ConstDoubles2 ends, ConstDoubles2 known, ConstInts2 levels, double step, Arena *scratch, Doubles2 decoded) {
+static bool follow_loop(Context *context, ConstDoubles2 around, ConstDoubles2 ends, ConstDoubles2 known,
+    ConstInts2 levels, double step, Arena *scratch, Doubles2 decoded) {
     int64_t width = known.columns + levels.columns, rows = known.columns + least(levels.columns, INHERITED);
     Mark mark = mark_of(scratch);
     Doubles2 moments, factor;
@@ -236,7 +256,8 @@ static bool follow_loop(Context *context, ConstDoubles2 around, ConstDoubles2 en
         for (int64_t i = 0; i < decoded.rows * decoded.columns; i++) spoiled += decoded.data[i] * 0.0;
     }
     release_to(scratch, mark);
-    return done && (spoiled == 0.0 || FAIL(context, NUMERIC, "the levels reconstruct to coefficients that are not finite"));
+    return done
+        && (spoiled == 0.0 || FAIL(context, NUMERIC, "the levels reconstruct to coefficients that are not finite"));
 }
 
 /* Columns of two matrices side by side. */
@@ -258,16 +279,19 @@ typedef struct {
 } GopContext;
 
 /* Differences of a part in a learned field (S 7.1), which is `ends` around it. */
-static bool decode_learned_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends, ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+static bool decode_learned_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends,
+    ConstInts2 levels, Arena *scratch, Doubles2 differences) {
     const GopField *field = decoding->gop->field + k;
     Track *track = gops->track + k;
     int64_t m = ends.rows, c = part->width;
     Doubles2 before = decoding->gop->method == LEARNED_NEXT ? track->inherited : (Doubles2){NULL, gops->parts.rows, 0};
     Doubles2 known, found = decoding->found[k];
-    if (!join_columns(rows_from(track->known, part->first, m + c), rows_from(before, part->first, m + c), scratch, &known)) return false;
+    if (!join_columns(rows_from(track->known, part->first, m + c), rows_from(before, part->first, m + c), scratch,
+            &known))
+        return false;
     if (field->components > 0
-        && !follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), ends, const_doubles2(rows_from(known, m, c)), levels,
-            field->step, scratch, differences))
+        && !follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), ends,
+            const_doubles2(rows_from(known, m, c)), levels, field->step, scratch, differences))
         return false;
     copy_columns(ends, 0, found.columns, rows_from(found, part->first, m), 0);
     copy_columns(const_doubles2(differences), 0, found.columns, rows_from(found, part->first + m, c), 0);
@@ -312,7 +336,8 @@ static void fill_references(const Track *track, const GopField *field, int64_t f
 }
 
 /* What a part is in low-delay frames, as cosines over time. */
-static bool decode_next_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends, ConstInts2 levels, Arena *scratch, Doubles2 differences) {
+static bool decode_next_part(Gops *gops, const GopContext *decoding, int k, const Site *part, ConstDoubles2 ends,
+    ConstInts2 levels, Arena *scratch, Doubles2 differences) {
     const GopField *field = decoding->gop->field + k;
     Track *track = gops->track + k;
     int64_t m = ends.rows, c = part->width, columns = ends.columns;
@@ -324,8 +349,8 @@ static bool decode_next_part(Gops *gops, const GopContext *decoding, int k, cons
         if (!take_doubles2(scratch, m + c, wide, &known) || !take_doubles2(scratch, m, columns, &changes)) return false;
         fill_references(track, field, part->first, known);
         for (int64_t i = 0; i < m * columns; i++) changes.data[i] = ends.data[i] - own.data[i];
-        if (!follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), const_doubles2(changes), const_doubles2(rows_from(known, m, c)),
-                levels, field->step, scratch, differences))
+        if (!follow_loop(gops->parts.context, const_doubles2(rows_from(known, 0, m)), const_doubles2(changes),
+                const_doubles2(rows_from(known, m, c)), levels, field->step, scratch, differences))
             return false;
         for (int64_t i = 0; i < c * columns; i++) inside.data[i] += differences.data[i];
         copy_columns(ends, 0, columns, own, 0);
@@ -352,7 +377,8 @@ static bool place_part(Gops *gops, const GopContext *decoding, int64_t index, in
         if (!take_doubles2(scratch, m, columns, &ends) || !take_doubles2(scratch, c, columns, &own)) return false;
         copy_columns(const_doubles2(around), place, columns, ends, 0);
         ConstInts2 levels = {decoding->levels[k].data + *begin * columns, c, columns};
-        bool done = (has_basis(decoding->gop) ? decode_learned_part : decode_next_part)(gops, decoding, k, part, const_doubles2(ends), levels, scratch, own);
+        bool done = (has_basis(decoding->gop) ? decode_learned_part : decode_next_part)(gops, decoding, k, part,
+            const_doubles2(ends), levels, scratch, own);
         if (!done) return false;
         copy_columns(const_doubles2(own), 0, columns, differences, place);
         place += columns;
@@ -364,7 +390,8 @@ static bool place_part(Gops *gops, const GopContext *decoding, int64_t index, in
     reconstruct(const_singles2(dictionary), const_doubles2(differences), positions);
     for (int64_t r = 0; r < n; r++)
         for (int64_t j = 0; j < total; j++)
-            gops->field.data[part->patch.vertices.data[r] * total + j] = positions.data[r * total + j] + extension.data[r * total + j];
+            gops->field.data[part->patch.vertices.data[r] * total + j] =
+                positions.data[r * total + j] + extension.data[r * total + j];
     return true;
 }
 
@@ -386,7 +413,8 @@ static int64_t coded_rows(const Gops *gops) {
 }
 
 /* The levels of all parts in a field, whose references are the parts before (no `before`) or the same parts there. */
-static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int32_t *before, int64_t columns, Arena *scratch, Ints levels) {
+static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int32_t *before, int64_t columns,
+    Arena *scratch, Ints levels) {
     Mark mark = mark_of(scratch);
     Matrix *matrices;
     if (!TAKE(scratch, gops->parts.count, matrices)) return false;
@@ -394,10 +422,12 @@ static bool read_levels(Gops *gops, Bank bank, const GopField *field, const int3
     for (int64_t i = 0; i < gops->parts.count; i++) {
         int64_t rows = gops->parts.part[i].width, earlier = i > 0 && before == NULL ? gops->parts.part[i - 1].width : 0;
         int32_t *own = levels.data + begin * columns;
-        matrices[i] = (Matrix){rows, 0, own, before != NULL ? before + begin * columns : own - earlier * columns, before != NULL ? rows : earlier};
+        matrices[i] = (Matrix){rows, 0, own, before != NULL ? before + begin * columns : own - earlier * columns,
+            before != NULL ? rows : earlier};
         begin += rows;
     }
-    bool done = read_matrices(gops->parts.context, bank, field->levels, matrices, gops->parts.count, columns, 0, scratch);
+    bool done =
+        read_matrices(gops->parts.context, bank, field->levels, matrices, gops->parts.count, columns, 0, scratch);
     release_to(scratch, mark);
     return done;
 }
@@ -407,7 +437,8 @@ static bool begin_field(Gops *gops, const Gop *gop) {
     int64_t columns = 0, n = gops->parts.graph->size, shown = least(gop->frames, BATCH);
     for (int k = 0; k < gops->tracks; k++) columns += gops->basis[k].columns;
     gops->batched = -1;
-    if (!zero_doubles2(&gops->frames, n, columns, &gops->field) || !TAKE(&gops->frames, gops->tracks, gops->batch)) return false;
+    if (!zero_doubles2(&gops->frames, n, columns, &gops->field) || !TAKE(&gops->frames, gops->tracks, gops->batch))
+        return false;
     for (int k = 0; k < gops->tracks; k++)
         if (!take_doubles2(&gops->frames, shown * n, gops->track[k].width, gops->batch + k)) return false;
     return true;
@@ -436,7 +467,8 @@ static bool decode_learned(Gops *gops, const Gop *gop, Arena *scratch) {
             return false;
         Mark mark = mark_of(scratch);
         if (!make_level_bank(scratch, &bank)
-            || (field->step > 0 && !read_levels(gops, bank, field, NULL, field->components, scratch, decoding.levels[k])))
+            || (field->step > 0
+                && !read_levels(gops, bank, field, NULL, field->components, scratch, decoding.levels[k])))
             return false;
         release_to(scratch, mark);
     }
@@ -460,9 +492,12 @@ static bool begin_history(Gops *gops) {
         memset(track->ring, 0, sizeof track->ring);
         track->latest = 0;
         track->count = 1;
-        if (!make_level_bank(&gops->history, &track->bank) || !zero_doubles(&gops->history, gops->parts.rows * track->width, track->ring)) return false;
+        if (!make_level_bank(&gops->history, &track->bank)
+            || !zero_doubles(&gops->history, gops->parts.rows * track->width, track->ring))
+            return false;
         if (track->starts_at_first)
-            copy_columns(const_doubles2(track->known), 0, track->width, (Doubles2){track->ring[0].data, gops->parts.rows, track->width}, 0);
+            copy_columns(const_doubles2(track->known), 0, track->width,
+                (Doubles2){track->ring[0].data, gops->parts.rows, track->width}, 0);
     }
     return true;
 }
@@ -477,7 +512,8 @@ static bool keep_frames(Gops *gops, Track *track, ConstDoubles2 time, ConstDoubl
         for (int64_t r = 0; r < gops->parts.rows; r++)
             for (int64_t d = 0; d < width; d++) {
                 double sum = 0.0;
-                for (int64_t f = 0; f < frames; f++) sum += spectra.data[r * spectra.columns + f * width + d] * time.data[t * frames + f];
+                for (int64_t f = 0; f < frames; f++)
+                    sum += spectra.data[r * spectra.columns + f * width + d] * time.data[t * frames + f];
                 frame->data[r * width + d] = sum;
             }
         track->count = least(track->count + 1, track->kept);
@@ -490,7 +526,8 @@ static bool hold_cosines(int64_t width, ConstDoubles2 time, Arena *arena, Double
     if (!zero_doubles2(arena, width * time.rows, width * time.rows, basis)) return false;
     for (int64_t d = 0; d < width; d++)
         for (int64_t t = 0; t < time.rows; t++)
-            for (int64_t f = 0; f < time.rows; f++) basis->data[(d * time.rows + t) * basis->columns + f * width + d] = time.data[t * time.rows + f];
+            for (int64_t f = 0; f < time.rows; f++)
+                basis->data[(d * time.rows + t) * basis->columns + f * width + d] = time.data[t * time.rows + f];
     return true;
 }
 
@@ -513,12 +550,17 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
         const GopField *field = gop->field + k;
         Track *track = gops->track + k;
         int64_t columns = track->width * gop->frames;
-        if (field->back > track->count) return FAIL(context, CORRUPT, "a frame refers to one # before it, where # are kept", field->back, track->count);
+        if (field->back > track->count)
+            return FAIL(context, CORRUPT, "a frame refers to one # before it, where # are kept", field->back,
+                track->count);
         if (gops->together != gop->frames && !zero_ints(&gops->levels, rows * columns, &track->levels)) return false;
-        if (!zero_ints(scratch, rows * columns, decoding.levels + k) || !take_doubles2(scratch, gops->parts.rows, columns, decoding.found + k)
+        if (!zero_ints(scratch, rows * columns, decoding.levels + k)
+            || !take_doubles2(scratch, gops->parts.rows, columns, decoding.found + k)
             || !hold_cosines(track->width, const_doubles2(decoding.time), &gops->frames, gops->basis + k))
             return false;
-        if (field->components > 0 && !read_levels(gops, track->bank, field, track->levels.data, columns, scratch, decoding.levels[k])) return false;
+        if (field->components > 0
+            && !read_levels(gops, track->bank, field, track->levels.data, columns, scratch, decoding.levels[k]))
+            return false;
     }
     gops->together = gop->frames;
     if (!begin_field(gops, gop) || !place_parts(gops, &decoding, scratch)) return false;
@@ -535,7 +577,8 @@ bool decode_gop(Gops *gops, const Gop *gop, Arena *scratch) {
     release_all(&gops->frames);
     gops->gop = *gop;
     Longs shown;
-    if (!TAKE(&gops->frames, gops->tracks, gops->basis) || !take_longs(&gops->frames, gop->frames, &shown)) return false;
+    if (!TAKE(&gops->frames, gops->tracks, gops->basis) || !take_longs(&gops->frames, gop->frames, &shown))
+        return false;
     memcpy(shown.data, gop->shown.data, (size_t)gop->frames * sizeof *shown.data);
     gops->gop.shown = shown;
     Mark mark = mark_of(scratch);
@@ -554,8 +597,10 @@ static bool show_batch(Gops *gops, int64_t first, Arena *scratch) {
         for (int64_t i = 0; i < basis.columns; i++)
             for (int64_t d = 0; d < width; d++)
                 for (int64_t t = 0; t < shown; t++)
-                    weights.data[i * weights.columns + d * BATCH + t] = basis.data[(d * coded + gops->gop.shown.data[first + t]) * basis.columns + i];
-        show_frames(const_doubles2(gops->field), place, const_doubles2(weights), (Doubles2){gops->batch[k].data, shown * n, width});
+                    weights.data[i * weights.columns + d * BATCH + t] =
+                        basis.data[(d * coded + gops->gop.shown.data[first + t]) * basis.columns + i];
+        show_frames(const_doubles2(gops->field), place, const_doubles2(weights),
+            (Doubles2){gops->batch[k].data, shown * n, width});
         release_to(scratch, mark);
         place += basis.columns;
     }
@@ -565,6 +610,7 @@ static bool show_batch(Gops *gops, int64_t first, Arena *scratch) {
 
 bool show_frame(Gops *gops, int64_t t, Arena *scratch, int track, ConstDoubles2 *frame) {
     if (gops->batched != t - t % BATCH && !show_batch(gops, t - t % BATCH, scratch)) return false;
-    *frame = const_doubles2(rows_from(gops->batch[track], t % BATCH * gops->parts.graph->size, gops->parts.graph->size));
+    *frame =
+        const_doubles2(rows_from(gops->batch[track], t % BATCH * gops->parts.graph->size, gops->parts.graph->size));
     return true;
 }

@@ -4,8 +4,9 @@
 
 #include "engine/gop.h"
 
-bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks, ConstInts2 faces,
-    ConstDoubles2 first_frame, int64_t given, const MovingAttribute *moving, int count, Arena *scratch);
+bool begin_gops(Gops *gops, Context *context, const Header *header, const Graph *graph, const Blocks *blocks,
+    ConstInts2 faces, ConstDoubles2 first_frame, int64_t given, const MovingAttribute *moving, int count,
+    Arena *scratch);
 /* Keep only what a later run of the mesh cannot do without. */
 void suspend_gops(Gops *gops);
 void end_gops(Gops *gops);

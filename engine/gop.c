@@ -17,11 +17,13 @@ static bool parse_stretches(Cursor *cursor, Gop *gop) {
         return fine(cursor->context);
     }
     for (; pieces > 0; pieces--) {
-        int64_t begin = take_varint(cursor), length = take_varint(cursor), way = 1 - begin % 3, first = due + zigzag(begin / 3);
+        int64_t begin = take_varint(cursor), length = take_varint(cursor), way = 1 - begin % 3,
+                first = due + zigzag(begin / 3);
         if (failed(cursor->context)) return false;
-        if (length < 1 || length > gop->frames - at || first < 0 || first >= gop->frames || first + way * (length - 1) < 0
-            || first + way * (length - 1) >= gop->frames)
-            return FAIL(cursor->context, CORRUPT, "a stretch of # frames from frame # on, of a GOP of #", length, first, gop->frames);
+        if (length < 1 || length > gop->frames - at || first < 0 || first >= gop->frames
+            || first + way * (length - 1) < 0 || first + way * (length - 1) >= gop->frames)
+            return FAIL(cursor->context, CORRUPT, "a stretch of # frames from frame # on, of a GOP of #", length, first,
+                gop->frames);
         for (; length > 0; length--, first += way) {
             gop->coded = largest(gop->coded, first + 1);
             gop->shown.data[at++] = first;
@@ -37,7 +39,8 @@ static bool parse_exponents(Cursor *cursor, int64_t count, Arena *arena, Ints *e
     for (int64_t i = 0; i < count; i++) {
         int64_t change = zigzag(take_varint(cursor));
         if (failed(cursor->context)) return false;
-        if (change < -MOST_EXPONENT || change > MOST_EXPONENT || exponent + change < 0 || exponent + change > MOST_EXPONENT)
+        if (change < -MOST_EXPONENT || change > MOST_EXPONENT || exponent + change < 0
+            || exponent + change > MOST_EXPONENT)
             return FAIL(cursor->context, CORRUPT, "a basis with step exponents outside 0..#", MOST_EXPONENT);
         exponents->data[i] = (int32_t)(exponent += change);
     }
@@ -74,7 +77,8 @@ static bool parse_field(Context *context, Span data, const Gop *gop, Arena *aren
 static bool parse_attributes(Cursor *cursor, const MovingAttribute *moving, bool tolerant, Arena *arena, Gop *gop) {
     Context *context = cursor->context;
     int64_t fields = take_varint(cursor), before = -1;
-    if (fine(context) && fields == 0) return FAIL(context, CORRUPT, "a GOP that tells of no attribute, and says that it does");
+    if (fine(context) && fields == 0)
+        return FAIL(context, CORRUPT, "a GOP that tells of no attribute, and says that it does");
     for (; fields > 0; fields--) {
         int64_t number = take_varint(cursor);
         Span part = take_span(cursor, take_varint(cursor));
@@ -83,14 +87,16 @@ static bool parse_attributes(Cursor *cursor, const MovingAttribute *moving, bool
         while (k < gop->count - 1 && moving[k].number != number) k++;
         bool moves = k < gop->count - 1;
         if (number <= before || !(tolerant || moves))
-            return FAIL(context, CORRUPT, "a GOP tells of attribute #, which does not move, or is not the next one", number);
+            return FAIL(context, CORRUPT, "a GOP tells of attribute #, which does not move, or is not the next one",
+                number);
         before = number;
         if (moves && !parse_field(context, part, gop, arena, gop->field + 1 + k)) return false;
     }
     return fine(context);
 }
 
-bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const MovingAttribute *moving, int count, bool tolerant, Arena *arena, Gop *gop) {
+bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const MovingAttribute *moving, int count,
+    bool tolerant, Arena *arena, Gop *gop) {
     Cursor cursor = {context, data};
     Span first = take_span(&cursor, 1);
     if (failed(context)) return false;
@@ -98,12 +104,14 @@ bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const 
     if (first.data[0] / METHODS != run % RUNS) return FAIL(context, CORRUPT, "a GOP of another run than run #", run);
     gop->frames = gop->coded = take_varint(&cursor);
     if (failed(context)) return false;
-    if (gop->frames < 1 || gop->frames > longest) return FAIL(context, CORRUPT, "a GOP of # frames where 1 to # are legal", gop->frames, longest);
+    if (gop->frames < 1 || gop->frames > longest)
+        return FAIL(context, CORRUPT, "a GOP of # frames where 1 to # are legal", gop->frames, longest);
     if (!take_longs(arena, gop->frames, &gop->shown) || !TAKE_ZEROS(arena, count + 1, gop->field)) return false;
     for (int64_t t = 0; t < gop->frames; t++) gop->shown.data[t] = t;
     for (int k = 0; k <= count; k++) gop->field[k].width = k > 0 ? moving[k - 1].width : 3;
     if (has_basis(gop) && !parse_stretches(&cursor, gop)) return false;
-    if (first.data[0] % METHODS >= WITH_ATTRIBUTES && !parse_attributes(&cursor, moving, tolerant, arena, gop)) return false;
+    if (first.data[0] % METHODS >= WITH_ATTRIBUTES && !parse_attributes(&cursor, moving, tolerant, arena, gop))
+        return false;
     return parse_field(context, take_rest(&cursor), gop, arena, gop->field);
 }
 
@@ -111,7 +119,8 @@ static int64_t frames_kept(int64_t vertices) { return least(MOST_KEPT, largest(2
 
 static double columns_of_gop(const Gop *gop) {
     double columns = 0;
-    for (int k = 0; k < gop->count; k++) columns += (double)(has_basis(gop) ? gop->field[k].components : gop->field[k].width * gop->frames);
+    for (int k = 0; k < gop->count; k++)
+        columns += (double)(has_basis(gop) ? gop->field[k].components : gop->field[k].width * gop->frames);
     return columns;
 }
 
@@ -133,18 +142,20 @@ static const double LOOP_WORK = 66, AROUND_WORK = 10, INHERITED_LOOP = 90, INHER
 
 static double part_work(const Site *part, double columns, double loop, double around) {
     double rows = (double)part->patch.size, width = (double)part->width;
-    return columns * (width * (LEVEL_WORK + loop) + (double)part->around.size * around) + solve_work(&part->patch.fronts, (int64_t)columns)
-        + rows * (width * (1 + 0.1 * columns) + 20 * columns);
+    return columns * (width * (LEVEL_WORK + loop) + (double)part->around.size * around)
+        + solve_work(&part->patch.fronts, (int64_t)columns) + rows * (width * (1 + 0.1 * columns) + 20 * columns);
 }
 
 static double gop_work(const Gops *gops, const Gop *gop) {
     bool more = gop->method == LEARNED_NEXT, learned = has_basis(gop);
-    double t = (double)gop->frames, columns = columns_of_gop(gop), work = t * FRAME_WORK * gop->count, rows = gops->parts.around, others = 0;
+    double t = (double)gop->frames, columns = columns_of_gop(gop), work = t * FRAME_WORK * gop->count,
+           rows = gops->parts.around, others = 0;
     for (int k = 1; k < gop->count; k++) others += !learned || gop->field[k].components > 0;
     work += (PART_WORK + ANOTHER_WORK * others) * (double)gops->parts.count;
     for (int64_t i = 0; i < gops->parts.count; i++) {
         rows += (double)gops->parts.part[i].width;
-        work += part_work(gops->parts.part + i, columns, LOOP_WORK + (more ? INHERITED_LOOP : 0), AROUND_WORK + (more ? INHERITED_AROUND : 0));
+        work += part_work(gops->parts.part + i, columns, LOOP_WORK + (more ? INHERITED_LOOP : 0),
+            AROUND_WORK + (more ? INHERITED_AROUND : 0));
     }
     for (int k = 0; k < gop->count; k++) {
         const GopField *field = gop->field + k;
@@ -159,5 +170,6 @@ static double gop_work(const Gops *gops, const Gop *gop) {
 bool reserve_gop(Gops *gops, const Gop *gop, double received) {
     double work, memory = gop_memory(gops->parts.graph->size, gop, gops->parts.around);
     double use = 48 * (double)gops->parts.largest * columns_of_gop(gop);
-    return reserve_dictionaries(&gops->parts, memory, use, &work) && charge(gops->parts.context, work + gop_work(gops, gop), received);
+    return reserve_dictionaries(&gops->parts, memory, use, &work)
+        && charge(gops->parts.context, work + gop_work(gops, gop), received);
 }

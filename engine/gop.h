@@ -33,7 +33,8 @@ typedef struct {
 } MovingAttribute;
 
 /* What a GOP says, whose bytes have to stay; attributes that do not move are passed over if that is `tolerant`. */
-bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const MovingAttribute *moving, int count, bool tolerant, Arena *arena, Gop *gop);
+bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const MovingAttribute *moving, int count,
+    bool tolerant, Arena *arena, Gop *gop);
 double gop_memory(int64_t vertices, const Gop *gop, double around);
 /* The number of earlier changes between frames that predict those of a GOP, if `kept` are available (S 7.2). */
 enum { LAGS = 8 };
@@ -44,8 +45,8 @@ INLINE int64_t lags_of(int64_t kept) {
     return count;
 }
 
-/* What is known of a field before its first frame. Of each part, matrices have the rows of what is around it, then one for
- * each column of the dictionary; those of all parts are stacked. */
+/* What is known of a field before its first frame. Of each part, matrices have the rows of what is around it, then one
+ * for each column of the dictionary; those of all parts are stacked. */
 typedef struct {
     int64_t width, kept;
     Doubles2 known;          /* K_i or F_i; the first `width` columns are F_i */

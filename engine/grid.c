@@ -20,15 +20,18 @@ static bool charge_grid(Context *context, const Header *header) {
     if (!reserve(context, grid_memory(n, m), 0) || !charge(context, light ? light_work(n, m) : grid_work(n, m), 0)
         || !WITHIN(context, field_bytes, grid_field_bytes(n, m)))
         return false;
-    return header->light != EXACT_FLOATS || (reserve(context, 24 * (span + 1), 0) && charge(context, floats_work(n, span), 0));
+    return header->light != EXACT_FLOATS
+        || (reserve(context, 24 * (span + 1), 0) && charge(context, floats_work(n, span), 0));
 }
 
 static bool begin_full(GridField *field, Arena *arena, Arena *scratch) {
     Grid *grid = &field->grid;
     int64_t n = field->header->vertices, words = most_of(field->header) / 64 + 1;
-    if (!order_mesh(&field->corners, arena, scratch, &field->order) || !make_value_model(arena, &field->model)) return false;
+    if (!order_mesh(&field->corners, arena, scratch, &field->order) || !make_value_model(arena, &field->model))
+        return false;
     *grid = (Grid){.largest = const_ints(field->largest), .order = const_ints(field->order), .values = field->values};
-    if (!zero_ints2(arena, n, AXES, &grid->gaps) || !zero_longs2(arena, n, 4, &grid->sums) || !zero_longs2(arena, AXES, words, &grid->seen)
+    if (!zero_ints2(arena, n, AXES, &grid->gaps) || !zero_longs2(arena, n, 4, &grid->sums)
+        || !zero_longs2(arena, AXES, words, &grid->seen)
         || !make_learners(arena, SUM_LEARNERS + SIZE_LEARNERS, &grid->learners))
         return false;
     for (int64_t k = 0; k < SUM_LEARNERS + SIZE_LEARNERS; k++) {
@@ -42,7 +45,9 @@ static bool begin_light(GridField *field, Arena *arena) {
     Light *light = &field->light;
     field->order = field->corners.rank;
     *light = (Light){.largest = const_ints(field->largest), .values = field->values};
-    if (!zero_ints2(arena, field->header->vertices, AXES, &light->gaps) || !take_words(arena, LIGHT_SLOTS, &light->slots)) return false;
+    if (!zero_ints2(arena, field->header->vertices, AXES, &light->gaps)
+        || !take_words(arena, LIGHT_SLOTS, &light->slots))
+        return false;
     for (int64_t i = 0; i < LIGHT_SLOTS; i++) light->slots.data[i] = 1u << 31;
     return true;
 }
@@ -50,18 +55,21 @@ static bool begin_light(GridField *field, Arena *arena) {
 static bool begin_floats(GridField *field, Arena *arena) {
     Floats *floats = &field->floats;
     int64_t span = most_of(field->header) + 1;
-    if (!take_words(arena, FLOAT_SLOTS, &floats->slots) || !zero_longs(arena, AXES, &floats->latest) || !take_longs2(arena, AXES, span, &floats->known))
+    if (!take_words(arena, FLOAT_SLOTS, &floats->slots) || !zero_longs(arena, AXES, &floats->latest)
+        || !take_longs2(arena, AXES, span, &floats->known))
         return false;
     for (int64_t i = 0; i < FLOAT_SLOTS; i++) floats->slots.data[i] = 1u << 31;
     for (int64_t i = 0; i < AXES * span; i++) floats->known.data[i] = NO_FLOAT;
     return true;
 }
 
-bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena, Arena *scratch) {
+bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
+    Arena *scratch) {
     int64_t n = header->vertices;
     *field = (GridField){.context = context, .header = header, .faces = faces};
     if (!charge_grid(context, header) || !link_mesh(context, faces, n, arena, scratch, &field->corners)) return false;
-    if (!take_ints(arena, AXES, &field->largest) || !zero_ints2(arena, n, AXES, &field->values) || !take_doubles2(arena, n, AXES, &field->positions))
+    if (!take_ints(arena, AXES, &field->largest) || !zero_ints2(arena, n, AXES, &field->values)
+        || !take_doubles2(arena, n, AXES, &field->positions))
         return false;
     for (int64_t i = 0; i < AXES * n; i++) field->positions.data[i] = __builtin_nan("");
     memcpy(field->largest.data, header->grid, sizeof header->grid);
@@ -72,8 +80,9 @@ bool begin_grid(GridField *field, Context *context, const Header *header, ConstI
 static bool decode_values(GridField *field, int64_t first, int64_t count, Span payload) {
     Reading reading;
     if (!begin_reading(field->context, payload, &reading)) return false;
-    int64_t done = field->header->light == LIGHT ? code_light(reading.coder, field->corners, field->light, first, count)
-                                                 : code_grid(reading.coder, field->model, field->corners, field->grid, first, count);
+    int64_t done = field->header->light == LIGHT
+        ? code_light(reading.coder, field->corners, field->light, first, count)
+        : code_grid(reading.coder, field->model, field->corners, field->grid, first, count);
     return check_chunk_done(&reading, done, count);
 }
 
@@ -84,7 +93,8 @@ static bool place_values(GridField *field, ConstInts vertices) {
     for (int64_t i = 0; i < vertices.size; i++)
         for (int j = 0; j < AXES; j++) {
             int64_t at = AXES * (int64_t)vertices.data[i] + j, value = field->values.data[at];
-            int64_t cell = header->points > 0 ? (2 * value * header->cells + header->points) / (2 * header->points) : value;
+            int64_t cell =
+                header->points > 0 ? (2 * value * header->cells + header->points) / (2 * header->points) : value;
             double product = (double)(cell + header->corner[j]) * header->scale;
             field->positions.data[at] = product + header->center[j];
             spoiled += field->positions.data[at] * 0.0;
@@ -114,9 +124,9 @@ static bool place_floats(GridField *field, ConstInts vertices, Span payload, Are
     Ints2 values;
     Longs2 low, near, high, chosen;
     Reading reading;
-    if (!take_ints2(scratch, count, AXES, &values) || !take_longs2(scratch, count, AXES, &low) || !take_longs2(scratch, count, AXES, &near)
-        || !take_longs2(scratch, count, AXES, &high) || !zero_longs2(scratch, count, AXES, &chosen)
-        || !begin_reading(field->context, payload, &reading))
+    if (!take_ints2(scratch, count, AXES, &values) || !take_longs2(scratch, count, AXES, &low)
+        || !take_longs2(scratch, count, AXES, &near) || !take_longs2(scratch, count, AXES, &high)
+        || !zero_longs2(scratch, count, AXES, &chosen) || !begin_reading(field->context, payload, &reading))
         return false;
     for (int64_t i = 0; i < AXES * count; i++) {
         int j = (int)(i % AXES);
@@ -126,7 +136,8 @@ static bool place_floats(GridField *field, ConstInts vertices, Span payload, Are
         near.data[i] = number_of(middle + header->center[j]);
         high.data[i] = number_of(up + header->center[j]);
     }
-    int64_t done = code_floats(reading.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near), const_longs2(high), chosen);
+    int64_t done = code_floats(reading.coder, field->floats, const_ints2(values), const_longs2(low), const_longs2(near),
+        const_longs2(high), chosen);
     if (!check_chunk_done(&reading, done, count)) return false;
     double spoiled = 0.0;
     for (int64_t i = 0; i < AXES * count; i++) {
@@ -140,7 +151,8 @@ static bool place_floats(GridField *field, ConstInts vertices, Span payload, Are
 bool decode_grid(GridField *field, int64_t first, int64_t count, Span payload, Arena *scratch) {
     Context *context = field->context;
     double bytes = (double)payload.size;
-    if (!charge(context, field->header->light == LIGHT ? light_chunk_work(bytes) : grid_chunk_work(bytes), bytes)) return false;
+    if (!charge(context, field->header->light == LIGHT ? light_chunk_work(bytes) : grid_chunk_work(bytes), bytes))
+        return false;
     if (first != field->coded)
         return FAIL(context, CORRUPT, "positions from number # on are missing; others depend on them", field->coded);
     bool exact = field->header->light == EXACT_FLOATS;

@@ -5,7 +5,8 @@
 #include "engine/costs.h"
 #include "engine/corners.h"
 
-enum { AXES = 3, LEARNERS = 12, LEVEL_SLOTS_ALL = 2 * 5 * 512 * 32, LEVEL_SELECTORS = 2 * 32, LEVEL_INPUTS = 5, LEVEL_RATE = 16, BENT_BY = 2 };
+enum { AXES = 3, LEARNERS = 12, LEVEL_SLOTS_ALL = 2 * 5 * 512 * 32, LEVEL_SELECTORS = 2 * 32, LEVEL_INPUTS = 5,
+    LEVEL_RATE = 16, BENT_BY = 2 };
 
 static Doubles2 rows_of(Doubles2 all, int64_t first, int64_t count) {
     return (Doubles2){all.data + first * all.columns, count, all.columns};
@@ -13,11 +14,13 @@ static Doubles2 rows_of(Doubles2 all, int64_t first, int64_t count) {
 
 bool begin_levels(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Arena *scratch) {
     int64_t n = header->vertices;
-    *layer = (Layer){.context = context, .header = header, .faces = faces, .own = arena_of(context), .models = arena_of(context), .begun = true};
+    *layer = (Layer){.context = context, .header = header, .faces = faces, .own = arena_of(context),
+        .models = arena_of(context), .begun = true};
     Arena *models = &layer->models;
     Levels *levels = &layer->levels;
     if (!link_mesh(context, faces, n, models, scratch, &layer->corners)
-        || !make_bank(models, (BankPlan){.slots = LEVEL_SLOTS_ALL, .selectors = LEVEL_SELECTORS, .inputs = LEVEL_INPUTS, .rate = LEVEL_RATE}, &layer->bank)
+        || !make_bank(models, (BankPlan){.slots = LEVEL_SLOTS_ALL, .selectors = LEVEL_SELECTORS, .inputs = LEVEL_INPUTS,
+            .rate = LEVEL_RATE}, &layer->bank)
         || !zero_ints2(&layer->own, n, AXES, &levels->levels) || !zero_ints2(models, n, AXES, &levels->gaps)
         || !zero_ints2(models, n, AXES, &levels->means) || !make_learners(models, LEARNERS, &levels->learners))
         return false;
@@ -33,22 +36,26 @@ void end_layer(Layer *layer) {
     release_all(&layer->models);
 }
 
-bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch) {
+bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole,
+    Arena *arena, Arena *scratch) {
     int64_t n = header->vertices;
     double size = (double)n, m = (double)faces.rows;
     if (!reserve(context, layer_memory(size, m), 0) || !charge(context, layer_work(size, m, AXES), 0)
-        || !WITHIN(context, field_bytes, layer_field_bytes(size, m)) || !(layer->begun || begin_levels(layer, context, header, faces, scratch)))
+        || !WITHIN(context, field_bytes, layer_field_bytes(size, m))
+        || !(layer->begun || begin_levels(layer, context, header, faces, scratch)))
         return false;
     layer->base = base;
     layer->whole = whole;
-    if (!take_doubles2(arena, n, AXES, &layer->positions) || !take_doubles2(arena, n, AXES * AXES, &layer->frames)) return false;
+    if (!take_doubles2(arena, n, AXES, &layer->positions) || !take_doubles2(arena, n, AXES * AXES, &layer->frames))
+        return false;
     memcpy(layer->positions.data, base.data, (size_t)(n * AXES) * sizeof(double));
     local_frames(const_doubles2(base), faces, layer->frames);
     return true;
 }
 
 /* Levels of some vertices, 0 for those that are not marked. */
-static bool mark_levels(const Layer *layer, Bytes marked, int64_t first, int64_t count, Arena *scratch, ConstInts2 *levels) {
+static bool mark_levels(const Layer *layer, Bytes marked, int64_t first, int64_t count, Arena *scratch,
+    ConstInts2 *levels) {
     *levels = (ConstInts2){layer->levels.levels.data + AXES * first, count, AXES};
     if (marked.size == 0) return true;
     Ints2 some;
@@ -67,7 +74,8 @@ bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit) {
         memcpy(next.data, fit->data, (size_t)fit->size);
         for (int64_t f = 0; f < layer->faces.rows; f++) {
             const int32_t *face = layer->faces.data + 3 * f;
-            if (!(fit->data[face[0]] && fit->data[face[1]] && fit->data[face[2]])) next.data[face[0]] = next.data[face[1]] = next.data[face[2]] = 0;
+            if (!(fit->data[face[0]] && fit->data[face[1]] && fit->data[face[2]]))
+                next.data[face[0]] = next.data[face[1]] = next.data[face[2]] = 0;
         }
         *fit = next;
     }
@@ -82,8 +90,9 @@ static bool slide(Layer *layer, Arena *scratch) {
     Doubles steps;
     Bytes fit;
     ConstInts2 some;
-    if (!take_doubles2(scratch, n, 8, &room) || !take_doubles2(scratch, n, AXES, &upright) || !take_doubles(scratch, n, &steps)
-        || !fit_vertices(layer, scratch, &fit) || !mark_levels(layer, fit, 0, n, scratch, &some))
+    if (!take_doubles2(scratch, n, 8, &room) || !take_doubles2(scratch, n, AXES, &upright)
+        || !take_doubles(scratch, n, &steps) || !fit_vertices(layer, scratch, &fit)
+        || !mark_levels(layer, fit, 0, n, scratch, &some))
         return false;
     memcpy(upright.data, layer->base.data, (size_t)(n * AXES) * sizeof(double));
     add_heights(upright, const_doubles2(layer->frames), const_ints2(layer->levels.levels), refinement[0]);
@@ -97,7 +106,8 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
     Reading reading;
     if (!charge(context, chunk_work((double)payload.size, 0), (double)payload.size)) return false;
     if (layer->coded == layer->positions.rows) return FAIL(context, CORRUPT, "levels come behind the last vertex");
-    if (first != layer->coded) return FAIL(context, CORRUPT, "the layer lacks the vertices before #: the rest is lost", first);
+    if (first != layer->coded)
+        return FAIL(context, CORRUPT, "the layer lacks the vertices before #: the rest is lost", first);
     if (first + count > layer->read) {
         if (!begin_reading(context, payload, &reading)) return false;
         int64_t done = code_levels(reading.coder, layer->bank, layer->corners, layer->levels, first, count);
@@ -106,7 +116,8 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
     layer->coded += count;
     ConstInts2 some;
     if (!mark_levels(layer, layer->whole, first, count, scratch, &some)) return false;
-    add_heights(rows_of(layer->positions, first, count), const_doubles2(rows_of(layer->frames, first, count)), some, layer->header->refinement[0]);
+    add_heights(rows_of(layer->positions, first, count), const_doubles2(rows_of(layer->frames, first, count)), some,
+        layer->header->refinement[0]);
     if (layer->coded < layer->positions.rows) return true;
     release_all(&layer->models);
     return slide(layer, scratch);

@@ -68,8 +68,8 @@ bool add_entry(Metadata *metadata, const Value *key, const Value *value) {
     MetadataEntry *entry, *beside = nearest(metadata, key->bytes);
     Branch *branch = NULL;
     Span name = key->bytes, bytes = value->bytes;
-    if (!TAKE(arena, 1, entry) || !copy_span(arena, &name) || !copy_span(arena, &bytes) || (beside != NULL && !TAKE(arena, 1, branch))
-        || !list_entry(metadata, entry))
+    if (!TAKE(arena, 1, entry) || !copy_span(arena, &name) || !copy_span(arena, &bytes)
+        || (beside != NULL && !TAKE(arena, 1, branch)) || !list_entry(metadata, entry))
         return false;
     *entry = (MetadataEntry){name, value->kind, value->whole, value->number, bytes};
     void *leaf = (char *)entry + 1;

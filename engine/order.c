@@ -6,13 +6,15 @@
 #include "engine/costs.h"
 #include "engine/coding.h"
 
-enum { MOST_GIVEN = 1 << 24, STEP_UNARY = 6, STEP_SPAN = SIGNED_SPAN(STEP_UNARY) + 1, STEP_INPUTS = 4, CLASSES = 32, TURN_SLOTS = 108 };
+enum { MOST_GIVEN = 1 << 24, STEP_UNARY = 6, STEP_SPAN = SIGNED_SPAN(STEP_UNARY) + 1, STEP_INPUTS = 4, CLASSES = 32,
+    TURN_SLOTS = 108 };
 enum { FIRST, COPY, LOOSE };
 
 static bool read_permutation(Reading *reading, Arena *scratch, Ints values) {
     Bank bank;
     Ints tree;
-    BankPlan plan = {.slots = (1 + CLASSES + 2 * CLASSES * CLASSES) * STEP_SPAN, .selectors = STEP_SPAN, .inputs = STEP_INPUTS};
+    BankPlan plan = {.slots = (1 + CLASSES + 2 * CLASSES * CLASSES) * STEP_SPAN, .selectors = STEP_SPAN,
+        .inputs = STEP_INPUTS};
     if (!make_bank(scratch, plan, &bank) || !take_ints(scratch, values.size + 1, &tree)) return false;
     bool legal = code_steps(reading->coder, bank, values, tree);
     return (legal && !ran_over(reading)) || nonsense(reading, "a payload is not a permutation");
@@ -30,7 +32,8 @@ static bool read_column(Reading *reading, Arena *scratch, Ints values) {
     Bank bank;
     Longs slow;
     if (!make_level_bank(scratch, &bank) || !take_longs(scratch, 1, &slow)) return false;
-    code_matrix(reading->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, 0, 1, 0, values.size, 1, slow);
+    code_matrix(reading->coder, bank, (Ints2){values.data, values.size, 1}, (ConstInts2){values.data, 0, 1}, 0, 1, 0,
+        values.size, 1, slow);
     return !ran_over(reading) || nonsense(reading, "");
 }
 
@@ -47,13 +50,15 @@ static int32_t sorted_corner(const int32_t *face, int k) {
 static bool suggest(ConstInts2 faces, int64_t vertices, Arena *scratch, Ints *order) {
     int64_t m = faces.rows;
     Ints from, to, ends;
-    if (!take_ints(scratch, m, &from) || !take_ints(scratch, m, &to) || !take_ints(scratch, vertices + 1, &ends)) return false;
+    if (!take_ints(scratch, m, &from) || !take_ints(scratch, m, &to) || !take_ints(scratch, vertices + 1, &ends))
+        return false;
     for (int64_t f = 0; f < m; f++) from.data[f] = (int32_t)f;
     for (int k = 0; k < 3; k++) {
         memset(ends.data, 0, (size_t)(vertices + 1) * sizeof *ends.data);
         for (int64_t f = 0; f < m; f++) ends.data[sorted_corner(faces.data + 3 * f, k) + 1]++;
         for (int64_t v = 0; v < vertices; v++) ends.data[v + 1] += ends.data[v];
-        for (int64_t i = 0; i < m; i++) to.data[ends.data[sorted_corner(faces.data + 3 * (int64_t)from.data[i], k)]++] = from.data[i];
+        for (int64_t i = 0; i < m; i++)
+            to.data[ends.data[sorted_corner(faces.data + 3 * (int64_t)from.data[i], k)]++] = from.data[i];
         Ints swapped = from;
         from = to;
         to = swapped;
@@ -95,8 +100,8 @@ static void arrange(ConstInts2 faces, Ints numbers, Ints order, Ints places, Int
 static bool read_sources(Reading *reading, int64_t vertices, int64_t copies, Arena *scratch, Ints met) {
     Context *context = reading->context;
     Ints kinds, back;
-    if (!zero_ints(scratch, met.size, &kinds) || !zero_ints(scratch, copies, &back) || !read_turns(reading, scratch, kinds)
-        || !read_column(reading, scratch, back))
+    if (!zero_ints(scratch, met.size, &kinds) || !zero_ints(scratch, copies, &back)
+        || !read_turns(reading, scratch, kinds) || !read_column(reading, scratch, back))
         return false;
     int64_t counted[3] = {0}, known = 0, copied = 0;
     for (int64_t i = 0; i < met.size; i++) counted[kinds.data[i]]++;
@@ -108,7 +113,8 @@ static bool read_sources(Reading *reading, int64_t vertices, int64_t copies, Are
         if (kinds.data[i] == COPY) {
             int64_t behind = back.data[copied++];
             vertex = known - 1 - behind;
-            if (behind < 0 || vertex < 0) return FAIL(context, CORRUPT, "a given vertex is a copy of one that does not come before it");
+            if (behind < 0 || vertex < 0)
+                return FAIL(context, CORRUPT, "a given vertex is a copy of one that does not come before it");
         }
         met.data[i] = (int32_t)vertex;
     }
@@ -123,39 +129,45 @@ static bool read_corners(Reading *reading, int64_t copies, Ints starts, Ints mem
         return false;
     for (int64_t i = 0; i < 3 * faces.rows; i++) {
         int64_t v = faces.data[i], count = starts.data[v + 1] - starts.data[v];
-        if (steps.data[i] < 0 || steps.data[i] >= count) return FAIL(reading->context, CORRUPT, "a corner names a copy that there is not");
+        if (steps.data[i] < 0 || steps.data[i] >= count)
+            return FAIL(reading->context, CORRUPT, "a corner names a copy that there is not");
         faces.data[i] = members.data[starts.data[v] + (visits.data[v]++ + steps.data[i]) % count];
     }
     return true;
 }
 
-static bool read_order(Reading *reading, ConstInts2 faces, int64_t vertices, int64_t copies, int64_t loose, Arena *arena, Arena *scratch, Numbering *numbering) {
+static bool read_order(Reading *reading, ConstInts2 faces, int64_t vertices, int64_t copies, int64_t loose,
+    Arena *arena, Arena *scratch, Numbering *numbering) {
     int64_t m = faces.rows;
     Ints numbers, places, turns, order, corners, source, starts, members, coded;
     Ints2 arranged, renumbered;
     if (!zero_ints(scratch, vertices, &numbers) || !zero_ints(scratch, m, &places) || !zero_ints(scratch, m, &turns)
-        || !take_ints2(arena, m, 3, &arranged) || !take_ints2(scratch, m, 3, &renumbered) || !take_ints(arena, 3 * m, &corners)
-        || !take_ints(arena, vertices + copies + loose, &source) || !read_permutation(reading, scratch, numbers)
-        || !read_permutation(reading, scratch, places)
+        || !take_ints2(arena, m, 3, &arranged) || !take_ints2(scratch, m, 3, &renumbered)
+        || !take_ints(arena, 3 * m, &corners) || !take_ints(arena, vertices + copies + loose, &source)
+        || !read_permutation(reading, scratch, numbers) || !read_permutation(reading, scratch, places)
         || !read_turns(reading, scratch, turns))
         return false;
     for (int64_t i = 0; i < 3 * m; i++) renumbered.data[i] = numbers.data[faces.data[i]];
-    if (!suggest(const_ints2(renumbered), vertices, scratch, &order) || !invert(const_ints(numbers), vertices, scratch, &starts, &coded)) return false;
+    if (!suggest(const_ints2(renumbered), vertices, scratch, &order)
+        || !invert(const_ints(numbers), vertices, scratch, &starts, &coded))
+        return false;
     arrange(faces, numbers, order, places, turns, arranged, corners);
     if (copies + loose > 0) {
-        if (!read_sources(reading, vertices, copies, scratch, source) || !invert(const_ints(source), vertices, scratch, &starts, &members)
+        if (!read_sources(reading, vertices, copies, scratch, source)
+            || !invert(const_ints(source), vertices, scratch, &starts, &members)
             || !read_corners(reading, copies, starts, members, scratch, arranged))
             return false;
         for (int64_t i = 0; i < source.size; i++) source.data[i] = source.data[i] < 0 ? -1 : coded.data[source.data[i]];
     } else {
         memcpy(source.data, coded.data, (size_t)vertices * sizeof *coded.data);
     }
-    *numbering = (Numbering){.size = source.size, .faces = const_ints2(arranged), .source = const_ints(source), .corners = const_ints(corners),
-        .is_split = copies + loose > 0};
+    *numbering = (Numbering){.size = source.size, .faces = const_ints2(arranged), .source = const_ints(source),
+        .corners = const_ints(corners), .is_split = copies + loose > 0};
     return true;
 }
 
-bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *header, Arena *arena, Arena *scratch, Numbering *numbering) {
+bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *header, Arena *arena, Arena *scratch,
+    Numbering *numbering) {
     double n = (double)header->vertices, m = (double)header->faces, bytes = (double)data.size;
     Cursor cursor = {context, data};
     if (!reserve(context, order_memory(n, m), bytes) || !charge(context, order_work(n, m, bytes), bytes)) return false;
@@ -169,15 +181,18 @@ bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *h
     for (int64_t i = 0; i < 3 * loose; i++) {
         uint64_t bits = little_endian(bytes_of_loose.data + 8 * i, 8);
         memcpy(positions.data + i, &bits, sizeof bits);
-        if (!(positions.data[i] - positions.data[i] == 0.0)) return FAIL(context, CORRUPT, "a vertex that no face uses is not at a finite place");
+        if (!(positions.data[i] - positions.data[i] == 0.0))
+            return FAIL(context, CORRUPT, "a vertex that no face uses is not at a finite place");
     }
     Reading reading;
     Mark mark = mark_of(scratch);
     bool done = begin_reading(context, take_rest(&cursor), &reading)
-        && read_order(&reading, faces, header->vertices, copies, loose, arena, scratch, numbering) && finish_reading(&reading);
+        && read_order(&reading, faces, header->vertices, copies, loose, arena, scratch, numbering)
+        && finish_reading(&reading);
     release_to(scratch, mark);
     if (!done) return false;
     numbering->loose = const_doubles2(positions);
-    if (loose > 0 && header->gop_frames > 0) return FAIL(context, CORRUPT, "a sequence of frames with vertices in no face");
+    if (loose > 0 && header->gop_frames > 0)
+        return FAIL(context, CORRUPT, "a sequence of frames with vertices in no face");
     return true;
 }

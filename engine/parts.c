@@ -1,14 +1,16 @@
-/* Parts of a mesh whose frames move: the weights of their edges, what they hang on, and their dictionaries (S 3, S 8.2). */
+/* Parts of a moving mesh: the weights of their edges, what they hang on, their dictionaries (S 3, S 8.2). */
 #include "engine/parts.h"
 
 #include "codec/signal/signal.h"
 #include "engine/costs.h"
 
-static const double FLATNESS = 0x1p-12, SMALLNESS = 0x1p-48, SMALLEST_WEIGHT = 0x1p-5, LARGEST_WEIGHT = 8, BEND = 0x1p-6, TETHER = 0x1p-16;
+static const double FLATNESS = 0x1p-12, SMALLNESS = 0x1p-48, SMALLEST_WEIGHT = 0x1p-5, LARGEST_WEIGHT = 8,
+                    BEND = 0x1p-6, TETHER = 0x1p-16;
 static const double SITE_MEMORY = 6000, ROW_MEMORY = 352, UNCODED_WORK = 8e4, SPARE_MEMORY = 4 * 0x1p20;
 
 /* S 3.1. */
-static bool weigh_edges(Context *context, const Graph *graph, ConstInts2 faces, ConstDoubles2 positions, Doubles weights) {
+static bool weigh_edges(Context *context, const Graph *graph, ConstInts2 faces, ConstDoubles2 positions,
+    Doubles weights) {
     bool finite = true;
     cotangents(graph->offsets, graph->neighbors, faces, positions, FLATNESS, SMALLNESS, weights);
     for (int64_t i = 0; i < weights.size; i++) {
@@ -56,21 +58,25 @@ static bool number_around(Ints outer, Ints place, Arena *scratch, Ints *around) 
 }
 
 /* S 3.2. */
-static bool hang_part(const Graph *graph, ConstDoubles weights, ConstInts rank, Ints place, Arena *scratch, Site *part) {
+static bool hang_part(const Graph *graph, ConstDoubles weights, ConstInts rank, Ints place, Arena *scratch,
+    Site *part) {
     Patch *patch = &part->patch;
     int64_t n = patch->size, room = 0;
-    for (int64_t r = 0; r < n; r++) room += graph->offsets.data[patch->vertices.data[r] + 1] - graph->offsets.data[patch->vertices.data[r]];
+    for (int64_t r = 0; r < n; r++)
+        room += graph->offsets.data[patch->vertices.data[r] + 1] - graph->offsets.data[patch->vertices.data[r]];
     Doubles inner;
-    if (!take_doubles(scratch, patch->neighbors.size, &inner) || !take_doubles(scratch, n, &part->springs) || !take_ints(scratch, n + 1, &part->starts)
-        || !take_ints(scratch, room, &part->outer) || !take_doubles(scratch, room, &part->stiffness))
+    if (!take_doubles(scratch, patch->neighbors.size, &inner) || !take_doubles(scratch, n, &part->springs)
+        || !take_ints(scratch, n + 1, &part->starts) || !take_ints(scratch, room, &part->outer)
+        || !take_doubles(scratch, room, &part->stiffness))
         return false;
-    part->outer.size = part->stiffness.size = hold(graph->offsets, graph->neighbors, weights, rank, patch->vertices, patch->offsets,
-        patch->neighbors, inner, part->springs, part->starts, part->outer, part->stiffness);
+    part->outer.size = part->stiffness.size = hold(graph->offsets, graph->neighbors, weights, rank, patch->vertices,
+        patch->offsets, patch->neighbors, inner, part->springs, part->starts, part->outer, part->stiffness);
     if (!number_around(part->outer, place, scratch, &part->around)) return false;
     patch->weights = const_doubles(inner);
     for (int64_t r = 0; r < n; r++) {
         patch->diagonal.data[r] = 0.0;
-        for (int64_t i = patch->offsets.data[r]; i < patch->offsets.data[r + 1]; i++) patch->diagonal.data[r] += inner.data[i];
+        for (int64_t i = patch->offsets.data[r]; i < patch->offsets.data[r + 1]; i++)
+            patch->diagonal.data[r] += inner.data[i];
     }
     return true;
 }
@@ -83,30 +89,34 @@ static void *copied(Arena *arena, const void *data, int64_t bytes) {
 }
 
 /* What stays of a part, from where it was made. */
-#define STAYS(arena, array) is_there((array).data = copied(arena, (array).data, (array).size * (int64_t)sizeof *(array).data))
+#define STAYS(arena, array)                                                                                            \
+    is_there((array).data = copied(arena, (array).data, (array).size * (int64_t)sizeof *(array).data))
 
 static bool keep_part(Arena *arena, Site *part) {
     Patch *patch = &part->patch;
     Fronts *fronts = &patch->fronts;
-    return STAYS(arena, patch->vertices) && STAYS(arena, patch->offsets) && STAYS(arena, patch->neighbors) && STAYS(arena, patch->weights)
-        && STAYS(arena, patch->diagonal) && STAYS(arena, fronts->rows) && STAYS(arena, fronts->steps) && STAYS(arena, fronts->owners)
-        && STAYS(arena, fronts->firsts) && STAYS(arena, fronts->starts) && STAYS(arena, fronts->borders) && STAYS(arena, fronts->places)
-        && STAYS(arena, fronts->sums) && STAYS(arena, part->springs) && STAYS(arena, part->stiffness) && STAYS(arena, part->starts)
-        && STAYS(arena, part->outer) && STAYS(arena, part->around);
+    return STAYS(arena, patch->vertices) && STAYS(arena, patch->offsets) && STAYS(arena, patch->neighbors)
+        && STAYS(arena, patch->weights) && STAYS(arena, patch->diagonal) && STAYS(arena, fronts->rows)
+        && STAYS(arena, fronts->steps) && STAYS(arena, fronts->owners) && STAYS(arena, fronts->firsts)
+        && STAYS(arena, fronts->starts) && STAYS(arena, fronts->borders) && STAYS(arena, fronts->places)
+        && STAYS(arena, fronts->sums) && STAYS(arena, part->springs) && STAYS(arena, part->stiffness)
+        && STAYS(arena, part->starts) && STAYS(arena, part->outer) && STAYS(arena, part->around);
 }
 
-static bool find_part(Parts *parts, int64_t index, ConstDoubles weights, ConstInts rank, Ints place, Arena *scratch, Site *part) {
+static bool find_part(Parts *parts, int64_t index, ConstDoubles weights, ConstInts rank, Ints place, Arena *scratch,
+    Site *part) {
     Context *context = parts->context;
     int64_t size = parts->blocks->cores.data[index];
     *part = (Site){.work = -1, .first = parts->rows};
     if (!charge(context, block_work((double)size, (double)parts->blocks->edges.data[index], 0) - UNCODED_WORK, 0)
         || !order_patch(parts->graph, members_of(parts->blocks, index, size), scratch, &part->patch)
-        || !hang_part(parts->graph, weights, rank, place, scratch, part) || !find_patch_fronts(context, scratch, &part->patch))
+        || !hang_part(parts->graph, weights, rank, place, scratch, part)
+        || !find_patch_fronts(context, scratch, &part->patch))
         return false;
     const Fronts *fronts = &part->patch.fronts;
     double factor = fronts->places.data[fronts->places.size - 1];
-    if (!reserve(context, SITE_MEMORY + ROW_MEMORY * (double)size + 8 * factor, 0) || !charge(context, 2 * factor_work(fronts), 0)
-        || !keep_part(parts->arena, part))
+    if (!reserve(context, SITE_MEMORY + ROW_MEMORY * (double)size + 8 * factor, 0)
+        || !charge(context, 2 * factor_work(fronts), 0) || !keep_part(parts->arena, part))
         return false;
     part->width = least(parts->header->coefficients, size);
     part->making = patch_memory(fronts, part->width);
@@ -119,8 +129,8 @@ bool find_parts(Parts *parts, ConstInts2 faces, ConstDoubles2 first_frame, Arena
     const Blocks *blocks = parts->blocks;
     Doubles weights;
     Ints rank, place;
-    if (!zero_doubles(scratch, graph->neighbors.size, &weights) || !take_ints(scratch, graph->size, &rank) || !take_ints(scratch, graph->size, &place)
-        || !TAKE_ZEROS(parts->arena, blocks->count, parts->part))
+    if (!zero_doubles(scratch, graph->neighbors.size, &weights) || !take_ints(scratch, graph->size, &rank)
+        || !take_ints(scratch, graph->size, &place) || !TAKE_ZEROS(parts->arena, blocks->count, parts->part))
         return false;
     parts->count = blocks->count;
     if (!weigh_edges(context, graph, faces, first_frame, weights)) return false;
@@ -147,7 +157,8 @@ static double dictionary_memory(const Site *part) { return 8.0 * (double)part->p
 
 /* Those that are kept are always the first ones. */
 static void drop_from(Parts *parts, int64_t count) {
-    if (count < parts->count && parts->part[count].dictionary.rows > 0) release_to(&parts->dictionaries, parts->part[count].before);
+    if (count < parts->count && parts->part[count].dictionary.rows > 0)
+        release_to(&parts->dictionaries, parts->part[count].before);
     for (int64_t i = count; i < parts->count; i++) parts->part[i].dictionary.rows = 0;
 }
 
@@ -158,10 +169,11 @@ void release_dictionaries(Parts *parts) {
     parts->kept = 0;
 }
 
-/* Have room for what comes next, and keep as many dictionaries as there is room for besides; the `work` of making others. */
+/* Make room for what comes next and keep as many dictionaries as fit besides; `work` is that of making others. */
 bool reserve_dictionaries(Parts *parts, double memory, double use, double *work) {
     Context *context = parts->context;
-    double free_memory = memory_left(context), room = free_memory + parts->reserved - memory - use - SPARE_MEMORY, all = 0, held = 0;
+    double free_memory = memory_left(context), room = free_memory + parts->reserved - memory - use - SPARE_MEMORY,
+           all = 0, held = 0;
     bool whole = true;
     int64_t count = 0;
     for (int64_t i = 0; i < parts->count; i++) {
@@ -170,13 +182,15 @@ bool reserve_dictionaries(Parts *parts, double memory, double use, double *work)
     }
     double making = whole && all <= room ? 0 : parts->making;
     if (!fits_memory(context, free_memory - room + making)) return false;
-    while (count < parts->count && held + dictionary_memory(parts->part + count) <= room - making) held += dictionary_memory(parts->part + count++);
+    while (count < parts->count && held + dictionary_memory(parts->part + count) <= room - making)
+        held += dictionary_memory(parts->part + count++);
     if (!reserve(context, memory + held - parts->reserved, 0)) return false;
     parts->reserved = memory + held;
     parts->use = use;
     drop_from(parts, count);
     *work = 0;
-    for (int64_t i = least(parts->kept, count); i < parts->count; i++) *work += parts->part[i].work > 0 ? parts->part[i].work : 0;
+    for (int64_t i = least(parts->kept, count); i < parts->count; i++)
+        *work += parts->part[i].work > 0 ? parts->part[i].work : 0;
     parts->kept = count;
     return true;
 }
@@ -210,8 +224,8 @@ bool extend_part(const Site *part, ConstDoubles2 ends, Arena *scratch, Doubles2 
     bool done = take_doubles2(scratch, n, m, &pulls) && take_singles(scratch, solving_space(n, m), &room);
     if (done) {
         pull(const_ints(part->starts), const_ints(part->outer), const_doubles(part->stiffness), ends, pulls);
-        continue_known(part->patch.fronts, part->factor.values, const_singles(part->factor.inverse), const_doubles(part->springs),
-            const_doubles2(pulls), room, extension);
+        continue_known(part->patch.fronts, part->factor.values, const_singles(part->factor.inverse),
+            const_doubles(part->springs), const_doubles2(pulls), room, extension);
     }
     release_to(scratch, mark);
     return done;

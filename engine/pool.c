@@ -35,7 +35,7 @@ static void *take_units(Chunk *chunk, size_t units) {
     return NULL;
 }
 
-/* Whole chunks; where the system has no huge pages, what it says of that does not matter. */
+/* Whole chunks; a system without huge pages refuses the advice, which does no harm. */
 static void *take_huge(size_t size) {
     void *memory = aligned_alloc(CHUNK, size);
 #ifdef MADV_HUGEPAGE /* not where compilers know strict C alone */

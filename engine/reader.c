@@ -3,8 +3,9 @@
 
 enum { MAGIC = 4, MAJOR = 1, PREAMBLE = 5, SHORT = 128, TAG = 6 };
 static const uint8_t BEGINNING[MAGIC] = {0x89, 'B', 'S', 'M'};
-/* Work of a frame, whatever it is, and of each of its bytes; of looking at a place, and into a frame there (M 14.3, F 8). */
-static const double FRAME_WORK = 8e3, BYTE_WORK = 8, PLACE_WORK = 4e3, MAP_WORK = 6e5, METADATA_WORK = 2e4, ENTRY_WORK = 8e3;
+/* Work of any frame, and of each of its bytes; of looking at a place, and into a frame there (M 14.3, F 8). */
+static const double FRAME_WORK = 8e3, BYTE_WORK = 8, PLACE_WORK = 4e3, MAP_WORK = 6e5, METADATA_WORK = 2e4,
+                    ENTRY_WORK = 8e3;
 enum { STRIDE = 4096, SCAN_BYTES = 1 << 20, SCAN_FACTOR = 64 };
 
 void begin_reader(Reader *reader, Context *context, bool tolerant) {
@@ -78,11 +79,14 @@ static Arrival start(Reader *reader) {
     if (major != MAJOR) {
         if (major < MAJOR)
             FAIL(reader->context, UNSUPPORTED,
-                 "this stream is written by version # of the format, and this reads #: encode the source again, or decode "
-                 "it with the release that wrote it", major, MAJOR);
+                "this stream is written by version # of the format, and this reads #: encode the source again, or "
+                "decode "
+                "it with the release that wrote it",
+                major, MAJOR);
         else
             FAIL(reader->context, UNSUPPORTED,
-                 "this stream is written by version # of the format, and this reads #: a later release reads it", major, MAJOR);
+                "this stream is written by version # of the format, and this reads #: a later release reads it", major,
+                MAJOR);
         locate(&reader->context->error, MAGIC, -1, -1);
         return NOTHING_BUT_AN_ERROR;
     }
@@ -128,7 +132,8 @@ static bool read_frame(Reader *reader, Span bytes, Frame *frame) {
     int sum = (int)(frame->size - body.size);
     uint32_t expected = sum == 2 ? crc16_of(&reader->sums, body) : crc32_of(&reader->sums, body, 0);
     if (little_endian(bytes.data + body.size, sum) != expected)
-        return FAIL(context, CORRUPT, "the checksum of a frame of type # and # bytes is wrong", frame->type, frame->payload.size);
+        return FAIL(context, CORRUPT, "the checksum of a frame of type # and # bytes is wrong", frame->type,
+            frame->payload.size);
     frame->payload.data = bytes.data + head;
     return true;
 }
@@ -141,7 +146,8 @@ static bool read_metadata(Reader *reader, Span payload, bool adding) {
     Map *map;
     bool done = TAKE(&reader->scratch, 1, map) && parse_map(context, payload, map);
     for (int i = 0; done && i < map->count; i++) {
-        if (map->key[i].kind != TEXT || map->value[i].kind == LIST) done = FAIL(context, CORRUPT, "metadata of a wrong type");
+        if (map->key[i].kind != TEXT || map->value[i].kind == LIST)
+            done = FAIL(context, CORRUPT, "metadata of a wrong type");
     }
     for (int i = 0; done && i < map->count; i++) {
         if (adding) done = add_entry(&reader->metadata, &map->key[i], &map->value[i]);
@@ -208,7 +214,8 @@ static bool is_skippable(int type) { return type >= 8 && type <= 11; }
 static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
     Context *context = reader->context;
     Grammar *grammar = &reader->grammar;
-    if (is_skippable(frame.type)) return grammar->header != NULL || FAIL(context, CORRUPT, "the first frame must be HEADER");
+    if (is_skippable(frame.type))
+        return grammar->header != NULL || FAIL(context, CORRUPT, "the first frame must be HEADER");
     if (!announces(grammar, frame.type))
         return FAIL(context, UNSUPPORTED, "frame type # is none that the header announces", frame.type);
     if (!read_payload(reader, frame, packet)) return false;
@@ -221,7 +228,8 @@ static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
         packet->has_positions = false;
         return true;
     }
-    if (packet->count != reader->frames) return FAIL(context, CORRUPT, "END counts # frames before it, there were #", packet->count, reader->frames);
+    if (packet->count != reader->frames)
+        return FAIL(context, CORRUPT, "END counts # frames before it, there were #", packet->count, reader->frames);
     return packet->sum == reader->sum || FAIL(context, CORRUPT, "the CRC-32 of the whole stream is wrong");
 }
 
@@ -287,7 +295,8 @@ bool peek_packet(Reader *reader, int64_t *place, Packet *packet) {
 static void inspect(Reader *reader) {
     Frame frame = {0};
     Damage *damage = &reader->damage;
-    *damage = (Damage){.found = true, .sure = true, .why = take_error(reader->context), .type = NO_FRAME, .by_length = -1, .from_next = true};
+    *damage = (Damage){.found = true, .sure = true, .why = take_error(reader->context), .type = NO_FRAME,
+        .by_length = -1, .from_next = true};
     reader->damaged = true;
     lose_frames(&reader->grammar);
     if (read_tag(waiting(reader), &frame) <= 0) return;
@@ -308,7 +317,8 @@ static int64_t step_from(Reader *reader, int64_t place, bool sure) {
     if (head < 0) return NO_FRAME_HERE;
     if (head > 0) {
         double budget = SCAN_BYTES + (double)SCAN_FACTOR * (double)(reader->offset + reader->end - reader->begin);
-        if (reader->scanned + (double)frame.size > budget || !(sure || expected >> frame.type & 1)) return NO_FRAME_HERE;
+        if (reader->scanned + (double)frame.size > budget || !(sure || expected >> frame.type & 1))
+            return NO_FRAME_HERE;
         if (frame.size <= bytes.size) reader->scanned += (double)frame.size;
     }
     bool whole = read_frame(reader, bytes, &frame);

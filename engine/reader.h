@@ -5,8 +5,8 @@
 #include "engine/grammar.h"
 #include "engine/metadata.h"
 
-/* Bytes that cannot be read, while what follows them is looked for (F 8.2): from a place on, where frames should stand one
- * behind the other if that is `sure`, and then from others. */
+/* Bytes that cannot be read, while what follows them is looked for (F 8.2): from a place on, where frames should stand
+ * one behind the other if that is `sure`, and then from others. */
 typedef struct {
     bool found, sure;
     bsmdec_error why;
@@ -44,8 +44,8 @@ void end_reader(Reader *reader);
 bool receive(Reader *reader, Span bytes);
 /* What comes next; an error is the context's. */
 Arrival next_packet(Reader *reader, Packet *packet);
-/* Look at the frame that starts `*place` bytes behind the last packet and move `*place` to its end: true if all of it has
- * come and it is a sound frame of blocks or refinements. Nothing else changes, and nothing is charged. */
+/* Look at the frame that starts `*place` bytes behind the last packet and move `*place` to its end: true if all of it
+ * has come and it is a sound frame of blocks or refinements. Nothing else changes, and nothing is charged. */
 bool peek_packet(Reader *reader, int64_t *place, Packet *packet);
 
 #endif

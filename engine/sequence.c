@@ -130,7 +130,9 @@ static bool resume(bsmdec *decoder, const Header *header) {
     Sequence *sequence = &decoder->sequence;
     Context *context = &decoder->context;
     int place = place_of_mesh(sequence, sequence->mesh);
-    if (place < 0) return FAIL(context, CORRUPT, "run # has the mesh of run #, which is not there any more", header->run, header->mesh_of);
+    if (place < 0)
+        return FAIL(context, CORRUPT, "run # has the mesh of run #, which is not there any more", header->run,
+            header->mesh_of);
     CachedMesh *found = take_cached(sequence, place);
     sequence->cache[sequence->cached++] = found;
     decoder->mesh = found->mesh;
@@ -157,8 +159,10 @@ static bool begin_run(bsmdec *decoder, const Header *header) {
         if (!resume(decoder, header)) return false;
     } else {
         make_room(decoder);
-        if (header->smoothing != 0.0) return FAIL(context, UNSUPPORTED, "smoothing of sequences is unknown to this decoder");
-        if (!WITHIN(context, sequence_bytes, 8.0 * (double)header->vertices * (double)header->coefficients)) return false;
+        if (header->smoothing != 0.0)
+            return FAIL(context, UNSUPPORTED, "smoothing of sequences is unknown to this decoder");
+        if (!WITHIN(context, sequence_bytes, 8.0 * (double)header->vertices * (double)header->coefficients))
+            return false;
         begin_mesh(decoder, header);
         if (!emit_event(decoder, BSMDEC_HEADER, header->run, 0)) return false;
     }
@@ -179,7 +183,8 @@ static bool lose_run(bsmdec *decoder) {
 static bool begin_first_frame(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (!mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
-    return build(decoder) && (!mesh->has_attributes || begin_values(&mesh->attributes, &mesh->numbering, &decoder->scratch));
+    return build(decoder)
+        && (!mesh->has_attributes || begin_values(&mesh->attributes, &mesh->numbering, &decoder->scratch));
 }
 
 static bool find_moving(bsmdec *decoder) {
@@ -190,12 +195,15 @@ static bool find_moving(bsmdec *decoder) {
         const Attribute *attribute = mesh->attributes.list[k];
         if (attribute == NULL || !attribute->declaration.moves) continue;
         if (attribute->declaration.rows != mesh->header.vertices)
-            return FAIL(context, CORRUPT, "attribute '$' moves, and what no face uses has values of it", .name = attribute->declaration.name);
+            return FAIL(context, CORRUPT, "attribute '$' moves, and what no face uses has values of it",
+                .name = attribute->declaration.name);
         if (!attribute->whole && !decoder->tolerant)
-            return FAIL(context, CORRUPT, "attribute '$' moves, and not all of its first values have come", .name = attribute->declaration.name);
+            return FAIL(context, CORRUPT, "attribute '$' moves, and not all of its first values have come",
+                .name = attribute->declaration.name);
         MovingAttribute *moving = mesh->moving + mesh->moving_count++;
         *moving = (MovingAttribute){.number = k, .width = attribute->declaration.components};
-        if (!take_doubles2(&mesh->arena, attribute->whole ? attribute->rows : 0, moving->width, &moving->start)) return false;
+        if (!take_doubles2(&mesh->arena, attribute->whole ? attribute->rows : 0, moving->width, &moving->start))
+            return false;
         relative_values(attribute, moving->start);
     }
     return true;
@@ -207,7 +215,8 @@ static bool enter_gops(bsmdec *decoder) {
     if (mesh->in_gops) return true;
     if (!begin_first_frame(decoder)) return false;
     if (mesh->next_block < mesh->header.blocks)
-        return FAIL(&decoder->context, CORRUPT, "the first frame ends after # of # blocks", mesh->next_block, mesh->header.blocks);
+        return FAIL(&decoder->context, CORRUPT, "the first frame ends after # of # blocks", mesh->next_block,
+            mesh->header.blocks);
     end_chains(&mesh->chains);
     end_ahead(mesh);
     mesh->in_gops = find_moving(decoder)
@@ -226,8 +235,8 @@ static bool lose_gop(bsmdec *decoder) {
 
 static bool read_gop(bsmdec *decoder, Span data, Gop *gop) {
     Mesh *mesh = &decoder->mesh;
-    return parse_gop(&decoder->context, data, mesh->header.gop_frames, mesh->header.run, mesh->moving, mesh->moving_count, decoder->tolerant,
-        &decoder->scratch, gop);
+    return parse_gop(&decoder->context, data, mesh->header.gop_frames, mesh->header.run, mesh->moving,
+        mesh->moving_count, decoder->tolerant, &decoder->scratch, gop);
 }
 
 static bool parse_next(bsmdec *decoder, const Packet *packet, Gop *gop) {
@@ -235,9 +244,11 @@ static bool parse_next(bsmdec *decoder, const Packet *packet, Gop *gop) {
     Context *context = &decoder->context;
     if (packet->index < decoder->sequence.next)
         return FAIL(context, CORRUPT, "frame # comes again behind frame #", packet->index, decoder->sequence.next - 1);
-    if (!read_gop(decoder, packet->data, gop) || !WITHIN(context, sequence_bytes, gop_memory(header->vertices, gop, 0))) return false;
+    if (!read_gop(decoder, packet->data, gop) || !WITHIN(context, sequence_bytes, gop_memory(header->vertices, gop, 0)))
+        return false;
     int64_t last = packet->index + gop->frames - 1;
-    return header->frames == 0 || last < header->frames || FAIL(context, CORRUPT, "frames # to # of #", packet->index, last, header->frames);
+    return header->frames == 0 || last < header->frames
+        || FAIL(context, CORRUPT, "frames # to # of #", packet->index, last, header->frames);
 }
 
 /* Frames and bytes of a GOP pay for what is made when the first is there. */
@@ -311,13 +322,17 @@ bool show(bsmdec *decoder, int64_t index) {
     ConstDoubles2 frame;
     if (!show_frame(gops, t, &decoder->scratch, 0, &frame)) return false;
     decoder->positions = frame;
-    decoder->has_positions = into_unit(&decoder->context, &mesh->header, (Doubles2){(double *)frame.data, frame.rows, 3});
-    if (decoder->has_positions) decoder->shown_sum = crc32_of_positions(&decoder->reader.sums, frame, decoder->shown_sum);
+    decoder->has_positions =
+        into_unit(&decoder->context, &mesh->header, (Doubles2){(double *)frame.data, frame.rows, 3});
+    if (decoder->has_positions)
+        decoder->shown_sum = crc32_of_positions(&decoder->reader.sums, frame, decoder->shown_sum);
     for (int k = 0; k < mesh->moving_count && decoder->has_positions; k++) {
         Attribute *attribute = mesh->attributes.list[mesh->moving[k].number];
         if (!attribute->whole) continue;
         void *moved = attribute->moved;
-        if ((moved == NULL && !take_values(&mesh->arena, attribute, &moved)) || !show_frame(gops, t, &decoder->scratch, k + 1, &frame)) return false;
+        if ((moved == NULL && !take_values(&mesh->arena, attribute, &moved))
+            || !show_frame(gops, t, &decoder->scratch, k + 1, &frame))
+            return false;
         decoder->has_positions = move_values(&decoder->context, attribute, frame, moved);
     }
     return decoder->has_positions;
@@ -333,12 +348,15 @@ static bool accept_block(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     if (!begin_first_frame(decoder)) return false;
     if (packet->index != mesh->next_block)
-        return FAIL(&decoder->context, CORRUPT, "block # of the first frame where block # belongs", packet->index, mesh->next_block);
-    return reserve(&decoder->context, 0, (double)packet->data.size + BLOCK_FRAME_BYTES) && accept_section(decoder, packet);
+        return FAIL(&decoder->context, CORRUPT, "block # of the first frame where block # belongs", packet->index,
+            mesh->next_block);
+    return reserve(&decoder->context, 0, (double)packet->data.size + BLOCK_FRAME_BYTES)
+        && accept_section(decoder, packet);
 }
 
 static bool accept_values(bsmdec *decoder, const Packet *packet) {
-    if (!begin_first_frame(decoder) || decoder->mesh.next_block < decoder->mesh.header.blocks) return enter_gops(decoder);
+    if (!begin_first_frame(decoder) || decoder->mesh.next_block < decoder->mesh.header.blocks)
+        return enter_gops(decoder);
     return accept_section(decoder, packet) || tolerate_error(decoder, -1, true);
 }
 
@@ -352,14 +370,18 @@ static bool accept_in_run(bsmdec *decoder, const Packet *packet) {
             return FAIL(&decoder->context, CORRUPT, "a frame of type # may not come here", packet->type);
         if (packet->type == BLOCK_FRAME) return accept_block(decoder, packet);
         if (packet->type == VALUES_FRAME) return accept_values(decoder, packet);
-        if (!mesh->has_chains && packet->type != GOP_FRAME && packet->type != END_FRAME) return accept_section(decoder, packet);
+        if (!mesh->has_chains && packet->type != GOP_FRAME && packet->type != END_FRAME)
+            return accept_section(decoder, packet);
     }
     if (!enter_gops(decoder)) return false;
-    bool done = packet->type == GOP_FRAME ? accept_gop(decoder, packet) : packet->type == END_FRAME || misplaced(decoder, packet);
+    bool done = packet->type == GOP_FRAME ? accept_gop(decoder, packet)
+                                          : packet->type == END_FRAME || misplaced(decoder, packet);
     return done && cache_mesh(decoder);
 }
 
-bool accept_in_sequence(bsmdec *decoder, const Packet *packet) { return accept_in_run(decoder, packet) || lose_run(decoder); }
+bool accept_in_sequence(bsmdec *decoder, const Packet *packet) {
+    return accept_in_run(decoder, packet) || lose_run(decoder);
+}
 
 static bool accept_damage_in_run(bsmdec *decoder, FrameType type) {
     Mesh *mesh = &decoder->mesh;
@@ -392,7 +414,8 @@ bool end_sequence(bsmdec *decoder) {
         return false;
     }
     int64_t missing = sequence->announced > 0 ? sequence->announced - sequence->next : 0;
-    if ((missing != 0 || (sequence->damaged && sequence->announced == 0)) && !report_loss(decoder, missing)) return false;
+    if ((missing != 0 || (sequence->damaged && sequence->announced == 0)) && !report_loss(decoder, missing))
+        return false;
     if (!sequence->lossy && !check_sum(decoder, decoder->shown_sum)) return false;
     decoder->ended = true;
     return emit_event(decoder, BSMDEC_END, 0, 0);

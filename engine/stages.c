@@ -38,7 +38,8 @@ static bool accept_partition(bsmdec *decoder, Span data) {
     Mesh *mesh = &decoder->mesh;
     if (!graph_of(decoder)) return false;
     double n = (double)mesh->graph.size, ends = (double)mesh->graph.neighbors.size, bytes = (double)data.size;
-    return zero_ints(&mesh->arena, mesh->graph.size, &mesh->labels) && charge(context, labels_work(n, ends, bytes), bytes)
+    return zero_ints(&mesh->arena, mesh->graph.size, &mesh->labels)
+        && charge(context, labels_work(n, ends, bytes), bytes)
         && decode_labels(context, data, &mesh->graph, mesh->header.blocks, &decoder->scratch, mesh->labels);
 }
 
@@ -63,7 +64,8 @@ static bool find_block(bsmdec *decoder, const Packet *packet, DecodedBlock *bloc
     Chains *chains = &decoder->mesh.chains;
     look_ahead(decoder, packet);
     const ReadyBlock *ready = find_ready(decoder, packet);
-    if (ready == NULL) return decode_block(chains, packet->index, packet->coefficients, packet->data, &decoder->scratch, block);
+    if (ready == NULL)
+        return decode_block(chains, packet->index, packet->coefficients, packet->data, &decoder->scratch, block);
     *block = ready->block;
     return settle_block(chains, packet->index, &ready->ledger);
 }
@@ -83,10 +85,12 @@ static bool accept_block(bsmdec *decoder, const Packet *packet) {
     DecodedBlock block;
     if (!(mesh->has_chains ? build(decoder) : build_beside(decoder)) || !skip_to(decoder, packet->index)) return false;
     mesh->next_block++;
-    if (!is_own(&decoder->share, &mesh->header, packet->index)) return decoder->share.helps || emit_event(decoder, (bsmdec_event_type)BLOCK_OF_HELPER, packet->index, 0);
+    if (!is_own(&decoder->share, &mesh->header, packet->index))
+        return decoder->share.helps || emit_event(decoder, (bsmdec_event_type)BLOCK_OF_HELPER, packet->index, 0);
     bool last = ends_with_blocks(decoder) && mesh->next_block == mesh->header.blocks;
     if (!find_block(decoder, packet, &block))
-        return tolerate_error(decoder, packet->index, mesh->header.gop_frames == 0) && (!last || end_with_blocks(decoder));
+        return tolerate_error(decoder, packet->index, mesh->header.gop_frames == 0)
+            && (!last || end_with_blocks(decoder));
     if (!decoder->share.helps) add_block(&mesh->assembly, &block);
     else if (!hand_over(decoder, &block)) return false;
     return emit_event(decoder, BSMDEC_BLOCK, packet->index, 0) && (!last || end_with_blocks(decoder));
@@ -95,7 +99,8 @@ static bool accept_block(bsmdec *decoder, const Packet *packet) {
 static bool ensure_grid(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (mesh->has_grid) return true;
-    mesh->has_grid = begin_grid(&mesh->grid, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena, &decoder->scratch);
+    mesh->has_grid = begin_grid(&mesh->grid, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena,
+        &decoder->scratch);
     return mesh->has_grid && announce(decoder);
 }
 
@@ -103,7 +108,8 @@ static bool accept_grid(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
     if (!ensure_grid(decoder)) return false;
     if (mesh->grid.broken) return true;
-    if (decode_grid(&mesh->grid, packet->first, packet->count, packet->data, &decoder->scratch)) return emit_event(decoder, BSMDEC_BLOCK, mesh->chunks++, 0);
+    if (decode_grid(&mesh->grid, packet->first, packet->count, packet->data, &decoder->scratch))
+        return emit_event(decoder, BSMDEC_BLOCK, mesh->chunks++, 0);
     mesh->grid.broken = true;
     return tolerate_error(decoder, -1, true);
 }
@@ -119,7 +125,8 @@ static bool ensure_layer(bsmdec *decoder) {
     adopt_levels(decoder);
     mesh->has_layer = blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &base)
         && mark_whole(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, 1, &whole)
-        && begin_layer(&mesh->layer, &decoder->context, &mesh->header, const_ints2(mesh->faces), base, whole, &mesh->arena, &decoder->scratch);
+        && begin_layer(&mesh->layer, &decoder->context, &mesh->header, const_ints2(mesh->faces), base, whole,
+            &mesh->arena, &decoder->scratch);
     return mesh->has_layer;
 }
 
@@ -135,16 +142,19 @@ static bool accept_refinement(bsmdec *decoder, const Packet *packet) {
 
 static bool accept_attribute(bsmdec *decoder, const Packet *packet) {
     Mesh *mesh = &decoder->mesh;
-    if (!mesh->has_attributes) begin_attributes(&mesh->attributes, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena);
+    if (!mesh->has_attributes)
+        begin_attributes(&mesh->attributes, &decoder->context, &mesh->header, const_ints2(mesh->faces), &mesh->arena);
     mesh->has_attributes = true;
-    return declare_attribute(&mesh->attributes, packet->index, packet->declaration, packet->data, &decoder->scratch) || tolerate_error(decoder, -1, true);
+    return declare_attribute(&mesh->attributes, packet->index, packet->declaration, packet->data, &decoder->scratch)
+        || tolerate_error(decoder, -1, true);
 }
 
 /* All positions are there, or known to be lost. */
 static bool ensure_values(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
     if (mesh->values_begun) return true;
-    if (mesh->header.on_grid ? !ensure_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
+    if (mesh->header.on_grid ? !ensure_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks))
+        return false;
     mesh->values_begun = true;
     return begin_values(&mesh->attributes, &mesh->numbering, &decoder->scratch);
 }
@@ -154,9 +164,12 @@ static bool accept_values(bsmdec *decoder, const Packet *packet) {
     ConstInts2 places = {NULL, 0, 3};
     if (!mesh->has_attributes) return FAIL(&decoder->context, CORRUPT, "attribute # is not declared", packet->index);
     if (!ensure_values(decoder)) return false;
-    if (mesh->has_grid && !mesh->grid.broken && mesh->grid.coded == mesh->header.vertices) places = const_ints2(mesh->grid.values);
-    if (!decode_values(&mesh->attributes, packet, places, &decoder->scratch)) return tolerate_error(decoder, -1, mesh->header.gop_frames == 0);
-    return emit_event(decoder, mesh->attributes.list[packet->index]->whole ? BSMDEC_ATTRIBUTE : BSMDEC_VALUES, packet->index, 0);
+    if (mesh->has_grid && !mesh->grid.broken && mesh->grid.coded == mesh->header.vertices)
+        places = const_ints2(mesh->grid.values);
+    if (!decode_values(&mesh->attributes, packet, places, &decoder->scratch))
+        return tolerate_error(decoder, -1, mesh->header.gop_frames == 0);
+    return emit_event(decoder, mesh->attributes.list[packet->index]->whole ? BSMDEC_ATTRIBUTE : BSMDEC_VALUES,
+        packet->index, 0);
 }
 
 /* Positions as the encoder had them, in whatever unit, if they are there; no rows otherwise. */
@@ -167,7 +180,8 @@ static bool find_solid(bsmdec *decoder, ConstDoubles2 *solid) {
         if (!mesh->grid.broken && mesh->grid.coded == mesh->header.vertices) positions = mesh->grid.positions;
     } else if (!mesh->assembly.lossy && mesh->has_layer) {
         if (!mesh->layer.lossy) positions = mesh->layer.positions;
-    } else if (!mesh->assembly.lossy && !blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &decoder->shown, &decoder->scratch, &positions)) {
+    } else if (!mesh->assembly.lossy
+        && !blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &decoder->shown, &decoder->scratch, &positions)) {
         return false;
     }
     *solid = const_doubles2(positions);
@@ -184,7 +198,9 @@ static bool finish_attributes(bsmdec *decoder) {
         Attribute *attribute = mesh->attributes.list[k];
         if (attribute == NULL || attribute->declaration.coding != RECOMPUTED) continue;
         if (solid.rows == 0 && !find_solid(decoder, &solid)) return false;
-        if (solid.rows > 0 && (!recompute(attribute, solid, &decoder->scratch) || !emit_event(decoder, BSMDEC_ATTRIBUTE, k, 0))) return false;
+        if (solid.rows > 0
+            && (!recompute(attribute, solid, &decoder->scratch) || !emit_event(decoder, BSMDEC_ATTRIBUTE, k, 0)))
+            return false;
     }
     return true;
 }
@@ -192,7 +208,8 @@ static bool finish_attributes(bsmdec *decoder) {
 bool accept_section(bsmdec *decoder, const Packet *packet) {
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
-    if (is_too_late(mesh, packet->type)) return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
+    if (is_too_late(mesh, packet->type))
+        return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
     switch (packet->type) {
         case HEADER_FRAME:
             begin_mesh(decoder, packet->header);
@@ -201,7 +218,8 @@ bool accept_section(bsmdec *decoder, const Packet *packet) {
         case CONNECTIVITY_FRAME: return accept_connectivity(decoder, packet->data);
         case PARTITION_FRAME: return accept_partition(decoder, packet->data);
         case ORDER_FRAME:
-            return decode_order(context, packet->data, const_ints2(mesh->faces), &mesh->header, &mesh->arena, &decoder->scratch, &mesh->numbering);
+            return decode_order(context, packet->data, const_ints2(mesh->faces), &mesh->header, &mesh->arena,
+                &decoder->scratch, &mesh->numbering);
         case BLOCK_FRAME: return accept_block(decoder, packet);
         case GRID_FRAME: return accept_grid(decoder, packet);
         case REFINEMENT_FRAME: return accept_refinement(decoder, packet);
@@ -233,13 +251,15 @@ static bool finish_positions(bsmdec *decoder) {
     if (mesh->has_layer) {
         if (!take_doubles2(&decoder->shown, mesh->graph.size, 3, &positions)) return false;
         memcpy(positions.data, mesh->layer.positions.data, (size_t)(3 * mesh->graph.size) * sizeof(double));
-    } else if (!blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &decoder->shown, &decoder->scratch, &positions)) {
+    } else if (!blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &decoder->shown, &decoder->scratch,
+                   &positions)) {
         return false;
     }
     decoder->positions = const_doubles2(positions);
     if (!into_unit(&decoder->context, &mesh->header, positions)) return false;
     for (int64_t v = 0; v < positions.rows; v++)
-        for (int d = 0; d < 3 && !(mesh->assembly.blend.weights.data[v] > 0.0); d++) positions.data[3 * v + d] = __builtin_nan("");
+        for (int d = 0; d < 3 && !(mesh->assembly.blend.weights.data[v] > 0.0); d++)
+            positions.data[3 * v + d] = __builtin_nan("");
     return true;
 }
 
@@ -252,7 +272,8 @@ bool look_at_positions(bsmdec *decoder) {
 
 bool check_sum(bsmdec *decoder, uint32_t found) {
     if (!decoder->has_checksum || found == decoder->expected_sum) return true;
-    FAIL(&decoder->context, CORRUPT, "the checksum of decoded positions is wrong: they are not those that the encoder saw");
+    FAIL(&decoder->context, CORRUPT,
+        "the checksum of decoded positions is wrong: they are not those that the encoder saw");
     return tolerate_error(decoder, -1, true);
 }
 
@@ -264,10 +285,14 @@ static bool is_whole(const Mesh *mesh) {
 
 bool finish_mesh(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
-    if (!decoder->has_mesh || !mesh->has_faces) return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
-    if (mesh->header.on_grid ? !ensure_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
+    if (!decoder->has_mesh || !mesh->has_faces)
+        return FAIL(&decoder->context, CORRUPT, "the stream ends before its first block");
+    if (mesh->header.on_grid ? !ensure_grid(decoder) : !build(decoder) || !skip_to(decoder, mesh->header.blocks))
+        return false;
     if (!finish_attributes(decoder) || !finish_positions(decoder)) return false;
-    if (decoder->has_checksum && is_whole(mesh) && !check_sum(decoder, crc32_of_positions(&decoder->reader.sums, decoder->positions, 0))) return false;
+    if (decoder->has_checksum && is_whole(mesh)
+        && !check_sum(decoder, crc32_of_positions(&decoder->reader.sums, decoder->positions, 0)))
+        return false;
     decoder->has_positions = decoder->ended = true;
     return emit_event(decoder, BSMDEC_END, 0, 0);
 }

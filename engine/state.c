@@ -78,7 +78,9 @@ bool build(bsmdec *decoder) {
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
     if (mesh->has_chains) return true;
-    if (!graph_of(decoder) || !make_blocks(context, &mesh->header, &mesh->graph, mesh->labels, &mesh->arena, &decoder->scratch, &mesh->blocks)
+    if (!graph_of(decoder)
+        || !make_blocks(context, &mesh->header, &mesh->graph, mesh->labels, &mesh->arena, &decoder->scratch,
+            &mesh->blocks)
         || !begin_assembly(&mesh->assembly, mesh->graph.size, mesh->blocks.count, &mesh->arena))
         return false;
     mesh->has_chains = begin_chains(&mesh->chains, context, &mesh->header, &mesh->graph, &mesh->blocks, &mesh->arena);

@@ -59,7 +59,7 @@ typedef struct Skipped {
 typedef struct {
     bool active, lost, lossy, damaged;
     int64_t start, next, announced, missing; /* frames: the first wanted, the next, of all runs, lost so far */
-    int64_t mesh, gop;                       /* the run that brought the present mesh; first frame of the GOP that is shown */
+    int64_t mesh, gop; /* the run that brought the present mesh; first frame of the GOP that is shown */
     bsmdec_error damage, why;                /* the first since frames were lost; why the run is */
     CachedMesh *cache[MOST_CACHED];                   /* the one used last at the end */
     int cached;
@@ -69,8 +69,8 @@ typedef struct {
     Skipped *first, *last;
 } Sequence;
 
-/* Who decodes which chains of a static mesh or a first frame: chain c is that of number c % `among`, the decoder's is 0; all
- * are its own where `among` is 0. One that helps decodes nothing else, and hands its blocks over. */
+/* Who decodes which chains of a static mesh or a first frame: chain c is that of number c % `among`, the decoder's is
+ * 0; all are its own where `among` is 0. One that helps decodes nothing else, and hands its blocks over. */
 typedef struct {
     int64_t number, among;
     bool helps;
@@ -81,8 +81,8 @@ INLINE bool is_own(const Share *share, const Header *header, int64_t index) {
     return share->among == 0 || index / chain_length(header) % share->among == share->number;
 }
 
-/* Vertices for graphics: those of the mesh, then copies of some, whose vertices are `sources`. `corners` has a corner of
- * each, -1 if no face has it; `indices` has the vertex of each corner. The arrays are empty if nothing is split. */
+/* Vertices for graphics: those of the mesh, then copies of some, whose vertices are `sources`. `corners` has a corner
+ * of each, -1 if no face has it; `indices` has the vertex of each corner. The arrays are empty if nothing is split. */
 typedef struct {
     Arena arena;
     bool is_made, is_needed, by[MOST_ATTRIBUTES];

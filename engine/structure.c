@@ -27,8 +27,9 @@ static bool derive_labels(Context *context, const Graph *graph, int64_t parts, A
     Ints order, bounds, votes;
     Words room;
     Longs sizes;
-    if (!take_ints(scratch, graph->size, &order) || !take_ints(scratch, parts + 1, &bounds) || !take_ints(scratch, parts, &votes)
-        || !take_words(scratch, bisection_scratch(graph->size), &room) || !take_longs(scratch, parts, &sizes))
+    if (!take_ints(scratch, graph->size, &order) || !take_ints(scratch, parts + 1, &bounds)
+        || !take_ints(scratch, parts, &votes) || !take_words(scratch, bisection_scratch(graph->size), &room)
+        || !take_longs(scratch, parts, &sizes))
         return false;
     if (!bisect(graph->offsets, graph->neighbors, order, bounds, room))
         return FAIL(context, CORRUPT, "# vertices cannot be cut into # parts", graph->size, parts);
@@ -37,7 +38,8 @@ static bool derive_labels(Context *context, const Graph *graph, int64_t parts, A
     return true;
 }
 
-static bool grow(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch, Blocks *blocks) {
+static bool grow(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch,
+    Blocks *blocks) {
     int64_t parts = header->blocks, n = graph->size, size = header->block_size;
     Ints bounds, order, seen, chain, members, linked;
     Longs shares, room;
@@ -51,20 +53,24 @@ static bool grow(Context *context, const Header *header, const Graph *graph, Int
     double pairs = (double)parts * (double)(parts - 1);
     int64_t links = pairs < (double)graph->neighbors.size ? parts * (parts - 1) : graph->neighbors.size;
     blocks->count = parts;
-    if (!take_ints(scratch, links, &linked) || !take_longs(scratch, links, &shares) || !take_longs(scratch, CHAIN_NUMBERS * parts, &room)
-        || !take_ints(arena, parts, &blocks->cores) || !take_longs(arena, parts + 1, &blocks->starts) || !take_longs(arena, parts, &blocks->edges))
+    if (!take_ints(scratch, links, &linked) || !take_longs(scratch, links, &shares)
+        || !take_longs(scratch, CHAIN_NUMBERS * parts, &room) || !take_ints(arena, parts, &blocks->cores)
+        || !take_longs(arena, parts + 1, &blocks->starts) || !take_longs(arena, parts, &blocks->edges))
         return false;
-    int64_t count = chain_blocks(graph->offsets, graph->neighbors, const_ints(order), const_ints(bounds), const_ints(labels), size,
-        linked, shares, room, seen, chain, blocks->starts, blocks->edges, members);
+    int64_t count = chain_blocks(graph->offsets, graph->neighbors, const_ints(order), const_ints(bounds),
+        const_ints(labels), size, linked, shares, room, seen, chain, blocks->starts, blocks->edges, members);
     if (!take_ints(arena, count, &blocks->members)) return false;
     memcpy(blocks->members.data, members.data, (size_t)count * sizeof *members.data);
-    for (int64_t i = 0; i < parts; i++) blocks->cores.data[i] = bounds.data[chain.data[i] + 1] - bounds.data[chain.data[i]];
+    for (int64_t i = 0; i < parts; i++)
+        blocks->cores.data[i] = bounds.data[chain.data[i] + 1] - bounds.data[chain.data[i]];
     return true;
 }
 
-bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch, Blocks *blocks) {
+bool make_blocks(Context *context, const Header *header, const Graph *graph, Ints labels, Arena *arena, Arena *scratch,
+    Blocks *blocks) {
     double copies = (double)header->blocks * (double)header->block_size, n = (double)graph->size;
-    if (!reserve(context, COPY_MEMORY * copies, 0) || !charge(context, partition_work(n, (double)graph->neighbors.size, header->blocks, copies), 0))
+    if (!reserve(context, COPY_MEMORY * copies, 0)
+        || !charge(context, partition_work(n, (double)graph->neighbors.size, header->blocks, copies), 0))
         return false;
     Mark mark = mark_of(scratch);
     bool done = labels.size > 0
@@ -80,10 +86,12 @@ bool order_patch(const Graph *graph, ConstInts members, Arena *arena, Patch *pat
     Words scratch;
     if (!take_ints(arena, size, &vertices) || !take_ints(arena, size + 1, &offsets)) return false;
     for (;;) {
-        if (!take_ints(arena, room, &neighbors) || !take_words(arena, order_scratch(size, room), &scratch)) return false;
+        if (!take_ints(arena, room, &neighbors) || !take_words(arena, order_scratch(size, room), &scratch))
+            return false;
         int64_t ends = order_block(graph->offsets, graph->neighbors, members, vertices, offsets, neighbors, scratch);
         if (ends <= room) {
-            *patch = (Patch){.size = size, .vertices = const_ints(vertices), .offsets = const_ints(offsets), .neighbors = {neighbors.data, ends}};
+            *patch = (Patch){.size = size, .vertices = const_ints(vertices), .offsets = const_ints(offsets),
+                .neighbors = {neighbors.data, ends}};
             break;
         }
         room = ends;
@@ -100,17 +108,17 @@ bool find_patch_fronts(Context *context, Arena *arena, Patch *patch) {
     int64_t n = patch->size, room = 16 * n + 64, count = FULL;
     Words rows, steps, owners, scratch, firsts, starts, places, borders = {NULL, 0};
     Doubles sums;
-    if (!take_words(arena, n, &rows) || !take_words(arena, n, &steps) || !take_words(arena, n, &owners) || !take_words(arena, 3 * n, &scratch)
-        || !take_words(arena, n + 1, &firsts) || !take_words(arena, n + 1, &starts) || !take_words(arena, n + 1, &places)
-        || !take_doubles(arena, 2, &sums))
+    if (!take_words(arena, n, &rows) || !take_words(arena, n, &steps) || !take_words(arena, n, &owners)
+        || !take_words(arena, 3 * n, &scratch) || !take_words(arena, n + 1, &firsts)
+        || !take_words(arena, n + 1, &starts) || !take_words(arena, n + 1, &places) || !take_doubles(arena, 2, &sums))
         return false;
     for (; count == FULL; room *= 4) {
         if (!take_words(arena, room, &borders)) return false;
-        count = find_fronts(patch->offsets, patch->neighbors, LEAF, (double)MOST_WORK * (double)n, scratch, rows, steps, owners,
-            firsts, starts, borders, places, sums);
+        count = find_fronts(patch->offsets, patch->neighbors, LEAF, (double)MOST_WORK * (double)n, scratch, rows, steps,
+            owners, firsts, starts, borders, places, sums);
     }
     if (count == TOO_MUCH) return FAIL(context, LIMIT, "the faces of a block of # vertices are too entangled", n);
-    patch->fronts = (Fronts){some(rows, n), some(steps, n), some(owners, n), some(firsts, count + 1), some(starts, count + 1),
-        some(borders, starts.data[count]), some(places, count + 1), {sums.data, 2}};
+    patch->fronts = (Fronts){some(rows, n), some(steps, n), some(owners, n), some(firsts, count + 1),
+        some(starts, count + 1), some(borders, starts.data[count]), some(places, count + 1), {sums.data, 2}};
     return true;
 }

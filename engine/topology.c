@@ -4,17 +4,18 @@
 #include "bitstream/connectivity/connectivity.h"
 #include "engine/coding.h"
 
-enum { FIRST_NODES_ROOM = 16, TALLIES = 8, TALLY_DUMMIES = 3, TALLY_TURNS, TALLY_STEPS, FAN_SLOTS = 32, EVENT_TRUST = 30 };
-/* Bytes that decoding, and the graph that follows, take at most for each; only fans count that are sewn together (M 14.8). */
+enum { FIRST_NODES_ROOM = 16, TALLIES = 8, TALLY_DUMMIES = 3, TALLY_TURNS, TALLY_STEPS, FAN_SLOTS = 32,
+    EVENT_TRUST = 30 };
+/* Bytes that decoding and the graph take at most for each; only fans that are sewn together count (M 14.8). */
 static const double FACE_MEMORY = 100, VERTEX_MEMORY = 400, FAN_MEMORY = 240;
 
 static bool make_models(Arena *arena, int64_t vertices, Models *models) {
     int bits = (int)largest(LEAST_HASH_BITS, least(64 - __builtin_clzll((uint64_t)vertices) - 2, MOST_HASH_BITS));
     models->bits = bits;
-    return make_bank(arena, (BankPlan){.slots = ((int64_t)VALENCE_CONTEXTS << bits) * VALENCE_NODES, .selectors = VALENCE_NODES,
-                                .inputs = VALENCE_CONTEXTS, .limit = 1023, .rate = 16}, &models->valence)
-        && make_bank(arena, (BankPlan){.slots = EVENT_CONTEXTS * EVENT_SIZE, .selectors = 1, .inputs = EVENT_CONTEXTS, .limit = 1023,
-                                .rate = 16, .probability = ONE - ONE / 500, .trust = EVENT_TRUST}, &models->event)
+    return make_bank(arena, (BankPlan){.slots = ((int64_t)VALENCE_CONTEXTS << bits) * VALENCE_NODES,
+        .selectors = VALENCE_NODES, .inputs = VALENCE_CONTEXTS, .limit = 1023, .rate = 16}, &models->valence)
+        && make_bank(arena, (BankPlan){.slots = EVENT_CONTEXTS * EVENT_SIZE, .selectors = 1, .inputs = EVENT_CONTEXTS,
+            .limit = 1023, .rate = 16, .probability = ONE - ONE / 500, .trust = EVENT_TRUST}, &models->event)
         && make_bank(arena, (BankPlan){.slots = RARE_NODES, .selectors = RARE_NODES, .inputs = 1}, &models->rare);
 }
 
@@ -24,13 +25,15 @@ static int64_t read_count(Reading *reading, const Models *models) {
 }
 
 /* The conquest (C 6) of faces that do not repeat a corner, with more memory for its front each time it asks. */
-static bool read_surface(Reading *reading, const Models *models, Arena *scratch, int64_t fans, int64_t dummies, Ints2 faces) {
+static bool read_surface(Reading *reading, const Models *models, Arena *scratch, int64_t fans, int64_t dummies,
+    Ints2 faces) {
     Longs tallies;
     Ints heads;
     Longs2 vertices;
     Ints2 nodes;
     if (!zero_longs(scratch, TALLIES, &tallies) || !take_ints(scratch, HEADS, &heads)
-        || !take_longs2(scratch, fans + dummies, VERTEX_COLUMNS, &vertices) || !take_ints2(scratch, fans + FIRST_NODES_ROOM, NODE_COLUMNS, &nodes))
+        || !take_longs2(scratch, fans + dummies, VERTEX_COLUMNS, &vertices)
+        || !take_ints2(scratch, fans + FIRST_NODES_ROOM, NODE_COLUMNS, &nodes))
         return false;
     for (int i = 0; i < HEADS; i++) heads.data[i] = -1;
     heads.data[MADE] = heads.data[ALIVE] = 0;
@@ -38,7 +41,8 @@ static bool read_surface(Reading *reading, const Models *models, Arena *scratch,
     tallies.data[TALLY_TURNS] = 4 * faces.rows;
     tallies.data[TALLY_STEPS] = 65536 + 16 * faces.rows;
     for (;;) {
-        int64_t end = conquer(reading->coder, *models, (Guide){0}, (Conquest){{nodes, heads}, vertices, faces, tallies});
+        int64_t end =
+            conquer(reading->coder, *models, (Guide){0}, (Conquest){{nodes, heads}, vertices, faces, tallies});
         if (end == CONQUEST_DONE) return true;
         if (end != CONQUEST_NO_ROOM) return nonsense(reading, "a connectivity payload does not make its triangles");
         Ints2 wider;
@@ -53,8 +57,8 @@ static bool find_borders(Arena *scratch, Ints2 faces, Ints after, Ints before) {
     int64_t size = 3 * faces.rows;
     Longs starts;
     Ints by_high, order, twin;
-    if (!take_longs(scratch, after.size + 1, &starts) || !take_ints(scratch, size, &by_high) || !take_ints(scratch, size, &order)
-        || !take_ints(scratch, size, &twin))
+    if (!take_longs(scratch, after.size + 1, &starts) || !take_ints(scratch, size, &by_high)
+        || !take_ints(scratch, size, &order) || !take_ints(scratch, size, &twin))
         return false;
     match_halfedges((ConstInts){faces.data, size}, starts, by_high, order, twin);
     for (int64_t i = 0; i < after.size; i++) after.data[i] = before.data[i] = -1;
@@ -65,12 +69,13 @@ static bool find_borders(Arena *scratch, Ints2 faces, Ints after, Ints before) {
     return true;
 }
 
-/* Which fans are the same vertex (C 7): corners become vertices. Returns how many vertices there are, -1 for nonsense. */
+/* Which fans are the same vertex (C 7): corners become vertices. Returns their number, -1 for nonsense. */
 static int64_t join_fans(Reading *reading, Arena *scratch, Ints2 faces, int64_t fans) {
     Ints after, before, known, vertex, sibling, latest;
     Bank bank;
     if (!take_ints(scratch, fans, &after) || !take_ints(scratch, fans, &before) || !take_ints(scratch, fans, &known)
-        || !take_ints(scratch, fans, &vertex) || !take_ints(scratch, fans, &sibling) || !take_ints(scratch, fans, &latest)
+        || !take_ints(scratch, fans, &vertex) || !take_ints(scratch, fans, &sibling)
+        || !take_ints(scratch, fans, &latest)
         || !make_bank(scratch, (BankPlan){.slots = FAN_SLOTS, .selectors = 1, .inputs = 1}, &bank)
         || !find_borders(scratch, faces, after, before))
         return -1;
@@ -89,7 +94,8 @@ static bool read_faces(Reading *reading, const Header *header, Arena *arena, Are
     int64_t proper = header->faces - repeated, regular = header->vertices - lonely, fans = regular + surplus;
     if (proper < 0 || regular < 0 || lonely > 3 * repeated || fans > 3 * proper || dummies > 3 * proper)
         return nonsense(reading, "the counts at the start of a connectivity payload contradict each other");
-    double memory = FACE_MEMORY * (double)header->faces + VERTEX_MEMORY * (double)header->vertices + FAN_MEMORY * (double)(surplus + dummies);
+    double memory = FACE_MEMORY * (double)header->faces + VERTEX_MEMORY * (double)header->vertices
+        + FAN_MEMORY * (double)(surplus + dummies);
     if (!WITHIN(context, vertices, fans + dummies)
         || !within_memory(context, memory, header->vertices, (double)reading->coder.data.size))
         return false;
@@ -104,7 +110,8 @@ static bool read_faces(Reading *reading, const Header *header, Arena *arena, Are
     return finish_reading(reading);
 }
 
-bool decode_connectivity(Context *context, Span payload, const Header *header, Arena *arena, Arena *scratch, Ints2 *faces) {
+bool decode_connectivity(Context *context, Span payload, const Header *header, Arena *arena, Arena *scratch,
+    Ints2 *faces) {
     Reading reading;
     Mark mark = mark_of(scratch);
     bool done = begin_reading(context, payload, &reading) && read_faces(&reading, header, arena, scratch, faces);
@@ -116,7 +123,8 @@ bool decode_labels(Context *context, Span payload, const Graph *graph, int64_t p
     enum { INPUTS = 3, CANDIDATES = 4, LABEL_CONTEXTS = 16 * (CANDIDATES + 1) };
     Reading reading;
     Bank bank;
-    if (!make_bank(scratch, (BankPlan){.slots = INPUTS * LABEL_CONTEXTS, .selectors = CANDIDATES + 1, .inputs = INPUTS}, &bank)
+    if (!make_bank(scratch, (BankPlan){.slots = INPUTS * LABEL_CONTEXTS, .selectors = CANDIDATES + 1, .inputs = INPUTS},
+        &bank)
         || !begin_reading(context, payload, &reading))
         return false;
     int64_t used = code_labels(reading.coder, bank, graph->offsets, graph->neighbors, labels, parts);

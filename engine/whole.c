@@ -171,8 +171,9 @@ EXACTLY(bsmdec_status, bsmdec_decode,
     bool known = copy_options(given, &options);
     whole->finds_fields = options.fields == NULL;
     whole->index_size = options.index_size;
-    bool done = known && fine(context) && bsmdec_push(decoder, bytes, size) == BSMDEC_OK && bsmdec_finish(decoder) == BSMDEC_OK
-        && (whole->finds_fields || copy_fields(whole, &options)) && decode_next(whole);
+    bool done = known && fine(context) && bsmdec_push(decoder, bytes, size) == BSMDEC_OK
+        && bsmdec_finish(decoder) == BSMDEC_OK && (whole->finds_fields || copy_fields(whole, &options))
+        && decode_next(whole);
     while (done && !decoder->sequence.active && event.type != BSMDEC_END_OF_STREAM)
         done = bsmdec_next(decoder, &event) == BSMDEC_OK;
     return status_of(whole, done);

@@ -84,7 +84,8 @@ static int64_t read_states(Span bytes, int most_log, int most_symbol, StateTable
     if (log > most_log) return 0;
     while (left > 0 && symbol <= most_symbol) {
         int size = log_of((uint64_t)left + 1) + 1;
-        uint64_t low = (UINT64_C(1) << (size - 1)) - 1, few = (UINT64_C(1) << size) - 1 - (uint64_t)(left + 1), value = 0;
+        uint64_t low = (UINT64_C(1) << (size - 1)) - 1, few = (UINT64_C(1) << size) - 1 - (uint64_t)(left + 1),
+                 value = 0;
         for (int k = 0; k < size; k++)
             if (at + k < end) value |= bits_at(bytes.data, at + k, 1) << k;
         at += size;
@@ -187,7 +188,8 @@ static bool read_streams(Unpacker *own, Span bytes, int64_t count, bool four) {
         int64_t size = k < 3 ? (int64_t)little_endian(bytes.data + 2 * k, 2) : bytes.size - at;
         int64_t own_count = k < 3 ? each : count - 3 * each;
         if (size > bytes.size - at || own_count < 0) return false;
-        if (!read_stream(&own->prefixes, (Span){bytes.data + at, size}, own->literals + k * each, own_count)) return false;
+        if (!read_stream(&own->prefixes, (Span){bytes.data + at, size}, own->literals + k * each, own_count))
+            return false;
         at += size;
     }
     return true;
@@ -217,8 +219,10 @@ static int64_t read_literals(Unpacker *own, Span block, int64_t most) {
     return head + size;
 }
 
-static const int16_t LENGTH_COUNTS[] = {4, 3, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 2, 1, 1, 1, 1, 1, -1, -1, -1, -1};
-static const int16_t OFFSET_COUNTS[] = {1, 1, 1, 1, 1, 1, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, -1, -1, -1, -1, -1};
+static const int16_t LENGTH_COUNTS[] = {
+    4, 3, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 2, 1, 1, 1, 1, 1, -1, -1, -1, -1};
+static const int16_t OFFSET_COUNTS[] = {
+    1, 1, 1, 1, 1, 1, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, -1, -1, -1, -1, -1};
 static const int16_t MATCH_COUNTS[] = {1, 4, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
     1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, -1, -1, -1, -1, -1, -1, -1};
 /* Bits behind a code, from the first on that has some. */
@@ -276,7 +280,8 @@ static uint64_t offset_of(Unpacker *own, uint64_t value, bool no_literals) {
 
 /* Literals, then a match with what was before; false if there is no room, or too little behind. */
 static bool append(Unpacker *own, int64_t *used, uint64_t literals, uint64_t length, uint64_t offset, int64_t end) {
-    if (literals > (uint64_t)(own->literal_count - *used) || literals + length > (uint64_t)(end - own->done)) return false;
+    if (literals > (uint64_t)(own->literal_count - *used) || literals + length > (uint64_t)(end - own->done))
+        return false;
     memcpy(own->content + own->done, own->literals + *used, (size_t)literals);
     own->done += (int64_t)literals;
     *used += (int64_t)literals;
@@ -295,7 +300,8 @@ static bool run_sequences(Unpacker *own, Span bytes, int64_t count, int64_t *use
         uint64_t back = (UINT64_C(1) << code) + take_bits(&bits, code);
         uint64_t matched = 3 + read_length(&bits, own->matches.symbol[match], 32, MATCH_BITS);
         uint64_t literals = read_length(&bits, own->lengths.symbol[length], 16, LENGTH_BITS);
-        if (bits.left < 0 || !append(own, used, literals, matched, offset_of(own, back, literals == 0), end)) return false;
+        if (bits.left < 0 || !append(own, used, literals, matched, offset_of(own, back, literals == 0), end))
+            return false;
         if (i == count - 1) break;
         length = next_state(&own->lengths, length, &bits);
         match = next_state(&own->matches, match, &bits);
@@ -335,7 +341,8 @@ static int64_t read_header(Span frame, int64_t size, int64_t *window) {
     if (frame.size == 0) return 0;
     int descriptor = frame.data[0], flag = descriptor >> 6, single = descriptor >> 5 & 1;
     int bytes = flag == 0 ? 1 : 1 << flag, at = 2 - single;
-    if ((descriptor & 15) != 0 || (!single && flag == 0) || frame.size < at + bytes) return 0; /* reserved bit, checksum, dictionary */
+    if ((descriptor & 15) != 0 || (!single && flag == 0) || frame.size < at + bytes)
+        return 0; /* reserved bit, checksum, dictionary */
     uint64_t stated = little_endian(frame.data + at, bytes) + (flag == 1 ? 256 : 0);
     *window = size;
     if (!single) *window = (INT64_C(1) << (10 + (frame.data[1] >> 3))) / 8 * (8 + (frame.data[1] & 7));

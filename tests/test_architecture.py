@@ -64,7 +64,7 @@ FLOORS = {
         ("encoder",),
     ),
     "engine": (
-        ("bsmdec", "arithmetic", "charges"),
+        ("bsmdec", "arithmetic", "costs"),
         ("context", "pool"),
         ("wire",),
         ("coding", "maps", "zstd"),
@@ -137,7 +137,7 @@ def c_name(path: Path) -> str:
 
 
 def included(path: Path) -> set[Path]:
-    """The headers that a C file includes itself; which file of the repository is meant is said from its root."""
+    """The headers that a C file includes itself, as paths from the root of the repository."""
     return {ROOT / name for name in re.findall(r'^\s*#\s*include "([^"]+)"', SOURCES[path], re.MULTILINE)}
 
 

@@ -20,14 +20,14 @@ DIALECT = re.compile(
 )
 """Words of translations. Name the actor and the thing instead."""
 PROGRAMS = re.compile(r"/built/|viewer\.js$")  # written by programs
-DIALECT_LIMIT = 310
+DIALECT_LIMIT = 145
 EXCEPTIONS = {
     "tests/test_words.py": ("",),
     "tools/vectors/bad_sequences.py": ("as one frame is told of",),  # as the manifest of 1.0 has it
 }
 """Parts of lines in which such a word is right, by file; an empty part is the whole file. At most 20."""
 WIDE = 120  # columns
-WIDE_LIMITS = {"C": 398, "prose": 0}
+WIDE_LIMITS = {"C": 0, "prose": 0}
 DOCUMENTS = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "codec/PAPER.md", "docs", "engine", "src/bsm", "tools")
 """Where Markdown, and the header in C, must have short sentences."""
 MEAN, LONGEST = 15, 35  # words of a sentence

@@ -54,9 +54,7 @@ _PROTOTYPE = re.compile(rf"^(?={_WORDS}\w+ \**(?!bsmdec_)[^=;{{]*\([^;{{]*\);)",
 _FUNCTION = re.compile(
     r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:const )?\w+ \**(?:ISA\()?(\w+)\)?\(", re.MULTILINE
 )
-_BARE = re.compile(
-    rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE
-)
+_BARE = re.compile(rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE)
 _DOUBLES = '#define VECTORS_OF_DOUBLES\n#include "codec/basis/vectors.h"\n'
 _TYPE = re.compile(r"^(?:typedef .*?|\} )(\w+);$", re.MULTILINE)
 _CONSTANTS = re.compile(r"enum \{(.*?)\}", re.DOTALL)

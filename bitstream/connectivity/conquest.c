@@ -1,8 +1,8 @@
 /* The conquest: triangle by triangle over a closed surface, the same walk for both directions (specification, C 6).
  *
  * An encoder has a guide, which tells each third vertex; without one, the coder's payload does. Whatever a payload
- * says, indices stay inside: a node is made by add_node, a vertex by add_vertex, a face by emit, each of which counts.
- */
+ * says, indices stay inside: a node is made by add_node, a vertex by add_vertex, a face by emit, each
+ * of which counts. */
 #include "bitstream/connectivity/connectivity.h"
 
 
@@ -62,7 +62,8 @@ static bool open_walk(Walk *walk, Coder coder, Models models, const Guide *guide
         && (is_reading(&walk->coder) || guide->conquered.size > 0 || walk->face_room == 0)
         && (!is_reading(&walk->coder) || guide->conquered.size == 0) && open_guide(&walk->map, guide, conquest)
         && open_front(&walk->front, conquest->front) && conquest->vertices.columns == VERTEX_COLUMNS
-        && walk->vertex_room <= INT32_MAX && walk->face_room <= INT32_MAX / 3 && conquest->faces.columns == 3 && conquest->tallies.size == TALLIES;
+        && walk->vertex_room <= INT32_MAX && walk->face_room <= INT32_MAX / 3 && conquest->faces.columns == 3
+        && conquest->tallies.size == TALLIES;
 }
 
 /* Code the valence of a new vertex and enter it in the table; -1 if there are too many. */
@@ -292,7 +293,9 @@ static int64_t take_turns(Walk *walk) {
         if (front->heads[MADE] + 3 > front->capacity || !has_room(&walk->coder, TURN_BYTES)) return CONQUEST_NO_ROOM;
         if (--tallies[TURNS] < 0 || overran(&walk->coder)) return CONQUEST_NONSENSE;
         int32_t f = first_node(front);
-        bool legal = f < 0 ? start_component(walk) : front->nodes[f].free == 0 ? close_node(walk, f) : pass_gate(walk, f);
+        bool legal = f < 0              ? start_component(walk)
+            : front->nodes[f].free == 0 ? close_node(walk, f)
+                                        : pass_gate(walk, f);
         if (!legal) return CONQUEST_NONSENSE;
     }
     return tallies[VERTICES] == walk->vertex_room ? CONQUEST_DONE : CONQUEST_NONSENSE;

@@ -141,7 +141,7 @@ INLINE int64_t padded_rows(int64_t n) { return (n / 4 + 1) * 4; }
 
 INLINE int64_t panels_size(const Panels *panels) { return panels->rows * panels->columns; }
 
-/* Front t: its own steps, its border, its matrix, and the distance of that matrix's rows. */
+/* Front t: its own steps, its border, its matrix, and the distance of the rows of this matrix. */
 typedef struct {
     int64_t first, own, edge, width, place, apart;
 } Front;

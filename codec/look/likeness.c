@@ -35,7 +35,8 @@ INLINE Span covered_of(ConstSingles2 first, ConstSingles2 second, int64_t row) {
     span.end = first.columns;
     while (span.end - span.start >= STRIP && !covered(x + span.start, y + span.start, STRIP)) span.start += STRIP;
     while (span.start < span.end && !covered(x + span.start, y + span.start, 1)) span.start++;
-    while (span.end - span.start >= STRIP && !covered(x + span.end - STRIP, y + span.end - STRIP, STRIP)) span.end -= STRIP;
+    while (span.end - span.start >= STRIP && !covered(x + span.end - STRIP, y + span.end - STRIP, STRIP))
+        span.end -= STRIP;
     while (span.end > span.start && !covered(x + span.end - 1, y + span.end - 1, 1)) span.end--;
     return span;
 }
@@ -88,7 +89,7 @@ INLINE void blur_down(const float *restrict rows, int64_t stride, int64_t middle
     }
 }
 
-/* Marks of this row, those of the last `WINDOW` rows together by column, and the most of them in a square that ends here. */
+/* Marks of this row, column sums of the last `WINDOW` rows, and the most marks in a square that ends here. */
 INLINE int64_t densest(const float *marks, float *ring, float *columns, int64_t start, int64_t end) {
     float any = 0.0f;
     for (int64_t i = start; i < end; i++) {
@@ -107,8 +108,8 @@ INLINE int64_t densest(const float *marks, float *ring, float *columns, int64_t 
 
 /* `wide` and `narrow` are the halves of both blurs, from the middle. Over pixels that either picture covers, to `sums`:
  * of 1 - SSIM; how many differ by more than `visible` after the narrow blur; how many there are; and how many
- * differ by more than `plain` in the square that has most of these. `map`, which may be empty, gets for each pixel how unlike
- * it is: 1 - SSIM, and up to as much again by the square of its difference. */
+ * differ by more than `plain` in the square that has most of these. `map`, which may be empty, gets for each pixel how
+ * unlike it is: 1 - SSIM, and up to as much again by the square of its difference. */
 KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles wide, ConstSingles narrow,
                         double visible, double plain, Singles2 scratch, Doubles sums, Singles2 map) {
     int64_t stride = scratch.columns;
@@ -144,7 +145,8 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
             difference[i] = x[i] - y[i];
         }
         for (int field = 0; field < FIELDS; field++)
-            blur(padded + field * stride, ring + (field * KEPT + place) * stride, some.start, some.end, wide.data, WIDE);
+            blur(padded + field * stride, ring + (field * KEPT + place) * stride, some.start, some.end, wide.data,
+                WIDE);
         blur(difference, ring + (FIELDS * KEPT + place) * stride, some.start, some.end, narrow.data, NARROW);
         int64_t at = row - WIDE, middle = (at + KEPT) % KEPT;
         if (at < high.start) continue;

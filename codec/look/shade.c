@@ -55,7 +55,8 @@ typedef struct {
 } Face;
 
 INLINE Face face_at(const double *placed, const int32_t *corners) {
-    const double *a = placed + 3 * (int64_t)corners[0], *b = placed + 3 * (int64_t)corners[1], *c = placed + 3 * (int64_t)corners[2];
+    const double *a = placed + 3 * (int64_t)corners[0], *b = placed + 3 * (int64_t)corners[1],
+                 *c = placed + 3 * (int64_t)corners[2];
     return (Face){a, b, c, (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])};
 }
 
@@ -137,10 +138,9 @@ INLINE void find_farthest(Singles2 depth, Singles2 farthest) {
     }
 }
 
-/* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light; of what
- * is at one depth the brightest is shown.
- * `placed` is room for all positions, `depth` and `lengths` for pictures, `farthest` for one number of each tile. `owner`
- * gets the face that each pixel shows, or -1.
+/* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light; of
+ * what is at one depth the brightest is shown. `placed` is room for all positions, `depth` and `lengths` for pictures,
+ * `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1.
  *
  * Of a closed surface one half faces the camera, and hides the other: that half comes first, and most of the other one
  * need not be drawn. */
@@ -188,9 +188,9 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
     return 0;
 }
 
-/* What corners have, three times as many as `found` has rows in `values`, at each pixel that shows a face. `ways` has of a
- * face where its first corner is, and what a pixel's way from there is of the ways to both others: column, row, then two
- * factors of either. */
+/* What corners have, three times as many as `found` has rows in `values`, at each pixel that shows a face. `ways` has
+ * of a face where its first corner is, and what a pixel's way from there is of the ways to both others: column, row,
+ * then two factors of either. */
 KERNEL int64_t interpolate_shown(ConstInts2 owner, ConstDoubles2 ways, ConstDoubles2 values, Doubles2 found) {
     int64_t count = 0, each = found.rows;
     if (ways.columns != 6 || values.rows != ways.rows || values.columns != 3 * each) return MISUSED;

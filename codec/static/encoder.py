@@ -155,7 +155,7 @@ class Encoder:
 
     def draft(self, progress: Progress | None = None) -> Draft:
         """What the options ask for, without a target."""
-        _ = self._input.carried  # what is wrong with attributes is said first
+        _ = self._input.carried  # raises what is wrong with attributes first
         promise, given, near = self.options.promise, self._input, self._begun(progress)
         return self._verified(
             given.dressed(self._bare(near)) if promise is None else smallest(given, promise, near), near
@@ -193,7 +193,7 @@ class Encoder:
         target = self.options.target
         if target is None:
             raise OptionError("there is no target to search for")
-        _ = self._input.carried  # what is wrong with attributes is said first
+        _ = self._input.carried  # raises what is wrong with attributes first
         near = self._begun(progress)
         if self.options.sets_coding:
             found = self._at_step(target, near)

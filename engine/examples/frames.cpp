@@ -51,11 +51,11 @@ int main(int count, char **arguments) try {
     while (mesh->frame >= 0) {
         // Here a game would upload mesh->vertex_data and draw. This program prints how far the shape reaches.
         const Vertex *vertices = static_cast<const Vertex *>(mesh->vertex_data);
-        auto [low, high] = std::minmax_element(vertices, vertices + mesh->vertices, [](const Vertex &a, const Vertex &b) {
-            return a.position[0] < b.position[0];
-        });
+        auto [low, high] = std::minmax_element(vertices, vertices + mesh->vertices,
+            [](const Vertex &a, const Vertex &b) { return a.position[0] < b.position[0]; });
         std::printf("frame %lld of %lld: %lld faces, x from %.6g to %.6g\n", static_cast<long long>(mesh->frame),
-            static_cast<long long>(mesh->frames), static_cast<long long>(mesh->faces), low->position[0], high->position[0]);
+            static_cast<long long>(mesh->frames), static_cast<long long>(mesh->faces), low->position[0],
+            high->position[0]);
         if (bsmdec_advance(mesh.get()) != BSMDEC_OK) throw std::runtime_error(mesh->error->message);
     }
     return 0;

@@ -6,11 +6,14 @@
 void decoder_state(const bsmdec *decoder, double *state) {
     const Spent *spent = &decoder->context.spent;
     const double all[STATE_NUMBERS] = {(double)decoder->reader.offset, spent->spent, (double)spent->vertices,
-        (double)(spent->vertices + spent->shown), (double)(spent->vertices - spent->gone), spent->received, spent->reserved};
+        (double)(spent->vertices + spent->shown), (double)(spent->vertices - spent->gone), spent->received,
+        spent->reserved};
     memcpy(state, all, sizeof all);
 }
 
-void decoder_header(const bsmdec *decoder, double *numbers) { list_header(&decoder->reader.headers[decoder->reader.header], numbers); }
+void decoder_header(const bsmdec *decoder, double *numbers) {
+    list_header(&decoder->reader.headers[decoder->reader.header], numbers);
+}
 
 bsmdec_status decoder_skim(bsmdec *decoder) {
     Packet packet;

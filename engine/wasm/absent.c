@@ -1,4 +1,4 @@
-/* In the place of what a smaller build is without (tools/web/scripts/kernels.mjs): the linker takes these where there is nothing else. */
+/* Stubs for what a smaller build lacks (tools/web/scripts/kernels.mjs); the linker prefers the real functions. */
 #include "engine/ahead.h"
 #include "engine/sequence.h"
 #include "engine/zstd.h"
@@ -36,12 +36,14 @@ ABSENT bool parse_declaration(Context *context, Span payload, Arena *scratch, De
     (void)payload, (void)scratch, (void)declaration;
     return absent(context);
 }
-ABSENT void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces, Arena *arena) {
+ABSENT void begin_attributes(Attributes *attributes, Context *context, const Header *header, ConstInts2 faces,
+    Arena *arena) {
     (void)attributes, (void)header, (void)faces, (void)arena;
     FAIL(context, UNSUPPORTED, ABSENT_PART);
 }
 ABSENT void end_attributes(Attributes *attributes) { (void)attributes; }
-ABSENT bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams, Arena *scratch) {
+ABSENT bool declare_attribute(Attributes *attributes, int64_t index, const Declaration *declaration, Span seams,
+    Arena *scratch) {
     (void)attributes, (void)index, (void)declaration, (void)seams;
     return absent(scratch->context);
 }
@@ -83,7 +85,8 @@ ABSENT int32_t row_of_corner(const Attribute *attribute, const Numbering *number
     return 0;
 }
 
-ABSENT bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena, Arena *scratch) {
+ABSENT bool begin_grid(GridField *field, Context *context, const Header *header, ConstInts2 faces, Arena *arena,
+    Arena *scratch) {
     (void)field, (void)header, (void)faces, (void)arena, (void)scratch;
     return absent(context);
 }
@@ -92,7 +95,8 @@ ABSENT bool decode_grid(GridField *field, int64_t first, int64_t count, Span pay
     return absent(scratch->context);
 }
 ABSENT void end_layer(Layer *layer) { (void)layer; }
-ABSENT bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole, Arena *arena, Arena *scratch) {
+ABSENT bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base,
+    Bytes whole, Arena *arena, Arena *scratch) {
     (void)layer, (void)header, (void)faces, (void)base, (void)whole, (void)arena, (void)scratch;
     return absent(context);
 }

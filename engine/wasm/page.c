@@ -39,7 +39,8 @@ EXPORT bool page_open(const double *limits, int tolerant, int number_of_share, i
     bsmdec_allocator host = {sizeof host, allocate, release, NULL};
     bsmdec_limits bounds = {.size = sizeof bounds};
     memcpy(&bounds.vertices, limits, sizeof bounds - offsetof(bsmdec_limits, vertices));
-    decoder = bsmdec_open(&(bsmdec_options){.size = sizeof(bsmdec_options), .limits = &bounds, .allocator = &host, .tolerant = tolerant});
+    decoder = bsmdec_open(&(bsmdec_options){.size = sizeof(bsmdec_options), .limits = &bounds, .allocator = &host,
+        .tolerant = tolerant});
     if (decoder == NULL) return false;
     decoder->share = (Share){.number = number_of_share, .among = among, .helps = number_of_share > 0};
     room = arena_of(&decoder->context);
@@ -63,7 +64,9 @@ EXPORT const bsmdec_event *page_next(void) {
     return &event;
 }
 
-EXPORT const bsmdec_error *page_error(int of_loss) { return of_loss ? bsmdec_last_loss(decoder) : bsmdec_last_error(decoder); }
+EXPORT const bsmdec_error *page_error(int of_loss) {
+    return of_loss ? bsmdec_last_loss(decoder) : bsmdec_last_error(decoder);
+}
 
 /* Bytes that were made use of, work that was charged, vertices that the faces so far have. */
 EXPORT const double *page_state(void) {
@@ -86,9 +89,15 @@ static const Rows *row_of(int64_t count, const void *vertices, const void *posit
 EXPORT int page_faces(uint32_t *corners, size_t count) { return bsmdec_faces(decoder, corners, count); }
 EXPORT int page_positions(double *coordinates, size_t count) { return bsmdec_positions(decoder, coordinates, count); }
 EXPORT int page_metadata(int index, bsmdec_metadata *entry) { return bsmdec_metadata_at(decoder, index, entry); }
-EXPORT int page_attribute(int index, bsmdec_attribute *attribute) { return bsmdec_attribute_at(decoder, index, attribute); }
-EXPORT int page_values(int index, void *values, size_t size) { return bsmdec_attribute_values(decoder, index, values, size); }
-EXPORT int page_indices(int index, uint32_t *indices, size_t count) { return bsmdec_attribute_indices(decoder, index, indices, count); }
+EXPORT int page_attribute(int index, bsmdec_attribute *attribute) {
+    return bsmdec_attribute_at(decoder, index, attribute);
+}
+EXPORT int page_values(int index, void *values, size_t size) {
+    return bsmdec_attribute_values(decoder, index, values, size);
+}
+EXPORT int page_indices(int index, uint32_t *indices, size_t count) {
+    return bsmdec_attribute_indices(decoder, index, indices, count);
+}
 
 /* The block that a helper decoded last. */
 EXPORT const Rows *page_handed(void) {
@@ -101,14 +110,18 @@ EXPORT const Rows *page_room(int count) {
     Ints vertices;
     Doubles2 positions;
     Doubles weights;
-    if (!take_ints(&room, count, &vertices) || !take_doubles2(&room, count, 3, &positions) || !take_doubles(&room, count, &weights)) return NULL;
+    if (!take_ints(&room, count, &vertices) || !take_doubles2(&room, count, 3, &positions)
+        || !take_doubles(&room, count, &weights))
+        return NULL;
     return row_of(count, vertices.data, positions.data, weights.data);
 }
 
 EXPORT bool page_add(int index) {
     const Mesh *mesh = &decoder->mesh;
     const int32_t *vertices = rows.vertices;
-    if (!mesh->has_chains || index < 0 || index >= mesh->blocks.count || rows.count != size_of_block(&mesh->blocks, index)) return false;
+    if (!mesh->has_chains || index < 0 || index >= mesh->blocks.count
+        || rows.count != size_of_block(&mesh->blocks, index))
+        return false;
     for (int32_t i = 0; i < rows.count; i++)
         if (vertices[i] < 0 || vertices[i] >= mesh->graph.size) return false;
     DecodedBlock block = {index, {vertices, rows.count}, {rows.positions, rows.count, 3}, {rows.more, rows.count}};

@@ -42,7 +42,7 @@ class Console:
 
     @contextmanager
     def progress(self, what: str = "", until: float = 1.0, seconds: float = 0.0) -> Iterator[Progress]:
-        """Report a job, which may take so many seconds; within one, its part up to a share of the time of all."""
+        """Report a job, which may take `seconds`; within another job, report its part `until` a share of all time."""
         if self._running:
             with self._running[0].part(what, until) as progress:
                 yield progress
@@ -82,7 +82,7 @@ class Progress:
         self._shown, self._lines, self._heard, self._expected = shown, lines, heard, seconds
         self._begun = self._reported_at = time.monotonic()
         self._share, self._when, self._seen = 0.0, 0.0, 0.0  # as reported, and after how many seconds; as shown
-        self._told = 0
+        self._reported = 0
         self.stopped: BaseException | None = None
         self._bar: Any = None
         self._over = threading.Event()
@@ -139,11 +139,11 @@ class Progress:
 
     def _tell_listener(self, share: float) -> None:
         """Tell a listener, to whom nothing goes back."""
-        if self._heard is None or int(PARTS * share) <= self._told:
+        if self._heard is None or int(PARTS * share) <= self._reported:
             return
-        self._told = int(PARTS * share)
+        self._reported = int(PARTS * share)
         try:
-            self._heard(self._told, PARTS)
+            self._heard(self._reported, PARTS)
         except BaseException as error:
             self.stopped = error
             raise

@@ -70,9 +70,9 @@ STEPS = (
 
 def test_the_command_line_has_no_stumble(folder):
     for words in STEPS:
-        printed, told = bsm_command(folder, *words)
-        assert printed or told or "-q" in words, f"{words} says nothing"
-        assert all(len(line) < 300 for line in (printed + told).splitlines() if not line.startswith("{")), words
+        printed, errors = bsm_command(folder, *words)
+        assert printed or errors or "-q" in words, f"{words} says nothing"
+        assert all(len(line) < 300 for line in (printed + errors).splitlines() if not line.startswith("{")), words
     exact = bsm.load(folder / "exact.bsm")
     assert len(exact.positions) == len(read_mesh(folder / "bunny.ply").mesh.positions)
     assert (folder / "small.bsm").stat().st_size <= 5000
@@ -80,16 +80,16 @@ def test_the_command_line_has_no_stumble(folder):
 
 
 def test_a_batch_has_no_stumble(folder):
-    """One that fails stops no other, is told in a sentence, and is all that a second run does again."""
+    """One that fails stops no other, is reported in a sentence, and is all that a second run does again."""
     words = ("encode", "-r", "scans", "-o", "streams/", "--report", "report.json")
-    _, told = bsm_command(folder, *words, code=12)
-    failed = [line for line in told.splitlines() if line.startswith("bsm: ")]
+    _, errors = bsm_command(folder, *words, code=12)
+    failed = [line for line in errors.splitlines() if line.startswith("bsm: ")]
     assert len(failed) == 2 and "cut.ply" in failed[0] and "letter.ply" in failed[1]
     assert {path.suffix for path in (folder / "streams").iterdir()} == {".bsm"}
-    _, told = bsm_command(folder, *words, "--resume", code=12)
-    assert "3 of 5 were there" in told
-    _, told = bsm_command(folder, *words, "-f", "--json", code=12)
-    lines = [json.loads(line) for line in told.splitlines()]
+    _, errors = bsm_command(folder, *words, "--resume", code=12)
+    assert "3 of 5 were there" in errors
+    _, errors = bsm_command(folder, *words, "-f", "--json", code=12)
+    lines = [json.loads(line) for line in errors.splitlines()]
     assert sum("error" in line for line in lines) == 2
     left = [line["seconds_left"] for line in lines if "seconds_left" in line]
     assert all(seconds is not None and seconds > 0 for seconds in left)
@@ -109,9 +109,9 @@ MISTAKES = (
 
 def test_mistakes_are_told_in_a_sentence(folder):
     (folder / "bunny.bsm").touch()
-    for words, code, said in MISTAKES:
-        _, told = bsm_command(folder, *words, code=code)
-        assert said in told and len(told.splitlines()) <= 2, f"{words}: {told}"
+    for words, code, expected in MISTAKES:
+        _, errors = bsm_command(folder, *words, code=code)
+        assert expected in errors and len(errors.splitlines()) <= 2, f"{words}: {errors}"
         assert not (folder / "x.bsm").exists()
 
 
@@ -153,10 +153,10 @@ def test_wrong_uploads_are_told_in_a_sentence_without_a_path(folder):
             work(upload)
         text = str(found.value)
         assert text and "\n" not in text and "/" not in text and "pip install" not in text, text
-    for call, said in (
+    for call, expected in (
         (lambda: bsm.encode(knot(600), presett="fine"), "did you mean preset"),
         (lambda: bsm.encode(knot(600), preset="finest"), "not 'finest'"),
         (lambda: bsm.encode("nobody.ply"), "nobody.ply"),
     ):
-        with pytest.raises((bsm.BsmError, OSError), match=said):
+        with pytest.raises((bsm.BsmError, OSError), match=expected):
             call()

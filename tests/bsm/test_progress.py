@@ -143,5 +143,5 @@ def test_a_type_checker_finds_keywords_that_there_are_not(tmp_path):
         for name in ("right", "wrong")
     )
     assert right.returncode == 0, right.stdout
-    told = {int(line.split(":")[1]) for line in found.stdout.splitlines() if ": error:" in line}
-    assert told == set(range(2, 2 + len(wrong))), found.stdout
+    reported = {int(line.split(":")[1]) for line in found.stdout.splitlines() if ": error:" in line}
+    assert reported == set(range(2, 2 + len(wrong))), found.stdout

@@ -102,7 +102,7 @@ def compare(
         tally[f"status {decoded.status}"] += 1
         if tolerant:
             lax = decode(library, stream, tolerant=True)
-            tally["borne"] += lax.status == 0 and decoded.status != 0
+            tally["tolerated"] += lax.status == 0 and decoded.status != 0
             if wrong := loss_difference(lax, stream, exact=exact):
                 found.append(f"mutant {number}: tolerantly {wrong}")
                 Path(tempfile.gettempdir(), f"mutant-{seed}-{number}.bsm").write_bytes(stream)

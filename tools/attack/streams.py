@@ -576,7 +576,7 @@ BOMBS: dict[str, Callable[[], bytes]] = {
         [(FrameType.METADATA, write_map([(f"{k:04}{entry:03}", 1) for entry in range(256)])) for k in range(300)]
     ),
     "gops": lambda: _sequence(3, 3, [NOTHING] * 2000, width=1, **ONCE),
-    "gops-told": lambda: _sequence(3, 3, [_learnt_gop(1, 3, _still(3, 3, 4, 3))] * 1500, width=4, **ONCE),
+    "gops-learned": lambda: _sequence(3, 3, [_learnt_gop(1, 3, _still(3, 3, 4, 3))] * 1500, width=4, **ONCE),
     "gops-parts": lambda: _sequence(
         20, 20, [_learnt_gop(1, 3, _still(20, 20, 8, 3, 8))] * 80, width=8, part=8, power=1
     ),

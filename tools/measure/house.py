@@ -34,12 +34,12 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_652,
+    "product in all languages, lines": 61_979,
     "product Python, lines": 33_533,
-    "product C and C++, lines": 20_554,
+    "product C and C++, lines": 20_881,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
-    "product lines over 120 columns": 614,
+    "product lines over 120 columns": 239,
     "all Python, lines": 73_596,
     "product modules": 200,
     "product C files and headers": 72,
@@ -128,7 +128,7 @@ def docstring_lines(text: str) -> int:
 
 
 def count_constants(text: str) -> int:
-    """Numbers that names of the module stand for; each entry of a tuple or table is one, and so is an expression."""
+    """Numbers that the module gives names; each entry of a tuple or table is one, and so is an expression."""
     values = (node.value for node in ast.parse(text).body if isinstance(node, ast.Assign | ast.AnnAssign))
     return sum(map(_numbers, filter(None, values)))
 

@@ -16,7 +16,8 @@ static uint64_t add(uint64_t digest, const void *numbers, size_t count, size_t w
     const uint16_t one = 1;
     const unsigned char *byte = numbers;
     size_t turn = *(const unsigned char *)&one == 1 ? 0 : width - 1;
-    for (size_t i = 0; i < count * width; i++) digest = (digest ^ byte[i / width * width + (i % width ^ turn)]) * 0x100000001b3;
+    for (size_t i = 0; i < count * width; i++)
+        digest = (digest ^ byte[i / width * width + (i % width ^ turn)]) * 0x100000001b3;
     return digest;
 }
 
@@ -52,7 +53,8 @@ static uint64_t add_split(uint64_t digest, bsmdec *decoder, int64_t faces) {
     digest = add_number(digest, bsmdec_split(decoder, NULL, BSMDEC_ALL, &vertices));
     ADD_ARRAY(digest, 3 * faces, 4, bsmdec_split_indices(decoder, 4, array, length));
     for (int i = BSMDEC_POSITION; i < bsmdec_attribute_count(decoder); i++)
-        if (i == BSMDEC_POSITION || (bsmdec_attribute_at(decoder, i, &shape) == BSMDEC_OK && shape.domain != BSMDEC_FACE))
+        if (i == BSMDEC_POSITION
+            || (bsmdec_attribute_at(decoder, i, &shape) == BSMDEC_OK && shape.domain != BSMDEC_FACE))
             ADD_ARRAY(digest, 3 * vertices, 4, bsmdec_split_values(decoder, i, BSMDEC_FLOAT32, 3, 12, array, bytes));
     return digest;
 }
@@ -65,7 +67,8 @@ static uint64_t digest_of(bsmdec *decoder, const bsmdec_event *event, size_t num
     digest = add_number(add_number(add_number(digest, event->type), event->index), event->count);
     digest = add_number(add_number(add_number(digest, event->vertices), event->faces), event->frames);
     if (event->type == BSMDEC_LOSS) digest = add_text(digest, bsmdec_last_loss(decoder)->message);
-    if (event->type == BSMDEC_CONNECTIVITY) ADD_ARRAY(digest, 3 * event->faces, 4, bsmdec_faces(decoder, array, length));
+    if (event->type == BSMDEC_CONNECTIVITY)
+        ADD_ARRAY(digest, 3 * event->faces, 4, bsmdec_faces(decoder, array, length));
     if (rests || (number & (number - 1)) == 0) {
         ADD_ARRAY(digest, 3 * event->vertices, 8, bsmdec_positions(decoder, array, length));
         ADD_ARRAY(digest, 3 * event->vertices, 4, bsmdec_positions_single(decoder, array, length));
@@ -73,11 +76,12 @@ static uint64_t digest_of(bsmdec *decoder, const bsmdec_event *event, size_t num
     if (rests || event->type == BSMDEC_ATTRIBUTE) digest = add_attributes(digest, decoder);
     if (rests) digest = add_split(digest, decoder, event->faces);
     for (int64_t i = 0; event->type == BSMDEC_METADATA && bsmdec_metadata_at(decoder, i, &entry) == BSMDEC_OK; i++)
-        digest = add(add(add_text(digest, entry.name), &entry.number, 1, 8), entry.bytes, entry.bytes != NULL ? entry.size : 0, 1);
+        digest = add(add(add_text(digest, entry.name), &entry.number, 1, 8), entry.bytes,
+            entry.bytes != NULL ? entry.size : 0, 1);
     return digest;
 }
 
-/* Buffers of a mesh, or of a frame, as they are made without wishes: all are numbers of four bytes, or two in indices. */
+/* Buffers of a mesh, or of a frame, with default options: numbers of four bytes, indices of two or four. */
 static uint64_t digest_of_buffers(const bsmdec_mesh *mesh) {
     uint64_t digest = add_number(add_number(0xcbf29ce484222325, mesh->frame), mesh->vertices);
     digest = add(digest, mesh->vertex_data, mesh->vertex_bytes / 4, 4);

@@ -1,4 +1,4 @@
-/* Prints what bsmdec makes of streams, a line for each: name, status, events, digests of these and of buffers, the error.
+/* Prints a line for each stream: name, status, events, digests of these and of buffers, the error.
  *
  *     fingerprint [-u] STREAM... or @LIST
  *
@@ -64,7 +64,8 @@ static void print_stream(const char *path) {
         check_host("a getter");
     }
     bsmdec_mesh *mesh;
-    for (bsmdec_status status = bsmdec_decode(bytes, size, NULL, &mesh); status == BSMDEC_OK; status = bsmdec_advance(mesh)) {
+    for (bsmdec_status status = bsmdec_decode(bytes, size, NULL, &mesh); status == BSMDEC_OK;
+        status = bsmdec_advance(mesh)) {
         check_host("bsmdec_decode or bsmdec_advance");
         buffers = add_number(buffers, (int64_t)digest_of_buffers(mesh));
         if (mesh->frame < 0) break;
@@ -72,8 +73,9 @@ static void print_stream(const char *path) {
     bsmdec_release(mesh);
     const bsmdec_error *error = bsmdec_last_error(decoder);
     const char *base = strrchr(path, '/');
-    printf("%s %d %lu %016llx %016llx %ld/%ld/%ld %s\n", base != NULL ? base + 1 : path, (int)status, (unsigned long)count,
-        (unsigned long long)digest, (unsigned long long)buffers, (long)error->offset, (long)error->frame, (long)error->block, error->message);
+    printf("%s %d %lu %016llx %016llx %ld/%ld/%ld %s\n", base != NULL ? base + 1 : path, (int)status,
+        (unsigned long)count, (unsigned long long)digest, (unsigned long long)buffers, (long)error->offset,
+        (long)error->frame, (long)error->block, error->message);
     bsmdec_close(decoder);
     free(bytes);
 }

@@ -1,4 +1,4 @@
-/* Decodes streams and prints a digest of each: `digests STREAM...`. Builds of bsmdec that print the same give the same bits. */
+/* Prints a digest of each decoded stream: `digests STREAM...`. Builds of bsmdec with equal output decode alike. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Linked into wheels: what the C++ library and our kernels would otherwise take from a newer glibc than wheels ask for. */
+/* Linked into wheels: what they would otherwise take from a newer glibc than wheels ask for. */
 #define HIDDEN __attribute__((visibility("hidden")))
 
 /* glibc 2.32 tells the C++ library whether locks are needless; 0: it keeps them. */

@@ -47,19 +47,20 @@ static bool fits_pairs(ConstInts2 pairs, int64_t faces) {
     return true;
 }
 
-/* How many pairs of faces around a vertex have a bend whose cosine is between `least` and `largest`; `pairs` (k x 2) gets the
- * first k of them, `sharp` whether the cosine is at most `cosine`, and `costs` the area of the corners that are shaded
- * otherwise then: a third of both faces at each vertex that they share. Faces around a vertex are `around`, from its `starts` on;
- * of more than `most` each is shaded by itself. `crosses` is room for four numbers a face. */
-KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around, int64_t most,
-                               double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp,
-                               Doubles costs) {
+/* How many pairs of faces around a vertex have a bend whose cosine is between `least` and `largest`; `pairs` (k x 2)
+ * gets the first k of them, `sharp` whether the cosine is at most `cosine`, and `costs` the area of the corners that
+ * are shaded otherwise then: a third of both faces at each vertex that they share. Faces around a vertex are `around`,
+ * from its `starts` on; of more than `most` each is shaded by itself. `crosses` is room for four numbers a face. */
+KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstLongs starts, ConstInts around,
+    int64_t most, double cosine, double least, double largest, Doubles2 crosses, Ints2 pairs, Bytes sharp,
+    Doubles costs) {
     int64_t n = positions.rows, found = 0;
     if (positions.columns != 3 || !fits_faces(faces, n) || starts.size != n + 1 || crosses.rows != faces.rows ||
         crosses.columns != 4 || pairs.columns != 2 || sharp.size != pairs.rows || costs.size != pairs.rows)
         return MISUSED;
     for (int64_t v = 0; v < n; v++)
-        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > around.size) return MISUSED;
+        if (starts.data[v] < 0 || starts.data[v] > starts.data[v + 1] || starts.data[v + 1] > around.size)
+            return MISUSED;
     for (int64_t i = 0; i < around.size; i++)
         if (around.data[i] < 0 || around.data[i] >= faces.rows) return MISUSED;
     for (int64_t f = 0; f < faces.rows; f++) {
@@ -71,7 +72,8 @@ KERNEL int64_t collect_creases(ConstDoubles2 positions, ConstInts2 faces, ConstL
         int64_t from = starts.data[v], to = starts.data[v + 1];
         for (int64_t i = from; to - from <= most && i < to; i++)
             for (int64_t j = from; j < i; j++) {
-                const double *f = crosses.data + 4 * (int64_t)around.data[i], *g = crosses.data + 4 * (int64_t)around.data[j];
+                const double *f = crosses.data + 4 * (int64_t)around.data[i],
+                             *g = crosses.data + 4 * (int64_t)around.data[j];
                 double bend = dot(f, g), unit = f[3] * g[3];
                 if (!(bend > least * unit && bend < largest * unit)) continue;
                 const int32_t *face = faces.data + SIDES * (int64_t)around.data[i];
@@ -102,8 +104,8 @@ INLINE int vertices_of(const int32_t *faces, const int32_t *pair, int32_t *verti
     return count;
 }
 
-/* Group pairs by the vertices of their faces: `members`, with room for six a pair, gets those of vertex v from `starts[v]`
- * on. Returns how many members there are. */
+/* Group pairs by the vertices of their faces: `members`, with room for six a pair, gets those of vertex v from
+ * `starts[v]` on. Returns how many members there are. */
 KERNEL int64_t hang_creases(ConstInts2 faces, ConstInts2 pairs, Ints starts, Ints members) {
     int64_t n = starts.size - 1;
     if (n < 0 || !fits_faces(faces, n) || !fits_pairs(pairs, faces.rows) || members.size < 2 * SIDES * pairs.rows)

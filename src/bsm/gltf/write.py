@@ -142,7 +142,7 @@ class _Still(_Scene):
     def _material(
         self, number: int, words: formats.Material, images: Mapping[int, tuple[str, bytes]], written: set[str]
     ) -> int | None:
-        """Add a material; None if glTF can express nothing of it. Names of metadata that it expresses go to `said`."""
+        """Add a material; None if glTF can express nothing of it. `written` gets the names of what it expresses."""
         found: Tree = {}
         surface: Tree = {}
         for name, value in formats.gltf_values(words).items():

@@ -130,8 +130,8 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     if job.permutation and chosen.runs:
         raise OptionError("--permutation is the order of one mesh, and --runs lets the faces change")
     rate = {"frame_rate": source.frame_rate} if source.frame_rate else {}
-    said = {**source.metadata, **rate, **job.metadata}
-    metadata, generations = with_provenance(said, job.provenance, job.input, job.options, chosen)
+    entries = {**source.metadata, **rate, **job.metadata}
+    metadata, generations = with_provenance(entries, job.provenance, job.input, job.options, chosen)
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
     check = VerifyingDecoder(looks=chosen.promise is None or chosen.promise.look == math.inf)
     size = 0

@@ -38,7 +38,7 @@ class Task:
 
     overhead: ClassVar[float] = 0.02
     seconds_of_megabyte: ClassVar[float] = 0.7  # about what a task takes of an input, measured on a core of 2023
-    of_kinds: ClassVar[Mapping[str, float]] = {".obj": 0.5, ".stl": 0.5, ".glb": 0.5, ".npz": 1.6}  # of that
+    of_kinds: ClassVar[Mapping[str, float]] = {".obj": 0.5, ".stl": 0.5, ".glb": 0.5, ".npz": 1.6}  # times that
 
     def seconds_of(self, name: str) -> float:
         """How long the task takes, as far as its input tells."""

@@ -81,8 +81,8 @@ INLINE bool corners_now(const Surface *surface, int64_t face, int32_t *corners) 
 
 /* Whether the triangles around `a` keep their sides when it goes to `p`; counts those with `b`, and neighbors that have
  * one mark, which get the other. */
-static bool turns_around(Surface *surface, int32_t a, int32_t b, const double *p, int32_t had, int32_t given, int *shared,
-                         int *others, int *common) {
+static bool turns_around(Surface *surface, int32_t a, int32_t b, const double *p, int32_t had, int32_t given,
+    int *shared, int *others, int *common) {
     for (int64_t k = surface->starts[a]; k < surface->starts[a + 1]; k++) {
         int32_t corners[3];
         if (!corners_now(surface, surface->around[k], corners)) continue;
@@ -103,15 +103,15 @@ static bool turns_around(Surface *surface, int32_t a, int32_t b, const double *p
             continue;
         }
         ++*others;
-        double old[3], new[3], along = 0.0, olds = 0.0, news = 0.0;
+        double old[3], new[3], along = 0.0, old_square = 0.0, new_square = 0.0;
         cross_of(before[0], before[1], before[2], old);
         cross_of(after[0], after[1], after[2], new);
         for (int i = 0; i < 3; i++) {
             along += old[i] * new[i];
-            olds += old[i] * old[i];
-            news += new[i] * new[i];
+            old_square += old[i] * old[i];
+            new_square += new[i] * new[i];
         }
-        if (olds > 0.0 && (along <= 0.0 || along * along < TURN * TURN * olds * news)) return true;
+        if (old_square > 0.0 && (along <= 0.0 || along * along < TURN * TURN * old_square * new_square)) return true;
     }
     return false;
 }
@@ -167,13 +167,14 @@ INLINE int64_t bucket_of(float cost) {
     union {
         float number;
         uint32_t bits;
-    } told = {cost};
-    return told.bits >> 16;
+    } value = {cost};
+    return value.bits >> 16;
 }
 
 /* Make fewer of triangles with three different corners, about `target`; `states` is 1 for vertices that stay where they
- * are. Returns how many there are, which stand first; `owners` are what vertices have become. Scratch: quadrics, `ends` and `marks` for each vertex, one
- * more of `starts`, three of `around` for each triangle, and as many costs as there are edges. */
+ * are. Returns how many there are, which stand first; `owners` are what vertices have become. Scratch: quadrics, `ends`
+ * and `marks` for each vertex, one more of `starts`, three of `around` for each triangle, and as many costs as there
+ * are edges. */
 int64_t simplify(Doubles2 positions, Ints2 faces, Bytes states, Doubles2 quadrics, Ints starts, Ints around, Ints ends,
                  Ints marks, Ints owners, Singles costs, Ints buckets, int64_t target) {
     int64_t size = positions.rows, count = faces.rows;

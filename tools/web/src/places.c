@@ -8,9 +8,9 @@ static int64_t cell_of(int64_t value, int64_t cells, int64_t points) {
     return points > 0 ? (2 * value * cells + points) / (2 * points) : value;
 }
 
-/* Where `vertices` are, a row for each, and in the rows of all. `frame`: corner, center, and scale. Returns whether all is
- * finite. */
-int64_t place_values(ConstInts2 values, ConstInts vertices, int64_t cells, int64_t points, ConstDoubles frame, Doubles2 places, Doubles2 all) {
+/* Place `vertices`, a row each, and in the rows of all. `frame`: corner, center, scale. False if one is not finite. */
+int64_t place_values(ConstInts2 values, ConstInts vertices, int64_t cells, int64_t points, ConstDoubles frame,
+    Doubles2 places, Doubles2 all) {
     if (values.columns != AXES || places.columns != AXES || all.columns != AXES || all.rows != values.rows
         || places.rows != vertices.size || frame.size != 2 * AXES + 1)
         return MISUSED;

@@ -1,7 +1,7 @@
 /* The tables of `bitstream/entropy/tables.c` and `bitstream/fields/tables.c`, computed: so nobody has to fetch them.
  *
- * No entry is nearer than 0.0001 to where rounding changes (specification, C 2.1, V 14.3); what is computed here is off by less
- * than 0.00000001. `scripts/kernels.mjs` compares all of them. */
+ * No entry is nearer than 0.0001 to where rounding changes (specification, C 2.1, V 14.3); what is computed here is off
+ * by less than 0.00000001. `scripts/kernels.mjs` compares all of them. */
 #include <stdint.h>
 
 uint16_t SQUASH[5760], RECIPROCAL[1024];
