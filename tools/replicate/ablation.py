@@ -6,11 +6,11 @@ decoded, only counted: its decoding time is not known.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
+from statistics import fmean, median
 from typing import Any
 from unittest.mock import patch
 
@@ -209,10 +209,8 @@ def ablation_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
         blocks = [entry["bytes"] for entry, row in entries if in_blocks(row)]
         other = [entry for entry, _ in entries if entry["bytes"] != 1.0]
         times = [entry["decode"] for entry in other if "decode" in entry]
-        mean, time_ = (
-            f"{number:.3f}" if of else "-" for number, of in ((_mean(blocks), blocks), (_median(times), times))
-        )
-        found.append((name, *cells, str(len(other)), mean, time_))
+        mean, seconds = (f"{of(numbers):.3f}" if numbers else "-" for of, numbers in ((fmean, blocks), (median, times)))
+        found.append((name, *cells, str(len(other)), mean, seconds))
     return found
 
 
@@ -237,11 +235,3 @@ def ablation_note(rows: Sequence[Row]) -> str:
         f"Worth less than {100 * (LITTLE - 1):.1f} % in the mean: {'; '.join(little) or 'none'}. "
         f"Of these, also where blocks are coded: {'; '.join(idle) or 'none'}."
     )
-
-
-def _mean(values: Sequence[float]) -> float:
-    return float(np.mean(values)) if values else math.nan
-
-
-def _median(values: Sequence[float]) -> float:
-    return float(np.median(values)) if values else math.nan

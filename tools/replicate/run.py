@@ -21,8 +21,8 @@ from tools.replicate.paper import TABLES, Job, make_tables
 from tools.replicate.rates import Row, measure_mesh, time_mesh
 from tools.replicate.stages import run_stage
 
-ABLATED, SIZES = 30, (500, 4000)
-"""Meshes of the ablation, and of how many vertices."""
+ABLATED = {(500, 4000): 30, (8000, 12_000): 4}
+"""Meshes of the ablation, by how many vertices they have."""
 TIMED, QUICK_SIZE = 24, 4000
 NOISED, NOISY = 12, (2000, 6000)
 """Meshes that are denoised, and of how many vertices."""
@@ -37,6 +37,11 @@ def note(text: str) -> None:
 def spread_over(sources: list[Source], count: int) -> list[Source]:
     """`count` of them, evenly over their sizes."""
     return sources[:: max(1, len(sources) // count)][:count]
+
+
+def unseen(sources: list[Source], sizes: tuple[int, int]) -> list[Source]:
+    """Those that nothing was tuned on, of so many vertices."""
+    return [source for source in sources if source.group == "unseen" and sizes[0] <= source.vertices <= sizes[1]]
 
 
 def shuffled(sources: list[Source]) -> list[Source]:
@@ -58,18 +63,16 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
         chosen = shuffled([s for s in sources if not quick or s.vertices <= QUICK_SIZE])
         run_stage(measure_mesh, chosen, folder / "rates", minutes["rates"], note, package, workers=workers)
     if "ablation" in minutes:
-        some = [s for s in sources if s.group == "unseen" and SIZES[0] <= s.vertices <= SIZES[1]]
-        chosen = spread_over(some, ABLATED)
-        run_stage(ablate_mesh, shuffled(chosen), folder / "ablation", minutes["ablation"], note, workers=workers)
+        chosen = [s for sizes, count in ABLATED.items() for s in shuffled(spread_over(unseen(sources, sizes), count))]
+        run_stage(ablate_mesh, chosen, folder / "ablation", minutes["ablation"], note, workers=workers)
     if "times" in minutes:
         run_stage(time_mesh, shuffled(spread_over(sources, TIMED)), folder / "times", minutes["times"], note, workers=1)
     if "motion" in minutes:
         moving = sequences(sources, own, quick)
         run_stage(measure_motion, moving, folder / "motion", minutes["motion"], note, workers=workers)
     if "denoising" in minutes:
-        some = [s for s in sources if s.group == "unseen" and NOISY[0] <= s.vertices <= NOISY[1]]
         shared = [] if quick or not own else pairs(own)
-        chosen = [*shuffled(spread_over(some, NOISED)), *shared]
+        chosen = [*shuffled(spread_over(unseen(sources, NOISY), NOISED)), *shared]
         run_stage(denoise_mesh, chosen, folder / "denoising", minutes["denoising"], note, workers=workers)
     if "paper" in minutes:
         jobs = [Job(name, None if quick else own, sources, quick) for name in TABLES]
