@@ -136,8 +136,16 @@ class TestTables:
         results |= {"ablation": [tools], "motion": [moving], "denoising": [noisy, paired], "paper": [printed]}
         report.write(results, tmp_path, lambda _: None)
         names = {path.name for path in tmp_path.iterdir()}
-        stems = ("rates-unseen", "files-tuned", "spread-unseen", "times-unseen", "ablation", "motion", "denoising")
-        for stem in (*stems, "denoising-pairs", "paper-0"):
+        stems = (
+            "rates-unseen",
+            "rates-files-tuned",
+            "rates-spread-unseen",
+            "times-unseen",
+            "ablation",
+            "motion",
+            "denoising",
+        )
+        for stem in (*stems, "denoising", "denoising-pairs", "paper-0"):
             assert {f"{stem}.md", f"{stem}.tex"} <= names
         for stem in ("rates", "times", "ablation", "motion"):
             assert {f"{stem}.pdf", f"{stem}.png"} <= names
@@ -150,7 +158,7 @@ class TestTables:
         page.write_text("# Old\n\nwords\n\n## Moving meshes\n\nCommit a.\n\n| t |\n")
         monkeypatch.setattr(report, "PAGE", page)
         for commit in ("b", "c"):
-            report.write_page({"rates": [row()]}, {"commit": commit, "processor": "p", "date": "d"})
+            report.write_page({"rates": [row()]}, {"rates": {"commit": commit, "processor": "p", "date": "d"}})
         text = page.read_text()
         assert text.startswith("# Measured\n") and "words" not in text and "Commit c, p, d" in text
         assert "Commit b" not in text and "## Moving meshes\n\nCommit a.\n\n| t |\n" in text and "| default" in text

@@ -51,12 +51,12 @@ def tables(results: dict[str, list[Row]]) -> dict[str, Table]:
         if rows:
             found[f"rates-{group}"] = _medians(rows, words)
             worst = [line for line in summary(rows) if line[0] in ("BD-rate", "default", "fine")]
-            found[f"spread-{group}"] = Table(f"Mean, spread and worst mesh, {words}", COLUMNS, worst)
+            found[f"rates-spread-{group}"] = Table(f"Mean, spread and worst mesh, {words}", COLUMNS, worst)
         if files := file_table(rows):
             note = (
                 "Draco: 11 bits, level 10. Distances by our look; the last column is bytes over Draco's at that look."
             )
-            found[f"files-{group}"] = Table(f"Files of 20 meshes, {words}", FILES, files, note)
+            found[f"rates-files-{group}"] = Table(f"Files of 20 meshes, {words}", FILES, files, note)
         timed = [row for row in results.get("times", []) if row["group"] == group]
         if timed:
             note = "One thread, processor seconds over Draco's (11 bits, level 10), the least of three by turns."
@@ -70,7 +70,7 @@ def tables(results: dict[str, list[Row]]) -> dict[str, Table]:
             spread(name, "bytes", [(row["tools"][name], row["sequence"]) for row in results["motion"]])
             for name in MOVING_TOOLS
         ]
-        found["ablation-motion"] = Table("Without each tool, moving meshes", ("tool left out", *COLUMNS[1:]), moving)
+        found["motion-ablation"] = Table("Without each tool, moving meshes", ("tool left out", *COLUMNS[1:]), moving)
     noisy = results.get("denoising", [])
     if any(row["group"] != "pairs" for row in noisy):
         lines = denoising_table(noisy)
@@ -192,12 +192,14 @@ def write(results: dict[str, list[Row]], folder: Path, note: Callable[[str], Non
     note(f"{folder}: tables, figures and results.json")
 
 
-def write_page(results: dict[str, list[Row]], facts: dict[str, Any]) -> None:
-    """Put the tables into docs/measured.md; a table that this run did not make stays, with its own commit."""
+def write_page(results: dict[str, list[Row]], facts: dict[str, dict[str, Any]]) -> None:
+    """Put the tables into docs/measured.md, with the facts of their stages; what no run in this folder made stays."""
     page = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
     kept = {f"## {part.partition(chr(10))[0]}": part.partition("\n")[2].strip() for part in page.split("\n## ")[1:]}
-    origin = f"Commit {facts['commit']}, {facts['processor']}, {facts['date']}."
-    for entry in tables(results).values():
+    for name, entry in tables(results).items():
+        if not (run := facts.get(name.split("-")[0])):
+            continue
+        origin = f"Commit {run['commit']}, {run['processor']}, {run['date']}."
         words = fill(f"{entry.note} {origin}".strip(), 120)
         kept[f"## {entry.title}"] = f"{words}\n\n{table(entry.columns, entry.rows)}"
     parts = [f"{title}\n\n{text}" for title, text in kept.items()]

@@ -40,7 +40,7 @@ def spread_over(sources: list[Source], count: int) -> list[Source]:
 
 
 def unseen(sources: list[Source], sizes: tuple[int, int]) -> list[Source]:
-    """Those that nothing was tuned on, of so many vertices."""
+    """Those that nothing was tuned on, by their numbers of vertices."""
     return [source for source in sources if source.group == "unseen" and sizes[0] <= source.vertices <= sizes[1]]
 
 
@@ -79,8 +79,10 @@ def measure_all(folder: Path, minutes: dict[str, float], *, quick: bool, docs: b
         run_stage(make_tables, jobs, folder / "paper", minutes["paper"], note, workers=workers)
         curves(sources, folder, minutes["paper"], quick)
     results = read(folder)
-    facts = describe(time.monotonic() - begin)
-    (folder / "results.json").write_text(json.dumps({**facts, **results}, indent=1), encoding="utf-8")
+    path = folder / "results.json"
+    facts = json.loads(path.read_text(encoding="utf-8")).get("runs", {}) if path.exists() else {}
+    facts |= dict.fromkeys(minutes, describe(time.monotonic() - begin))
+    path.write_text(json.dumps({"runs": facts, **results}, indent=1), encoding="utf-8")
     report.write(results, folder, note)
     if docs:
         report.write_page(results, facts)
