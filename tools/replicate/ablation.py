@@ -83,10 +83,6 @@ def _upright(positions: Any, faces: Any) -> Any:
     return np.tile(np.eye(3).reshape(-1), (len(positions), 1))
 
 
-def _as_found(found: Any, *_: Any) -> Any:
-    return found
-
-
 TOOLS: dict[str, Tool] = {
     "blocks (grids alone)": Tool({}, [(search.Search, "_ways", _ways(lambda way: isinstance(way, Gridded)))]),
     "refinement (blocks alone)": Tool({}, [(search.Search, "_ways", _ways(lambda _: True, plain=True))]),
@@ -108,7 +104,7 @@ TOOLS: dict[str, Tool] = {
     "choice of refinement by rate": Tool({}, [(blocks, "PULLED", 1e-9)]),
     "weights of what is seen": Tool({}, [(blocks.Refined, "_sensitivity", None)]),
     "frames along normals": Tool({}, [(blocks, "local_frames", _upright)], decodes=False),
-    "unfolding of faces": Tool({}, [(search, "unfolded", _as_found)]),
+    "unfolding of faces": Tool({}, [(search, "unfolded", lambda found, *_: found)]),
     "overlap and blending": Tool({"overlap": 1.0}),
     "warm start": Tool({"key_interval": 1}),
     "springs and prediction": Tool({"predict": False}),
