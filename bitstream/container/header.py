@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import operator
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, TypeAlias, TypeVar
@@ -126,7 +125,7 @@ def paper_of(entry: tuple[float, ...], law: Paper) -> Paper:
 
 @dataclass(frozen=True, kw_only=True)
 class Header:
-    """What a decoder must know before anything else; a header with illegal or contradictory values cannot be made."""
+    """What a decoder must know before anything else; decoders refuse fields that contradict each other."""
 
     vertices: int = integer(1, 1, COUNT)
     faces: int = integer(2, 1, COUNT)
@@ -160,11 +159,6 @@ class Header:
 
     def __post_init__(self) -> None:
         normalise_fields(self, "header")
-        problem = contradiction(self)
-        if problem:
-            raise OptionError(f"header contradicts itself: {problem}")
-        if self.paper and self.constants == self.law:
-            raise OptionError("header field paper says what holds without it")
 
     @property
     def law(self) -> Paper:
@@ -228,71 +222,7 @@ LAW, LAW_OF_SEQUENCES = Paper(), Paper(iterations=2, shift=2.0**-5)
 """Constants of static meshes, and of the first frames of sequences."""
 
 
-def contradiction(header: Header) -> str | None:
-    """Which two fields of a header exclude each other, or None."""
-    if header.grid:
-        own = _grid_rules(header)
-    elif header.mesh_of is not None:
-        own = _others("the mesh of another run", header, ("sequence", "run"))
-    else:
-        own = _block_rules(header)
-    return next((problem for problem, broken in (_common_rules(header) | own).items() if broken), None)
-
-
 EXACT = 2  # `light`: floats in the cells of a grid follow its values
-
-
-def _common_rules(header: Header) -> dict[str, bool]:
-    return {
-        "more vertices than the corners of its faces": header.vertices > 3 * header.faces,
-        "a sequence that is not frames and a length for GOPs": bool(header.sequence) and header.gop_frames == 0,
-        "a run of a static mesh": bool(header.run) and not header.sequence,
-        "a run that is stored although it is the first": header.run == (0,),
-        "the mesh of a run that has not been": header.mesh_of is not None and header.mesh_of >= header.run_number,
-        "a paper that is not eight numbers": len(header.paper) not in (0, 8),
-    }
-
-
-def _grid_rules(header: Header) -> dict[str, bool]:
-    cells, points = header.lattice if len(header.lattice) == 2 else (0, 0)
-    return {
-        "a grid of other than three axes": len(header.grid) != 3,
-        "a lattice that is not cells and points": bool(header.lattice) and not points,
-        "a lattice with fewer points than the grid has values": 0 < points < max(header.grid),
-        "a lattice of more points than cells": points > cells,
-        "a corner that is not one of three axes": len(header.corner) not in (0, 3),
-        "a corner and a center": bool(header.corner) and any(header.center),
-        "floats in the cells of a lattice, or of cells that are counted": header.light == EXACT
-        and bool(header.lattice or header.corner),
-    } | _others("a grid", header, ("grid", "lattice", "center", "scale", "attributes", "corner", "light"))
-
-
-def _others(what: str, header: Header, fitting: tuple[str, ...]) -> dict[str, bool]:
-    """Every field but those that fit must have its default."""
-    return {
-        f"{what}, and {name}": getattr(header, name) != default
-        for name, default in HEADER_DEFAULTS.items()
-        if name not in fitting
-    }
-
-
-def _block_rules(header: Header) -> dict[str, bool]:
-    layer = header.layer
-    return {
-        "neither blocks nor a grid": not (header.blocks and header.block_size and header.coefficients),
-        "a lattice without a grid": bool(header.lattice),
-        "a corner without a grid": bool(header.corner),
-        "light values without a grid": bool(header.light),
-        "more blocks than vertices": header.blocks > header.vertices,
-        "blocks larger than the mesh": header.block_size > header.vertices,
-        "blocks too small to cover the mesh": header.blocks * header.block_size < header.vertices,
-        "blocks that overlap too much": header.blocks * header.block_size > MOST_COPIES * header.vertices + FREE_COPIES,
-        "more coefficients than a block has vertices": header.coefficients > header.block_size,
-        "a refinement that is not step and ratio": bool(header.refinement) and layer is None,
-        "a step of a refinement that is not in 2^-40..1": layer is not None and not 2.0**-40 <= layer.step <= 1,
-        "a ratio of a refinement that is not in 1/16..64": layer is not None and layer.ratio < 1 / 16,
-        "a refinement of a sequence": bool(header.refinement) and bool(header.sequence),
-    }
 
 
 def entries_of(record: Any) -> list[tuple[int, Any]]:
@@ -325,18 +255,12 @@ MOST_NAME = 255
 MOST_COMPONENTS = 4
 MOST_WORDS = 2 * MOST_COMPONENTS  # numbers in a coded value: two for each component where they are doubles to the bit
 MOST_LEVEL = 2**32 - 1
-_OCTAHEDRAL = range(2, 2**16, 2)
-_INTEGERS = {0: (0, 2**8 - 1), 1: (-(2**7), 2**7 - 1), 2: (0, 2**16 - 1), 3: (-(2**15), 2**15 - 1)} | {
-    4: (0, 2**32 - 1),
-    5: (-(2**31), 2**31 - 1),
-}
-FLOAT32, FLOAT64 = 6, 7
-_LARGEST_SINGLE = float.fromhex("0x1.fffffep+127")
+FLOAT32 = 6
 
 
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
-    """An attribute, but for its values; one with illegal or contradictory fields cannot be made."""
+    """An attribute, but for its values; decoders refuse fields that contradict each other."""
 
     name: str = text(1, 1, MOST_NAME)
     domain: int = method(2, known=3)  # what has a value in the stream: VERTEX, CORNER or FACE
@@ -360,9 +284,6 @@ class Declaration:
 
     def __post_init__(self) -> None:
         normalise_fields(self, "attribute")
-        problem = next((problem for problem, broken in _rules(self).items() if broken), None) or _range_problem(self)
-        if problem:
-            raise OptionError(f"attribute {self.name!r} contradicts itself: {problem}")
 
     @property
     def words(self) -> int:
@@ -383,45 +304,3 @@ class Declaration:
     def steps(self) -> tuple[float, ...]:
         """One level of each coded number."""
         return self.step * self.words if len(self.step) == 1 else self.step or (1.0,) * self.words
-
-
-def _rules(d: Declaration) -> dict[str, bool]:
-    unit = d.components == 3 and d.is_float
-    return {
-        "faces that are given by something else": d.domain == FACE and d.origin != AS_CODED,
-        "octahedral values that are not three floats": d.coding == OCTAHEDRAL and not unit,
-        "recomputed values that are not three floats": d.coding == RECOMPUTED and not unit,
-        "recomputed values of faces": d.coding == RECOMPUTED and d.domain == FACE,
-        "bits of integers": d.coding == BITS and not d.is_float,
-        "recomputed values that are coded": d.coding == RECOMPUTED and (d.rows > 0 or d.leans > 0),
-        "no values": d.coding != RECOMPUTED and d.rows == 0,
-        "other than a largest level for each number": len(d.largest) != d.words,
-        "offsets or steps of octahedral or recomputed values": d.coding in (OCTAHEDRAL, RECOMPUTED)
-        and bool(d.offset or d.step),
-        "steps of bits": d.coding == BITS and bool(d.step),
-        "other than an offset for each number": len(d.offset) not in (0, d.words),
-        "other than a step for all or for each number": len(d.step) not in (0, 1, d.words),
-        "octahedral levels that are not two of the same even number": d.coding == OCTAHEDRAL
-        and not any(d.largest == (most, most) for most in d.largest[:1] if most in _OCTAHEDRAL),
-        "values of faces that lean on positions": d.domain == FACE and d.leans > 0,
-        "values that move and are not levels of vertices": d.moves > 0
-        and (d.domain, d.origin, d.coding) != (VERTEX, AS_CODED, LEVELS),
-        "seams where there are no corners": d.seams_of > 0 and d.domain != CORNER,
-    }
-
-
-def _range_problem(d: Declaration) -> str | None:
-    """Return why the values of the levels do not fit the kind."""
-    for largest, offset, step in zip(d.largest, d.offsets, d.steps, strict=True):
-        last = offset + step * largest
-        if d.coding == BITS and not (offset >= 0 and offset.is_integer() and last <= MOST_LEVEL):
-            return f"bits from {offset} to {last}"
-        if d.coding == LEVELS and d.is_float:
-            most = _LARGEST_SINGLE if d.kind == FLOAT32 else 1e308
-            if not (math.isfinite(last) and abs(offset) <= most and abs(last) <= most):
-                return f"values from {offset} to {last}"
-        if d.coding == LEVELS and not d.is_float:
-            low, high = _INTEGERS[d.kind]
-            if not (offset.is_integer() and step.is_integer() and offset >= low and last <= high):
-                return f"values from {offset} to {last} in steps of {step}"
-    return None
