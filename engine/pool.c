@@ -35,14 +35,18 @@ static void *take_units(Chunk *chunk, size_t units) {
     return NULL;
 }
 
-/* Whole chunks; a system without huge pages refuses the advice, which does no harm. */
+/* Whole chunks from the system: malloc would keep the parts between aligned ones. Without huge pages, small ones do. */
 static void *take_huge(size_t size) {
-    void *memory = aligned_alloc(CHUNK, size);
-#ifdef MADV_HUGEPAGE /* not where compilers know strict C alone */
-    if (memory != NULL) madvise(memory, size, MADV_HUGEPAGE);
-#endif
-    return memory;
+    char *memory = mmap(NULL, size + CHUNK, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) return NULL;
+    size_t before = -(uintptr_t)memory % CHUNK;
+    if (before > 0) munmap(memory, before);
+    if (before < CHUNK) munmap(memory + before + size, CHUNK - before);
+    madvise(memory + before, size, MADV_HUGEPAGE);
+    return memory + before;
 }
+
+static void give_huge(void *memory, size_t size) { munmap(memory, (size + CHUNK - 1) / CHUNK * CHUNK); }
 
 static Chunk *add_chunk(Pool *pool) {
     Chunk *chunk = malloc(sizeof *chunk);
@@ -76,7 +80,7 @@ static bool give_to_chunks(Pool *pool, char *memory, size_t units) {
         others |= other != chunk && other->used == 0;
     if (chunk->used != 0 || !others) return true;
     *link = chunk->next;
-    free(chunk->memory);
+    give_huge(chunk->memory, CHUNK);
     free(chunk);
     return true;
 }
@@ -101,7 +105,10 @@ static void give(void *host, void *memory, size_t size) {
         unlock(pool);
         if (given) return;
     }
-    free(memory);
+    if (pool != NULL && size > CHUNK)
+        give_huge(memory, size);
+    else
+        free(memory);
 }
 
 bsmdec_allocator with_pool(bsmdec_allocator host, Pool *pool) {
@@ -114,7 +121,7 @@ bsmdec_allocator without_pool(bsmdec_allocator host) {
     while (pool != NULL && pool->chunks != NULL) {
         Chunk *chunk = pool->chunks;
         pool->chunks = chunk->next;
-        free(chunk->memory);
+        give_huge(chunk->memory, CHUNK);
         free(chunk);
     }
     if (pool != NULL) host.host = NULL;

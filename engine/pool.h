@@ -11,8 +11,8 @@
 #endif
 #endif
 /* What checks memory has to see each piece by itself. */
-#if __STDC_HOSTED__ && defined(__linux__) && !defined(__ANDROID__) && !defined(__SANITIZE_ADDRESS__) \
-    && !defined(BSMDEC_CHECKED)
+#if __STDC_HOSTED__ && defined(__linux__) && !defined(__ANDROID__) && !defined(__STRICT_ANSI__) \
+    && !defined(__SANITIZE_ADDRESS__) && !defined(BSMDEC_CHECKED)
 #define BSMDEC_POOL
 #endif
 

@@ -2,15 +2,38 @@
 
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
+import bsm
+from bsm.evaluation.sample import knot
 from tests.engine.decoding import compiled
 from tools.amalgamate import ROOT
 
 FOUND = r"\b(?:find_memory|find_zeros|host_memory)\("
 ENGINE = [path for path in sorted((ROOT / "engine").rglob("*.c")) if "examples" not in path.parts]
+AGAIN = """#include <bsmdec.h>
+#include <stdio.h>
+
+int main(int count, char **names) {
+    static unsigned char bytes[1 << 16];
+    FILE *file = fopen(names[count - 1], "rb");
+    size_t size = fread(bytes, 1, sizeof bytes, file);
+    for (int i = 1; i <= 12; i++) {
+        bsmdec_mesh *mesh;
+        if (bsmdec_decode(bytes, size, NULL, &mesh) != BSMDEC_OK) return 1;
+        bsmdec_release(mesh);
+        if (i != 2 && i != 12) continue;
+        FILE *status = fopen("/proc/self/status", "r");
+        long most = 0;
+        for (char line[256]; fgets(line, sizeof line, status);) sscanf(line, "VmHWM: %ld", &most);
+        fclose(status);
+        printf("%ld\\n", most);
+    }
+}
+"""
 CARELESS = '#include "engine/context.h"\nvoid go_on(Arena *arena, Ints *values) { take_ints(arena, 3, values); }\n'
 SAMPLE = ("exact-tiny", "packed-zstd", "pieces-follow", "attribute-colors", "exact-splits", "sequence-learnt")
 
@@ -31,6 +54,18 @@ def test_memory_is_taken_by_what_says_whether_it_is_there() -> None:
         if path.name != "context.c":
             others = re.sub(rf"is_there\(\*?[\w.>-]+ = {FOUND}", "", path.read_text())
             assert not re.search(FOUND, others), path.name
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc of Linux says how much memory there was")
+def test_decoding_again_takes_no_more_memory(tmp_path: Path) -> None:
+    made, stream = compiled(), tmp_path / "knot.bsm"
+    stream.write_bytes(bsm.encode(knot(12_000), step=2.0**-10, smoothing=1.0, coefficients=48))
+    (tmp_path / "again.c").write_text(AGAIN, encoding="ascii")
+    command = ["cc", f"-I{made}", tmp_path / "again.c", "-o", tmp_path / "again"]
+    subprocess.run([*command, made / "bsmdec.so", f"-Wl,-rpath,{made}"], check=True)
+    run = subprocess.run([tmp_path / "again", stream], capture_output=True, text=True, check=True)
+    second, last = map(int, run.stdout.split())
+    assert last < second + 4096  # KiB
 
 
 @pytest.mark.slow
