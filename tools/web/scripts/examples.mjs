@@ -49,7 +49,7 @@ async function look() {
             const page = await browser.newPage({ viewport: { width: 400, height: 300 } });
             const wrong = [];
             page.on("pageerror", (error) => wrong.push(error.message));
-            page.on("console", (said) => said.type() === "error" && !said.location().url.endsWith("/favicon.ico") && wrong.push(said.text()));
+            page.on("console", (message) => message.type() === "error" && !message.location().url.endsWith("/favicon.ico") && wrong.push(message.text()));
             await page.goto(`http://127.0.0.1:${server.address().port}/${name}/`);
             await page.waitForFunction(() => document.title === "loaded", undefined, { timeout: 30_000 });
             await page.evaluate(() => new Promise((drawn) => setTimeout(drawn, 500)));

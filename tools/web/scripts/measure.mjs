@@ -15,7 +15,7 @@ for (const path of paths) {
     const data = new Uint8Array(readFileSync(path));
     globalThis.gc();
     const [before, begin] = [process.memoryUsage.rss(), seconds()];
-    const told = { vertices: 0, shown: 0, work: 0, memory: 0, seconds: 0, escaped: "", outcome: "decoded" };
+    const result = { vertices: 0, shown: 0, work: 0, memory: 0, seconds: 0, escaped: "", outcome: "decoded" };
     let size = 0;
     const decoder = new Decoder(kernels);
     try {
@@ -23,15 +23,15 @@ for (const path of paths) {
         decoder.receiveEof();
         for (let event; (event = decoder.nextEvent()) !== END_OF_STREAM; ) {
             if (event.type === "header") size = event.header.vertices;
-            if (event.type === "frame") told.shown += size;
-            told.memory = Math.max(told.memory, process.memoryUsage.rss() - before);
+            if (event.type === "frame") result.shown += size;
+            result.memory = Math.max(result.memory, process.memoryUsage.rss() - before);
         }
     } catch (error) {
-        told.outcome = `${error}`.slice(0, 100);
-        if (!(error instanceof BsmError)) told.escaped = `${error}`;
+        result.outcome = `${error}`.slice(0, 100);
+        if (!(error instanceof BsmError)) result.escaped = `${error}`;
     }
-    [told.vertices, told.work] = [decoder.vertices, decoder.work];
-    told.memory = Math.max(told.memory, process.memoryUsage.rss() - before);
-    told.seconds = seconds() - begin;
-    console.log(JSON.stringify(told));
+    [result.vertices, result.work] = [decoder.vertices, decoder.work];
+    result.memory = Math.max(result.memory, process.memoryUsage.rss() - before);
+    result.seconds = seconds() - begin;
+    console.log(JSON.stringify(result));
 }

@@ -12,7 +12,7 @@ const { BsmError, Decoder, END_OF_STREAM, Kernels, NEED_DATA } = await import(pa
 const kernels = await Kernels.compile(readFileSync(join(built, "kernels.wasm")));
 const limits = JSON.parse(process.argv[2]);
 const input = readFileSync(0);
-const told = { outcomes: {}, problems: [] };
+const tally = { outcomes: {}, problems: [] };
 
 function decode(data, way) {
     const decoder = new Decoder(kernels, limits, { tolerant: way === 2 });
@@ -38,11 +38,11 @@ for (let at = 0, number = 0; at < input.length; number++) {
         decode(stream, number % 3);
     } catch (error) {
         outcome = error.name;
-        if (!(error instanceof BsmError)) told.problems.push([number, `in the browser's decoder: ${error.stack}`]);
+        if (!(error instanceof BsmError)) tally.problems.push([number, `in the browser's decoder: ${error.stack}`]);
     }
     const { user, system } = process.cpuUsage(begin);
-    if ((user + system) / 1e6 > SECONDS) told.problems.push([number, `in the browser's decoder: ${(user + system) / 1e6} s of processor time`]);
-    told.outcomes[outcome] = (told.outcomes[outcome] ?? 0) + 1;
+    if ((user + system) / 1e6 > SECONDS) tally.problems.push([number, `in the browser's decoder: ${(user + system) / 1e6} s of processor time`]);
+    tally.outcomes[outcome] = (tally.outcomes[outcome] ?? 0) + 1;
     at = end;
 }
-console.log(JSON.stringify(told));
+console.log(JSON.stringify(tally));

@@ -38,12 +38,12 @@ window.pictures = async (address, first) => {
     } else gltf.scene.traverse(({ morphTargetInfluences }) => morphTargetInfluences?.fill(0.5 / morphTargetInfluences.length));
     scene.updateMatrixWorld(true);
     if (first) box = new Box3().setFromObject(gltf.scene, true);
-    const [centre, extent] = [box.getCenter(new Vector3()), box.getSize(new Vector3()).length() || 1];
+    const [center, extent] = [box.getCenter(new Vector3()), box.getSize(new Vector3()).length() || 1];
     const found = [];
     for (const [x, y, z] of [[0.5, 0.35, 1], [-1, 0.35, -0.6]]) {
         const camera = new PerspectiveCamera(40, 1, extent / 100, extent * 100);
-        camera.position.copy(centre).addScaledVector(new Vector3(x, y, z).normalize(), extent * 1.2);
-        camera.lookAt(centre);
+        camera.position.copy(center).addScaledVector(new Vector3(x, y, z).normalize(), extent * 1.2);
+        camera.lookAt(center);
         renderer.setClearColor(0x808080);
         renderer.render(scene, camera);
         const pixels = new Uint8Array(4 * ${SIZE * SIZE});

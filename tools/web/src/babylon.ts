@@ -70,7 +70,7 @@ class Played implements BabylonSequence {
         for (const [mesh, before] of this.worn) {
             if (before !== shape) mesh.setIndices(shape.index, shape.positions.length / 3);
             mesh.setVerticesData("position", picture.positions, true);
-            mesh.setVerticesData("normal", Float32Array.from(picture.normals, (one) => one / MOST_NORMAL), true);
+            mesh.setVerticesData("normal", Float32Array.from(picture.normals, (normal) => normal / MOST_NORMAL), true);
             for (const { name, values } of before === shape ? picture.attributes : [...shape.attributes, ...picture.attributes]) {
                 if (KINDS[name]) mesh.setVerticesData(KINDS[name], Float32Array.from(values), true);
             }
@@ -97,7 +97,7 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
     }
 
     /** A mesh, which plays if it says so; null: it does not. */
-    _loadMeshPrimitiveAsync(context: string, name: string, node: INode, mesh: IMesh, primitive: IMeshPrimitive, assign: (one: AbstractMesh) => void): Promise<AbstractMesh> | null {
+    _loadMeshPrimitiveAsync(context: string, name: string, node: INode, mesh: IMesh, primitive: IMeshPrimitive, assign: (mesh: AbstractMesh) => void): Promise<AbstractMesh> | null {
         const moving = mesh.extensions?.[EXTENSION] as { stream: number } | undefined;
         return moving ? this.played(moving.stream, this.loader._loadMeshPrimitiveAsync(context, name, node, mesh, primitive, assign)) : null;
     }
@@ -125,7 +125,7 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
         const view = this.loader.gltf.bufferViews?.[stream];
         if (!view) throw new Error(`${context}: there is no bufferView ${stream}`);
         const { buffer, byteOffset, byteLength } = await this.loader.loadBufferViewAsync(`/bufferViews/${stream}`, view);
-        return new Promise((keep, fail) => {
+        return new Promise((resolve, fail) => {
             let [shape, rate]: [Shape | undefined, unknown] = [undefined, 0];
             let sequence: Played | undefined;
             const decoding = this.pool.open(
@@ -136,11 +136,11 @@ class BabylonBSMExtension implements IGLTFLoaderExtension {
                         if (picture.type !== "frame" || !shape) return;
                         if (!sequence) this.sequences.set(stream, (sequence = new Played(Number(rate), decoding)));
                         sequence.frames.push({ picture, shape });
-                        keep(sequence.frames[0].shape);
+                        resolve(sequence.frames[0].shape);
                     },
                     onEnd: () => {
                         if (sequence) sequence.complete = true;
-                        else if (shape) keep(shape);
+                        else if (shape) resolve(shape);
                         else fail(new Error(`${context}: bufferView ${stream} is a stream without a mesh`));
                     },
                     onError: (error) => {

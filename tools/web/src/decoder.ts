@@ -1,6 +1,6 @@
 /** A stream to a mesh, block by block, while it arrives. */
 import type { Attribute } from "./attributes";
-import { ATTRIBUTE, AWAITED, BLOCK, CONNECTIVITY, END, Engine, FAILED, FRAME, HEADER, LOSS, METADATA, NEED, OVER, REFINEMENT, type Told } from "./engine";
+import { ATTRIBUTE, AWAITED, BLOCK, CONNECTIVITY, END, Engine, FAILED, FRAME, HEADER, LOSS, METADATA, NEED, OVER, REFINEMENT, type RawEvent } from "./engine";
 import { BsmError, errorLike } from "./errors";
 import type { AttributeEvent, Event, Mesh, Wishes } from "./events";
 import type { Header } from "./header";
@@ -25,7 +25,7 @@ export class Decoder {
     private header?: Header;
     private metadata = 0;
     /** Frames of a run that has the mesh of another follow the attributes that were reported for it. */
-    private again = false;
+    private sameMesh = false;
     private readonly kept: { attributes: Attribute[]; first?: Mesh; faces: Int32Array } = { attributes: [], faces: new Int32Array(0) };
     /** What helpers have sent before it was its turn; the block that is awaited. */
     private readonly shared = new Map<number, SharedBlock>();
@@ -95,7 +95,7 @@ export class Decoder {
             if (event.type === "attribute") kept.attributes.push(withoutType(event));
             if (event.type === "frame") {
                 const { positions, attributes: moved } = event;
-                const attributes = kept.attributes.map((one) => moved.find(({ name }) => name === one.name) ?? one);
+                const attributes = kept.attributes.map((old) => moved.find(({ name }) => name === old.name) ?? old);
                 kept.first = { positions, faces: kept.faces, attributes };
             }
             if (event.type === "end") kept.first = { positions: event.positions ?? new Float64Array(0), faces: kept.faces, attributes: kept.attributes };
@@ -117,22 +117,22 @@ export class Decoder {
     }
 
     /** Convert an event of the decoder in C; nothing if it is not reported. */
-    private heard(told: Told, growing: boolean): Event | Signal | undefined {
+    private heard(raw: RawEvent, growing: boolean): Event | Signal | undefined {
         const { engine, wishes } = this;
-        const { type, index, count, vertices } = told;
+        const { type, index, count, vertices } = raw;
         if (type === NEED) return NEED_DATA;
         if (type === OVER) return END_OF_STREAM;
         if (type === FAILED) throw engine.error();
         if (type === AWAITED) this.awaited = index;
-        if (type === HEADER) return this.begun(engine.header());
+        if (type === HEADER) return this.beginMesh(engine.header());
         if (type === METADATA) {
             const entries = engine.metadata(this.metadata, index);
             this.metadata = index;
             return { type: "metadata", entries };
         }
         if (type === CONNECTIVITY) {
-            const [faces, loose] = [engine.faces(told), engine.loose()];
-            if (this.again) this.queue.push(...engine.attributes().map((one): Event => ({ type: "attribute", ...one })));
+            const [faces, loose] = [engine.faces(raw), engine.loose()];
+            if (this.sameMesh) this.queue.push(...engine.attributes().map((attribute): Event => ({ type: "attribute", ...attribute })));
             return { type: "connectivity", faces, vertices, loose };
         }
         if (growing && (type === BLOCK || type === REFINEMENT)) return this.changed(type === BLOCK ? index : undefined);
@@ -149,10 +149,10 @@ export class Decoder {
         return !growing && isMesh ? { ...end, positions: engine.positions(vertices) } : end;
     }
 
-    private begun(header: Header): Event {
+    private beginMesh(header: Header): Event {
         const { wishes, engine } = this;
         this.header = header;
-        this.again = header.again !== undefined;
+        this.sameMesh = header.again !== undefined;
         const helpers = header.run > 0 ? 0 : (wishes.helpers?.(header) ?? 0);
         engine.share(helpers > 0 ? helpers + 1 : 0);
         return { type: "header", header };

@@ -1,5 +1,5 @@
 /** What is drawn of a stream, made in the thread that decodes: arrays that a page hands to its graphics as they are. */
-import { begun } from "./begun";
+import { required } from "./required";
 import type { Attribute } from "./attributes";
 import type { Changes, ConnectivityEvent, EndEvent, Event, FrameEvent, HeaderEvent, LossEvent, MetadataEvent, RefinementEvent } from "./events";
 import { spread, type DrawnAttribute, type Dress, type Piece } from "./dress";
@@ -264,14 +264,14 @@ export class Drawing {
             this.take(points);
             this.finish();
         }
-        const { vertices, attributes: drawn } = begun(this.shape);
+        const { vertices, attributes: drawn } = required(this.shape);
         const positions = spread(points, 3, vertices);
         const normals = spread(normalsOf(this.faces, this.origin, points), 3, vertices);
         const small = new Int16Array(normals.length);
         for (let i = 0; i < small.length; i++) small[i] = Math.round(normals[i] * MOST_NORMAL);
-        const attributes = moved.flatMap((one) => {
-            const same = drawn.find(({ source }) => source === one.name);
-            return same ? [{ ...same, values: numbersOf(one, vertices) }] : [];
+        const attributes = moved.flatMap((attribute) => {
+            const same = drawn.find(({ source }) => source === attribute.name);
+            return same ? [{ ...same, values: numbersOf(attribute, vertices) }] : [];
         });
         const buffers = [positions, small, ...attributes.map(({ values }) => values)].map(({ buffer }) => buffer);
         this.show({ type: "frame", index, positions, normals: small, attributes }, buffers);

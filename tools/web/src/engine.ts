@@ -25,8 +25,8 @@ interface Kind<View> {
 
 type Call = (...args: number[]) => number;
 
-/** An event as it is reported, with the numbers of vertices and faces once they are known. */
-export interface Told {
+/** An event as the decoder in C reports it, with the numbers of vertices and faces once they are known. */
+export interface RawEvent {
     type: number;
     index: number;
     count: number;
@@ -75,7 +75,7 @@ export class Engine {
         this.call("page_share", among);
     }
 
-    next(): Told {
+    next(): RawEvent {
         const at = this.call("page_next");
         const view = new DataView(this.buffer, at);
         const [index, count, vertices, faces] = [8, 16, 24, 32].map((at) => Number(view.getBigInt64(at, true)));
@@ -126,8 +126,8 @@ export class Engine {
         return entries;
     }
 
-    faces(told: Told): Int32Array {
-        return this.filled(Int32Array, 3 * told.faces, (at, count) => this.call("page_faces", at, count));
+    faces(raw: RawEvent): Int32Array {
+        return this.filled(Int32Array, 3 * raw.faces, (at, count) => this.call("page_faces", at, count));
     }
 
     /** Vertices that no face uses. */
@@ -177,7 +177,7 @@ export class Engine {
 
     /** All attributes that are whole, or those of them that move. */
     attributes(moving = false): Attribute[] {
-        return Array.from({ length: LAST_ATTRIBUTE + 1 }, (_, index) => this.attribute(index, moving)).filter((one) => one !== undefined);
+        return Array.from({ length: LAST_ATTRIBUTE + 1 }, (_, index) => this.attribute(index, moving)).filter((attribute) => attribute !== undefined);
     }
 
     /** The block that this one, a helper, has decoded. */

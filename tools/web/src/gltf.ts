@@ -53,7 +53,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
 
     private async decode(stream: number): Promise<Shape> {
         const data = new Uint8Array((await this.parser.getDependency("bufferView", stream)) as ArrayBuffer);
-        return new Promise((keep, fail) => {
+        return new Promise((resolve, fail) => {
             let shape: Shape | undefined;
             let sequence: BSMSequence | undefined;
             const geometry = new BSMGeometry();
@@ -64,11 +64,11 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
                         geometry.accept(picture);
                         if (picture.type !== "frame" || picture.index > 0 || !shape) return;
                         this.sequences.set(stream, (sequence = new BSMSequence(geometry)));
-                        keep(shape);
+                        resolve(shape);
                     },
                     onEnd: () => {
                         if (sequence) sequence.complete = true;
-                        else if (shape) keep(shape);
+                        else if (shape) resolve(shape);
                         else fail(new Error(`bufferView ${stream} is a stream without a mesh`));
                     },
                     onError: (error) => (sequence ? sequence.fail(error) : fail(error)),

@@ -16,7 +16,7 @@ const FOLLOWERS: Partial<Record<Kind | "start", readonly Kind[]>> = {
 export class Grammar {
     header?: Header;
     private last: Kind | "start" = "start";
-    private readonly told = new Set<string>();
+    private readonly entryNames = new Set<string>();
     private nextVertex = 0;
 
     get ended(): boolean {
@@ -28,7 +28,7 @@ export class Grammar {
         const { header, nextVertex } = this;
         const may = packet.type === "metadata" ? header : FOLLOWERS[this.last]?.includes(packet.type);
         if (!may) throw new CorruptError(`${packet.type} may not come here`);
-        if (packet.type === "metadata") checkNames(packet.entries, this.told);
+        if (packet.type === "metadata") checkNames(packet.entries, this.entryNames);
         if (!header) return;
         if (packet.type === "grid") checkChunk(packet, nextVertex, header);
         if (packet.type === "end") checkWhole(nextVertex, header);
@@ -37,7 +37,7 @@ export class Grammar {
     /** Take note of a packet that nothing is wrong with. */
     advance(packet: Packet): void {
         if (packet.type === "metadata") {
-            for (const name of packet.entries.keys()) this.told.add(name);
+            for (const name of packet.entries.keys()) this.entryNames.add(name);
             return;
         }
         if (packet.type === "header") this.header = packet.header;

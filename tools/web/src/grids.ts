@@ -1,7 +1,7 @@
-/** A stream of a static mesh on a light grid to the mesh, while it arrives: as `decoder.ts` decodes it, without all else. */
-import { begun } from "./begun";
+/** Decodes a stream of a static mesh on a light grid while it arrives, as `decoder.ts` does, and nothing else. */
+import { required } from "./required";
 import { crc32 } from "./checksums";
-import { Allowance } from "./allowance";
+import { Budget } from "./budget";
 import { decodeConnectivity } from "./connectivity";
 import type { BlockEvent, ConnectivityEvent, EndEvent, HeaderEvent, Mesh, MetadataEvent } from "./events";
 import { BsmError, CorruptError } from "./errors";
@@ -24,7 +24,7 @@ export class Decoder {
     private readonly limits: Limits;
     private readonly reader: Reader;
     private readonly memory: Memory;
-    private readonly allowance: Allowance;
+    private readonly budget: Budget;
     private readonly queue: Event[] = [];
     private error?: BsmError;
     private header?: Header;
@@ -39,8 +39,8 @@ export class Decoder {
     ) {
         this.limits = { ...DEFAULT_LIMITS, ...limits };
         this.memory = new Memory(kernels.borrow(), this.limits.memory);
-        this.allowance = new Allowance(this.limits);
-        this.reader = new Reader(this.limits, this.allowance.spend.bind(this.allowance));
+        this.budget = new Budget(this.limits);
+        this.reader = new Reader(this.limits, this.budget.charge.bind(this.budget));
     }
 
     /** Take more bytes of the stream. */
@@ -84,7 +84,7 @@ export class Decoder {
     finish(): Mesh {
         this.receiveEof();
         while (this.nextEvent() !== END_OF_STREAM);
-        const [numbering, grid] = [begun(this.numbering), begun(this.grid)];
+        const [numbering, grid] = [required(this.numbering), required(this.grid)];
         return { positions: numbering.arranged(grid.positions), faces: numbering.faces, attributes: [] };
     }
 
@@ -107,10 +107,10 @@ export class Decoder {
     }
 
     /** Compare the checksum of positions, if the stream has one (F 5.10). */
-    private check(told?: number): void {
-        if (told === undefined) return;
-        const places = begun(this.grid).positions.map((place) => place + 0); // -0 counts as 0
-        if (crc32(new Uint8Array(places.buffer)) !== told) throw new CorruptError("the checksum of decoded positions is wrong: they are not those that the encoder saw");
+    private check(expected?: number): void {
+        if (expected === undefined) return;
+        const places = required(this.grid).positions.map((place) => place + 0); // -0 counts as 0
+        if (crc32(new Uint8Array(places.buffer)) !== expected) throw new CorruptError("the checksum of decoded positions is wrong: they are not those that the encoder saw");
     }
 
     private acceptHeader(header: Header): void {
@@ -119,32 +119,32 @@ export class Decoder {
     }
 
     private acceptConnectivity(data: Uint8Array): void {
-        const header = begun(this.header);
+        const header = required(this.header);
         this.faces = decodeConnectivity(this.memory, data, header, this.limits);
-        this.allowance.grant(header.vertices);
-        this.allowance.spend(meshCost(header.vertices, header.faces, data.length), data.length);
+        this.budget.grant(header.vertices);
+        this.budget.charge(meshCost(header.vertices, header.faces, data.length), data.length);
     }
 
     private acceptOrder(data: Uint8Array): void {
-        const { vertices, faces } = begun(this.header);
-        this.allowance.spend(orderCost(vertices, faces, data.length), data.length);
-        this.numbering = decodeOrder(this.memory, data, begun(this.faces), begun(this.header));
+        const { vertices, faces } = required(this.header);
+        this.budget.charge(orderCost(vertices, faces, data.length), data.length);
+        this.numbering = decodeOrder(this.memory, data, required(this.faces), required(this.header));
     }
 
     private acceptGrid(first: number, count: number, data: Uint8Array): void {
         const grid = (this.grid ??= this.begunGrid());
-        this.allowance.spend(LIGHT_COST.frame(data.length), data.length);
+        this.budget.charge(LIGHT_COST.frame(data.length), data.length);
         const changes = grid.decode(first, count, data);
-        this.queue.push({ type: "block", index: this.chunks++, ...begun(this.numbering).spread(changes) });
+        this.queue.push({ type: "block", index: this.chunks++, ...required(this.numbering).spread(changes) });
     }
 
     private begunGrid(): Grid {
-        const { vertices, faces } = begun(this.header);
-        this.numbering ??= new Numbering(begun(this.faces).view.slice(), vertices);
+        const { vertices, faces } = required(this.header);
+        this.numbering ??= new Numbering(required(this.faces).view.slice(), vertices);
         const { size, loose } = this.numbering;
         this.queue.push({ type: "connectivity", faces: this.numbering.faces.slice(), vertices: size, loose });
-        this.allowance.spend(LIGHT_COST.whole(vertices, faces));
-        return new Grid(this.memory, begun(this.faces), begun(this.header));
+        this.budget.charge(LIGHT_COST.whole(vertices, faces));
+        return new Grid(this.memory, required(this.faces), required(this.header));
     }
 }
 

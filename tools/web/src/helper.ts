@@ -8,7 +8,7 @@ import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
 /** Takes the whole stream, as the decoder does, and gives the blocks of its share. */
 export class Helper {
     private readonly engine: Engine;
-    private begun = false;
+    private started = false;
     private over = false;
 
     constructor(kernels: Kernels, share: Share, limits: Partial<Limits> = {}, tolerant = false) {
@@ -37,8 +37,8 @@ export class Helper {
             if (type === BLOCK) return engine.handed(index);
             if (type === LOSS && index >= 0) return { index, problem: engine.error(true).described };
             if (type === HEADER) {
-                this.over = this.begun; // of later runs the decoder has all chains
-                this.begun = true;
+                this.over = this.started; // of later runs the decoder has all chains
+                this.started = true;
             }
             if (type === OVER || type === FAILED) this.over = true;
             // What is wrong with more than a block is found by the decoder as well.

@@ -10,8 +10,8 @@ export type * from "./drawing";
 export { Helper } from "./helper";
 export type { Share, SharedBlock } from "./share";
 export { Team, type Member } from "./team";
-export type { DrawnEvent } from "./desk";
-export { openDesk, serve } from "./station";
+export type { DrawnEvent } from "./worker";
+export { openDesk, serve } from "./workerFull";
 
 /**
  * The function that all of this is inside of where `scripts/build.mjs` inlines it, whose text a thread can be made of.

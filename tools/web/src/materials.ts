@@ -55,7 +55,7 @@ export function materialsOf(metadata: Metadata, images: Map<number, Texture>, co
         const match = /^material\.(\d+)\.(.+)$/s.exec(key);
         if (match && Number(match[1]) < count && (typeof value === "string" || typeof value === "number")) words[Number(match[1])].set(match[2], value);
     }
-    return words.map((said) => materialOf(said, images));
+    return words.map((material) => materialOf(material, images));
 }
 
 function numbersIn(value: string | number | undefined): number[] {

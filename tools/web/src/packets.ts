@@ -75,8 +75,8 @@ export const PARSERS: Parsers = {
 };
 
 /** Refuse metadata that speak of what others have spoken of. */
-export function checkNames(entries: Metadata, told: Set<string>): void {
-    for (const name of entries.keys()) if (told.has(name)) throw new CorruptError(`metadata speak of "${name}" again`);
+export function checkNames(entries: Metadata, known: Set<string>): void {
+    for (const name of entries.keys()) if (known.has(name)) throw new CorruptError(`metadata speak of "${name}" again`);
 }
 
 /** Check that vertices follow those before them. */

@@ -8,25 +8,25 @@ const BASES = { texcoord: "uv", color: "color", normal: "normal" } as const;
 
 /** Faces `whole`, which are sorted, of a mesh of `size` vertices, with all that it carries. */
 export function dressed(faces: Int32Array, whole: Int32Array, carried: Attribute[], size: number): Dress {
-    const labels = [PART, MATERIAL].map((name) => carried.find((one) => one.name === name && one.domain === "face" && one.components === 1));
-    const [part, material] = labels.map((one) => (face: number): number => one?.values[face] ?? 0);
-    if (labels.some((one) => one)) whole.sort((a, b) => part(a) - part(b) || material(a) - material(b) || a - b);
+    const labels = [PART, MATERIAL].map((name) => carried.find((attribute) => attribute.name === name && attribute.domain === "face" && attribute.components === 1));
+    const [part, material] = labels.map((attribute) => (face: number): number => attribute?.values[face] ?? 0);
+    if (labels.some(Boolean)) whole.sort((a, b) => part(a) - part(b) || material(a) - material(b) || a - b);
     const pieces: Piece[] = [];
     let last: Piece | undefined;
     whole.forEach((face, i) => {
         if (last?.part === part(face) && last.material === material(face)) last.count += 3;
         else pieces.push((last = { part: part(face), material: material(face), start: 3 * i, count: 3 }));
     });
-    const drawn = carried.filter((one) => !labels.includes(one));
+    const drawn = carried.filter((attribute) => !labels.includes(attribute));
     const { index, vertices, rows } = parted(faces, whole, drawn, size);
     const normal = drawn.find(({ semantic, domain }) => semantic === "normal" && domain !== "face");
     const used = new Map([["position", 1], ["normal", 1]]);
-    const attributes = drawn.flatMap((one, i) => {
-        if (one === normal) return [];
-        const base = one.semantic === "generic" ? one.name : BASES[one.semantic];
+    const attributes = drawn.flatMap((attribute, i) => {
+        if (attribute === normal) return [];
+        const base = attribute.semantic === "generic" ? attribute.name : BASES[attribute.semantic];
         const count = used.get(base) ?? 0;
         used.set(base, count + 1);
-        return [{ name: count ? `${base}${count}` : base, source: one.name, components: one.components, values: numbersOf(one, rows[i]) }];
+        return [{ name: count ? `${base}${count}` : base, source: attribute.name, components: attribute.components, values: numbersOf(attribute, rows[i]) }];
     });
     return { index, vertices, pieces, attributes, own: normal && numbersOf(normal, rows[drawn.indexOf(normal)]) };
 }
@@ -63,7 +63,7 @@ function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], 
         });
         return { index, rows: attributes.map(() => undefined) };
     }
-    const values = parting.map((one) => valuesOf(one, faces, chosen));
+    const values = parting.map((attribute) => valuesOf(attribute, faces, chosen));
     // The drawn vertices of each vertex are a chain, from the one met last to the first.
     const [heads, next] = [new Int32Array(size).fill(-1), new Int32Array(index.length)];
     const [vertices, corners] = [new Int32Array(index.length), new Int32Array(index.length)];
@@ -79,8 +79,8 @@ function parted(faces: Int32Array, chosen: Int32Array, attributes: Attribute[], 
         index[i] = drawn;
     }
     const used = vertices.slice(0, count);
-    const rows = attributes.map((one) => {
-        const numbers = values[parting.indexOf(one)];
+    const rows = attributes.map((attribute) => {
+        const numbers = values[parting.indexOf(attribute)];
         return numbers ? corners.subarray(0, count).map((corner) => numbers[corner]) : used;
     });
     return { index, vertices: used, rows };

@@ -1,5 +1,5 @@
 /** Threads that decode, kept warm: streams are shared among them, and large ones are decoded by several. */
-import type { Answer, Desk, DrawnEvent, Message, Said, Start } from "./desk";
+import type { Answer, StreamWorker, DrawnEvent, Message, Report, Start } from "./worker";
 import type { Picture } from "./drawing";
 import { errorLike, type BsmError } from "./errors";
 import type { Limits } from "./limits";
@@ -53,7 +53,7 @@ export class Pool {
     private readonly waiting: PooledStream[] = [];
     private task = 0;
     private alone = false;
-    private told = false;
+    private warned = false;
 
     constructor(
         private source: Source = here,
@@ -114,7 +114,7 @@ export class Pool {
             helper.worker.postMessage({ help: port2 } satisfies Message, [port2]);
             return port1;
         });
-        for (const one of [hand, ...helpers]) one.streams.add(stream);
+        for (const member of [hand, ...helpers]) member.streams.add(stream);
         stream.work((message, moved) => hand.worker.postMessage(message, moved), ports);
     }
 
@@ -143,7 +143,7 @@ export class Pool {
             helper.streams.add(PLACEHOLDER);
             found.push(helper);
         }
-        for (const one of [hand, ...found]) one.streams.delete(PLACEHOLDER);
+        for (const member of [hand, ...found]) member.streams.delete(PLACEHOLDER);
         return found;
     }
 
@@ -166,8 +166,8 @@ export class Pool {
     /** Do without threads. */
     private settle(): undefined {
         this.alone = true;
-        if (!this.told && typeof Worker !== "undefined") console.warn("BSM: this page may have no threads of its own, it decodes in the one that draws");
-        this.told = true;
+        if (!this.warned && typeof Worker !== "undefined") console.warn("BSM: this page may have no threads of its own, it decodes in the one that draws");
+        this.warned = true;
         return undefined;
     }
 
@@ -186,13 +186,13 @@ export class Pool {
     /** Decode in this thread. */
     private async stay(stream: PooledStream): Promise<void> {
         const { openDesk } = await this.source.local(stream.need.build);
-        let desk: Desk | undefined;
+        let worker: StreamWorker | undefined;
         stream.task = this.task++;
         stream.work((message) => {
             setTimeout(() => {
-                if (stream.closed) return desk?.stop();
-                if ("start" in message) desk = openDesk({ ...message.start, helpers: [] }, (said) => stream.hear(said));
-                else if ("data" in message) desk?.take(message.data);
+                if (stream.closed) return worker?.stop();
+                if ("start" in message) worker = openDesk({ ...message.start, helpers: [] }, (report) => stream.hear(report));
+                else if ("data" in message) worker?.take(message.data);
             });
         }, []);
     }
@@ -264,18 +264,18 @@ class PooledStream implements StreamDecoding {
         for (const data of this.pieces) say({ task: this.task, data }, []);
     }
 
-    hear(said: Said): void {
+    hear(report: Report): void {
         const { listener } = this;
         if (this.closed) return;
-        if ("picture" in said) listener.onPicture?.(said.picture);
-        else if ("event" in said) listener.onEvent?.(said.event);
-        else if ("taken" in said) listener.onTaken?.(said.taken);
-        else if ("problem" in said) {
+        if ("picture" in report) listener.onPicture?.(report.picture);
+        else if ("event" in report) listener.onEvent?.(report.event);
+        else if ("taken" in report) listener.onTaken?.(report.taken);
+        else if ("problem" in report) {
             // Lesser builds do not know everything, nor what to say of it.
-            if (this.need.build !== "whole") this.again();
-            else this.fail(errorLike(said.problem));
-        } else if ("fault" in said) this.fail(new Error(said.fault));
-        else if ("over" in said) {
+            if (this.need.build !== "whole") this.restart();
+            else this.fail(errorLike(report.problem));
+        } else if ("fault" in report) this.fail(new Error(report.fault));
+        else if ("over" in report) {
             this.close();
             listener.onEnd?.();
         }
@@ -293,7 +293,7 @@ class PooledStream implements StreamDecoding {
     }
 
     /** Begin again with the decoder of everything. */
-    private again(): void {
+    private restart(): void {
         this.say?.({ task: this.task, stop: true }, []);
         this.say = undefined;
         this.places.end(this);

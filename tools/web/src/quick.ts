@@ -4,4 +4,4 @@ export { DEFAULT_LIMITS, type Limits } from "./limits";
 export { Kernels } from "./kernels";
 export { hasVectors } from "./threads";
 export * from "./grids";
-export { openDesk, serve } from "./lightdesk";
+export { openDesk, serve } from "./workerFast";

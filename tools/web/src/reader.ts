@@ -9,10 +9,10 @@ import { END_OF_STREAM, NEED_DATA, type Signal } from "./signals";
 import { parseVarint } from "./varint";
 
 /** Nanoseconds of a processor core for reading a frame, whatever it is, and for each of its bytes (M 14.3). */
-const [FRAME, BYTE, TELLING, ENTRY] = [8e3, 8, 2e4, 8e3];
+const [FRAME, BYTE, METADATA, ENTRY] = [8e3, 8, 2e4, 8e3];
 
 /** Takes work, and the bytes that ask for it, and may refuse it. */
-export type Spend = (work: number, received: number) => void;
+export type Charge = (work: number, received: number) => void;
 
 const MAGIC_SIZE = 4;
 /** A version that differs only in these bits is another minor one. */
@@ -40,13 +40,13 @@ export class Reader {
     private frames = 0;
     private crc = 0;
     /** Bytes of metadata. */
-    private told = 0;
+    private metadataRead = 0;
     private started = false;
     private error?: BsmError;
 
     constructor(
         private readonly limits: Limits,
-        private readonly spend: Spend,
+        private readonly charge: Charge,
     ) {}
 
     /** Take more bytes of the stream, any number of them. */
@@ -96,11 +96,11 @@ export class Reader {
         while (!this.grammar.ended) {
             const frame = this.frame();
             if (!frame) return this.incomplete();
-            this.spend(FRAME + BYTE * frame.size, frame.size);
+            this.charge(FRAME + BYTE * frame.size, frame.size);
             const packet = this.parse(frame.type, frame.payload);
-            if (packet?.type === "metadata") this.spend(TELLING + ENTRY * packet.entries.size, 0);
+            if (packet?.type === "metadata") this.charge(METADATA + ENTRY * packet.entries.size, 0);
             if (packet) this.grammar.advance(packet);
-            if (packet?.type === "metadata") this.told += frame.payload.length;
+            if (packet?.type === "metadata") this.metadataRead += frame.payload.length;
             this.crc = crc32(this.buffer.subarray(this.begin, this.begin + frame.size), this.crc);
             this.skip(frame.size);
             if (packet) return packet;
@@ -160,7 +160,7 @@ export class Reader {
         if (!parse) throw new UnsupportedError(`frame type ${type} is unknown to this decoder`);
         const packet = parse(new Cursor(payload), this.limits);
         this.grammar.check(packet);
-        if (kind === "metadata") checkLimit(this.limits, "metadataBytes", this.told + payload.length);
+        if (kind === "metadata") checkLimit(this.limits, "metadataBytes", this.metadataRead + payload.length);
         if (packet.type === "end") {
             if (packet.frames !== this.frames) throw new CorruptError(`END counts ${packet.frames} frames before it`);
             if (packet.crc !== this.crc) throw new CorruptError("the CRC-32 of the whole stream is wrong");

@@ -5,4 +5,4 @@ export { Kernels } from "./kernels";
 export { hasVectors } from "./threads";
 export * from "./decoder";
 export { Team, type Member } from "./team";
-export { openDesk, serve } from "./station";
+export { openDesk, serve } from "./workerFull";

@@ -1,5 +1,5 @@
 /** Where threads and kernels come from: the files beside this one, or those of a folder that is named. */
-import type { Desk, Say, Start } from "./desk";
+import type { StreamWorker, Say, Start } from "./worker";
 import { hasVectors } from "./threads";
 import type { Build } from "./peek";
 
@@ -8,7 +8,7 @@ export interface Source {
     worker(build: Build): Worker | undefined;
     kernels(build: Build): Promise<WebAssembly.Module>;
     /** The decoder for this thread, where there are no others. */
-    local(build: Build): Promise<{ openDesk(start: Start, say: Say): Desk }>;
+    local(build: Build): Promise<{ openDesk(start: Start, say: Say): StreamWorker }>;
 }
 
 /** What is written out here is what bundlers look for. */

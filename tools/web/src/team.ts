@@ -4,7 +4,7 @@ import type { Header } from "./header";
 import { chainOf, type SharedBlock } from "./share";
 import type { Kernels } from "./kernels";
 import type { Limits } from "./limits";
-import type { Answer, Endpoint, Order, Start } from "./desk";
+import type { Answer, Endpoint, Order, Start } from "./worker";
 import { processors } from "./threads";
 
 const MOST = 3;

@@ -157,7 +157,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
                 failed(error);
             };
             const stoppers = [this.aborting, this.manager.abortController as AbortController | undefined, progress];
-            const signals = stoppers.flatMap((one) => one?.signal ?? []);
+            const signals = stoppers.flatMap((stopper) => stopper?.signal ?? []);
             for (const signal of signals) signal.addEventListener("abort", () => stop(signal.reason), { signal: over.signal });
             this.pass(url, stream, onProgress, AbortSignal.any?.(signals)).catch(stop);
         });

@@ -13,13 +13,13 @@ export async function loadSceneDecoder(): Promise<SceneDecoder> {
     return (stream) => {
         let shape: Shape | undefined;
         let wrong: Error | undefined;
-        const desk = openDesk({ kernels, limits: {}, drawing: "whole" }, (said) => {
-            if ("picture" in said && said.picture.type === "whole") ({ shape } = said.picture);
-            else if ("problem" in said) wrong = errorLike(said.problem);
-            else if ("fault" in said) wrong = new Error(said.fault);
+        const worker = openDesk({ kernels, limits: {}, drawing: "whole" }, (report) => {
+            if ("picture" in report && report.picture.type === "whole") ({ shape } = report.picture);
+            else if ("problem" in report) wrong = errorLike(report.problem);
+            else if ("fault" in report) wrong = new Error(report.fault);
         });
-        desk.take(stream);
-        desk.take(null);
+        worker.take(stream);
+        worker.take(null);
         if (wrong) throw wrong;
         if (!shape) throw new Error(`[${EXTENSION}] a stream without a mesh`);
         return shape;

@@ -29,5 +29,5 @@ function valuesOf({ index, positions, normals, attributes }: Shape, name: string
     if (name === "indices") return index;
     if (name === "POSITION") return positions;
     if (name === "NORMAL") return normals;
-    return attributes.find((one) => one.name === (SETS[name] ?? name))?.values;
+    return attributes.find((attribute) => attribute.name === (SETS[name] ?? name))?.values;
 }

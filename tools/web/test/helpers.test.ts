@@ -9,7 +9,7 @@ import { BUILDS, compile, mended, VECTORS } from "./shared";
 const CHAINS = ["good-independent-predicted", "good-independent", "good-key-seed", "good-keys"];
 
 /** All events, and the message of the error behind them, of a stream in pieces; `among` share it. */
-function told(kernels: Kernels, data: Uint8Array, size: number, among: number, tolerant: boolean): { events: Event[]; error?: string; awaited: number } {
+function decodeShared(kernels: Kernels, data: Uint8Array, size: number, among: number, tolerant: boolean): { events: Event[]; error?: string; awaited: number } {
     const decoder = new Decoder(kernels, {}, { tolerant, helpers: () => among - 1 });
     const helpers = Array.from({ length: among - 1 }, (_, k) => new Helper(kernels, { number: k + 1, among }, {}, tolerant));
     const all = [decoder, ...helpers];
@@ -31,10 +31,10 @@ function told(kernels: Kernels, data: Uint8Array, size: number, among: number, t
     };
     try {
         for (let at = 0; at < data.length; at += size) {
-            for (const one of all) one.receiveData(data.subarray(at, at + size));
+            for (const each of all) each.receiveData(data.subarray(at, at + size));
             take();
         }
-        for (const one of all) one.receiveEof();
+        for (const each of all) each.receiveEof();
         take();
         return { events, awaited };
     } catch (error) {
@@ -47,11 +47,11 @@ for (const name of CHAINS) {
     test(`${name} with helpers`, async () => {
         const kernels = await compile(BUILDS[0]);
         const data = readFileSync(join(VECTORS, `${name}.bsm`));
-        const alone = told(kernels, data, data.length, 1, false);
+        const alone = decodeShared(kernels, data, data.length, 1, false);
         assert.equal(alone.error, undefined);
         for (const among of [2, 3, 8]) {
             for (const size of [data.length, 5]) {
-                const { awaited, ...together } = told(kernels, data, size, among, false);
+                const { awaited, ...together } = decodeShared(kernels, data, size, among, false);
                 assert.ok(awaited > 0);
                 assert.deepEqual({ ...together, awaited: 0 }, alone);
             }
@@ -70,8 +70,8 @@ test(`${DAMAGED}, damaged, with helpers, strict and tolerant`, async () => {
         changed[at] ^= 64;
         for (const damaged of [changed, mended(Uint8Array.from(changed))]) {
             for (const tolerant of [false, true]) {
-                const { awaited: _, ...alone } = told(kernels, damaged, damaged.length, 1, tolerant);
-                const { awaited, ...together } = told(kernels, damaged, damaged.length, 2, tolerant);
+                const { awaited: _, ...alone } = decodeShared(kernels, damaged, damaged.length, 1, tolerant);
+                const { awaited, ...together } = decodeShared(kernels, damaged, damaged.length, 2, tolerant);
                 assert.deepEqual(together, alone, `byte ${at}`);
                 for (const event of alone.events) if (event.type === "loss") lost.add(event.block);
                 if (awaited > 0) refused.add(alone.error);

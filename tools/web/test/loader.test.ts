@@ -50,9 +50,9 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         await page.goto(site.address);
         const value = await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 30_000 })).jsonValue();
         assert.deepEqual(complaints, []);
-        const told = value as Record<string, unknown>;
-        assert.ok(!("failed" in told), String(told.failed));
-        return told;
+        const outcome = value as Record<string, unknown>;
+        assert.ok(!("failed" in outcome), String(outcome.failed));
+        return outcome;
     }
 
     /** Scenes of one stream: as it is, with a wrong size, and cut off. */
@@ -120,19 +120,19 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         const seen = await found(`
             const loader = new BSMLoader().setWorkerLimit(2);
             const names = ["${STREAM}", "bad-sequence-long", "good-grid", "no-such-file", "good-light"].flatMap((name) => [name, name, name]);
-            const told = await Promise.all(names.map((name) => loader.loadAsync("/stream/" + name + ".bsm").then((geometry) => geometry.index.count > 0, (error) => error.name + ": " + error.message)));
+            const outcome = await Promise.all(names.map((name) => loader.loadAsync("/stream/" + name + ".bsm").then((geometry) => geometry.index.count > 0, (error) => error.name + ": " + error.message)));
             const after = await loader.loadAsync("/stream/${STREAM}.bsm").then(() => true, String);
             const cut = await loader.parseAsync((await bytesOf("${STREAM}")).slice(0, -20)).catch((error) => error.name);
             const stray = await loader.parseAsync(new TextEncoder().encode("<!doctype html><html></html>")).catch((error) => error.name);
             const before = workers;
             for (let k = 0; k < 5; k++) await loader.parseAsync((await bytesOf("${STREAM}")).buffer);
-            return { told, after, cut, stray, more: workers - before };`);
-        const told = seen.told as (boolean | string)[];
-        assert.deepEqual(told.slice(0, 3), [true, true, true]);
-        assert.ok(told.slice(3, 6).every((text) => /^CorruptError: .stream.bad-sequence-long.bsm: /.test(String(text))), `${told}`);
-        assert.deepEqual(told.slice(6, 9), [true, true, true]);
-        assert.ok(told.slice(9, 12).every((text) => /no-such-file.bsm: 404/.test(String(text))), `${told}`);
-        assert.deepEqual(told.slice(12), [true, true, true]);
+            return { outcome, after, cut, stray, more: workers - before };`);
+        const outcome = seen.outcome as (boolean | string)[];
+        assert.deepEqual(outcome.slice(0, 3), [true, true, true]);
+        assert.ok(outcome.slice(3, 6).every((text) => /^CorruptError: .stream.bad-sequence-long.bsm: /.test(String(text))), `${outcome}`);
+        assert.deepEqual(outcome.slice(6, 9), [true, true, true]);
+        assert.ok(outcome.slice(9, 12).every((text) => /no-such-file.bsm: 404/.test(String(text))), `${outcome}`);
+        assert.deepEqual(outcome.slice(12), [true, true, true]);
         assert.deepEqual([seen.after, seen.cut, seen.stray, seen.more], [true, "TruncatedError", "FormatError", 0]);
     });
 
@@ -292,23 +292,23 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             player.setAttribute("autoplay", "");
             const heard = [];
             for (const type of ["loadeddata", "load", "play", "pause", "loop", "frame", "ended", "error"]) player.addEventListener(type, () => heard.push(type));
-            const told = (type) => new Promise((keep) => player.addEventListener(type, keep, { once: true }));
-            const [loaded, looped] = [told("load"), told("loop")];
+            const occurred = (type) => new Promise((keep) => player.addEventListener(type, keep, { once: true }));
+            const [loaded, looped] = [occurred("load"), occurred("loop")];
             document.body.append(player);
             await loaded;
             await looped;
             player.pause();
             player.currentTime = 0.5 * player.duration;
             const middle = [player.paused, player.sequence.frame, player.sequence.length];
-            const ended = told("ended");
+            const ended = occurred("ended");
             player.loop = false;
             player.play();
             await ended;
-            const wrong = told("error");
+            const wrong = occurred("error");
             player.src = "/stream/no-such-file.bsm";
             const { error } = await wrong;
             const note = player.shadowRoot.querySelector("p").textContent;
-            const still = told("load");
+            const still = occurred("load");
             player.src = "/stream/${STREAM}.bsm";
             await still;
             const [duration, meshes] = [player.duration, player.scene.children.length];

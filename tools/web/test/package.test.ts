@@ -25,8 +25,8 @@ loader.load("a.bsm", (geometry) => new Mesh(geometry), (event) => event.loaded, 
 const scene: Promise<Group> = loader.loadScene("a.bsm");
 const sequence: Promise<BSMSequence> = loader.loadSequence("a.bsm");
 const geometry: Promise<BSMGeometry> = loader.parseAsync(new ArrayBuffer(8));
-const told: Metadata = new Map();
-export { BSMPlayer, registerBSM, gltf, io, decode, loadKernels, Pool, quick, scene, sequence, geometry, told };
+const metadata: Metadata = new Map();
+export { BSMPlayer, registerBSM, gltf, io, decode, loadKernels, Pool, quick, scene, sequence, geometry, metadata };
 `;
 const PROGRAM = `
 import { readFileSync } from "node:fs";

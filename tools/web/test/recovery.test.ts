@@ -14,7 +14,7 @@ const kernels = compile(BUILDS[0]);
 const FOLDER = process.env.BSM_DAMAGED;
 
 /** What a tolerant decoder tells of a stream that comes in pieces. */
-async function told(data: Uint8Array, size: number): Promise<{ events: Event[]; error?: string }> {
+async function tolerantEvents(data: Uint8Array, size: number): Promise<{ events: Event[]; error?: string }> {
     const decoder = new Decoder(await kernels, { work: 1e10 }, { tolerant: true });
     const events: Event[] = [];
     try {
@@ -49,7 +49,7 @@ test("damaged streams, as Python decodes them", { skip: !FOLDER && "nobody has p
         const expected = JSON.parse(readFileSync(join(FOLDER!, name.replace(".bsm", ".json")), "utf8"));
         const data = readFileSync(join(FOLDER!, name));
         for (const size of [data.length, 7]) {
-            const { events, error } = await told(data, size);
+            const { events, error } = await tolerantEvents(data, size);
             // Python gives no metadata, no blocks of the first frame of a sequence, and attributes in pieces.
             const sequence = events.some((event) => event.type === "header" && event.header.gopFrames > 0);
             const compared = events.filter((event) => event.type !== "attribute" && event.type !== "metadata" && (!sequence || event.type !== "block"));
@@ -60,11 +60,11 @@ test("damaged streams, as Python decodes them", { skip: !FOLDER && "nobody has p
 
 test("blocks of other chains than the damaged one are as they were", async () => {
     const whole = readFileSync(join(VECTORS, "good-keys.bsm"));
-    const { events } = await told(whole, whole.length);
+    const { events } = await tolerantEvents(whole, whole.length);
     const blocks = events.flatMap((event) => (event.type === "block" ? [event] : []));
     const damaged = Uint8Array.from(whole);
     damaged[whole.length - 40] ^= 1;
-    const found = (await told(damaged, whole.length)).events;
+    const found = (await tolerantEvents(damaged, whole.length)).events;
     const losses = found.flatMap((event) => (event.type === "loss" ? [event] : []));
     assert.ok(losses.length > 0);
     for (const event of found) if (event.type === "block") assert.deepEqual(event.positions.length, blocks[event.index].positions.length);
@@ -91,7 +91,7 @@ test("a block that follows a lost one is not read, and levels from the first on 
     const damage = { bytes: new Uint8Array(9).fill(255) };
     const parts = [{ bytes: Uint8Array.from(PREAMBLE) }, header, connectivity, first, damage, last, refinement];
     const data = Buffer.concat(parts.map(({ bytes }) => bytes));
-    const { events, error } = await told(data, data.length);
+    const { events, error } = await tolerantEvents(data, data.length);
     const kinds = events.map(({ type }) => type);
     assert.deepEqual([...new Set(kinds)], ["header", "connectivity", "block", "loss", "refinement", "end"]);
     assert.equal(error, undefined);

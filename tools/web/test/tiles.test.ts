@@ -39,7 +39,7 @@ const loaded = [];
 tiles.addEventListener("load-model", ({ tile }) => loaded.push(tile.content.uri));
 let [distance, quiet] = [200, 0];
 globalThis.from = (far) => { [distance, quiet] = [far, 0]; };
-globalThis.told = () => {
+globalThis.tileState = () => {
     let faces = 0;
     tiles.group.traverse((one) => { if (one.isMesh) faces += one.geometry.index.count / 3; });
     return { loaded, faces, quiet };
@@ -118,15 +118,15 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
             assert.equal(readFileSync(join(folder, content, "glb", "r.glb")).includes("EXT_bsm_compression"), content === "coded");
             const page = await opened();
             await page.goto(site.address);
-            const told = async (): Promise<{ loaded: string[]; faces: number }> => {
-                await page.waitForFunction("told().quiet > 5 && told().faces > 0", undefined, { timeout: 60_000 });
-                return (await page.evaluate("told()")) as { loaded: string[]; faces: number };
+            const tileState = async (): Promise<{ loaded: string[]; faces: number }> => {
+                await page.waitForFunction("tileState().quiet > 5 && tileState().faces > 0", undefined, { timeout: 60_000 });
+                return (await page.evaluate("tileState()")) as { loaded: string[]; faces: number };
             };
-            const far = await told();
+            const far = await tileState();
             assert.equal(far.faces, coarsest);
             assert.deepEqual(far.loaded, ["glb/r.glb"]);
             await page.evaluate("from(2.5)");
-            const near = await told();
+            const near = await tileState();
             assert.ok(near.faces > 2 * coarsest && near.faces <= faces, `${near.faces} faces`);
             const { share, x, y } = silhouette(await page.locator("canvas").screenshot());
             assert.ok(share > 0.1 && Math.abs(x - 0.5) < 0.1 && Math.abs(y - 0.5) < 0.15, `${share} ${x} ${y}`);

@@ -15,7 +15,7 @@ interface Vector {
 
 const vectors = FOLDERS.flatMap((folder) => {
     const manifest = JSON.parse(readFileSync(join(folder, "manifest.json"), "utf8")) as { vectors: Vector[] };
-    return manifest.vectors.map((one) => ({ ...one, folder }));
+    return manifest.vectors.map((vector) => ({ ...vector, folder }));
 });
 const WAYS: [string, (kernels: Kernels, data: Uint8Array) => Mesh][] = [
     ["whole", decode],
@@ -104,12 +104,12 @@ function compare(mesh: Mesh, expected: Record<string, NumpyArray>, all: boolean)
 /** Arrays of attributes are called by number, semantic, domain and name; indices of corners by the number. */
 function compareAttributes(attributes: Attribute[], expected: Record<string, NumpyArray>, all: boolean): void {
     const names = Object.keys(expected).filter((name) => name.startsWith("attribute "));
-    const told = new Map(attributes.map((one) => [`${one.semantic} ${one.domain} ${one.name}`, one]));
+    const byTitle = new Map(attributes.map((attribute) => [`${attribute.semantic} ${attribute.domain} ${attribute.name}`, attribute]));
     assert.equal(attributes.length, names.length);
     for (const name of names) {
         const [, number, title] = /^attribute (\d+) (.*)$/s.exec(name)!;
-        const found = told.get(title);
-        assert.ok(found, `${title} is not among ${[...told.keys()]}`);
+        const found = byTitle.get(title);
+        assert.ok(found, `${title} is not among ${[...byTitle.keys()]}`);
         const { values: given, shape } = expected[name];
         const values = shape.length > 2 && !all ? given.subarray(0, given.length / shape[0]) : given;
         assert.equal(found.values.length, values.length);

@@ -137,7 +137,7 @@ export class Stage {
 
     /** Take all meshes away. */
     clear(): void {
-        for (const one of this.drawn) one.clear();
+        for (const shown of this.drawn) shown.clear();
         this.tiles.clear();
         this.touched = false;
         this.camera.position.setLength(AROUND / 2);
@@ -177,17 +177,17 @@ export class Stage {
     /** Shade smoothly, each face by itself, or with its edges. */
     shade(shading: Shading): void {
         this.shading = shading;
-        for (const one of this.drawn) {
-            for (const material of one.materials) {
+        for (const shown of this.drawn) {
+            for (const material of shown.materials) {
                 material.flatShading = shading !== "smooth";
                 material.polygonOffset = shading === "wire";
                 material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
                 material.needsUpdate = true;
             }
-            if (one.edges) one.holder.remove(one.edges);
-            one.edges = undefined;
-            if (shading === "wire" && one.mesh) one.holder.add((one.edges = new Mesh(one.mesh.geometry, this.wires)));
-            if (one.edges) one.edges.frustumCulled = false;
+            if (shown.edges) shown.holder.remove(shown.edges);
+            shown.edges = undefined;
+            if (shading === "wire" && shown.mesh) shown.holder.add((shown.edges = new Mesh(shown.mesh.geometry, this.wires)));
+            if (shown.edges) shown.edges.frustumCulled = false;
         }
         this.redraw();
     }
@@ -252,7 +252,7 @@ export class Stage {
     }
 
     /** A film of one turn. */
-    async film(labels: string[], colors: string[], told: (share: number) => void): Promise<Blob> {
+    async film(labels: string[], colors: string[], report: (share: number) => void): Promise<Blob> {
         const canvas = this.picture(labels, colors);
         const type = ["video/mp4", "video/webm"].find((name) => MediaRecorder.isTypeSupported(name));
         const recorder = new MediaRecorder(canvas.captureStream(RATE), { mimeType: type, videoBitsPerSecond: 12e6 });
@@ -267,7 +267,7 @@ export class Stage {
             place.theta = theta + 2 * Math.PI * share;
             this.from(place);
             this.picture(labels, colors, canvas);
-            told(share);
+            report(share);
             await new Promise(requestAnimationFrame);
         }
         recorder.stop();
@@ -301,7 +301,7 @@ export class Stage {
     }
 
     private render(index: number): void {
-        this.drawn.forEach((one, number) => (one.holder.visible = number === index));
+        this.drawn.forEach((shown, number) => (shown.holder.visible = number === index));
         this.renderer.render(this.scene, this.camera);
     }
 

@@ -18,7 +18,7 @@ interface Manifest {
     shards: { file: string; size: number; index: number; sha256: string }[];
 }
 
-interface Told {
+interface TileEntry {
     name: string;
     offset: number;
     size: number;
@@ -39,18 +39,18 @@ class Tile {
     tried = false;
 
     constructor(
-        readonly told: Told,
+        readonly entry: TileEntry,
         readonly url: string,
         { cell, origin }: Manifest,
     ) {
-        const [low, high] = [told.low, told.high].map((place) => new Vector3(...place.map((at, d) => at * cell + origin[d])));
+        const [low, high] = [entry.low, entry.high].map((place) => new Vector3(...place.map((at, d) => at * cell + origin[d])));
         this.center = low.clone().add(high).divideScalar(2);
         this.radius = low.distanceTo(high) / 2;
     }
 
     /** The error in pixels, seen from a place, if a unit at distance 1 has `pixels` pixels. */
     off(eye: Vector3, pixels: number): number {
-        return this.below.length === 0 ? 0 : (pixels * this.told.error) / Math.max(eye.distanceTo(this.center) - this.radius, 1e-3 * this.radius);
+        return this.below.length === 0 ? 0 : (pixels * this.entry.error) / Math.max(eye.distanceTo(this.center) - this.radius, 1e-3 * this.radius);
     }
 }
 
@@ -66,9 +66,9 @@ async function ranged(url: string, offset: number, size: number, sum: string): P
 
 /** A stream decoded to its end. */
 export function wholeOf(pool: Pool, bytes: Uint8Array): Promise<BSMGeometry> {
-    return new Promise((keep, fail) => {
+    return new Promise((resolve, fail) => {
         const geometry = new BSMGeometry();
-        const stream = pool.open({ onPicture: (picture) => geometry.accept(picture), onEnd: () => keep(geometry), onError: fail }, { drawing: "whole" });
+        const stream = pool.open({ onPicture: (picture) => geometry.accept(picture), onEnd: () => resolve(geometry), onError: fail }, { drawing: "whole" });
         stream.receiveData(bytes);
         stream.receiveEof();
     });
@@ -102,7 +102,7 @@ export class TileSet {
         for (const { file, size, index, sha256 } of manifest.shards) {
             const at = `${url}/${file}`;
             const text = new TextDecoder().decode(await ranged(at, size - FOOT - index, index, sha256));
-            for (const told of JSON.parse(text) as Told[]) nodes.set(told.name, new Tile(told, at, manifest));
+            for (const entry of JSON.parse(text) as TileEntry[]) nodes.set(entry.name, new Tile(entry, at, manifest));
         }
         for (const [name, tile] of nodes) nodes.get(name.slice(0, -1))?.below.push(tile);
         return new TileSet(manifest, [...nodes].flatMap(([name, tile]) => (nodes.has(name.slice(0, -1)) ? [] : [tile])), pool, changed);
@@ -117,12 +117,12 @@ export class TileSet {
     /** Choose what is to be seen from a place: what is most pixels off gives way to what it is made of. */
     look(eye: Vector3, pixels: number): void {
         const chosen = new Set(this.tops);
-        let faces = this.tops.reduce((sum, { told }) => sum + told.faces, 0);
+        let faces = this.tops.reduce((sum, { entry }) => sum + entry.faces, 0);
         const order: Tile[] = [...this.tops];
         for (;;) {
             const worst = [...chosen].reduce<[number, Tile?]>((most, tile) => (tile.off(eye, pixels) > most[0] ? [tile.off(eye, pixels), tile] : most), [FINE, undefined])[1];
             if (!worst) break;
-            const more = worst.below.reduce((sum, { told }) => sum + told.faces, -worst.told.faces);
+            const more = worst.below.reduce((sum, { entry }) => sum + entry.faces, -worst.entry.faces);
             if (faces + more > BUDGET) break;
             faces += more;
             chosen.delete(worst);
@@ -181,7 +181,7 @@ export class TileSet {
     }
 
     private async fetched(tile: Tile): Promise<void> {
-        const { offset, size, sha256, name } = tile.told;
+        const { offset, size, sha256, name } = tile.entry;
         try {
             const bytes = await ranged(tile.url, offset, size, sha256);
             const geometry = await wholeOf(this.pool, bytes);

@@ -40,7 +40,7 @@ export interface Content {
 }
 
 /** Encodes a file: lines of what is done, and the share of it; then what there is to be shown. */
-export type Encode = (file: File, preset: string, tell: (stage: string, share: number) => void, signal: AbortSignal) => Promise<Content>;
+export type Encode = (file: File, preset: string, report: (stage: string, share: number) => void, signal: AbortSignal) => Promise<Content>;
 
 const SECOND = 1000;
 const SAMPLED = 12; // frames that the camera makes room for
@@ -429,13 +429,13 @@ export class View {
             this.part("work").hidden = false;
             const bar = this.root.querySelector("progress")!;
             const preset = this.control<HTMLSelectElement>("preset").value;
-            const tell = (stage: string, share: number): void => {
+            const report = (stage: string, share: number): void => {
                 this.say("stage", `${file.name}: ${stage}`);
                 if (share > 0) bar.value = share;
                 else bar.removeAttribute("value");
             };
-            tell("sending", 0);
-            const content = await this.encode(file, preset, tell, working.signal);
+            report("sending", 0);
+            const content = await this.encode(file, preset, report, working.signal);
             const bytes = await bytesOf(content.layers[content.main]);
             if (this.working !== working || this.closed) return;
             this.open(content);
@@ -464,7 +464,7 @@ export class View {
         const { shards, levels } = tiles.manifest;
         this.say("figures", `${sized(shards.reduce((sum, { size }) => sum + size, 0))} in ${levels.length} levels`);
         this.say("claim", `${sized(tiles.got)} fetched for this view`);
-        this.tell([["Shown", `${counted(faces)} triangles in ${shown.length} tiles`], ["Fetched", `${counted(tiles.there)} tiles`]]);
+        this.listRows([["Shown", `${counted(faces)} triangles in ${shown.length} tiles`], ["Fetched", `${counted(tiles.there)} tiles`]]);
         this.complain(tiles.problem);
         this.root.dataset.tiles = String(shown.length);
         this.root.dataset.faces = String(faces);
@@ -694,11 +694,11 @@ export class View {
         if (took !== undefined) rows.push(["Decoded here in", spent(took)]);
         if (vertices > 0) rows.push(["Mesh", `${counted(vertices)} vertices`, `${counted(faces)} triangles`]);
         if (frames.length > 1) rows.push(["Sequence", `${counted(frames.length)} frames`, `${sized(Math.round(size / frames.length))} a frame`]);
-        this.tell(rows);
+        this.listRows(rows);
     }
 
     /** Write the table of what was measured. */
-    private tell(rows: [string, string, string?][]): void {
+    private listRows(rows: [string, string, string?][]): void {
         this.part("more").hidden = rows.length === 0;
         this.part("facts").replaceChildren(
             ...rows.flatMap(([name, value, more]) => {

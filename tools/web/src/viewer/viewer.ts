@@ -25,7 +25,7 @@ async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
 }
 
 /** Have the server encode a file; it stops when nobody listens. */
-const encode: Encode = async (file, preset, tell, signal) => {
+const encode: Encode = async (file, preset, report, signal) => {
     if (file.size > MOST_BYTES) throw new Error(`It has more than ${MOST_BYTES >> 20} MiB; use bsm encode, or bsm tile.`);
     const query = new URLSearchParams({ name: file.name, preset });
     const decoder = new TextDecoder();
@@ -36,7 +36,7 @@ const encode: Encode = async (file, preset, tell, signal) => {
             const { stage, share, error, entry } = JSON.parse(text.slice(0, end)) as { stage: string; share: number; error?: string; entry?: Content };
             if (error) throw new Error(error);
             if (entry) return entry;
-            tell(stage, share);
+            report(stage, share);
         }
     }
     throw new Error("The server has stopped.");

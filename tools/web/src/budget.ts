@@ -1,7 +1,7 @@
 import { checkLimit, type Limits } from "./limits";
 
 /** How much work a decoder may still do (specification, M 14.3). */
-export class Allowance {
+export class Budget {
     private owed = 0;
     private vertices = 0;
 
@@ -13,7 +13,7 @@ export class Allowance {
     }
 
     /** Take note of work to come, and of the bytes that ask for it. */
-    spend(work: number, received = 0): void {
+    charge(work: number, received = 0): void {
         const { limits, vertices } = this;
         this.owed += Math.max(0, work - limits.workPerByte * received);
         checkLimit({ ...limits, work: limits.work + limits.workPerVertex * vertices }, "work", this.owed);

@@ -1,16 +1,16 @@
-/** The desks of the whole decoder: one decodes and has helpers where that is worthwhile, the other helps. */
+/** The workers of the whole decoder: one decodes and has helpers where that is worthwhile, the other helps. */
 import { Decoder, END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./decoder";
-import { openDesk as opened, serveWith, Teller, type Desk, type Guard, type Say, type Start } from "./desk";
+import { openDesk as opened, serveWith, Reporter, type StreamWorker, type Guard, type Say, type Start } from "./worker";
 import type { Header } from "./header";
 import { Helper } from "./helper";
 import type { Share, SharedBlock } from "./share";
 import type { Kernels } from "./kernels";
 import { helpersFor, Team } from "./team";
 
-type Taking = Pick<Desk, "take">;
+type Taking = Pick<StreamWorker, "take">;
 
-class DecodersDesk implements Taking {
-    private readonly teller: Teller;
+class DecodingWorker implements Taking {
+    private readonly reporter: Reporter;
     private readonly decoder: Decoder;
     /** All pieces, until the header tells whether there will be helpers. */
     private pieces?: (Uint8Array | null)[] = [];
@@ -27,14 +27,14 @@ class DecodersDesk implements Taking {
         const { limits, tolerant, drawing } = start;
         const whole = drawing === "whole" && !tolerant;
         this.decoder = new Decoder(kernels, limits, { tolerant, whole, helpers: (header) => this.findHelpers(header) });
-        this.teller = new Teller(this.decoder, start, say);
+        this.reporter = new Reporter(this.decoder, start, say);
     }
 
     take(data: Uint8Array | null): void {
         this.pieces?.push(data);
         this.pass(data);
-        this.teller.take(data);
-        this.tell();
+        this.reporter.take(data);
+        this.report();
     }
 
     close(): void {
@@ -51,12 +51,12 @@ class DecodersDesk implements Taking {
         const onBlock = (shared: SharedBlock): void =>
             this.guarded(() => {
                 this.decoder.receiveBlock(shared);
-                this.tell();
+                this.report();
             });
         const onOver = (why: string): void =>
             this.guarded(() => {
                 this.over = why;
-                this.tell();
+                this.report();
             });
         const { kernels, limits, tolerant } = this.start;
         const found = this.team.begin({ kernels, limits, tolerant }, count, { onBlock, onOver });
@@ -69,14 +69,14 @@ class DecodersDesk implements Taking {
         else this.team?.receiveEof();
     }
 
-    private tell(): void {
-        const wait = this.teller.tell();
+    private report(): void {
+        const wait = this.reporter.report();
         if (wait === END_OF_STREAM) this.close();
         if (wait === NEED_BLOCK && this.over !== undefined) throw new Error(`a block does not come: ${this.over}`);
     }
 }
 
-class HelpersDesk implements Taking {
+class HelpingWorker implements Taking {
     private readonly helper: Helper;
 
     constructor(
@@ -104,11 +104,11 @@ class HelpersDesk implements Taking {
 }
 
 function open(start: Start, kernels: Kernels, say: Say, guarded: Guard): Taking {
-    return start.share ? new HelpersDesk(start, kernels, start.share, say) : new DecodersDesk(start, kernels, say, guarded);
+    return start.share ? new HelpingWorker(start, kernels, start.share, say) : new DecodingWorker(start, kernels, say, guarded);
 }
 
 /** Decode a stream in this thread, as another one would. */
-export function openDesk(start: Start, say: Say): Desk {
+export function openDesk(start: Start, say: Say): StreamWorker {
     return opened(open, start, say);
 }
 

@@ -1,4 +1,4 @@
-/** What a thread does: it decodes streams, or helps others that do, as it is told by messages. */
+/** The work of a thread: it decodes streams, or helps others that do, as messages ask. */
 import type { Event, FrameEvent } from "./events";
 import { Drawing, type Picture } from "./drawing";
 import { BsmError, type Described } from "./errors";
@@ -7,7 +7,7 @@ import { Kernels } from "./kernels";
 import type { Limits } from "./limits";
 import { END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./signals";
 
-/** What a thread says of a stream; frames come in single precision, as they are drawn. */
+/** What a thread reports of a stream; frames come in single precision, as they are drawn. */
 export type DrawnEvent = Exclude<Event, FrameEvent> | FrameEvent<Float32Array>;
 
 /** How to begin; with a share, as a helper. */
@@ -15,7 +15,7 @@ export interface Start {
     kernels: WebAssembly.Module;
     limits: Partial<Limits>;
     tolerant?: boolean;
-    /** Say pictures, not events: only the whole one, or each that can be drawn. */
+    /** Report pictures, not events: only the whole one, or each that can be drawn. */
     drawing?: "whole" | "growing";
     /** Threads that help this one, and vertices from which on that is worthwhile. */
     helpers?: MessagePort[];
@@ -23,12 +23,12 @@ export interface Start {
     share?: Share;
 }
 
-/** What is said to a thread of one of its tasks: how to begin, a piece of the stream, null for its end; or to help another thread. */
+/** A message to a thread about one of its tasks: how to begin, a piece of the stream, null for its end, or to stop. */
 export type Order = { task: number } & ({ start: Start } | { data: Uint8Array | null } | { stop: true });
 export type Message = Order | { help: MessagePort };
 
-/** What it says of a task: an event or a picture, a block, that no more of them come, what is wrong, what is decoded, that all is. */
-export type Said =
+/** A report on a task: an event or a picture, a block, the end of blocks, what is wrong, bytes taken, or the end. */
+export type Report =
     | { event: DrawnEvent }
     | { picture: Picture }
     | { shared: SharedBlock }
@@ -38,9 +38,9 @@ export type Said =
     | { taken: number }
     | { over: true };
 
-export type Answer = { ready: true } | ({ task: number } & Said);
+export type Answer = { ready: true } | ({ task: number } & Report);
 
-export type Say = (said: Said, moved?: Transferable[]) => void;
+export type Say = (report: Report, moved?: Transferable[]) => void;
 
 /** One end of a line between threads. */
 export interface Endpoint {
@@ -49,52 +49,52 @@ export interface Endpoint {
 }
 
 /** Takes the bytes of a stream, and null for their end. */
-export interface Desk {
+export interface StreamWorker {
     take(data: Uint8Array | null): void;
-    /** Say nothing more. */
+    /** Report nothing more. */
     stop(): void;
 }
 
 export type Guard = (work: () => void) => void;
-export type Open = (start: Start, kernels: Kernels, say: Say, guarded: Guard) => Pick<Desk, "take"> & { close?: () => void };
+export type Open = (start: Start, kernels: Kernels, say: Say, guarded: Guard) => Pick<StreamWorker, "take"> & { close?: () => void };
 
-/** Someone to take the bytes of a stream; after a fault nothing more is said. */
-export function openDesk(open: Open, start: Start, say: Say, kernels = new Kernels(start.kernels)): Desk {
+/** Return a worker that takes the bytes of a stream; after a fault it reports nothing more. */
+export function openDesk(open: Open, start: Start, say: Say, kernels = new Kernels(start.kernels)): StreamWorker {
     let over = false;
-    let desk: ReturnType<Open> | undefined;
+    let worker: ReturnType<Open> | undefined;
     const guarded: Guard = (work) => {
         if (over) return;
         try {
             work();
         } catch (error) {
             over = true;
-            desk?.close?.();
+            worker?.close?.();
             say(error instanceof BsmError ? { problem: error.described } : { fault: `${error}` });
         }
     };
-    guarded(() => (desk = open(start, kernels, (said, moved) => over || say(said, moved), guarded)));
+    guarded(() => (worker = open(start, kernels, (report, moved) => over || say(report, moved), guarded)));
     return {
-        take: (data) => guarded(() => desk?.take(data)),
+        take: (data) => guarded(() => worker?.take(data)),
         stop: () => {
             over = true;
-            desk?.close?.();
+            worker?.close?.();
         },
     };
 }
 
 /** Take orders from one end of a line. A thread has the kernels of its first stream for all. */
 export function attend(end: Endpoint, open: Open, own: { kernels?: Kernels } = {}): void {
-    const desks = new Map<number, Desk>();
+    const workers = new Map<number, StreamWorker>();
     end.onmessage = ({ data: order }: MessageEvent<Message>) => {
         if ("help" in order) return attend(order.help, open, own);
         const { task } = order;
         if ("start" in order) {
             own.kernels ??= new Kernels(order.start.kernels);
-            desks.set(task, openDesk(open, order.start, (said, moved = []) => end.postMessage({ task, ...said }, moved), own.kernels));
+            workers.set(task, openDesk(open, order.start, (report, moved = []) => end.postMessage({ task, ...report }, moved), own.kernels));
         } else if ("stop" in order) {
-            desks.get(task)?.stop();
-            desks.delete(task);
-        } else desks.get(task)?.take(order.data);
+            workers.get(task)?.stop();
+            workers.delete(task);
+        } else workers.get(task)?.take(order.data);
     };
 }
 
@@ -105,7 +105,7 @@ export function serveWith(open: Open): void {
     end.postMessage({ ready: true } satisfies Answer, []);
 }
 
-/** What a desk needs of a decoder. */
+/** What a worker needs of a decoder. */
 export interface Decoding {
     receiveData(data: Uint8Array): void;
     receiveEof(): void;
@@ -113,8 +113,8 @@ export interface Decoding {
     release(): void;
 }
 
-/** Says what a decoder decodes. */
-export class Teller {
+/** Reports what a decoder decodes. */
+export class Reporter {
     private readonly drawing?: Drawing;
     private taken = 0;
 
@@ -132,8 +132,8 @@ export class Teller {
         this.taken += data?.length ?? 0;
     }
 
-    /** Say everything that is known now; what the decoder waits for then. */
-    tell(): typeof NEED_DATA | typeof NEED_BLOCK | typeof END_OF_STREAM {
+    /** Report everything that is known now; return what the decoder waits for then. */
+    report(): typeof NEED_DATA | typeof NEED_BLOCK | typeof END_OF_STREAM {
         for (;;) {
             const event = this.decoder.nextEvent();
             if (typeof event === "string") {
