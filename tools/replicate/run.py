@@ -40,7 +40,7 @@ def spread_over(sources: list[Source], count: int) -> list[Source]:
 
 
 def unseen(sources: list[Source], sizes: tuple[int, int]) -> list[Source]:
-    """Those that nothing was tuned on, by their numbers of vertices."""
+    """Meshes that nothing was tuned on, by their numbers of vertices."""
     return [source for source in sources if source.group == "unseen" and sizes[0] <= source.vertices <= sizes[1]]
 
 
