@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from bsm.api import encode_sequence
 from bsm.bitstream import _kernels as of_bytes
 from bsm.codec import _kernels as of_arrays
 from bsm.codec.decoding import decode, decode_sequence
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
-from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.signal.smooth import local_frames
 from bsm.codec.static.choice.settling import Sensitivity

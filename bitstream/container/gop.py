@@ -139,16 +139,11 @@ def method_of(first: int) -> GopMethod:
 
 
 def frames_of_gop(data: bytes, longest: int, run: int = 0) -> int:
-    """How many frames a GOP has; errors as of `parse_gop_body`."""
-    return _parse_beginning(Cursor(data), longest, run)[1]
-
-
-def _parse_beginning(cursor: Cursor, longest: int, run: int) -> tuple[GopMethod, int, bool]:
-    """Method, frames, and whether there are attributes."""
-    of_run, kind = divmod(cursor.take(1)[0], METHODS)
-    if of_run != run % RUNS:
+    """How many frames a GOP of a run has; `CorruptError` if it is none of this run, or too long."""
+    cursor = Cursor(data)
+    if cursor.take(1)[0] // METHODS != run % RUNS:
         raise CorruptError(f"a GOP of another run than run {run}")
-    method, frames = method_of(kind), cursor.varint()
+    frames = cursor.varint()
     if not 1 <= frames <= longest:
         raise CorruptError(f"a GOP of {frames} frames where 1 to {longest} are legal")
-    return method, frames, kind >= WITH_ATTRIBUTES
+    return frames

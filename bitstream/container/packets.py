@@ -116,18 +116,12 @@ Packet: TypeAlias = (
 )
 
 
-MOST_HEADER = 1 << 16
-MOST_DECLARATION = 1 << 16  # bytes of their maps
-
-
 def write_header(header: Header) -> bytes:
     return write_map(entries_of(header))
 
 
 def parse_header(payload: bytes) -> Header:
     """Inverse of `write_header`."""
-    if len(payload) > MOST_HEADER:
-        raise CorruptError(f"a header of {len(payload)} bytes, where {MOST_HEADER} are legal")
     return record_of(Header, "header", parse_map(payload))
 
 
@@ -180,8 +174,6 @@ def parse_attribute(payload: bytes) -> Attribute:
     """Inverse of `write_attribute`."""
     cursor = Cursor(payload)
     index, length = cursor.varint(), cursor.varint()
-    if length > MOST_DECLARATION:
-        raise CorruptError(f"a declaration of {length} bytes, where {MOST_DECLARATION} are legal")
     return Attribute(index, record_of(Declaration, "attribute", parse_map(cursor.take(length))), cursor.rest())
 
 

@@ -418,18 +418,6 @@ class _Rounds:
         self._done += done == blocks
 
 
-def encode_sequence(
-    positions: npt.ArrayLike,
-    faces: npt.ArrayLike,
-    options: SequenceOptions | None = None,
-    metadata: Metadata = MappingProxyType({}),
-    attributes: Sequence[Attribute] = (),
-) -> bytes:
-    """Encode frames, `positions` of shape (T, n, 3), to a complete stream; other arguments as of `SequenceEncoder`."""
-    frames = frames_of(positions)
-    return b"".join(SequenceEncoder(faces, options, len(frames), metadata, attributes).chunks(frames))
-
-
 def frames_of(positions: npt.ArrayLike) -> Positions:
     """Positions of frames, shape (T, n, 3), checked."""
     try:

@@ -9,10 +9,11 @@ from typing import Any, get_args
 
 import numpy as np
 
+from bsm.api import encode_sequence
 from bsm.codec.arrays import Positions
 from bsm.codec.geometry.attributes import Attribute, Domain
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
@@ -214,4 +215,4 @@ def _sequence(random: Random) -> bytes:
             own = Attribute("moving", (60.0 + 50.0 * np.sin(3.0 * places + 0.7 * t)).astype(kind))
             meshes.append(replace(mesh, positions=frame, attributes=(*mesh.attributes, own)))
         return b"".join(SequenceEncoder(mesh.faces, chosen, frames).chunks(meshes))
-    return encode_sequence(positions, mesh.faces, chosen, attributes=mesh.attributes)
+    return encode_sequence(positions, mesh.faces, chosen, mesh_attributes=mesh.attributes)

@@ -9,10 +9,10 @@ from typing import Any
 
 import zstandard
 
+from bsm.api import encode_sequence
 from bsm.bitstream.container.header import HEADER_FIELDS
 from bsm.bitstream.container.wire import FrameType, write_frame, write_map
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import changed

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Attribute as Declared
 from bsm.bitstream.container.packets import Packet, Refinement, Values
 from bsm.bitstream.fields.corners import FieldEncoder
@@ -15,7 +16,6 @@ from bsm.codec.geometry.attributes import Attribute, Domain
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.codec.progress import Nearing
-from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.static.attributes.encoding import ranges
 from bsm.codec.static.choice.blocks import Spectral
 from bsm.codec.static.encoder import Encoder, encode
@@ -174,7 +174,7 @@ def _sequence() -> bytes:
     meshes = [torus(10, 8, phase=0.2 * t) for t in range(4)]
     attributes = with_attributes(meshes[0], charts, colors, groups).attributes
     positions = np.array([mesh.positions for mesh in meshes])
-    return encode_sequence(positions, meshes[0].faces, MOVING, {"name": "torus"}, attributes)
+    return encode_sequence(positions, meshes[0].faces, MOVING, metadata={"name": "torus"}, mesh_attributes=attributes)
 
 
 def _second(mesh: TriangleMesh) -> Attribute:

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from bsm.api import encode_sequence
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from tools.surgery import with_header
 from tools.vectors.good import Good

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from bsm.api import encode_sequence
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions

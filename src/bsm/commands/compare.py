@@ -49,18 +49,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--surface", action="store_true", help=surface)
     alike = "also compare pictures: up to a distance of 1, both look the same. The faces may differ. "
     add("--look", action="store_true", help=f"{alike}A sequence is compared frame by frame")
-    add(
-        "--picture",
-        metavar="FILE.png",
-        help="draw both and their difference, from the side where it is largest (implies --look); for sequences, a "
-        "curve of the error of each frame",
-    )
-    add(
-        "--map",
-        metavar="FILE",
-        help="draw the error of each vertex of A in colors, from blue to red: a picture (.png), or A as a mesh with "
-        "colors (.ply, .obj, .glb)",
-    )
+    drawn = "draw both and their difference, from the side where it is largest (implies --look); for sequences, "
+    add("--picture", metavar="FILE.png", help=f"{drawn}a curve of the error of each frame")
+    colored = "draw the error of each vertex of A in colors, from blue to red: a picture (.png), or A as a mesh with "
+    add("--map", metavar="FILE", help=f"{colored}colors (.ply, .obj, .glb)")
     add_reader_flag(parser)
     add_limits_flag(parser)
     add("--json", action="store_true", help="print the result as JSON")

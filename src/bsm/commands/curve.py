@@ -37,12 +37,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     which = "comma-separated codecs: ours, paper (SVD and orthogonal iterations, 12 bits), draco, or "
     which += "single lines such as svd,oi-r2 (default: all)"
     add("--codecs", metavar="LIST", default=",".join(GROUPS), help=which)
-    add(
-        "--blocks",
-        type=int,
-        metavar="K",
-        help="number of blocks for the codecs of the paper (default: blocks of 500 vertices)",
-    )
+    blocks = "number of blocks for the codecs of the paper (default: blocks of 500 vertices)"
+    add("--blocks", type=int, metavar="K", help=blocks)
     add("--repeat", type=int, default=1, metavar="N", help="repeat each measurement; the fastest counts (default 1)")
     add("--csv", action="store_true", help="also write the tables as FOLDER/*.csv")
     add("--latex", action="store_true", help="also write the tables as FOLDER/*.tex (booktabs)")

@@ -52,11 +52,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--format", choices=SEQUENCE_FORMATS, help="format of the output (default: by its name, else ply)")
     add("--blocks", type=int, metavar="N", help="stop after N blocks, and write that part")
     add("--layers", type=int, metavar="N", help="stop after N layers: 1 is the base, each refinement adds one")
-    add(
-        "--permutation",
-        metavar="FILE.npy",
-        help="restore the order of the input; the file that encode wrote with the same option",
-    )
+    order = "restore the order of the input; the file that encode wrote with the same option"
+    add("--permutation", metavar="FILE.npy", help=order)
     add("--tolerant", action="store_true", help="continue after damage; list the lost parts and leave them out")
     add_limits_flag(parser)
     group = parser.add_argument_group("sequences")

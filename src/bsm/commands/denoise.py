@@ -81,17 +81,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     given += "surface along its normals. normals: noisy positions, smoothed along coarse normals. none: no coarse step"
     ways.add_argument("--hand-over", choices=HAND_OVERS, help=given)
-    ways.add_argument(
-        "--iterations",
-        type=int,
-        metavar="N",
-        help="iterations of the fine step; 0: no fine step (default: by the method)",
-    )
+    times = "iterations of the fine step; 0: no fine step (default: by the method)"
+    ways.add_argument("--iterations", type=int, metavar="N", help=times)
     share = "fraction of a block's frequencies that the coarse step keeps, c over n_d (default 0.1)"
     ways.add_argument("--keep", type=float, metavar="FRACTION", help=share)
-    ways.add_argument(
-        "--block-size", type=int, metavar="N", help="approximate vertices of a block before overlap (default 500)"
-    )
+    size = "approximate vertices of a block before overlap (default 500)"
+    ways.add_argument("--block-size", type=int, metavar="N", help=size)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

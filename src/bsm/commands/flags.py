@@ -191,27 +191,15 @@ def add_encode_flags(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("coding")
     for setting in ENCODE_FLAGS:
         setting.add(group)
-    group.add_argument(
-        "--attribute",
-        dest="attributes",
-        action="append",
-        type=named_quality,
-        metavar="NAME=QUALITY",
-        default=argparse.SUPPRESS,
-        help="quality of an attribute: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none. The name * means "
-        "all others; *=none also drops materials and images. May be repeated",
-    )
-    group.add_argument(
-        "--set",
-        action="append",
-        type=named_setting,
-        metavar="NAME=VALUE",
-        default=argparse.SUPPRESS,
-        help="an advanced setting; --help-all lists them. May be repeated",
-    )
-    parser.add_argument(
-        "--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help="show this help with all settings"
-    )
+    repeated: dict[str, Any] = {"action": "append", "default": argparse.SUPPRESS}
+    quality = "quality of an attribute: exact, 12bits, 0.01 (a bound), 1%%, 2deg, recompute or none. The name * means "
+    quality += "all others; *=none also drops materials and images. May be repeated"
+    add = group.add_argument
+    add("--attribute", dest="attributes", type=named_quality, metavar="NAME=QUALITY", help=quality, **repeated)
+    advanced = "an advanced setting; --help-all lists them. May be repeated"
+    add("--set", type=named_setting, metavar="NAME=VALUE", help=advanced, **repeated)
+    every = "show this help with all settings"
+    parser.add_argument("--help-all", nargs=0, action=HelpAll, default=argparse.SUPPRESS, help=every)
     group = parser.add_argument_group(
         "sequences",
         "Inputs: a folder or a pattern of meshes; several meshes with -o NAME.bsm; npz, PC2, MDD, USD; GLB with\n"
@@ -254,16 +242,14 @@ def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | N
     add("inputs", metavar="IN", nargs="+", help=f"{about_them}; or a URL (s3://bucket/name)")
     if output:
         add("-o", "--output", metavar="OUT", help=output)
-    add(
-        "-j", "--jobs", type=int, default=1, metavar="N", help="work on N inputs at a time; 0: one per core (default 1)"
-    )
+    at_once = "work on N inputs at a time; 0: one per core (default 1)"
+    add("-j", "--jobs", type=int, default=1, metavar="N", help=at_once)
     add("--json", action="store_true", help="print the result as JSON")
     many = parser.add_argument_group("many inputs")
     many.add_argument("--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler")
     if output:
-        many.add_argument(
-            "--report", metavar="FILE.json", help="write the result of each input to a file, print a table"
-        )
+        reported = "write the result of each input to a file, print a table"
+        many.add_argument("--report", metavar="FILE.json", help=reported)
         resumed = "continue the run of --report: skip inputs whose output is complete and up to date"
         many.add_argument("--resume", action="store_true", help=resumed)
     else:
@@ -284,13 +270,9 @@ def asked(kind: type[_Asked], args: argparse.Namespace, **more: Any) -> _Asked:
 
 
 def add_limits_flag(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--limits",
-        choices=tuple(NAMED_LIMITS),
-        default="default",
-        help="memory and time that a stream may take. default: in proportion to its vertices and bytes. service: at "
-        "most 1 GiB and 10 s, for untrusted files of up to a million vertices. wide: for your own files only",
-    )
+    granted = "memory and time that a stream may take. default: in proportion to its vertices and bytes. service: at "
+    granted += "most 1 GiB and 10 s, for untrusted files of up to a million vertices. wide: for your own files only"
+    parser.add_argument("--limits", choices=tuple(NAMED_LIMITS), default="default", help=granted)
 
 
 def limits_of(name: str) -> Limits:
@@ -298,8 +280,5 @@ def limits_of(name: str) -> Limits:
 
 
 def add_reader_flag(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--reader",
-        choices=READERS,
-        help="library that reads mesh files (default: bsm for OBJ, OFF, PLY, STL, VTP and npz, else trimesh)",
-    )
+    library = "library that reads mesh files (default: bsm for OBJ, OFF, PLY, STL, VTP and npz, else trimesh)"
+    parser.add_argument("--reader", choices=READERS, help=library)

@@ -32,28 +32,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("input", metavar="MESH", help="binary PLY, binary STL, npz or OBJ of any size, or a URL")
     add("-o", "--output", metavar="FOLDER", required=True, help="folder or URL for the shards and manifest.json")
     add("--format", choices=("ply", "stl", "npz", "obj"), help="format of the input (default: by its name or content)")
-    add(
-        "--triangles",
-        type=int,
-        default=1 << 19,
-        metavar="N",
-        help="largest number of triangles of a tile (default 2^19)",
-    )
-    add(
-        "--grid-cell",
-        type=float,
-        metavar="H",
-        help="cell of the grid of all tiles (default: a power of two, chosen by the look)",
-    )
+    largest = "largest number of triangles of a tile (default 2^19)"
+    add("--triangles", type=int, default=1 << 19, metavar="N", help=largest)
+    cell = "cell of the grid of all tiles (default: a power of two, chosen by the look)"
+    add("--grid-cell", type=float, metavar="H", help=cell)
     add("--grid-origin", type=point, metavar="X,Y,Z", help="a point of the grid (default 0,0,0)")
     add("--finest", action="store_true", help="write only the finest level")
     add("--work", metavar="FOLDER", help="folder for temporary files, several times the input (default: OUTPUT/.work)")
     add("-j", "--jobs", type=int, default=1, metavar="N", help="work on N tiles at a time; 0: one per core (default 1)")
-    add(
-        "--dask",
-        metavar="ADDRESS",
-        help="run on the Dask cluster of this scheduler; its machines must share the folders",
-    )
+    cluster = "run on the Dask cluster of this scheduler; its machines must share the folders"
+    add("--dask", metavar="ADDRESS", help=cluster)
     add("--resume", action="store_true", help="continue a stopped run from the files in --work")
     add("--tileset", action="store_true", help="also write tileset.json (3D Tiles) and a GLB for each tile")
     add("--content", choices=CONTENTS, default=CONTENTS[0], help=CONTENT_HELP)

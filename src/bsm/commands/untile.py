@@ -22,27 +22,14 @@ def box(text: str) -> tuple[float, ...]:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("input", metavar="FOLDER", help="folder of tiles, or its URL")
-    add(
-        "-o",
-        "--output",
-        metavar="OUT",
-        required=True,
-        help=".ply of any size, - for a pipe, or .../tileset.json (3D Tiles). Other formats must fit into memory",
-    )
-    add(
-        "--box",
-        type=box,
-        metavar="X,Y,Z,X,Y,Z",
-        help="only triangles that reach into this box; they must fit into memory",
-    )
+    output = ".ply of any size, - for a pipe, or .../tileset.json (3D Tiles). Other formats must fit into memory"
+    add("-o", "--output", metavar="OUT", required=True, help=output)
+    reaching = "only triangles that reach into this box; they must fit into memory"
+    add("--box", type=box, metavar="X,Y,Z,X,Y,Z", help=reaching)
     of = parser.add_mutually_exclusive_group()
     of.add_argument("--level", type=int, metavar="N", help="level of detail; 0 is the coarsest (default: the finest)")
-    of.add_argument(
-        "--error",
-        type=float,
-        metavar="H",
-        help="the coarsest tiles with an error of at most H, in the unit of the mesh",
-    )
+    coarsest = "the coarsest tiles with an error of at most H, in the unit of the mesh"
+    of.add_argument("--error", type=float, metavar="H", help=coarsest)
     add("--content", choices=CONTENTS, default=CONTENTS[0], help=CONTENT_HELP)
     add_limits_flag(parser)
 

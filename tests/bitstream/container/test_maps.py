@@ -2,8 +2,8 @@
 
 import pytest
 
-from bsm.bitstream.container.packets import MOST_DECLARATION, MOST_HEADER, parse_attribute, parse_header, parse_metadata
-from bsm.bitstream.container.wire import parse_map, write_map, write_varint
+from bsm.bitstream.container.packets import parse_metadata
+from bsm.bitstream.container.wire import parse_map, write_map
 from bsm.bitstream.errors import CorruptError
 
 WRONG = {
@@ -30,10 +30,3 @@ def test_metadata_that_is_none_is_refused():
     for payload in (b"\x81\x01\x01", b"\x81\x91\x01\x01", b"\x81\xa1a\x91\x01"):
         with pytest.raises(CorruptError):
             parse_metadata(payload)
-
-
-def test_a_header_and_a_declaration_have_bounds_of_their_own():
-    with pytest.raises(CorruptError, match="a header of 65537 bytes"):
-        parse_header(bytes(MOST_HEADER + 1))
-    with pytest.raises(CorruptError, match="a declaration of"):
-        parse_attribute(b"\0" + write_varint(MOST_DECLARATION + 1))

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from bsm.api import encode_sequence
 from bsm.codec.arrays import Positions
-from bsm.codec.sequence.encoder import encode_sequence
 from bsm.codec.sequence.options import SequenceOptions
 from tests.shapes import torus
 

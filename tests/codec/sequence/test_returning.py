@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 import bsm
+from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
 from bsm.bitstream.container.wire import Cursor
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.decoding import decode_sequence
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.frames import SAME, distinct_frames, same_frames
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from tests.motion import bending

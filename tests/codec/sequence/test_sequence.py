@@ -3,6 +3,7 @@ import math
 import numpy as np
 import pytest
 
+from bsm.api import encode_sequence
 from bsm.bitstream.container.packets import Gop
 from bsm.bitstream.errors import (
     BsmError,
@@ -17,7 +18,7 @@ from bsm.bitstream.limits import NAMED_LIMITS, Limits
 from bsm.codec.decoding import SequenceDecoder, decode_sequence
 from bsm.codec.events import END_OF_STREAM, NEED_DATA, ConnectivityEvent, EndEvent, HeaderEvent, LossEvent
 from bsm.codec.sequence import tracks
-from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.gop import FrameHistory
 from bsm.codec.sequence.options import Promise, SequenceOptions
 from bsm.codec.sequence.targets import SequenceTarget, compare_sequences

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
+from bsm.api import encode_sequence
 from bsm.bitstream.container import packets
 from bsm.bitstream.errors import BsmError, OptionError
 from bsm.codec.decoding import SequenceDecoder, decode_sequence
 from bsm.codec.events import END_OF_STREAM, AttributeEvent, FrameEvent, LossEvent
 from bsm.codec.geometry.attributes import Attribute
-from bsm.codec.sequence.encoder import SequenceEncoder, encode_sequence
+from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from tests.shapes import torus
 from tests.streams import packets_of, without
@@ -40,7 +41,7 @@ def decoded(stream: bytes, *, tolerant: bool = False) -> tuple[dict[str, Attribu
 
 def test_they_come_back_before_the_second_frame():
     options = SequenceOptions(keep_order=True, attributes={"uv": "12bits"})
-    stream = encode_sequence(FRAMES, MESH.faces, options, {"name": "spin"}, with_attributes())
+    stream = encode_sequence(FRAMES, MESH.faces, options, metadata={"name": "spin"}, mesh_attributes=with_attributes())
     found, frames, losses, order = decoded(stream)
     assert frames == 6 and not losses
     assert order.index("FrameEvent") > max(i for i, name in enumerate(order) if name == AttributeEvent.__name__)
@@ -53,13 +54,16 @@ def test_they_come_back_before_the_second_frame():
 
 
 def test_they_cost_once():
-    bare = [len(encode_sequence(FRAMES[:count], MESH.faces)) for count in (3, 6)]
-    full = [len(encode_sequence(FRAMES[:count], MESH.faces, attributes=with_attributes())) for count in (3, 6)]
+    bare = [len(encode_sequence(FRAMES[:count], MESH.faces, SequenceOptions())) for count in (3, 6)]
+    full = [
+        len(encode_sequence(FRAMES[:count], MESH.faces, SequenceOptions(), mesh_attributes=with_attributes()))
+        for count in (3, 6)
+    ]
     assert abs((full[0] - bare[0]) - (full[1] - bare[1])) <= 4
 
 
 def test_what_is_lost_of_one_spoils_none_before_it():
-    stream = encode_sequence(FRAMES, MESH.faces, attributes=with_attributes())
+    stream = encode_sequence(FRAMES, MESH.faces, SequenceOptions(), mesh_attributes=with_attributes())
     values = [packet for packet, *_ in packets_of(stream) if isinstance(packet, packets.Values)]
     for which, packet in enumerate(values):
         broken = without(stream, packets.Values, which, "changed")
@@ -73,7 +77,9 @@ def test_what_is_lost_of_one_spoils_none_before_it():
 def test_normals_cannot_be_recomputed():
     normals = Attribute("normal", np.ones((len(MESH.positions), 3)), "vertex", "normal")
     with pytest.raises(OptionError, match="recomputed"):
-        encode_sequence(FRAMES, MESH.faces, SequenceOptions(attributes={"normal": "recompute"}), attributes=(normals,))
+        encode_sequence(
+            FRAMES, MESH.faces, SequenceOptions(attributes={"normal": "recompute"}), mesh_attributes=(normals,)
+        )
 
 
 def test_as_many_frames_come_as_were_announced():
