@@ -89,13 +89,13 @@ async function inlined() {
 /** A thread: the decoder, started as one. */
 const thread = (decoder) => `import{serve}from"./${decoder}";serve();\n`;
 
-function licences(packages) {
+function licenses(packages) {
     return packages.map((name) => `${name}\n\n${readFileSync(join(WEB, "node_modules", name, "LICENSE"), "utf8").trim()}`).join("\n\n\n");
 }
 
 /** Path and content of everything that is built of TypeScript. */
 async function products() {
-    const define = { LICENCES: JSON.stringify(licences(BUNDLED)) };
+    const define = { LICENSES: JSON.stringify(licenses(BUNDLED)) };
     const script = (await bundle(join(SOURCES, "viewer/viewer.ts"), { define, plugins: [await inlined()] })).replaceAll("</script", "<\\/script");
     const built = {
         "errors.js": await plain("errors.ts", []),
@@ -118,7 +118,7 @@ async function products() {
     };
     return [
         ...(await Promise.all(Object.entries(built).map(async ([name, text]) => [join(WEB, "built", name), `${await smaller(text)}\n`]))),
-        [join(WEB, "built/LICENSES.txt"), `${licences(BUNDLED)}\n`],
+        [join(WEB, "built/LICENSES.txt"), `${licenses(BUNDLED)}\n`],
         [join(VIEWER, "page.html"), readFileSync(join(SOURCES, "viewer/page.html"), "utf8")],
         [join(VIEWER, "viewer.js"), script],
         ...["kernels", "kernels-scalar", "small"].map((name) => [join(VIEWER, `${name}.wasm`), readFileSync(join(WEB, `built/${name}.wasm`))]),

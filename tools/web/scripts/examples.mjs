@@ -56,7 +56,7 @@ async function look() {
             const picture = await page.screenshot();
             if (pictures) mkdirSync(pictures, { recursive: true });
             if (pictures) writeFileSync(join(pictures, `${name}.png`), picture);
-            const { drawn, red, blue } = await page.evaluate(coloured, `data:image/png;base64,${picture.toString("base64")}`);
+            const { drawn, red, blue } = await page.evaluate(colored, `data:image/png;base64,${picture.toString("base64")}`);
             await page.close();
             if (drawn < SEEN || (kind === "textured" && Math.min(red, blue) < SEEN / 3)) wrong.push(`only ${drawn} of it is drawn, ${red} red, ${blue} blue`);
             if (wrong.length > 0) throw new Error(`example ${name}: ${wrong.join("; ")}`);
@@ -69,7 +69,7 @@ async function look() {
 }
 
 /** Shares of the pixels that are not black, and of those that are red and blue. */
-async function coloured(url) {
+async function colored(url) {
     const image = new Image();
     image.src = url;
     await image.decode();

@@ -88,8 +88,8 @@ function materialOf(words: Words, images: Map<number, Texture>): MeshStandardMat
 }
 
 /** A texture in the space of its colours; an image that is used as both is so two textures. */
-function inSpace(texture: Texture, coloured: boolean): Texture {
-    const space = coloured ? SRGBColorSpace : NoColorSpace;
+function inSpace(texture: Texture, colored: boolean): Texture {
+    const space = colored ? SRGBColorSpace : NoColorSpace;
     if (texture.colorSpace === space) return texture;
     if (texture.userData.taken) {
         texture = texture.clone();

@@ -218,8 +218,8 @@ export async function sceneOf(geometry: BSMGeometry): Promise<Group> {
     const group = new Group();
     group.name = String(metadata.get("name") ?? "");
     group.userData = Object.fromEntries([...metadata].filter(([, value]) => !(value instanceof Uint8Array)));
-    const coloured = geometry.hasAttribute("color");
-    for (const material of materials) material.vertexColors = coloured;
+    const colored = geometry.hasAttribute("color");
+    for (const material of materials) material.vertexColors = colored;
     const parts = new Set(pieces.map(({ part }) => part));
     if (parts.size < 2) group.add(new Mesh<BSMGeometry, MeshStandardMaterial | MeshStandardMaterial[]>(geometry, materials.length > 1 ? materials : materials[0]));
     else for (const piece of pieces) group.add(meshOf(geometry, piece, materials[piece.material], nameOf(metadata, piece.part)));

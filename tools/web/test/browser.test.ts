@@ -16,7 +16,7 @@ const SEQUENCES = [join(VECTORS, "good-sequence-learnt.bsm"), join(VECTORS, "goo
 const BARE = ".bsm-ui > * { opacity: 0 !important } .bsm-stage { background: #e9ecf0 !important }";
 
 /** Shares of the pixels that are red and green, and how high these are on the mean, from the top. */
-function coloursIn(png: Buffer): { red: number; green: number; redHeight: number; greenHeight: number } {
+function colorsIn(png: Buffer): { red: number; green: number; redHeight: number; greenHeight: number } {
     const [counts, heights] = [[0, 0], [0, 0]];
     let all = 1;
     for (const { row, channels, y, width, height } of rowsOf(png)) {
@@ -107,7 +107,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
                 const label = active.getAttribute("aria-label") ?? (active as HTMLInputElement).labels?.[0]?.textContent;
                 return (label ?? active.textContent ?? "").trim().split(/[\n,.(:]/)[0].trim();
             });
-        const expected = ["The mesh", "Measured", "Open a mesh or stream", "Save a picture", "Save a turntable", "Dark or light", "Settings", "Light from", "Background", "Turn by itself", "Cut the stream", "Link", "Stream again", "Licences", "Smooth", "Color"];
+        const expected = ["The mesh", "Measured", "Open a mesh or stream", "Save a picture", "Save a turntable", "Dark or light", "Settings", "Light from", "Background", "Turn by itself", "Cut the stream", "Link", "Stream again", "Licenses", "Smooth", "Color"];
         await page.locator("canvas").focus();
         const met = [await name()];
         for (let k = 0; k < expected.length - 1; k++) {
@@ -158,7 +158,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await fresh.waitForSelector("body[data-state=complete]", { timeout: 20_000 });
         await fresh.waitForFunction(() => document.querySelector<HTMLSelectElement>("[name=color]")!.value === "own");
         await fresh.waitForTimeout(300);
-        const counts = coloursIn(await fresh.locator("canvas").screenshot());
+        const counts = colorsIn(await fresh.locator("canvas").screenshot());
         assert.ok(counts.red > 0.02 && counts.green > 0.02, JSON.stringify(counts));
         // The red half is the upper one along z, which this mesh calls up.
         assert.ok(counts.redHeight < counts.greenHeight, JSON.stringify(counts));
@@ -179,7 +179,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         assert.match(await page.locator("[data-part=facts]").innerText(), /Draco at this look[^]*4 kB 11 bits[^]*0.90[^]*promised[^]*1\u00a0%[^]*promised 2\u00a0%/);
         const redOf = async (): Promise<number> => {
             await page.waitForTimeout(300);
-            const { red } = coloursIn(await page.locator("canvas").screenshot());
+            const { red } = colorsIn(await page.locator("canvas").screenshot());
             return red;
         };
         assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());

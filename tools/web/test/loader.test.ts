@@ -102,18 +102,18 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         const seen = await found(`
             const load = (name) => new BSMLoader().loadAsync("/stream/" + name + ".bsm");
             const kernels = await loadKernels();
-            const [textured, coloured] = [await load("good-attribute-uv-blocks"), await load("good-attribute-colors")];
+            const [textured, colored] = [await load("good-attribute-uv-blocks"), await load("good-attribute-colors")];
             const mesh = decode(kernels, await bytesOf("good-attribute-uv-blocks"));
             const [{ values, indices }] = mesh.attributes.filter(({ semantic }) => semantic === "texcoord");
             const [index, uv, position] = [textured.index.array, textured.getAttribute("uv"), textured.getAttribute("position")];
             const same = mesh.faces.every((vertex, i) => Math.abs(position.getX(index[i]) - mesh.positions[3 * vertex]) < 1e-5 && Math.abs(uv.getX(index[i]) - values[2 * indices[i]]) < 1e-5);
             const pairs = new Set(mesh.faces.map((vertex, i) => vertex * 1e6 + indices[i]).map(String).map((_, i) => mesh.faces[i] + " " + indices[i])).size;
-            const colours = coloured.getAttribute("color");
-            return { same, expected: new Set([...mesh.faces].map((vertex, i) => vertex + " " + indices[i])).size, drawn: position.count, corners: index.length, colours: colours.count === coloured.getAttribute("position").count, brightest: Math.max(...colours.array) };`);
+            const colors = colored.getAttribute("color");
+            return { same, expected: new Set([...mesh.faces].map((vertex, i) => vertex + " " + indices[i])).size, drawn: position.count, corners: index.length, colors: colors.count === colored.getAttribute("position").count, brightest: Math.max(...colors.array) };`);
         assert.equal(seen.same, true);
         assert.equal(seen.drawn, seen.expected);
         assert.ok(Number(seen.drawn) < Number(seen.corners));
-        assert.ok(seen.colours && Number(seen.brightest) > 0.1 && Number(seen.brightest) <= 1);
+        assert.ok(seen.colors && Number(seen.brightest) > 0.1 && Number(seen.brightest) <= 1);
     });
 
     test("keeps its threads, and goes on behind bad streams", async () => {

@@ -121,14 +121,14 @@ export class View {
     constructor(
         private readonly root: HTMLElement,
         private readonly pool: Pool,
-        licences: string,
+        licenses: string,
         private readonly encode?: Encode,
     ) {
         root.classList.add("bsm");
         root.innerHTML = template;
         [this.cut, this.rate, this.frame] = [this.control("cut"), this.control("rate"), this.control("frame")];
         [this.scheme, this.play] = [this.control("color"), this.control("play")];
-        this.part("licences").textContent = licences;
+        this.part("licenses").textContent = licenses;
         this.part("scale").querySelector("div")!.style.background = RAMP;
         try {
             this.stage = new Stage(root.querySelector("canvas")!);

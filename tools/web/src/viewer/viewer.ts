@@ -3,7 +3,7 @@ import { Pool } from "../pool";
 import { bytesOf, fetched, inlined, served } from "./inlined";
 import { View, type Content, type Encode } from "./view";
 
-declare const LICENCES: string;
+declare const LICENSES: string;
 
 const MOST_BYTES = 2 ** 26;
 
@@ -46,7 +46,7 @@ const encode: Encode = async (file, preset, report, signal) => {
 async function fillPage(list: HTMLElement): Promise<void> {
     const contents = JSON.parse(list.textContent!) as Content[];
     const pool = new Pool(inlined);
-    const view = new View(document.body, pool, LICENCES, served ? encode : undefined);
+    const view = new View(document.body, pool, LICENSES, served ? encode : undefined);
     let turns = 0;
     const open = async (index: number): Promise<void> => {
         const turn = ++turns;
@@ -74,7 +74,7 @@ async function fillPage(list: HTMLElement): Promise<void> {
 async function render({ model, el }: { model: Model; el: HTMLElement }): Promise<() => void> {
     const root = el.appendChild(document.createElement("div"));
     root.style.height = `${model.get("height")}px`;
-    const view = new View(root, new Pool(inlined), LICENCES);
+    const view = new View(root, new Pool(inlined), LICENSES);
     const open = async (): Promise<void> => {
         const content = model.get("content") as Content;
         view.open(content);
