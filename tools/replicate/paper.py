@@ -491,7 +491,7 @@ def powers(study: Study) -> Iterator[Row]:
 
 TABLES: dict[str, Callable[[Study], Iterator[Row]]] = {
     made.__name__.replace("_", "-"): made
-    for made in (basis, number_of_segments, overlap, coherence, dynamic, times, powers)
+    for made in (basis, powers, times, dynamic, coherence, number_of_segments, overlap)
 }
 
 
