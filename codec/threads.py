@@ -7,8 +7,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, islice
 from numbers import Integral
-from threading import Lock, Thread
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from bsm.bitstream.errors import ArgumentError, OptionError
 
@@ -62,40 +61,8 @@ def pool_of(threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads)
 
 
-class Pending(Generic[Result]):
-    """A result that may still be on its way."""
-
-    def __init__(self, work: Callable[[], Result]) -> None:
-        self._work: Callable[[], Result] | None = work
-        self._outcome: Result
-        self._error: BaseException | None = None
-        self._coming = Lock()
-        self._coming.acquire()
-
-    def run(self) -> None:
-        """Do the work of this thread."""
-        assert self._work is not None
-        try:
-            self._outcome = self._work()
-        except BaseException as error:
-            self._error = error
-        self._work = None
-        self._coming.release()
-
-    def result(self) -> Result:
-        """The result, or the error, once it is there."""
-        with self._coming:
-            if self._error is not None:
-                raise self._error
-            return self._outcome
-
-
 def side_by_side(first: Callable[[], Result], second: Callable[[], Result]) -> tuple[Result, Result]:
-    """Do two pieces of work at the same time, the second one on a thread of its own."""
-    pending = Pending(second)
-    thread = Thread(target=pending.run)
-    thread.start()
-    try:
-        return first(), pending.result()
-    finally:
-        thread.join()
+    """Do two pieces of work at the same time, the second one on a thread of its own; both end before this does."""
+    with pool_of(1) as pool:
+        other = pool.submit(second)
+        return first(), other.result()

@@ -121,16 +121,6 @@ def factor_room(fronts: Fronts) -> Basis:
     return np.empty(int(fronts.places[-1]) + PADDING, np.float32)
 
 
-def solve(factor: Factor, columns: Matrix) -> Matrix:
-    """R X for X of shape (n, c), rounded to single precision."""
-    n, c = columns.shape
-    check_rows(factor, n)
-    solution = np.empty((n, c))
-    columns = np.ascontiguousarray(columns)
-    _kernels.solve_columns(factor.fronts, factor.values, factor.inverse, columns, solving_room(n, c), solution)
-    return solution
-
-
 def solving_room(rows: int, columns: int) -> Basis:
     return np.empty((rows + 4) * (columns + 16) + PADDING, np.float32)
 

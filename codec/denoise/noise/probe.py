@@ -73,7 +73,6 @@ class Windows:
         return result.reshape(self.count, *values.shape[1:])
 
 
-FINE = 2
 FINEST = 6
 GAIN_PROBES = 24
 NORMAL_PASSES = 2

@@ -21,7 +21,6 @@ REGULAR, ONE_SIDED = 0.08, 0.98
 """Middle distance of pixels from the mean of their neighbours, in edges, and share of the faces seen from one side."""
 BEND = 0.05  # change of slope up to which bends are rounded, not sharp
 ROUNDS, STEPS, STAND_OUT = 6, 120, 2.0
-NEWTON = 12
 
 
 @dataclass(frozen=True, eq=False)

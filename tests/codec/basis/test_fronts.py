@@ -5,7 +5,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from bsm.bitstream.errors import LimitError
-from bsm.codec.basis.laplacian import LEAF, WORK, dense_laplacian, factorize, find_fronts, laplacian_of, solve
+from bsm.codec import _kernels
+from bsm.codec.basis.laplacian import LEAF, WORK, dense_laplacian, factorize, find_fronts, laplacian_of, solving_room
 from bsm.codec.basis.orthogonal_iteration import hash_columns
 from bsm.codec.blocks.overlap import Block, derive_partition, grow_blocks
 from bsm.codec.geometry.graph import graph_of_faces
@@ -18,6 +19,14 @@ def whole(faces, size):
     """All of a mesh as one block, its rows in bisection order."""
     graph = graph_of_faces(faces, size)
     return grow_blocks(graph, derive_partition(graph, 1), size).block(0)
+
+
+def solve(factor, columns):
+    """R X for X of shape (n, c), rounded to single precision."""
+    solution = np.empty(columns.shape)
+    given = factor.fronts, factor.values, factor.inverse, np.ascontiguousarray(columns)
+    _kernels.solve_columns(*given, solving_room(*columns.shape), solution)
+    return solution
 
 
 def unordered(faces, size):
