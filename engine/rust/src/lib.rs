@@ -482,7 +482,7 @@ impl Decoder {
     /// corners that you need; `None`: all that are available. It holds until the next [`Event::Header`].
     pub fn split(&mut self, attributes: Option<&[usize]>) -> Result<usize, Error> {
         let numbers: Vec<c_int> =
-            attributes.unwrap_or(&[]).iter().map(|&one| Source::Attribute(one).number()).collect();
+            attributes.unwrap_or(&[]).iter().map(|&attribute| Source::Attribute(attribute).number()).collect();
         let (count, mut vertices) = (attributes.map_or(-1, |some| some.len() as c_int), 0);
         self.done(unsafe { raw::bsmdec_split(self.own.as_ptr(), numbers.as_ptr(), count, &mut vertices) })?;
         self.split = vertices as usize;
@@ -560,8 +560,8 @@ impl Decoder {
         let mut found = Vec::new();
         let mut entry = MaybeUninit::<raw::bsmdec_metadata>::zeroed();
         while unsafe { raw::bsmdec_metadata_at(self.own.as_ptr(), found.len() as i64, entry.as_mut_ptr()) } == 0 {
-            let one = unsafe { entry.assume_init_ref() };
-            found.push(unsafe { (string_of(one.name), entry_of(one)) });
+            let entry = unsafe { entry.assume_init_ref() };
+            found.push(unsafe { (string_of(entry.name), entry_of(entry)) });
         }
         found
     }
