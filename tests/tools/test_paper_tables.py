@@ -26,13 +26,13 @@ def test_every_table_stands_beside_the_paper_s_numbers(study):
     assert len({table["title"] for table in tables}) == len(tables) == len(paper.TABLES) + 2
     assert all(len(row) == len(table["columns"]) for table in tables for row in table["rows"])
     assert sum(cell.endswith(")") for table in tables for row in table["rows"] for cell in row[1:]) > 80
-    assert sum("old" in table["note"] for table in tables) > 4
+    assert sum("hold" in table["note"] for table in tables) > 4
 
 
 def test_the_paper_s_numbers_stand_in_brackets(study):
     table = paper.printed("t", ("x", "y"), [("near", (1.05, 2.0), (1.0,)), ("none", (3.0, 2.0), ())], "a remark")
     assert table["rows"] == [["near", "1.05 (1)", "2"], ["none", "3", "2"]] and table["note"] == "a remark"
-    assert paper.claim("It is so.", False, "it was not.") == "It is so. Does not hold: it was not."
+    assert paper.claim("It is so", False, "it was not.") == '"It is so" does not hold: it was not.'
     models = {study.model(role).name for role in ("bunny", "julio", "twelve")}
     assert len(models) == 3  # no mesh plays two roles
 

@@ -68,7 +68,7 @@ def printed(title: str, columns: Iterable[str], lines: Iterable[Line], *remarks:
 
 def claim(says: str, holds: bool, found: str) -> str:
     """Something that the paper says in words, and whether it came out here."""
-    return f"{says} {'Holds' if holds else 'Does not hold'}: {found}"
+    return f'"{says}" {"holds" if holds else "does not hold"}: {found}'
 
 
 # ----------------------------------------------------------------------------------------------- the paper's numbers
@@ -285,8 +285,8 @@ def number_of_segments(study: Study) -> Iterator[Row]:
         ("vertices per segment", "MND, simple average", "MND, weighted average"),
         rows,
         f"Here {model.name}. The paper does not say how strong its noise is, and MND follows it; compare the trend.",
-        claim("The error rises with segments.", _falls(rows[::-1], 2), "each keeps its own lowest tenth."),
-        claim("Weights are better.", gains == len(rows), f"in {gains} of {len(rows)} rows."),
+        claim("The error rises with segments", _falls(rows[::-1], 2), "each keeps its own lowest tenth."),
+        claim("Weights are better", gains == len(rows), f"in {gains} of {len(rows)} rows."),
     )
 
 
@@ -312,7 +312,7 @@ def overlap(study: Study) -> Iterator[Row]:
         rows,
         f"Here {model.name}. METIS labels differ between builds; the noisy Julio and the constants of the fine step "
         "are not published.",
-        claim("More overlap is better.", all(falls), f"coarse, for {sum(falls)} of {len(falls)} numbers of segments."),
+        claim("More overlap is better", all(falls), f"coarse, for {sum(falls)} of {len(falls)} numbers of segments."),
     )
 
 
@@ -351,7 +351,7 @@ def coherence(study: Study) -> Iterator[Row]:
     ]
     nearest, honest = smallest_on_diagonal(coherence_errors(first)), smallest_on_diagonal(left_out(every))
     found = f"in {nearest} of {len(rows)} rows; in {honest} with the tested one of forty left out of its mean."
-    remark = claim("A model is nearest to itself.", honest == len(rows), found)
+    remark = claim("A model is nearest to itself", honest == len(rows), found)
     yield printed("The paper, 6.4: coherence of segments, the first three of each model", COHERENCE, rows, remark)
 
 
@@ -384,7 +384,7 @@ def basis(study: Study) -> Iterator[Row]:
         ("bpv", "NMSVE of SVD, or of DOI, dB", "z = 1, above it", "z = 2, above it"),
         rows,
         "12 bits a coefficient, METIS, a share c of n_d; one iteration a block, key blocks as the codec has them.",
-        claim("OI is similar to SVD or better.", max(map(max, gaps.values())) < 0.1, f"{found}."),
+        claim("OI is similar to SVD or better", max(map(max, gaps.values())) < 0.1, f"{found}."),
     )
 
 
@@ -430,8 +430,8 @@ def dynamic(study: Study) -> Iterator[Row]:
         ("sum of c", "least c", "largest c", "spread of errors"),
         rows,
         f"Here {model.name}.",
-        claim("The error is more stable with a dynamic size.", uneven(varied) < uneven(fixed), found),
-        claim("The dynamic c changes without jumps.", jump <= 0.25, f"by {100 * jump:.0f} % of its mean at most."),
+        claim("The error is more stable with a dynamic size", uneven(varied) < uneven(fixed), found),
+        claim("The dynamic c changes without jumps", jump <= 0.25, f"by {100 * jump:.0f} % of its mean at most."),
     )
 
 
