@@ -1,7 +1,5 @@
 """Streams to meshes and frames: the decoders of `import bsm`, over the decoder in C (`engine/`)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from numbers import Integral
 from types import TracebackType
@@ -11,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm._engine import Decoder as Engine
-from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, Paper
+from bsm.bitstream.container.header import LAW, LAW_OF_SEQUENCES, Header, paper_of
 from bsm.bitstream.container.packets import MetadataValue
 from bsm.bitstream.container.wire import PREAMBLE_BYTES
 from bsm.bitstream.errors import ArgumentError, BsmError, FormatError, MeshError, OptionError, UnsupportedError, public
@@ -380,17 +378,7 @@ class SequenceDecoder(StreamDecoder):
 def header_of(numbers: list[float]) -> Header:
     """A header of the numbers that `list_header` in engine/header.c gives."""
     n, whole = numbers, [int(number) for number in numbers]
-    bits, coarser, exact, power, iterations, key_iterations, _, springs = whole[31:39]
-    paper = Paper(
-        bits=bits,
-        coarser=coarser,
-        exact=exact,
-        power=power,
-        iterations=iterations,
-        key_iterations=key_iterations,
-        shift=n[37],
-        springs=springs,
-    )
+    law = LAW_OF_SEQUENCES if n[39] else LAW
     run, mesh_of = whole[13:15]
     return Header(
         vertices=whole[0],
@@ -411,7 +399,7 @@ def header_of(numbers: list[float]) -> Header:
         corner=tuple(whole[28:31]) if n[27] else (),
         sequence=tuple(whole[11:13]) if n[39] else (),
         run=(run, mesh_of) if mesh_of >= 0 else (run,) if run else (),
-        paper=() if n[21] or mesh_of >= 0 else paper.entry(LAW_OF_SEQUENCES if n[39] else LAW),
+        paper=() if n[21] or mesh_of >= 0 else paper_of(tuple(n[31:39]), law).entry(law),
     )
 
 

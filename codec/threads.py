@@ -59,10 +59,3 @@ def pool_of(threads: int) -> ThreadPoolExecutor:
     from concurrent.futures import ThreadPoolExecutor
 
     return ThreadPoolExecutor(threads)
-
-
-def side_by_side(first: Callable[[], Result], second: Callable[[], Result]) -> tuple[Result, Result]:
-    """Do two pieces of work at the same time, the second one on a thread of its own; both end before this does."""
-    with pool_of(1) as pool:
-        other = pool.submit(second)
-        return first(), other.result()

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsm.api import encode_sequence
 from bsm.bitstream import _kernels as of_bytes
 from bsm.codec import _kernels as of_arrays
 from bsm.codec.decoding import decode, decode_sequence
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import LookMetric
+from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.signal.smooth import local_frames
 from bsm.codec.static.choice.settling import Sensitivity
@@ -107,7 +107,9 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     for shape, options in cases:
         decode(encode(shape, changed(EncodeOptions(), threads=1, **options)), threads=1)
     decode(refined(bare, LAYER, (size,)), threads=1)
-    decode_sequence(encode_sequence(*bending(3, 12, 8), SequenceOptions(threads=1, step=0.01)), threads=1)
+    positions, faces = bending(3, 12, 8)
+    encoder = SequenceEncoder(faces, SequenceOptions(threads=1, step=0.01), len(positions))
+    decode_sequence(b"".join(encoder.chunks(positions)), threads=1)
     frames, steps = local_frames(bare.positions, bare.faces), np.ones((size, 3))
     seen = Sensitivity(bare.positions, bare.faces, graph_of_faces(bare.faces, size), LookMetric(bare), 0.01)
     seen.levels(2.0 * bare.positions, frames, steps, lambda _: steps, 0.01, np.full(size, np.inf))

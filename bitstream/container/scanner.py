@@ -1,7 +1,5 @@
 """Bytes to packets, each checked alone: for reports and tools. The decoder (`engine/`) checks the stream as a whole."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

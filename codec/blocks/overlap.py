@@ -22,26 +22,13 @@ from bsm.codec import _kernels
 from bsm.codec.arrays import Indices, Mask, Matrix, Order
 from bsm.codec.geometry.graph import Graph
 from bsm.codec.geometry.welding import group_rows
-from bsm.codec.threads import available_threads, side_by_side
-
-WORTH_A_THREAD = 8192  # vertices of a graph from which on a second thread gains more than it costs
 
 
-def bisect(graph: Graph, parts: int, threads: int | None = 1) -> tuple[Indices, Indices]:
+def bisect(graph: Graph, parts: int) -> tuple[Indices, Indices]:
     """Cut a graph into parts whose sizes differ by as little as proportional halving allows."""
     order, bounds = np.empty(graph.size, np.int32), np.empty(parts + 1, np.int32)
     scratch = np.empty(_kernels.bisection_scratch(graph.size), np.uint32)
-    arrays = graph.offsets, graph.neighbours, order, bounds
-    if parts > 1 and graph.size >= WORTH_A_THREAD and (threads or available_threads()) > 1:
-        second = np.empty_like(scratch)
-        done = _kernels.bisect_once(*arrays, scratch, second) and all(
-            side_by_side(
-                lambda: _kernels.bisect_half(*arrays, 0, scratch), lambda: _kernels.bisect_half(*arrays, 1, second)
-            )
-        )
-    else:
-        done = _kernels.bisect(*arrays, scratch)
-    if not done:
+    if not _kernels.bisect(graph.offsets, graph.neighbours, order, bounds, scratch):
         raise OptionError(f"{graph.size} vertices cannot be cut into {parts} parts")
     return order, bounds
 
@@ -67,9 +54,9 @@ def partition_of_labels(labels: Indices) -> Partition:
     return _grouped(group_rows(labels.astype(np.int64)[:, None]))
 
 
-def derive_partition(graph: Graph, parts: int, threads: int | None = 1) -> Partition:
+def derive_partition(graph: Graph, parts: int) -> Partition:
     """Recursive bisection, then two passes that move boundary vertices to where most of their neighbours are."""
-    order, bounds = bisect(graph, parts, threads)
+    order, bounds = bisect(graph, parts)
     labels = np.empty(graph.size, np.int32)
     _kernels.label_parts(order, bounds, labels)
     sizes, votes = np.empty(parts, np.int64), np.empty(parts, np.int32)

@@ -1,7 +1,5 @@
 """Checks that a sequence decodes to what its encoder expects, by the decoder in C, while it is written."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Checks that a stream decodes to what its encoder expects, by the decoder in C, before the stream is handed out."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """How far one mesh is from another of the same faces: positions, and attributes at the corners of faces."""
 
-from __future__ import annotations
-
 import io
 import os
 from collections.abc import Mapping

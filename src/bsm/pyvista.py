@@ -12,8 +12,6 @@ TriangleMesh(842 vertices, 1680 faces, Normals)
 (6, True)
 """
 
-from __future__ import annotations
-
 import os
 from typing import Any
 

@@ -12,7 +12,7 @@ from bsm.codec.decoding import decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions, changed
-from bsm.codec.threads import ordered_map, side_by_side
+from bsm.codec.threads import ordered_map
 from tests.shapes import patch
 
 
@@ -44,26 +44,6 @@ def test_errors_come_where_their_result_would(threads):
     assert [next(results) for _ in range(3)] == [0, 1, 2]
     with pytest.raises(ValueError, match="three"):
         next(results)
-
-
-def test_two_pieces_of_work_run_side_by_side():
-    meeting = threading.Barrier(2, timeout=20)
-    assert sorted(side_by_side(meeting.wait, meeting.wait)) == [0, 1]
-
-
-@pytest.mark.parametrize("failing", [0, 1])
-def test_an_error_of_either_comes_when_both_have_ended(failing):
-    ended = []
-
-    def work(number):
-        time.sleep(0.01 * number)
-        ended.append(number)
-        if number == failing:
-            raise ValueError(str(number))
-
-    with pytest.raises(ValueError, match=str(failing)):
-        side_by_side(lambda: work(0), lambda: work(1))
-    assert sorted(ended) == [0, 1]
 
 
 @pytest.mark.parametrize("start", ["cosines", "svd"])

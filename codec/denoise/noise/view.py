@@ -5,8 +5,6 @@ each by as much as it takes: ``min sum d (w - w0)^2 + s sum l |bend w|`` (total 
 Fatemi 1992; by reweighted least squares), where vertices that stand out count less.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

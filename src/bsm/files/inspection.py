@@ -1,7 +1,5 @@
 """Streams taken apart for a report, without decoding them."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Streams decoded in part: their first blocks, or what damage has left of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Streams from files and pipes, decoded whole or frame by frame."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from itertools import chain
 

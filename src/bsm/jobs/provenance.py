@@ -1,7 +1,5 @@
 """How a stream was made, as an entry of its metadata: by which version, with which promise, from which file."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from hashlib import sha256

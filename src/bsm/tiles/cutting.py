@@ -1,7 +1,5 @@
 """One integer lattice for a whole mesh, and an octree over it: which triangle is of which tile."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections import Counter

@@ -1,7 +1,5 @@
 """Tiles for others: as one mesh again, welded on the lattice, or as 3D Tiles; with the memory of a tile."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

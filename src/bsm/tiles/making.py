@@ -1,7 +1,5 @@
 """One tile: of the finest level by its triangles, of any other by its eighths, simplified inside of their border."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias

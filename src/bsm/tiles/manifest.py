@@ -1,7 +1,5 @@
 """A manifest of tiles, and the index at the end of each shard: every number is checked where it is read."""
 
-from __future__ import annotations
-
 import json
 import re
 import shlex

@@ -1,7 +1,5 @@
 """Mesh files of any size, piece by piece: positions, faces, colours and normals as plain arrays on the disk."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field

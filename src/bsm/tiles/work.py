@@ -1,7 +1,5 @@
 """The folders of a run of `bsm tile`: which process holds them, and which files of them the run has made."""
 
-from __future__ import annotations
-
 import errno
 import os
 import re

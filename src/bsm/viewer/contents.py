@@ -1,7 +1,5 @@
 """What the page shows: a stream, and beside it the original and Draco's file; made here, or in a process of its own."""
 
-from __future__ import annotations
-
 import math
 import multiprocessing
 import signal

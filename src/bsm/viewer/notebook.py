@@ -1,7 +1,5 @@
 """`bsm.show`: meshes and streams in a notebook."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Any

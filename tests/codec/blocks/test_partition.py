@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from bsm.codec.blocks.overlap import WORTH_A_THREAD, bisect, derive_partition, metis_partition, partition_of_labels
+from bsm.codec.blocks.overlap import bisect, derive_partition, metis_partition, partition_of_labels
 from bsm.codec.geometry.graph import graph_of_faces
 from tests.shapes import grid_faces, patch, together, torus
 
@@ -86,11 +86,3 @@ def test_a_bisection_keeps_neighbours_together():
     parts, _ = bisect(graph_of_faces(grid_faces(rows, rows), rows * rows), 4)
     for part in parts.reshape(4, -1):
         assert np.ptp(part // rows) + np.ptp(part % rows) < 48
-
-
-@pytest.mark.parametrize("parts", [2, 3, 7, 46])
-def test_two_threads_cut_as_one_does(parts):
-    graph = graph_of_faces(grid_faces(100, 99), 9900)
-    assert graph.size >= WORTH_A_THREAD
-    for first, second in zip(bisect(graph, parts), bisect(graph, parts, threads=2), strict=True):
-        assert np.array_equal(first, second)

@@ -1,7 +1,5 @@
 """USD, read and written with usd-core: points with time samples, their units and the axis that points up."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys
