@@ -45,7 +45,7 @@ NB_MODULE(_kernels, m) {
           "depth"_a, "lengths"_a, "farthest"_a, "picture"_a, "owner"_a, Unlocked());
     m.def("interpolate_shown", checked<&interpolate_shown>, "owner"_a, "ways"_a, "values"_a, "found"_a, Unlocked());
     m.def("likeness", checked<&likeness>, "first"_a, "second"_a, "wide"_a, "narrow"_a, "visible"_a, "plain"_a,
-          "scratch"_a, "sums"_a, "map"_a, Unlocked());
+          "scratch"_a, "sums"_a, "owner"_a, "blamed"_a, Unlocked());
     m.def("hash_columns", &hash_columns, "columns"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
     m.def("bisect", &bisect, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());

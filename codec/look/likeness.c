@@ -8,7 +8,7 @@
 #define STRIP 16
 #define WINDOW 8 /* pixels of a side of the squares that parts may be gone from */
 #define BACKGROUND 1.0f
-#define LOUD 1.0f /* what a pixel that differs visibly counts in the map, beside its dissimilarity */
+#define LOUD 1.0f /* what a face is blamed for a pixel that differs visibly, beside its dissimilarity */
 #define COVERED 0.999f
 #define STEADY_MEAN 1e-4f
 #define STEADY_SPREAD 9e-4f
@@ -108,14 +108,15 @@ INLINE int64_t densest(const float *marks, float *ring, float *columns, int64_t 
 
 /* `wide` and `narrow` are the halves of both blurs, from the middle. Over pixels that either picture covers, to `sums`:
  * of 1 - SSIM; how many differ by more than `visible` after the narrow blur; how many there are; and how many
- * differ by more than `plain` in the square that has most of these. `map`, which may be empty, gets for each pixel how
- * unlike it is: 1 - SSIM, and up to as much again by the square of its difference. */
+ * differ by more than `plain` in the square that has most of these. To `blamed`, which may be empty, comes for each
+ * face how unlike the pixels are that show it, by `owner`: 1 - SSIM, and up to 1 by the square of a difference. */
 KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles wide, ConstSingles narrow,
-                        double visible, double plain, Singles2 scratch, Doubles sums, Singles2 map) {
+                        double visible, double plain, Singles2 scratch, Doubles sums, ConstInts2 owner,
+                        Doubles blamed) {
     int64_t stride = scratch.columns;
     if (first.rows != second.rows || first.columns != second.columns || wide.size != WIDE + 1 ||
         narrow.size != NARROW + 1 || sums.size != 4 || stride < first.columns + 2 * WIDE ||
-        (map.rows && (map.rows != first.rows || map.columns != first.columns)) ||
+        (blamed.size && (owner.rows != first.rows || owner.columns != first.columns)) ||
         scratch.rows < (FIELDS + 1) * (KEPT + 2) + WINDOW + 2)
         return MISUSED;
     float *padded = scratch.data, *down = padded + (FIELDS + 1) * stride, *ring = down + (FIELDS + 1) * stride;
@@ -175,12 +176,12 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         for (int64_t i = from; i < to; i++) dissimilar += (double)one_less[i];
         seen += differ;
         count += inside;
-        if (map.rows)
-            for (int64_t i = from; i < to; i++) {
-                float share = change[i] / (float)visible, soft = share * share < 1.0f ? share * share : 1.0f;
-                bool counts = own[i] < COVERED || other[i] < COVERED;
-                map.data[at * first.columns + i] = counts ? one_less[i] + LOUD * soft : 0.0f;
-            }
+        for (int64_t i = from; blamed.size && i < to; i++) {
+            int64_t face = owner.data[at * owner.columns + i];
+            float share = change[i] / (float)visible, soft = share * share < 1.0f ? share * share : 1.0f;
+            if (face >= blamed.size) return MISUSED;
+            if (face >= 0) blamed.data[face] += (double)(one_less[i] + LOUD * soft);
+        }
         for (int64_t i = box.start; i < box.end; i++) marks[i] = 0.0f;
         for (int64_t i = from; i < to; i++) marks[i] = (double)__builtin_fabsf(change[i]) > plain ? 1.0f : 0.0f;
         gone = largest(gone, densest(marks, marked + at % WINDOW * stride, columns, box.start, box.end));

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass
+from hashlib import blake2b
 from typing import Any
 
 import numpy as np
@@ -49,6 +50,8 @@ MOST_WORK, WORK_PER_FACE = 120_000_000, 10_000
 
 Paint = Callable[[Canvas, Positions, Faces, Matrix, Matrix], list[Picture]]
 Shading = Callable[[Positions], Normals]  # normals of corners, where vertices are known
+Version = tuple[Sequence[Picture], Positions, Normals, dict[int, Matrix]]
+"""Pictures of an original; where a version has its vertices, its normals; and what is known of sides."""
 
 
 @public
@@ -121,11 +124,13 @@ class LookMetric:
         self._own = None if own is None else (self._drawn(positions, self._shape.faces, own), own)
         self._shading = shading
         self._worst = list(FEW)
+        self._known: dict[bytes, tuple[dict[int, Matrix], ...]] = {}
+        self._last: tuple[bytes, list[Version]] = b"", []
 
     def shaded_by(self, shading: Shading) -> LookMetric:
         """Return the same metric for versions with normals that `shading` makes."""
         other = copy(self)
-        other._shading = shading
+        other._shading, other._known, other._last = shading, {}, (b"", [])
         return other
 
     @property
@@ -146,22 +151,16 @@ class LookMetric:
             raise MeshError(f"positions must have shape {self._mesh.positions.shape}, not {positions.shape}")
         if not np.isfinite(positions).all():
             raise MeshError("a position is not finite")
-        placed = self._placed(positions)
-        normals = Shape.of(placed, self._shape.faces).normals(placed)  # vertices that have come to one place are one
-        shaded = [(self._pictures, normals)]
-        if self._own is not None:
-            shaded.append((self._own[0], self._shading(placed) if self._shading else self._own[1]))
-        glances = [self._glanced(pictures, placed, normals, least, most) for pictures, normals in shaded]
+        glances = [self._glanced(version, least, most) for version in self._versions(positions)]
         return max(glances, key=lambda glance: (glance[1] or glance[0]).distance)
 
     def breaks(self, positions: Positions, most: float) -> bool:
         """Whether a few sides, first those that did so last, show that `positions`, shape (n, 3), look farther."""
-        placed = self._placed(positions)
-        normals = Shape.of(placed, self._shape.faces).normals(placed)
+        version = self._versions(positions)[0]
         own = {side: float((self._pictures[side] < BACKGROUND).sum()) for side in FEW}
         dissimilar, visible, covered = 0.0, 0.0, max(sum(own.values()), 1.0)
         for at, side in enumerate(self._worst):
-            sums = self._sums(self._pictures, placed, self._shape.faces, normals, [side])[0]
+            sums = self._of(version, [side])[0]
             dissimilar, visible = dissimilar + float(sums[0]), visible + float(sums[1])
             covered += float(sums[2]) - own[side]
             if judged(dissimilar / covered, visible / covered, float(sums[3]) / SQUARE).distance > most:
@@ -169,18 +168,32 @@ class LookMetric:
                 return True
         return False
 
-    def _glanced(
-        self, pictures: Sequence[Picture], placed: Positions, normals: Normals, least: float, most: float
-    ) -> tuple[Look, Look | None]:
-        shown = placed, self._shape.faces, normals
-        few = self._sums(pictures, *shown, FEW)
+    def _glanced(self, version: Version, least: float, most: float) -> tuple[Look, Look | None]:
+        few = self._of(version, FEW)
         seen = summed(few) if few[:, 2].any() else None
         if seen is not None and not least <= seen.distance <= most:
             return seen, None
-        others = [side for side in range(len(self._cameras)) if side not in FEW]
-        rest = self._sums(pictures, *shown, others)
-        whole = summed(np.concatenate([few, rest])[np.argsort([*FEW, *others])])
+        whole = summed(self._of(version, range(len(self._cameras))))
         return seen or whole, whole
+
+    def _versions(self, positions: Positions) -> list[Version]:
+        """What is known of `positions`, with the normals that follow from them, and with the mesh's own."""
+        key = blake2b(np.ascontiguousarray(positions).data).digest()
+        if key != self._last[0]:
+            placed, known = self._placed(positions), self._known.setdefault(key, ({}, {}))
+            normals = Shape.of(placed, self._shape.faces).normals(placed)  # those that have come to one place are one
+            self._last = key, [(self._pictures, placed, normals, known[0])]
+            if self._own is not None:
+                own = self._shading(placed) if self._shading else self._own[1]
+                self._last[1].append((self._own[0], placed, own, known[1]))
+        return self._last[1]
+
+    def _of(self, version: Version, sides: Sequence[int]) -> Matrix:
+        """What `difference` says of some sides, a row each; each is drawn once."""
+        pictures, placed, normals, sums = version
+        new = [side for side in sides if side not in sums]
+        sums.update(zip(new, self._sums(pictures, placed, self._shape.faces, normals, new), strict=True))
+        return np.array([sums[side] for side in sides])
 
     def shaded(self, positions: Positions, normals: Normals) -> float:
         """The distance of positions, shape (n, 3), with normals of corners, from pictures of the original's own; or by
@@ -240,11 +253,9 @@ class LookMetric:
         normals = self._shape.normals(placed)
 
         def blamed(canvas: Canvas, side: int) -> tuple[int, Matrix]:
-            version, unlike = canvas.draw(placed, faces, normals, self._cameras[side]), canvas.unlike
-            unlike[:] = 0.0
-            difference(self._pictures[side], version, unlike)
-            shown = canvas.owner >= 0
-            return int(shown.sum()), np.bincount(canvas.owner[shown], unlike[shown], len(faces)).astype(np.float64)
+            version, found = canvas.draw(placed, faces, normals, self._cameras[side]), np.zeros(len(faces))
+            difference(self._pictures[side], version, canvas.owner, found)
+            return int((canvas.owner >= 0).sum()), found
 
         counts, added = zip(*self._each(blamed, range(len(self._cameras))), strict=True)
         return np.asarray(np.sum(added, axis=0) / max(sum(counts), 1))
@@ -278,10 +289,8 @@ class LookMetric:
 
     def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:
         """From all sides."""
-        cameras = self._cameras
-        return self._each(
-            lambda canvas, side: canvas.draw(placed, faces, normals, cameras[side]).copy(), range(len(cameras))
-        )
+        sides, cameras = range(len(self._cameras)), self._cameras
+        return self._each(lambda canvas, side: canvas.draw(placed, faces, normals, cameras[side]).copy(), sides)
 
     def _seen(self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals) -> Look:
         return summed(self._sums(pictures, placed, faces, normals, range(len(pictures))))

@@ -45,7 +45,7 @@ _GRID = 2.0**24
 EMPTY = 2  # work of a pixel that no face covers, where covering one is 1
 _SPREADS = {"wide": (1.5, 5), "narrow": (0.7, 3)}
 _SCRATCH_ROWS, _TILE = 75, 8
-_NOWHERE = np.empty((0, 0), np.float32)
+_NOWHERE, _NOBODY = np.empty((0, 0), np.int32), np.empty(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +86,7 @@ class Canvas:
     """Room for pictures, shape (pixels, pixels), one after another."""
 
     def __init__(self, pixels: int) -> None:
-        self.picture, self.unlike, self._depth, self._lengths = (np.empty((pixels, pixels), np.float32) for _ in "1234")
+        self.picture, self._depth, self._lengths = (np.empty((pixels, pixels), np.float32) for _ in "123")
         self.owner = np.empty((pixels, pixels), np.int32)
         self._tiles = np.empty((-(-pixels // _TILE),) * 2, np.float32)
 
@@ -206,11 +206,12 @@ def interpolated(
     return shown, canvas.owner[shown], found
 
 
-def difference(first: Picture, second: Picture, unlike: Picture = _NOWHERE) -> Matrix:
-    """Sums over pixels that either picture, shape (h, w), covers; shape (4,). `unlike` gets how unlike each is."""
+def difference(first: Picture, second: Picture, owner: Indices = _NOWHERE, blamed: Matrix = _NOBODY) -> Matrix:
+    """Sums over pixels that either picture, shape (h, w), covers; shape (4,). To `blamed`, shape (m,), comes how unlike
+    those are that show each face, by `owner`."""
     sums = np.zeros(4)
     scratch = np.empty((_SCRATCH_ROWS, first.shape[1] + 2 * _SPREADS["wide"][1]), np.float32)
-    _kernels.likeness(first, second, _WIDE, _NARROW, VISIBLE, PLAIN, scratch, sums, unlike)
+    _kernels.likeness(first, second, _WIDE, _NARROW, VISIBLE, PLAIN, scratch, sums, owner, blamed)
     return sums
 
 

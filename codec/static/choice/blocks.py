@@ -273,13 +273,11 @@ class Plain:
         self.first = ALONE * bounds.first_step
 
     def under(self, bounds: Bounds) -> "Plain":
-        """Return the same way for other bounds."""
         other = copy(self)
         other._bounds = bounds
         return other
 
     def at(self, step: float) -> Candidate:
-        """What a step of coefficients comes to."""
         base = self._spectral.base(step, self._bounds.measures.near.within(BLOCKS))
         reaches = self._bounds.reaches
         out = np.square(base.positions - base.prepared.positions).sum(axis=1) > reaches**2
@@ -309,7 +307,6 @@ class Refined:
         return self._bounds.first_step if self._sensitivity is None else self._sensitivity.first_step(self._look)
 
     def at(self, step: float) -> Candidate:
-        """What a step of the layer comes to."""
         base = self._base
         if self._sensitivity is not None:
             layer, levels = self._evened(step, self._sensitivity)
@@ -321,13 +318,11 @@ class Refined:
             heights = base.wanted(base.expected_steps(layer))[0]
             levels = base.wanted(base.known_steps(layer, heights))[0]
         candidate = _candidate(step, base, layer, levels)
-
-        def unfold() -> Candidate | None:
-            directions = base.wanted(base.known_steps(layer, levels))[1].reshape(-1, 9)
-            turned = self._bounds.measures.shaper.unfold(candidate.positions, levels, directions, self._bounds.reaches)
-            return None if turned is None else _candidate(step, base, layer, turned)
-
-        return replace(candidate, unfold=unfold, evened=self._sensitivity is not None)
+        directions = base.wanted(base.known_steps(layer, levels))[1].reshape(-1, 9)
+        turned = self._bounds.measures.shaper.unfold(candidate.positions, levels, directions, self._bounds.reaches)
+        if turned is not None:
+            candidate = _candidate(step, base, layer, turned)
+        return replace(candidate, evened=self._sensitivity is not None)
 
     def _evened(self, step: float, seen: Sensitivity) -> tuple[Layer, Levels]:
         """Return levels that cost little where they are seen, and are no more exact elsewhere than the bounds ask."""

@@ -95,18 +95,20 @@ class Bounds:
         self.reaches = reaches(measures.prepared, contract) * (1.0 - MARGIN)
         self._best: tuple[float, ...] | None = None
 
-    def excess(self) -> Callable[[Candidate], tuple[float, float | None]]:
+    def excess(self) -> Callable[..., tuple[float, float | None]]:
         """The logarithm of the largest share of a bound, for one search, and the look from all sides where that was
-        looked at: a few of them tell enough elsewhere, for what all tell beside these is about as it was before."""
+        looked at: a few of them tell enough elsewhere, for what all tell beside these is about as it was before, and
+        above `most`."""
         skew, near = 1.0, NEARLY
 
-        def excess(candidate: Candidate) -> tuple[float, float | None]:
+        def excess(candidate: Candidate, most: float = math.inf) -> tuple[float, float | None]:
             nonlocal skew, near
             positions = candidate.positions
             farther, angle, visual = self._shares(positions)
             shares = (angle,) if candidate.evened and max(farther, visual) <= 1.0 else (farther, angle, visual)
             least = 0.0 if NEARLY[0] < max(shares) <= 1.0 else near[0]  # a search may end where another bound is near
-            few, whole = self._glance(positions, *(share * self.contract.look / skew for share in (least, near[1])))
+            ends = least, min(near[1], most)
+            few, whole = self._glance(positions, *(share * self.contract.look / skew for share in ends))
             if whole is not None:
                 near = math.exp(-SLACK), math.exp(SLACK / 2.0)  # about what the search ends with
                 skew = max(whole, LEAST) / max(few, LEAST)

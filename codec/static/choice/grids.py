@@ -187,7 +187,6 @@ class Gridded:
         self._bounds = bounds
 
     def under(self, bounds: Bounds) -> "Gridded":
-        """Return the same way for other bounds."""
         return Gridded(self._prepared, bounds, self._worth)
 
     @cached_property
@@ -200,7 +199,6 @@ class Gridded:
         return 0.0 if character.is_model else character.entropy(self._bounds.rough_step)
 
     def at(self, step: float) -> Candidate:
-        """What a step comes to."""
         unit = self._prepared.units.scale
         held = single(max(step, self.least) * unit)
         places = np.floor((self._prepared.positions - self._low) / (held / unit) + 0.5).astype(np.int32)

@@ -18,7 +18,7 @@ from bsm.codec.geometry.metrics import folded_edges
 from bsm.codec.geometry.welding import first_of, weld
 from bsm.codec.look.measure import LookMetric, Shading
 from bsm.codec.static.choice.blocks import Plain, Refined
-from bsm.codec.static.choice.bounds import Bounds, Candidate, Measures
+from bsm.codec.static.choice.bounds import NEARLY, Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
@@ -52,11 +52,9 @@ class Unfolding:
         self.least, self.most, self.first, self._way = way.least, way.most, first, way
 
     def under(self, bounds: Bounds) -> Way:
-        """Return the same way for other bounds."""
         return Unfolding(self._way.under(bounds), self.first)
 
     def at(self, step: float) -> Candidate:
-        """What a step comes to."""
         candidate = self._way.at(step)
         return candidate.unfold() or candidate
 
@@ -113,8 +111,8 @@ class Search:
             if isinstance(way, Gridded) and not on_grid and way.guess() > GUESSED * least:
                 continue
             # A good first step of blocks alone is unknown, so their first result says little about their bytes.
-            patient = self._options.effort == "best"
-            found = widest(way, bounds, math.inf if isinstance(way, Plain) else least, patient=patient)
+            most = math.inf if isinstance(way, Plain) else least
+            found = widest(way, bounds, most, patient=self._options.effort == "best")
             if found is not None:
                 made.append(unfolded(found, way, bounds))
                 ways[id(made[-1])] = way
@@ -261,16 +259,18 @@ def widest(
 
     def at(step: float) -> float | None:
         candidate = tried if tried is not None and math.isclose(step, begin) else way.at(step)
-        over, look = excess(candidate)
+        sure = math.inf
+        if most_bytes < math.inf:  # a step twice as wide saves three bits of a vertex at most, half as wide costs one
+            bits = math.log(2.0) * 8.0 * (candidate.draft.size - most_bytes) / len(candidate.positions)
+            sure = -bits * STEEPEST if bits < 0.0 else -bits / (3.0 * STEEPEST)
+        over, look = excess(candidate, math.exp(min(sure, 1.0)))
         if over <= 0.0:
             kept.append((candidate, look))
-        # A step twice as wide saves three bits of a vertex at most; one half as wide costs about one at least.
-        bits = -over / math.log(2.0) * (3.0 * STEEPEST if over < 0.0 else 1.0 / STEEPEST)
-        if most_bytes < math.inf and candidate.draft.size - bits * len(candidate.positions) / 8.0 >= most_bytes:
-            return None
-        return over
+        return over if over < sure else None
 
     with suppress(LimitError):  # blocks that decoders would refuse
         secant(at, begin, way.least, way.most, *((3 * TRIES, 1.0, SLACK / 4.0) if patient else ()))
-    kept.sort(key=lambda candidate: candidate[0].draft.size)
+    few = len(bounds.reaches) < FEW_VERTICES  # of many, what has far finer steps is no smaller
+    fine = 0.0 if few else NEARLY[0] * max((candidate.step for candidate, _ in kept), default=0.0)
+    kept.sort(key=lambda pair: pair[0].draft.size if pair[0].step > fine else math.inf)
     return next((candidate for candidate, look in kept if bounds.keeps(candidate.positions, look)), None)

@@ -48,10 +48,6 @@ class Creases(NamedTuple):
     members: Indices
     cosine: float
 
-    def priced(self, price: float) -> Creases:
-        """Return these creases with their costs multiplied by a factor."""
-        return self._replace(costs=self.costs * price)
-
 
 class Sensitivity:
     """What errors of each vertex cost in pictures."""
@@ -96,7 +92,7 @@ class Sensitivity:
             losses[:, 1] += 1.0 / (worth * even**2)
         normals = in_frames(self._frames[:, 0], frames)
         levels = np.rint(offsets[:, :axes] / steps).astype(np.int32)
-        creases = self._creases.priced(SHADED / max(unit, 1e-300))
+        creases = self._creases._replace(costs=self._creases.costs * (SHADED / max(unit, 1e-300)))
         given, moved = np.ascontiguousarray(frames), np.empty((count, 3))
         rates, counts = np.tile(BITS, (AROUND * axes, 1)), np.empty((AROUND * axes, SIZES))
 

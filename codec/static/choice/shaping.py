@@ -48,7 +48,13 @@ class Character:
         """Bytes of the mesh on a rounded grid, if each place took what a second difference takes, by a histogram."""
         counts = np.empty((3, len(EXTRA)), np.int32)
         _kernels.count_bends_on(self._corners, step, counts)
-        return self._bytes(counts)
+        total = float(counts[0].sum())
+        if not total:
+            return 0.0
+        shares = counts[counts > 0] / total
+        bits = float(counts.sum(axis=0) @ EXTRA) / total - float((shares * np.log2(shares)).sum())
+        signs = 3.0 - float(counts[:, 0].sum()) / total
+        return len(self._original.positions) / 8.0 * (bits + signs)
 
     def rounded_angle(self, step: float) -> float:
         """Mean angle of normals, degrees, on a rounded grid."""
@@ -82,15 +88,6 @@ class Character:
         weights = self._original.weights
         flat = np.quantile(self._dihedrals, 0.75) < UNEVEN * self._dihedrals.mean()
         return bool(flat or np.median(weights) < UNEVEN * weights.mean())
-
-    def _bytes(self, counts: Indices) -> float:
-        total = float(counts[0].sum())
-        if not total:
-            return 0.0
-        shares = counts[counts > 0] / total
-        bits = float(counts.sum(axis=0) @ EXTRA) / total - float((shares * np.log2(shares)).sum())
-        signs = 3.0 - float(counts[:, 0].sum()) / total
-        return len(self._original.positions) / 8.0 * (bits + signs)
 
     @cached_property
     def _corners(self) -> Matrix:
