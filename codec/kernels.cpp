@@ -49,10 +49,6 @@ NB_MODULE(_kernels, m) {
     m.def("hash_columns", &hash_columns, "columns"_a, Unlocked());
     m.def("bisection_scratch", &bisection_scratch, "size"_a);
     m.def("bisect", &bisect, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "scratch"_a, Unlocked());
-    m.def("bisect_once", &bisect_once, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "scratch"_a, "second"_a,
-          Unlocked());
-    m.def("bisect_half", &bisect_half, "offsets"_a, "neighbors"_a, "order"_a, "bounds"_a, "half"_a, "scratch"_a,
-          Unlocked());
     m.def("refine_partition", &refine_partition, "offsets"_a, "neighbors"_a, "labels"_a, "passes"_a, "sizes"_a,
           "votes"_a, Unlocked());
     m.def("label_parts", checked<&label_parts>, "order"_a, "bounds"_a, "labels"_a, Unlocked());
@@ -123,8 +119,6 @@ NB_MODULE(_kernels, m) {
     m.def("pull", &pull, "starts"_a, "outer"_a, "stiffness"_a, "field"_a, "pulls"_a, Unlocked());
     m.def("learn_around", &learn_around, "known"_a, "field"_a, "moments"_a, "step"_a, "rules"_a, "mean"_a, "row"_a,
         Unlocked());
-    m.def("follow_rows", &follow_rows, "known"_a, "levels"_a, "decoded"_a, "moments"_a, "step"_a, "rules"_a, "factor"_a,
-        "row"_a, "expected"_a, Unlocked());
     m.def("search_rows", &search_rows, "known"_a, "targets"_a, "prices"_a, "weight"_a, "levels"_a, "decoded"_a,
         "moments"_a, "step"_a, "rules"_a, "factor"_a, "row"_a, "expected"_a, "values"_a, "ways"_a, "origins"_a,
         Unlocked());

@@ -8,8 +8,6 @@
 INLINE int64_t bisection_scratch(int64_t size) { return 13 * size + 5; }
 
 bool bisect(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch);
-bool bisect_once(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch, Words second);
-bool bisect_half(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, int64_t half, Words scratch);
 void refine_partition(ConstInts offsets, ConstInts neighbors, Ints labels, int64_t passes, Longs sizes, Ints votes);
 int64_t label_parts(ConstInts order, ConstInts bounds, Ints labels);
 void group_by_label(ConstInts labels, Ints bounds, Ints order);

@@ -169,35 +169,6 @@ bool bisect(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Wor
     return true;
 }
 
-/* The first cut of `bisect`, after which `bisect_half` can go on with both halves at once: one with `scratch`, the
- * other one with `second`. */
-bool bisect_once(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch, Words second) {
-    Work work, other;
-    if (!open_work(&work, offsets, neighbors, order, bounds, scratch) ||
-        !open_work(&other, offsets, neighbors, order, bounds, second) || bounds.size < 3)
-        return false;
-    int64_t size = offsets.size - 1;
-    uint32_t *segments = (uint32_t *)order.data;
-    Segment whole = begin(&work, segments, size, bounds);
-    bounds.data[whole.parts / 2] = (int32_t)cut_segment(&work, segments, whole, FIRST_COLOR);
-    for (int64_t v = 0; v < size; v++) {
-        other.colors[v] = work.colors[v];
-        for (int end = 0; end < 2; end++) other.distances[end][v] = work.distances[end][v];
-    }
-    return true;
-}
-
-/* Half 0 or 1 of what `bisect_once` has cut. */
-bool bisect_half(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, int64_t half, Words scratch) {
-    Work work;
-    if (!open_work(&work, offsets, neighbors, order, bounds, scratch) || bounds.size < 3) return false;
-    Segment whole = {0, offsets.size - 1, 0, bounds.size - 1, 0};
-    int64_t cut = bounds.data[whole.parts / 2];
-    if (cut < 0 || cut > whole.last) return false;
-    cut_on(&work, (uint32_t *)order.data, half ? upper(whole, cut) : lower(whole, cut), FIRST_COLOR + 4, bounds);
-    return true;
-}
-
 /* The derived partition: boundary vertices move to where most of their neighbors are (specification, M 4). */
 
 static int32_t better_part(ConstInts offsets, ConstInts neighbors, const int32_t *labels, const int64_t *sizes,

@@ -34,9 +34,9 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_660,
+    "product in all languages, lines": 61_623,
     "product Python, lines": 33_199,
-    "product C and C++, lines": 20_896,
+    "product C and C++, lines": 20_859,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,
