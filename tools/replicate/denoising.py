@@ -188,10 +188,10 @@ def denoising_note(rows: Sequence[Row]) -> str:
     worse = [entry["ours"] > entry["noisy"] for row in rows for entry in row["kinds"].values()]
     return (
         f"{len(rows)} meshes that nothing was tuned on, of {min(row['vertices'] for row in rows):,} to "
-        f"{max(row['vertices'] for row in rows):,} vertices, with noise of {LEVEL} mean edges. Mean angles to the "
-        "normals of the clean mesh by the automatic mode, over those of the best of guided filtering, bilateral "
-        "normal filtering and the paper's scheme, with fixed numbers of iterations or stopped by an oracle; of "
-        "sequences, over their frames one by one. Without noise "
+        f"{max(row['vertices'] for row in rows):,} vertices, with noise of {LEVEL} mean edges. Numbers are mean "
+        "angles to the clean normals by the automatic mode, over those of the best rival. Rivals are guided filtering, "
+        "bilateral normal filtering and the paper's scheme. They have fixed numbers of iterations, or an oracle stops "
+        "them. Sequences are over their frames one by one. Without noise "
         f"{sum(row['untouched'] for row in rows)} of {len(rows)} come back bit for bit, and normals turn by at most "
         f"{max(row['turned'] for row in rows):.2f} degrees. {sum(worse)} of {len(worse)} noisy meshes become worse."
     )
