@@ -297,7 +297,6 @@ class Refined:
         self.least, self.most = FINEST_LAYER, COARSEST
 
     def under(self, bounds: Bounds) -> "Refined":
-        """Return the same way, and the same blocks, for other bounds."""
         other = copy(self)
         other._bounds = bounds
         return other
@@ -333,6 +332,7 @@ class Refined:
             layer = Layer(single(step), min(max(ASLANT * even / step, 1.0), RATIO))
             steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
             reach = np.minimum(bounds.reaches, NEAR * layer.step)
+            even = even if bounds.contract.visual < math.inf else math.inf  # a bound on the farthest is of a few
             levels = seen.levels(base.offsets, base.frames, steps, known, PULLED, reach, even)
             return layer, base.within(bounds.reaches, layer, levels)
 

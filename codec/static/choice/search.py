@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, replace
-from itertools import takewhile
+from itertools import chain, takewhile
 from operator import attrgetter
 from typing import Protocol
 
@@ -81,7 +81,6 @@ class Search:
 
     @property
     def metric(self) -> LookMetric | None:
-        """None: nothing of the mesh can be seen."""
         return self._measures.look
 
     def smallest(self, contract: Contract) -> Draft:
@@ -209,7 +208,6 @@ class Search:
         return self.metric is not None and self.metric.is_exhausted
 
     def seen(self, draft: Draft) -> str:
-        """What is visible of a draft, in words."""
         metric = self._measures.look
         if metric is None:
             return "nothing that can be seen"
@@ -232,7 +230,9 @@ class Search:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""
         prepared, steps = self._prepared, [candidate.step for candidate in found if candidate.draft.places is not None]
         if prepared.graph.size < FEW_VERTICES:
-            yield from takewhile(lambda _: not self._exhausted, Gridded(prepared, bounds, 0.0).fitting())
+            grid = Gridded(prepared, bounds, 0.0)
+            wider = (grid.at(max(steps) * 2.0 ** (eighths / 8.0)) for eighths in range(24 if steps else 0, 0, -1))
+            yield from takewhile(lambda _: not self._exhausted, chain(grid.fitting(), wider))
         elif steps and self._measures.shaper.character.is_sharp:
             yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
 
@@ -270,7 +270,7 @@ def widest(
 
     with suppress(LimitError):  # blocks that decoders would refuse
         secant(at, begin, way.least, way.most, *((3 * TRIES, 1.0, SLACK / 4.0) if patient else ()))
-    few = len(bounds.reaches) < FEW_VERTICES  # of many, what has far finer steps is no smaller
-    fine = 0.0 if few else NEARLY[0] * max((candidate.step for candidate, _ in kept), default=0.0)
+    fine = NEARLY[0] * max((candidate.step for candidate, _ in kept), default=0.0)
+    fine *= len(bounds.reaches) >= FEW_VERTICES  # of many vertices, what has far finer steps is no smaller
     kept.sort(key=lambda pair: pair[0].draft.size if pair[0].step > fine else math.inf)
     return next((candidate for candidate, look in kept if bounds.keeps(candidate.positions, look)), None)

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.look.measure import look
 from bsm.codec.static.encoder import Encoder
 from bsm.codec.static.options import PRESETS
+from bsm.codec.static.targets import SLACK
 from bsm.files.mesh import read_mesh
 from tests.conftest import mesh_folder
 from tests.shapes import torus
@@ -20,13 +22,6 @@ from tests.shapes import torus
 PROMISING = {name: options.promise for name, options in PRESETS.items() if options.promise is not None}
 ORDER = ("small", "balanced", "fine", "near-lossless")
 ROOMS, TOO_LARGE = ("assets", "hostile", "static"), "static/dragon_437645.ply"
-BY_CHANCE = (
-    *("hostile/c3d_teapot.obj", "hostile/igl_truck.obj"),
-    "hostile/draco_triangle_with_degenerate_tex_coords.obj",
-    *("hostile/trimesh_comments.off", "hostile/trimesh_whitespace.off"),
-)
-"""Out of order: balanced with a look of 0.77 after 0.76, and of 0.93 after 0.91; near-lossless with 0.23 after 0.16;
-near-lossless of a cube by 6 bytes, where all three are exact."""
 
 
 def encoded(mesh: TriangleMesh, preset: str) -> tuple[int, float]:
@@ -85,7 +80,5 @@ def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_w
     except BsmError:
         pytest.skip("no mesh that can be encoded")
     sizes, looks = zip(*found, strict=True)
-    if name in BY_CHANCE:
-        pytest.xfail("out of order by chance")
     assert list(sizes) == sorted(sizes)
-    assert list(looks) == sorted(looks, reverse=True)
+    assert all(finer <= coarser * math.exp(SLACK) for coarser, finer in pairwise(looks)), looks
