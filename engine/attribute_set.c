@@ -332,7 +332,7 @@ static bool decode_chunk(Attributes *attributes, Attribute *attribute, const Pac
     Arena *scratch) {
     Context *context = attributes->context;
     double bytes = (double)packet->data.size;
-    if (attribute->whole) return FAIL(context, CORRUPT, "it has all its values already");
+    if (attribute->whole) return FAIL(context, CORRUPT, "its values are complete already");
     if (!attribute->begun && !start_attribute(attributes, attribute, places, scratch)) return false;
     if (!reserve(context, 0, bytes) || !charge(context, chunk_work(bytes, (double)attribute->rows), bytes))
         return false;

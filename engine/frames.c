@@ -447,7 +447,7 @@ static bool begin_field(Gops *gops, const Gop *gop) {
 static bool decode_learned(Gops *gops, const Gop *gop, Arena *scratch) {
     Context *context = gops->parts.context;
     bool follows = gop->method == LEARNED_NEXT;
-    if (follows && !gops->can_inherit) return FAIL(context, CORRUPT, "a GOP refers to one that is not there");
+    if (follows && !gops->can_inherit) return FAIL(context, CORRUPT, "a GOP refers to a missing GOP");
     forget_frames(gops);
     GopContext decoding = {.gop = gop};
     if (!TAKE(scratch, gops->tracks, decoding.levels) || !TAKE(scratch, gops->tracks, decoding.found)) return false;
@@ -537,7 +537,7 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
         if (!begin_history(gops)) return false;
     } else if (!gops->can_follow) {
         forget_frames(gops);
-        return FAIL(context, CORRUPT, "a frame refers to one that is not there");
+        return FAIL(context, CORRUPT, "a frame refers to a missing frame");
     }
     forget_frames(gops);
     GopContext decoding = {.gop = gop};
@@ -551,7 +551,7 @@ static bool decode_next(Gops *gops, const Gop *gop, Arena *scratch) {
         Track *track = gops->track + k;
         int64_t columns = track->width * gop->frames;
         if (field->back > track->count)
-            return FAIL(context, CORRUPT, "a frame refers to one # before it, where # are kept", field->back,
+            return FAIL(context, CORRUPT, "a frame refers # frames back, where # are kept", field->back,
                 track->count);
         if (gops->together != gop->frames && !zero_ints(&gops->levels, rows * columns, &track->levels)) return false;
         if (!zero_ints(scratch, rows * columns, decoding.levels + k)

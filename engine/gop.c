@@ -78,7 +78,7 @@ static bool parse_attributes(Cursor *cursor, const MovingAttribute *moving, bool
     Context *context = cursor->context;
     int64_t fields = take_varint(cursor), before = -1;
     if (fine(context) && fields == 0)
-        return FAIL(context, CORRUPT, "a GOP that tells of no attribute, and says that it does");
+        return FAIL(context, CORRUPT, "a GOP announces attributes and codes none");
     for (; fields > 0; fields--) {
         int64_t number = take_varint(cursor);
         Span part = take_span(cursor, take_varint(cursor));
@@ -87,7 +87,7 @@ static bool parse_attributes(Cursor *cursor, const MovingAttribute *moving, bool
         while (k < gop->count - 1 && moving[k].number != number) k++;
         bool moves = k < gop->count - 1;
         if (number <= before || !(tolerant || moves))
-            return FAIL(context, CORRUPT, "a GOP tells of attribute #, which does not move, or is not the next one",
+            return FAIL(context, CORRUPT, "a GOP codes attribute #, which does not move or is out of order",
                 number);
         before = number;
         if (moves && !parse_field(context, part, gop, arena, gop->field + 1 + k)) return false;

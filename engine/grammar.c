@@ -116,7 +116,7 @@ static bool check_attribute(Context *context, const Grammar *grammar, const Pack
             return FAIL(context, CORRUPT, "the seams of attribute #, which has none that come before", d->seams_of - 1);
     }
     if (d->leans && !grammar->header->on_grid)
-        return FAIL(context, CORRUPT, "an attribute that leans on positions which are on no grid");
+        return FAIL(context, CORRUPT, "an attribute is predicted from positions that are on no grid");
     if (d->moves && grammar->header->gop_frames == 0)
         return FAIL(context, CORRUPT, "an attribute of one mesh that moves");
     if (grammar->header->gop_frames > 0 && d->coding == RECOMPUTED)
@@ -128,10 +128,10 @@ static bool check_values(Context *context, const Grammar *grammar, const Packet 
     const Declaration *declared = packet->index < MOST_ATTRIBUTES ? grammar->declared[packet->index] : NULL;
     if (declared == NULL) return FAIL(context, CORRUPT, "values of attribute #, which is not declared", packet->index);
     if (packet->index < grammar->valued)
-        return FAIL(context, CORRUPT, "values of attribute # behind those of #", packet->index, grammar->valued);
+        return FAIL(context, CORRUPT, "values of attribute # follow those of #", packet->index, grammar->valued);
     int64_t following = packet->index == grammar->valued ? grammar->next_value : 0;
     if (packet->first != following)
-        return FAIL(context, CORRUPT, "values from # on where those from # on must follow", packet->first, following);
+        return FAIL(context, CORRUPT, "values begin at #, expected #", packet->first, following);
     if (packet->count == 0 || packet->count > declared->rows - packet->first)
         return FAIL(context, CORRUPT, "# values from # on, of #", packet->count, packet->first, declared->rows);
     return packet->index == grammar->valued || check_values_before(context, grammar, packet->index);
@@ -152,7 +152,7 @@ static bool check_block(Context *context, const Grammar *grammar, const Packet *
 static bool check_chunk(Context *context, const Grammar *grammar, const Packet *packet) {
     int64_t following = grammar->next_vertex;
     if (packet->first != following)
-        return FAIL(context, CORRUPT, "vertices from # on where those from # on must follow", packet->first, following);
+        return FAIL(context, CORRUPT, "vertices begin at #, expected #", packet->first, following);
     if (packet->count == 0 || packet->count > grammar->header->vertices - packet->first)
         return FAIL(context, CORRUPT, "# vertices from # on, of #", packet->count, packet->first,
             grammar->header->vertices);

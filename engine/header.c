@@ -84,7 +84,7 @@ static bool set_paper(Context *context, const Record *record, Paper *paper) {
     bool same = paper->bits == 0 && paper->coarser == 0 && paper->exact == 0 && paper->power == law.power
         && paper->springs == 1 && paper->iterations == law.iterations && paper->key_iterations == law.key_iterations
         && paper->shift == law.shift;
-    return agrees(context, !same, "a paper that says what the law says");
+    return agrees(context, !same, "constants of a paper that equal the defaults");
 }
 
 /* F 4.6. */
@@ -100,7 +100,7 @@ static bool check_grid(Context *context, const Record *record, const Header *hea
         && agrees(context, count[LATTICE] != 1, "a lattice that is not cells and points") && agrees(context,
             header->points == 0 || header->points >= most, "a lattice with fewer points than the grid has values")
         && agrees(context, header->points <= header->cells, "a lattice of more points than cells")
-        && agrees(context, count[CORNER] % 3 == 0, "a corner that is not one of three axes")
+        && agrees(context, count[CORNER] % 3 == 0, "a corner of other than three axes")
         && agrees(context, !(header->counted && centered), "a corner and a center") && agrees(context,
             header->light != EXACT_FLOATS || count[LATTICE] + count[CORNER] == 0, "floats in cells that are counted")
         && agrees(context, (record->stored & ~OF_A_GRID) == 0, "a grid, and fields of blocks");
@@ -134,7 +134,7 @@ static bool check_header(Context *context, const Record *record, const Header *h
         return false;
     if (header->on_grid) return check_grid(context, record, header);
     if (header->mesh_of < 0) return check_blocks(context, record, header);
-    return agrees(context, header->mesh_of < header->run, "the mesh of a run that has not been")
+    return agrees(context, header->mesh_of < header->run, "the mesh of a run that comes later")
         && agrees(context, (record->stored & ~OF_A_RUN) == 0, "the mesh of another run, and fields of its own");
 }
 

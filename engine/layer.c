@@ -105,7 +105,7 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
     Context *context = layer->context;
     Reading reading;
     if (!charge(context, chunk_work((double)payload.size, 0), (double)payload.size)) return false;
-    if (layer->coded == layer->positions.rows) return FAIL(context, CORRUPT, "levels come behind the last vertex");
+    if (layer->coded == layer->positions.rows) return FAIL(context, CORRUPT, "levels follow the last vertex");
     if (first != layer->coded)
         return FAIL(context, CORRUPT, "the layer lacks the vertices before #: the rest is lost", first);
     if (first + count > layer->read) {

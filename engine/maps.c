@@ -96,7 +96,7 @@ static Value take_single(Cursor *cursor, uint8_t tag) {
         return unsigned_value(bits);
     }
     if (tag >= 0xd0 && tag <= 0xd3) return negative_value(cursor, tag - 0xd0);
-    FAIL(cursor->context, CORRUPT, "a map may not hold what begins with the byte # here", tag);
+    FAIL(cursor->context, CORRUPT, "a map may not hold a value that begins with byte # here", tag);
     return (Value){0};
 }
 

@@ -106,7 +106,7 @@ static bool read_sources(Reading *reading, int64_t vertices, int64_t copies, Are
     int64_t counted[3] = {0}, known = 0, copied = 0;
     for (int64_t i = 0; i < met.size; i++) counted[kinds.data[i]]++;
     if (counted[FIRST] != vertices || counted[COPY] != copies)
-        return FAIL(context, CORRUPT, "the kinds of given vertices are not as many as was said");
+        return FAIL(context, CORRUPT, "the kinds of given vertices do not match their counts");
     for (int64_t i = 0; i < met.size; i++) {
         int64_t vertex = -1;
         if (kinds.data[i] == FIRST) vertex = known++;
@@ -130,7 +130,7 @@ static bool read_corners(Reading *reading, int64_t copies, Ints starts, Ints mem
     for (int64_t i = 0; i < 3 * faces.rows; i++) {
         int64_t v = faces.data[i], count = starts.data[v + 1] - starts.data[v];
         if (steps.data[i] < 0 || steps.data[i] >= count)
-            return FAIL(reading->context, CORRUPT, "a corner names a copy that there is not");
+            return FAIL(reading->context, CORRUPT, "a corner refers to a missing copy");
         faces.data[i] = members.data[starts.data[v] + (visits.data[v]++ + steps.data[i]) % count];
     }
     return true;
@@ -182,7 +182,7 @@ bool decode_order(Context *context, Span data, ConstInts2 faces, const Header *h
         uint64_t bits = little_endian(bytes_of_loose.data + 8 * i, 8);
         memcpy(positions.data + i, &bits, sizeof bits);
         if (!(positions.data[i] - positions.data[i] == 0.0))
-            return FAIL(context, CORRUPT, "a vertex that no face uses is not at a finite place");
+            return FAIL(context, CORRUPT, "the position of a loose vertex is not finite");
     }
     Reading reading;
     Mark mark = mark_of(scratch);

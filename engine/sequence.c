@@ -131,7 +131,7 @@ static bool resume(bsmdec *decoder, const Header *header) {
     Context *context = &decoder->context;
     int place = place_of_mesh(sequence, sequence->mesh);
     if (place < 0)
-        return FAIL(context, CORRUPT, "run # has the mesh of run #, which is not there any more", header->run,
+        return FAIL(context, CORRUPT, "run # has the mesh of run #, which is no longer kept", header->run,
             header->mesh_of);
     CachedMesh *found = take_cached(sequence, place);
     sequence->cache[sequence->cached++] = found;

@@ -90,7 +90,7 @@ int64_t take_varint(Cursor *cursor) {
 Span take_span(Cursor *cursor, int64_t count) {
     if (failed(cursor->context)) return (Span){NULL, 0};
     if (count > cursor->left.size) {
-        FAIL(cursor->context, CORRUPT, "a payload ends where # more bytes should be", count);
+        FAIL(cursor->context, CORRUPT, "a payload ends # bytes early", count);
         return (Span){NULL, 0};
     }
     Span taken = {cursor->left.data, count};

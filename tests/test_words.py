@@ -20,7 +20,7 @@ DIALECT = re.compile(
 )
 """Words of translations. Name the actor and the thing instead."""
 PROGRAMS = re.compile(r"/built/|viewer\.js$")  # written by programs
-DIALECT_LIMIT = 1
+DIALECT_LIMIT = 0
 EXCEPTIONS = {
     "tests/test_words.py": ("",),
     "tools/vectors/bad_sequences.py": ("as one frame is told of",),  # as the manifest of 1.0 has it

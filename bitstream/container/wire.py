@@ -167,7 +167,7 @@ class Cursor:
 
     def take(self, count: int) -> bytes:
         if count > len(self._payload) - self._offset:
-            raise CorruptError(f"payload ends where {count} more bytes should be")
+            raise CorruptError(f"payload ends {count} bytes early")
         self._offset += count
         return self._payload[self._offset - count : self._offset]
 

@@ -57,7 +57,7 @@ function checkGrid({ center, corner, grid, lattice }: Header, more: boolean): vo
     refuse("a lattice that is not cells and points", lattice.length === 1);
     refuse("a lattice with fewer points than the grid has values", points > 0 && points < Math.max(...grid));
     refuse("a lattice of more points than cells", points > cells);
-    refuse("a corner that is not one of three axes", corner.length % 3 !== 0);
+    refuse("a corner of other than three axes", corner.length % 3 !== 0);
     refuse("a corner and a center", corner.length > 0 && !same(center, FIELDS.center.default));
     refuse("a grid, and fields of blocks", more);
 }

@@ -97,7 +97,7 @@ class MapReader {
             case 0xcb:
                 return this.double();
         }
-        throw new CorruptError(`a map may not hold what begins with the byte ${tag} here`);
+        throw new CorruptError(`a map may not hold a value that begins with byte ${tag} here`);
     }
 
     private array(size: number): Value {

@@ -81,7 +81,7 @@ export function checkNames(entries: Metadata, known: Set<string>): void {
 
 /** Check that vertices follow those before them. */
 export function checkChunk({ first, count }: { first: number; count: number }, following: number, header: Header): void {
-    if (first !== following) throw new CorruptError(`vertices from ${first} on where those from ${following} on must follow`);
+    if (first !== following) throw new CorruptError(`vertices begin at ${first}, expected ${following}`);
     if (count === 0 || count > header.vertices - first) throw new CorruptError(`${count} vertices from ${first} on`);
 }
 
