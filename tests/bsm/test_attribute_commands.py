@@ -108,7 +108,7 @@ def test_metadata_of_a_sequence(tmp_path, capsys):
         assert dict(decoder.metadata) == {"a": 1}
 
 
-def test_what_a_format_cannot_hold_is_said(tmp_path, capsys):
+def test_what_a_format_cannot_hold_is_reported(tmp_path, capsys):
     bsm.save(dressed(), tmp_path / "a.bsm", grid=12)
     printed = notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.off")
     assert "off cannot hold" in printed and all(name in printed for name in ("texcoord", "height", "label", "material"))

@@ -78,7 +78,7 @@ def test_processes_write_the_same_bytes(meshes, streams, tmp_path):
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
-def test_failures_are_told_and_the_others_go_on(streams, tmp_path, jobs):
+def test_failures_are_reported_and_the_others_go_on(streams, tmp_path, jobs):
     (tmp_path / "cut.bsm").write_bytes((streams / "a.bsm").read_bytes()[:-10])
     inputs = [streams / "a.bsm", tmp_path / "cut.bsm", tmp_path / "none.bsm", streams / "b.bsm"]
     done = bsm("verify", *inputs, "--json", "-j", jobs)

@@ -47,7 +47,7 @@ def test_a_terminal_that_does_not_know_its_size_shows_what_goes_on():
     os.close(ours)
 
 
-def test_time_is_told_where_nothing_more_is_said():
+def test_time_is_reported_where_nothing_else_is():
     """From the first second on, and with what is left from when a share was known."""
     pty = pytest.importorskip("pty")
     pytest.importorskip("tqdm")
@@ -66,7 +66,7 @@ def test_time_is_told_where_nothing_more_is_said():
     assert len(shares) >= 2 and 0.1 < shares[0] < shares[1] < 1 and lines[-1]["seconds_left"] > 0
 
 
-def test_programs_are_told_in_lines_of_json(monkeypatch, capsys):
+def test_programs_are_reported_in_lines_of_json(monkeypatch, capsys):
     monkeypatch.setattr("bsm.console._SECOND", 0.0)
     monkeypatch.setattr("bsm.console._LEAST_LEFT", 0.0)
     with Console(json=True).progress("encoding") as progress:

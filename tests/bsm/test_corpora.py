@@ -55,7 +55,7 @@ def test_patterns_behind_file_urls_are_expanded(corpus, tmp_path):
         plan([str(corpus / "part.off"), str(corpus / "part.off")], f"{tmp_path}/out/", lambda _: ".bsm")
 
 
-def test_a_server_that_is_down_is_told_from_a_file_that_is_not_there():
+def test_a_server_that_is_down_differs_from_a_missing_file():
     for cause, message in (
         (ConnectionRefusedError(111, "refused"), "does not answer: Connection refused"),
         (None, "No such"),

@@ -18,7 +18,7 @@ from tools.vectors.meshes import torus
 
 @pytest.mark.parametrize("scale", [1e307, 1e300, 1e31, 1e-43, 1e-320])
 @pytest.mark.parametrize("options", [{}, {"preset": "near-lossless"}])
-def test_a_size_that_no_promise_can_be_kept_for_is_told(scale, options):
+def test_a_size_that_no_promise_can_be_kept_for_is_reported(scale, options):
     mesh = torus(6, 6)
     with warnings.catch_warnings(), pytest.raises(MeshError, match="scale it"):
         warnings.simplefilter("error")
@@ -91,7 +91,7 @@ USES = {
 
 @pytest.mark.parametrize("use", USES)
 @pytest.mark.parametrize("positions", [torus(6, 6).positions * 3e307, _one_far(1e308), _one_far(-1e300)])
-def test_coordinates_that_overflow_are_told_wherever_they_come(use, positions):
+def test_coordinates_that_overflow_are_reported_wherever_they_come(use, positions):
     faces = torus(6, 6).faces
     with np.errstate(all="raise", under="ignore"), pytest.raises(MeshError, match="scale"):
         USES[use]((positions, faces), (torus(6, 6).positions, faces))

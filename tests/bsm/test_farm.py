@@ -352,7 +352,7 @@ def test_what_no_report_says_is_refused_in_one_sentence(claim, tmp_path, capsys)
     assert "not a report of bsm" in errors and not (tmp_path / "a.bsm").exists()
 
 
-def test_what_was_written_and_not_yet_told_of_is_known_again(sources, tmp_path):
+def test_what_was_written_and_not_yet_reported_is_known_again(sources, tmp_path):
     """A run that is killed between an output and its line in the report."""
     output, report = tmp_path / "out", tmp_path / "r.json"
     bsm.encode_many(sources[:2], output, report=report, grid=8)

@@ -107,7 +107,7 @@ MISTAKES = (
 )
 
 
-def test_mistakes_are_told_in_a_sentence(folder):
+def test_mistakes_are_reported_in_a_sentence(folder):
     (folder / "bunny.bsm").touch()
     for words, code, expected in MISTAKES:
         _, errors = bsm_command(folder, *words, code=code)
@@ -135,7 +135,7 @@ def test_python_has_no_stumble(folder):
         assert bsm.decode(again).faces.shape == mesh.faces.shape
 
 
-def test_wrong_uploads_are_told_in_a_sentence_without_a_path(folder):
+def test_wrong_uploads_are_reported_in_a_sentence_without_a_path(folder):
     data = bsm.encode(knot(600))
     broken = bytearray(data)
     broken[len(data) // 2] ^= 255

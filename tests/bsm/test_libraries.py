@@ -261,7 +261,7 @@ def test_meshio_data():
 
 
 @pytest.mark.parametrize("library", ["trimesh", "pyvista"])
-def test_where_a_library_is_missing_the_way_out_is_said(library, monkeypatch):
+def test_where_a_library_is_missing_the_way_out_is_reported(library, monkeypatch):
     monkeypatch.setitem(sys.modules, library, None)
     monkeypatch.delitem(sys.modules, f"bsm.{library}", raising=False)
     with pytest.raises(bsm.DependencyError, match=r"pip install .*\[\w+\]"):

@@ -15,7 +15,7 @@ def descriptions_of(frames):
     return loops.descriptions()
 
 
-def test_loops_are_said():
+def test_loops_are_reported():
     walk = bending(7)[0]
     assert descriptions_of(np.concatenate([walk, walk])) == ("frames 7 to 13 repeat 0 to 6",)
     assert descriptions_of(np.concatenate([walk, walk, walk[:3]])) == ("frames 7 to 16 repeat 0 to 6",)

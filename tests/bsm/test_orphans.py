@@ -66,7 +66,7 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path):
                 os.kill(worker, signal.SIGKILL)
 
 
-def test_of_two_that_write_one_new_file_the_second_is_told(tmp_path):
+def test_of_two_that_write_one_new_file_the_second_fails(tmp_path):
     (job,) = plan([str(tmp_path / "mesh.obj")], None, lambda _: ".bsm")
     first, second = task_of(Task(), job), task_of(Task(), job)
     with open_output(first.output, overwrite=first.may_replace(first.output)) as file:

@@ -87,7 +87,7 @@ def test_blocks_are_what_the_codec_works_on():
         (research.Idea(partition=lambda offsets, neighbours, parts: [0.5]), bsm.ArgumentError, "whole numbers"),
     ],
 )
-def test_what_cannot_be_is_said(idea, error, words):
+def test_what_cannot_be_is_reported(idea, error, words):
     with pytest.raises(error, match=words):
         research.encode(MESH, idea, step=0.01)
 

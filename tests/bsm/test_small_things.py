@@ -36,7 +36,7 @@ def test_sizes_are_read(text, count):
 
 
 @pytest.mark.parametrize("text", ["20 cows", "kB", "-3kB", None, "1.2.3", True])
-def test_what_is_no_size_is_said(text):
+def test_what_is_no_size_is_reported(text):
     with pytest.raises(bsm.ArgumentError, match="such as 20000 or 20kB"):
         parse_bytes("size", text)
 

@@ -342,7 +342,7 @@ def test_a_worker_that_is_shot_changes_nothing(mesh, folder, tmp_path):
 
 
 @pytest.mark.parametrize("most", [20_000, 100_000, 300_000])
-def test_a_full_disk_is_told(mesh, folder, tmp_path, most):
+def test_a_full_disk_is_reported(mesh, folder, tmp_path, most):
     write_mesh(tmp_path / "mesh.ply", mesh)
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, before[1]))
@@ -413,7 +413,7 @@ def test_tiles_that_were_whole_stay_so_until_there_are_others(mesh, folder, tmp_
 
 
 @pytest.mark.parametrize("harm", ["changed", "cut", "missing", "index"])
-def test_damage_is_told(folder, tmp_path, harm):
+def test_damage_is_reported(folder, tmp_path, harm):
     for name, data in contents(folder).items():
         (tmp_path / name).write_bytes(data)
     shard = tmp_path / "00000.tiles"
@@ -513,7 +513,7 @@ def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, message, code):
     tile(source, tmp_path / "out")
 
 
-def test_grids_that_cannot_be_told_exactly(mesh, tmp_path):
+def test_grids_that_cannot_be_stored_exactly(mesh, tmp_path):
     source = tmp_path / "mesh.npz"
     write_mesh(source, TriangleMesh(mesh.positions + 1e6, mesh.faces))
     done = program("tile", source, "-o", tmp_path / "out", "--grid-cell", "0.001", text=True)
@@ -522,7 +522,7 @@ def test_grids_that_cannot_be_told_exactly(mesh, tmp_path):
     tile(source, tmp_path / "out", "--grid-cell", power, "--finest")
 
 
-def test_what_is_left_out_is_said_and_the_files_of_others_stay(tmp_path):
+def test_what_is_left_out_is_reported_and_the_files_of_others_stay(tmp_path):
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n")
     done = program("tile", tmp_path / "a.obj", "-o", tmp_path / "out", "--work", tmp_path, "--grid-cell", 1, text=True)
     assert done.returncode == 2 and "holds other files" in done.stderr and (tmp_path / "a.obj").exists()
@@ -542,7 +542,7 @@ def test_the_grid_is_chosen_by_the_look_in_any_order_of_faces(tmp_path):
     assert cells[0] == cells[1] and np.log2(cells[0]) % 1 == 0 and 1e-5 < cells[0] < 0.1
 
 
-def test_a_mesh_that_is_too_large_is_told_of_tiles(tmp_path):
+def test_the_error_of_a_mesh_that_is_too_large_names_tiles(tmp_path):
     (tmp_path / "big.ply").write_text(
         "ply\nformat binary_little_endian 1.0\nelement vertex 20000000\nproperty float x\nproperty float y\n"
         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"

@@ -115,7 +115,7 @@ def test_help_says_what_presets_promise():
 
 
 @pytest.mark.parametrize("words", [["--max-error", "1%"], ["--nmsve-db", "-40"]])
-def test_who_asks_for_a_bound_alone_is_told_what_is_visible(words, tmp_path, capsys):
+def test_a_bound_alone_reports_what_is_visible(words, tmp_path, capsys):
     write_mesh(tmp_path / "a.npz", torus(40, 24))
     command = ["encode", str(tmp_path / "a.npz"), "-f", "-o", str(tmp_path / "b.bsm"), *words]
     assert main([*command, "--preset", "none"]) == 0

@@ -23,7 +23,7 @@ OLD = dict(line.split() for line in (HERE / "version-0.txt").read_text().splitli
 
 
 @pytest.mark.parametrize("commit", OLD)
-def test_streams_of_version_0_are_told_what_they_are(commit, tmp_path, capsys, monkeypatch):
+def test_streams_of_version_0_are_named(commit, tmp_path, capsys, monkeypatch):
     data = bytes.fromhex(OLD[commit])
     message = r"written by version 0 of the format, and this reads 1: encode the source again, or decode it with the"
     for decoder in (bsm.decode, bsm.decode_sequence):
@@ -41,7 +41,7 @@ def test_streams_of_version_0_are_told_what_they_are(commit, tmp_path, capsys, m
         assert re.search(message, capsys.readouterr().err)
 
 
-def test_a_later_minor_version_is_read_and_told(capsys):
+def test_a_later_minor_version_is_read_and_reported(capsys):
     assert main(["info", str(FOLDER / "good-minor.bsm")]) == 0
     assert "version 1.15, the core alone" in capsys.readouterr().out
 

@@ -77,7 +77,7 @@ fn wrong_orders_of_calls_are_errors() {
 }
 
 #[test]
-fn limits_metadata_and_damage_are_told() {
+fn limits_metadata_and_damage_are_reported() {
     let stream = fs::read(folder().join("good-metadata.bsm")).unwrap();
     let mut limits = Limits::default();
     assert!(limits.heap > 1e9 && limits.frames == 1048576.0, "{limits:?}");

@@ -160,7 +160,7 @@ def test_places_that_are_not_coded_cost_nothing():
     assert (prices[~stairs, :, 1:] > prices[stairs].max()).all()
 
 
-def test_columns_of_the_second_half_are_told_as_far_as_they_are_used():
+def test_columns_of_the_second_half_are_coded_as_far_as_they_are_used():
     generator = np.random.default_rng(5)
     matrix = generator.integers(-2, 3, (60, 20), dtype=np.int32)
     matrix[30:, 3:] = 0

@@ -144,7 +144,7 @@ def test_corners_without_a_value_get_zeros():
         ("l 1 2\np 3\nf 1 2 3\n", "lines, points", ""),
     ],
 )
-def test_what_is_wrong_in_an_obj_is_left_out_and_said(lines, dropped, why):
+def test_what_is_wrong_in_an_obj_is_left_out_and_reported(lines, dropped, why):
     source = read_mesh((TRIANGLE + lines).encode())
     assert source.mesh.attributes == ()
     assert ", ".join(source.dropped) == dropped
@@ -173,7 +173,7 @@ def test_images_outside_the_folder_are_not_taken(tmp_path):
     assert "no such file beside the mesh" in " ".join(read_mesh(inside / "a.obj").notes)
 
 
-def test_metadata_that_are_too_large_are_left_out_and_said(tmp_path):
+def test_metadata_that_are_too_large_are_left_out_and_reported(tmp_path):
     (tmp_path / "a.mtl").write_text("newmtl m\nmap_Kd a.png\nmap_Bump b.png\n")
     (tmp_path / "a.png").write_bytes(png() + bytes(900))
     (tmp_path / "b.png").write_bytes(png() + bytes(5000))
@@ -197,7 +197,7 @@ def test_many_names_are_one_entry(tmp_path):
     assert_same(source.mesh, again, ["group", "material"])
 
 
-def test_more_entries_than_there_can_be_are_left_out_and_said(tmp_path):
+def test_more_entries_than_there_can_be_are_left_out_and_reported(tmp_path):
     (tmp_path / "a.mtl").write_text("".join(f"newmtl m{n}\nKd 1 0 0\nKa 0 0 0\nNs 1\n" for n in range(90)))
     (tmp_path / "a.obj").write_text(f"mtllib a.mtl\n{TRIANGLE}f 1 2 3\n")
     source = read_mesh(tmp_path / "a.obj")

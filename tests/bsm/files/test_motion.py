@@ -287,7 +287,7 @@ def ascii_ply(positions, faces, bad):
     return (head + "\n".join(rows) + "\n").encode()
 
 
-def test_how_frames_differ_is_said(tmp_path):
+def test_how_frames_differ_is_reported(tmp_path):
     positions, faces = bending(3)
     names = written(tmp_path / "a", positions, faces)
     turned = faces.copy()

@@ -76,7 +76,7 @@ def test_openmesh_reads_what_we_read(openmesh, kind, tmp_path):
     assert np.array_equal(ours.positions.astype(np.float32), theirs.positions)
 
 
-def test_what_openmesh_changes_is_said(openmesh):
+def test_what_openmesh_changes_is_reported(openmesh):
     fin = TriangleMesh(np.eye(5)[:, :3], [[0, 1, 2], [0, 1, 3], [0, 1, 4]])
     source = read_mesh(format_mesh(fin, "ply"), reader="openmesh")
     assert len(source.mesh.positions) > 5
@@ -163,14 +163,14 @@ def test_formats_that_nobody_knows(trimesh, tmp_path):
         read_mesh(tmp_path / "a.xyz9")
 
 
-def test_where_trimesh_is_missing_the_way_out_is_said(tmp_path, monkeypatch):
+def test_where_trimesh_is_missing_the_way_out_is_reported(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
     (tmp_path / "a.glb").write_bytes(b"glTF and more")
     with pytest.raises(DependencyError, match=r"\.glb files are read with trimesh; run: pip install .*\[form"):
         read_mesh(tmp_path / "a.glb")
 
 
-def test_where_openmesh_is_missing_the_way_out_is_said(monkeypatch):
+def test_where_openmesh_is_missing_the_way_out_is_reported(monkeypatch):
     monkeypatch.setitem(sys.modules, "openmesh", None)
     with pytest.raises(DependencyError, match=r"pip install .*\[openmesh\]'"):
         read_mesh(format_mesh(tetrahedron(), "ply"), reader="openmesh")

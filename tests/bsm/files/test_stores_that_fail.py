@@ -52,7 +52,7 @@ def fail(monkeypatch, how):
 
 
 @pytest.mark.parametrize("how", FAILURES)
-def test_a_failure_is_told_and_leaves_nothing(how, store, monkeypatch):
+def test_a_failure_is_reported_and_leaves_nothing(how, store, monkeypatch):
     with monkeypatch.context() as patched:
         fail(patched, how)
         facts = encode()

@@ -92,14 +92,14 @@ def test_exact_numbers_come_back():
         (b'byte_order="LittleEndian"', b'byte_order="BigEndian"'),
     ],
 )
-def test_what_is_wrong_is_said(before, after):
+def test_what_is_wrong_is_reported(before, after):
     data = format_mesh(torus(), "vtp")
     assert data.count(before) >= 1
     with pytest.raises(bsm.BsmError):
         read_mesh(data.replace(before, after))
 
 
-def test_what_is_cut_short_is_said():
+def test_what_is_cut_short_is_reported():
     data = format_mesh(torus(5, 4), "vtp")
     for size in range(100, len(data) - 40, 7):
         with pytest.raises(bsm.BsmError):

@@ -99,7 +99,7 @@ def test_high_powers_lose_no_column(shift, power, width):
 @pytest.mark.parametrize(
     ("rows", "first", "width"), [(2, 1, 2), (5, 2, 5), (33, 11, 30), (321, 107, 321), (322, 108, 200)]
 )
-def test_columns_are_completed_by_what_is_at_right_angles_to_them(rows, first, width):
+def test_columns_are_completed_by_orthogonal_ones(rows, first, width):
     columns = np.linalg.qr(cosine_columns(rows, first) + 0.3 * hash_columns(rows, first))[0].astype(np.float32)
     columns *= np.sign(columns[:1])
     found = completed(columns, width)

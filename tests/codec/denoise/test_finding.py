@@ -42,7 +42,7 @@ def find(positions: Positions, faces: Faces) -> Finding:
 
 @pytest.mark.parametrize("shape", [cube, sphere])
 @pytest.mark.parametrize("kind", KINDS)
-def test_kinds_are_told_apart(shape, kind: str) -> None:  # type: ignore[no-untyped-def]
+def test_kinds_differ(shape, kind: str) -> None:  # type: ignore[no-untyped-def]
     clean, faces = shape(30)
     finding = find(KINDS[kind](clean, faces, 0.25, 3), faces)
     assert finding.kind == ("white" if kind == "uniform" else kind)
@@ -111,7 +111,7 @@ def test_a_mesh_too_small_for_statistics_is_unknown() -> None:
 
 
 @pytest.mark.real
-def test_faint_noise_is_told_from_fine_detail_by_its_whiteness(partners: Partners) -> None:
+def test_faint_noise_differs_from_fine_detail_by_its_whiteness(partners: Partners) -> None:
     rough, _ = partners("armadillo_12502", "armadillo_12502_0.2_noisy")
     assert find(rough.positions, rough.faces).kind == "none"
     for name, sigma in (("sharpsphere", 0.08), ("fr_chinese_lion", 0.08), ("fr_casting", 0.08)):

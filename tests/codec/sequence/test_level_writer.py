@@ -53,7 +53,7 @@ def written(weight: float, monkeypatch: pytest.MonkeyPatch) -> tuple[int, float]
     return len(writer.finish()), error / STEP**2
 
 
-def test_a_bit_is_worth_what_was_said(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_bit_is_worth_its_price(monkeypatch: pytest.MonkeyPatch) -> None:
     dear, cheap = written(0.2, monkeypatch), written(0.01, monkeypatch)
     assert dear[0] < cheap[0] and dear[1] > cheap[1]
     saved = 8 * (cheap[0] - dear[0])

@@ -61,7 +61,7 @@ def test_frames_that_come_again_are_looked_at_once_if_they_are_decoded_alike() -
 
 
 @pytest.mark.parametrize("absolute", [False, True])
-def test_no_vertex_is_farther_off_than_is_said(absolute: bool) -> None:
+def test_no_vertex_is_farther_off_than_reported(absolute: bool) -> None:
     positions, faces = bending(12)
     diagonal = float(np.linalg.norm(np.ptp(positions[0], axis=0)))
     bound = 0.002
@@ -130,7 +130,7 @@ def test_what_a_frame_may_look_like_grows_with_the_way_to_those_that_were_drawn(
 
 
 @pytest.mark.parametrize("promise", [None, Promise(0.01, 1.0)])
-def test_what_is_told_of_a_search_grows_to_the_whole(promise: Promise | None) -> None:
+def test_the_progress_of_a_search_grows_to_the_whole(promise: Promise | None) -> None:
     positions, faces = bending(6)
     reports: list[float] = []
     options = SequenceOptions(block_size=100, promise=promise, threads=1, gop=3)

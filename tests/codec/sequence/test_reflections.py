@@ -30,7 +30,7 @@ def test_columns_return_from_what_is_free_in_them(rows, columns):
     np.testing.assert_allclose(found * np.sign((found * basis).sum(axis=0)), basis, atol=1e-13)
 
 
-def test_columns_that_are_not_at_right_angles_span_the_same():
+def test_columns_that_are_not_orthogonal_span_the_same():
     basis = right_angled(40, 9) * np.linspace(0.7, 1.5, 40)[:, None]
     found = columns_of(free_of(basis))
     products = found.T @ found
@@ -46,7 +46,7 @@ def test_columns_are_what_reflections_make_of_them():
     np.testing.assert_allclose(columns_of(free), one_by_one(free), atol=1e-11)
 
 
-def test_rounding_leaves_columns_at_right_angles_and_near():
+def test_rounding_leaves_columns_orthogonal_and_near():
     free = free_of(right_angled(300, 40))
     rounded = np.tril(np.round(free / 0.02) * 0.02)
     found = columns_of(rounded)

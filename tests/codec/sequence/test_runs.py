@@ -204,7 +204,7 @@ def test_late_joiners_begin_at_a_run_with_a_mesh():
 # ------------------------------------------------------------------------------------------------------------- charges
 
 
-def test_so_many_meshes_are_kept():
+def test_eight_meshes_are_kept():
     sizes = [*range(3, 3 + KEPT_MESHES + 2), 3, 6, 12]
     frames = meshes(*((size, 1) for size in sizes))
     data = b"".join(encoded(frames)[1])
@@ -288,7 +288,7 @@ def test_unwelded_frames_of_many_components_and_flat_ones():
     assert count == len(frames) and encoder.run_starts == [0, 2, 4, 6]
 
 
-def test_attributes_of_faces_that_change_in_a_run_are_told() -> None:
+def test_attributes_of_faces_that_change_in_a_run_are_reported() -> None:
     frames = meshes((10, 4))
     heats = [np.float32(t // 2) + np.zeros(len(frames[0].faces), np.float32) for t in range(4)]
     hot = [replace(f, attributes=(Attribute("heat", heat, "face"),)) for f, heat in zip(frames, heats, strict=True)]

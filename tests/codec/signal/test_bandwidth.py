@@ -32,7 +32,7 @@ def waves(blocks: Blocks, count: int, amplitude: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("count", [9, 40, 200])
-def test_what_has_so_many_frequencies_is_worth_so_many_coefficients(count: int) -> None:
+def test_each_frequency_is_worth_a_coefficient(count: int) -> None:
     blocks = blocks_of(22, 1)
     spectrum = MeasuredSpectrum(blocks, waves(blocks, count, 0.01), shift=SHIFT)
     blur = 2 + (count + 4) // 8  # frequencies are averaged with an eighth of them around

@@ -59,7 +59,7 @@ def test_a_part_of_it_is_decoded_without():
         decoder.finish()
 
 
-def test_what_is_lost_is_said_once():
+def test_what_is_lost_is_reported_once():
     damaged = bytearray(unlike(good("refined")))
     damaged[-30] ^= 1  # in the layer
     events = events_of(Decoder(tolerant=True), bytes(damaged))

@@ -125,7 +125,7 @@ def test_quick_grids_are_light_with_the_same_positions(option: dict[str, Any]) -
     np.testing.assert_array_equal(first.faces, other.faces)
 
 
-def test_the_smallest_is_in_blocks_where_nothing_is_said() -> None:
+def test_the_smallest_is_in_blocks_by_default() -> None:
     assert not Encoder(torus(80, 40)).draft().header.grid
 
 

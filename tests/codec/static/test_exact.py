@@ -67,7 +67,7 @@ def test_any_floats_come_back() -> None:
     assert_exact(np.zeros(mesh.positions.shape), mesh.faces)
 
 
-def test_doubles_are_rounded_and_that_is_said() -> None:
+def test_doubles_are_rounded_and_that_is_reported() -> None:
     mesh = torus(8, 7)
     encoder = Encoder(mesh, LOSSLESS)
     decoded = decode(encoder.encode())

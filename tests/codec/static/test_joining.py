@@ -29,7 +29,7 @@ def test_soup_becomes_the_surface_that_it_is() -> None:
     assert len(encoder.encode()) < 1.2 * len(Encoder(mesh).encode())
 
 
-def test_every_given_vertex_is_told_its_decoded_one() -> None:
+def test_every_given_vertex_is_reported_its_decoded_one() -> None:
     mesh = soup(patch(9, 7))
     given = TriangleMesh(np.concatenate([[[5.0, 5.0, 5.0]], mesh.positions]), mesh.faces + 1)
     encoder = Encoder(given, EncodeOptions(grid=20))
