@@ -253,6 +253,7 @@ class Decoder {
 }  // namespace
 
 NB_MODULE(_engine, m) {
+    nb::set_leak_warnings(false); /* the traceback of an error keeps its decoder until the process ends */
     m.attr("version") = BSM_VERSION;
     nb::class_<Decoder>(m, "Decoder")
         .def(nb::init<nb::object, int64_t, bool, int64_t, int64_t>(), "limits"_a, "threads"_a = 1,
