@@ -10,7 +10,7 @@ const given = process.env.BSM_DROP;
 describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`) }, () => {
     const { address, mesh } = JSON.parse(given ?? "{}") as { address: string; mesh: string };
 
-    test("is encoded with a bar, and both are shown; another one can be stopped", async () => {
+    test("is encoded with a bar, and both are shown; another one can be cancelled while it is sent and while it is encoded", async () => {
         const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
         try {
             const page = await browser.newPage();
@@ -31,9 +31,20 @@ describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `
             assert.equal(await page.locator("h1").textContent(), "ball.ply");
             assert.match(await page.locator("[data-part=claim]").innerText(), /^\d[\d.]* times smaller$/);
             assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());
-            await drop();
-            await page.getByRole("button", { name: "Cancel" }).click();
-            await page.getByRole("progressbar").waitFor({ state: "hidden" });
+            for (const stage of ["sending$", ": (?!sending)"]) {
+                await page.evaluate((stage) => {
+                    const line = document.querySelector("[data-part=stage]")!;
+                    line.textContent = "";
+                    const observer = new MutationObserver(() => {
+                        if (!new RegExp(stage).test(line.textContent!)) return;
+                        observer.disconnect();
+                        document.querySelector<HTMLButtonElement>("[name=cancel]")!.click();
+                    });
+                    observer.observe(line, { childList: true });
+                }, stage);
+                await drop();
+                await page.getByRole("progressbar").waitFor({ state: "hidden" });
+            }
             assert.equal(await page.locator("[role=alert]").textContent(), "");
             assert.deepEqual(complaints, []);
         } finally {

@@ -20,7 +20,7 @@ async function* piecesOf({ body }: Response): AsyncGenerator<Uint8Array> {
     try {
         for (let piece; !(piece = await reader.read()).done; ) yield piece.value;
     } finally {
-        void reader.cancel();
+        reader.cancel().catch(() => {}); // what was aborted has been thrown already
     }
 }
 
