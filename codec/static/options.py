@@ -178,8 +178,8 @@ class EncodeOptions:
 
     keep: float | None = None
     coefficients: int | None = None
-    block_size: int = 550
-    overlap: float = 1.05
+    block_size: int = 450
+    overlap: float = 1.0
     key_interval: int = 8
     step: float | None = None
     smoothing: float | None = None
@@ -281,7 +281,7 @@ def changed(options: EncodeOptions, **changes: Any) -> EncodeOptions:
     return replace(options, **changes)
 
 
-LARGE_BLOCKS: dict[str, Any] = {"block_size": 1500, "overlap": 1.0, "key_interval": 0}
+LARGE_BLOCKS: dict[str, Any] = {"block_size": 1500, "key_interval": 0}
 """What the best effort compares with the blocks that were asked for: fewer bytes, and slower to decode."""
 CODING = ("step", "keep", "coefficients", "bits", "doi", "smoothing")
 """Options that say how blocks are coded, and not what shall come of it."""
@@ -295,7 +295,7 @@ PRESETS: dict[str, EncodeOptions] = {
     "near-lossless": EncodeOptions(contract=Contract(0.0005, look=0.25, by_part=0.005)),
     "grid14": EncodeOptions(grid=14),
     "lossless": EncodeOptions(exact=True, attributes={"*": "exact"}),
-    "none": EncodeOptions(block_size=1500, overlap=1.0, contract=None),
+    "none": EncodeOptions(block_size=1500, contract=None),
 }
 """Names for what most users want, each a promise; "balanced" is the default, and "none" promises nothing but what is
 asked for beside it. Larger blocks are smaller files and slower

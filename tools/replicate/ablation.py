@@ -105,14 +105,14 @@ TOOLS: dict[str, Tool] = {
     "weights of what is seen": Tool({}, [(blocks.Refined, "_sensitivity", None)]),
     "frames along normals": Tool({}, [(blocks, "local_frames", _upright)], decodes=False),
     "unfolding of faces": Tool({}, [(search, "unfolded", lambda found, *_: found)]),
-    "overlap and blending": Tool({"overlap": 1.0}),
+    "overlap of 5 % (not in the default)": Tool({"overlap": 1.05}),
     "warm start": Tool({"key_interval": 1}),
     "springs and prediction": Tool({"predict": False}),
     "smoothing": Tool({}, [(blocks, "SMOOTHING_STEPS", ())]),
     "z = 3 (z = 1)": Tool({"power": 1}),
     "second iteration of key blocks": Tool({"key_iterations": 1}),
     "parts that both sides derive (METIS, sent)": Tool({"partition": "metis"}),
-    "blocks of 550 (of 275)": Tool({"block_size": 275}),
+    "blocks of 450 (of 225)": Tool({"block_size": 225}),
     "learnt priors": Tool({}, [(adaptive.CoefficientModel, "__post_init__", _unlearnt)], decodes=False),
     "mixing of contexts (grid14, fast profile)": Tool(
         {}, options={"grid": 14, "quick": True}, against={"preset": "grid14"}

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from operator import itemgetter
 
 import numpy as np
 
@@ -108,16 +107,15 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
 
 
 def _choose_blocks(given: Input, contract: Contract) -> None:
-    """Go on with the size of blocks with which the shape alone takes fewest bytes."""
-    found: list[tuple[int, EncodeOptions, Prepared]] = []
-    for coded in (given.options, replace(given.options, **LARGE_BLOCKS)):
-        given.coded = coded
-        given.__dict__.pop("prepared", None)
-        draft = given.search(contract, None).smallest(contract)
-        found.append((draft.size, given.coded, given.prepared))
-        if draft.places is not None:
+    """Go on with the size of blocks and the effort with which the shape alone takes fewest bytes."""
+    found: list[tuple[Draft, EncodeOptions, Prepared]] = []
+    for changes in ({"effort": "normal"}, {}, LARGE_BLOCKS):  # the usual effort may be lucky
+        if changes is LARGE_BLOCKS and found[-1][0].places is not None:
             break  # a grid has no blocks
-    _, given.coded, given.prepared = min(found, key=itemgetter(0))
+        given.coded = replace(given.options, **changes)
+        given.__dict__.pop("prepared", None)
+        found.append((given.search(contract, None).smallest(contract), given.coded, given.prepared))
+    _, given.coded, given.prepared = min(found, key=lambda made: made[0].size)
     given.carried = given.carry(given.wanted)
 
 

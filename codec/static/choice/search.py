@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, replace
-from itertools import chain, takewhile
+from itertools import takewhile
 from operator import attrgetter
 from typing import Protocol
 
@@ -232,7 +232,8 @@ class Search:
         if prepared.graph.size < FEW_VERTICES:
             grid = Gridded(prepared, bounds, 0.0)
             wider = (grid.at(max(steps) * 2.0 ** (eighths / 8.0)) for eighths in range(24 if steps else 0, 0, -1))
-            yield from takewhile(lambda _: not self._exhausted, chain(grid.fitting(), wider))
+            yield from grid.fitting()  # whatever was drawn before, so that stricter contracts find no smaller ones
+            yield from takewhile(lambda _: not self._exhausted, wider)
         elif steps and self._measures.shaper.character.is_sharp:
             yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
 

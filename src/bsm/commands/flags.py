@@ -102,7 +102,7 @@ SETTINGS = (
         "step", float, "S", "quantization step, relative to the diagonal of the bounding box; replaces the promise"
     ),
     Setting("bits", int, "Q", "as in the paper: every coefficient in Q bits, without prediction"),
-    Setting("block_size", int, "N", "approximate vertices of a block before overlap (default 550)"),
+    Setting("block_size", int, "N", "approximate vertices of a block before overlap (default 450)"),
     Setting(
         "partition", str, "derived|metis", "how the mesh is cut into blocks (default derived: the decoder repeats it)"
     ),
