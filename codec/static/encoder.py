@@ -41,10 +41,6 @@ class Attempt:
         return self.draft.header
 
     @property
-    def coefficients(self) -> tuple[int, ...]:
-        return self.draft.coefficients
-
-    @property
     def size(self) -> int:
         return sum(map(len, self.frames))
 
@@ -243,11 +239,6 @@ class Encoder:
         with as_of_decoders(self.options.limits):
             best = search_step(attempt, target, self.options.first_step, smallest_step(self._input.prepared.size))
         return best if target.shrinks_with_step else replace(best, draft=self._input.dressed(best.draft))
-
-    def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
-        """Encode blocks with a given quantization step, and see what the decoder will."""
-        with as_of_decoders(self.options.limits):
-            return self._judged(self._input.dressed(self._spectral.base(step, progress).draft))
 
     def seen(self, attempt: Attempt) -> str:
         """What is visible of an attempt, in words."""

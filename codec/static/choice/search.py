@@ -274,4 +274,13 @@ def widest(
     fine = NEARLY[0] * max((candidate.step for candidate, _ in kept), default=0.0)
     fine *= len(bounds.reaches) >= FEW_VERTICES  # of many vertices, what has far finer steps is no smaller
     kept.sort(key=lambda pair: pair[0].draft.size if pair[0].step > fine else math.inf)
-    return next((candidate for candidate, look in kept if bounds.keeps(candidate.positions, look)), None)
+    found, failed = None, 0.0
+    for candidate, look in kept:
+        if bounds.keeps(candidate.positions, look):
+            found = candidate
+            break
+        failed = candidate.step  # a few sides have praised it too much
+    while found is not None and failed > found.step * math.exp(SLACK):
+        between = way.at(math.sqrt(found.step * failed))
+        found, failed = (between, failed) if bounds.keeps(between.positions) else (found, between.step)
+    return found

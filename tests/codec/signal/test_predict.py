@@ -108,8 +108,8 @@ def test_held_rows_move_little_in_the_first_columns():
 
 def test_prediction_saves_bits_and_error():
     mesh = torus(90, 60)
-    options = {"block_size": 250, "overlap": 1.0, "keep": 0.12, "key_interval": 0, "threads": 1}
-    held = Encoder(mesh, changed(EncodeOptions(), **options)).attempt(0.004)
-    loose = Encoder(mesh, changed(EncodeOptions(), **options, predict=False)).attempt(0.004)
+    options = {"block_size": 250, "overlap": 1.0, "keep": 0.12, "key_interval": 0, "step": 0.004, "threads": 1}
+    held = Encoder(mesh, changed(EncodeOptions(), **options)).result()
+    loose = Encoder(mesh, changed(EncodeOptions(), **options, predict=False)).result()
     assert held.size < 0.9 * loose.size
     assert held.comparison.nmsve < loose.comparison.nmsve

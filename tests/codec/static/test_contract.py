@@ -218,7 +218,7 @@ def test_targets_of_quality_are_met_without_wide_dictionaries(kind: str, value: 
     encoder = Encoder(noisy(torus(60, 40), 0.002), replace(PRESETS["none"], target=Target(kind, value)))
     attempt = encoder.search()
     assert getattr(attempt.comparison, kind) <= value
-    assert max(attempt.coefficients, default=0) <= 0.18 * attempt.header.block_size
+    assert max(attempt.draft.coefficients, default=0) <= 0.18 * attempt.header.block_size
 
 
 def test_a_contract_excludes_what_it_must() -> None:
