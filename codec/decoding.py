@@ -177,7 +177,7 @@ class StreamDecoder:
         if self._error is not None:
             raise self._error
         while True:
-            event = self._open.next(wanted | mask_of(NEED, HEADER, METADATA, OVER))
+            event = self._open.next(wanted | mask_of(HEADER, METADATA))
             if event[0] == METADATA:
                 entries = [self._open.metadata(index) for index in range(self._entries, event[1])]
                 self.metadata, self._entries = {**self.metadata, **dict(entries)}, event[1]

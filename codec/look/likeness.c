@@ -12,19 +12,17 @@
 #define COVERED 0.999f
 #define STEADY_MEAN 1e-4f
 #define STEADY_SPREAD 9e-4f
-enum { X, Y, SQUARES, XY, FIELDS };
+enum { X, Y, SQUARES, XY, FIELDS, LANES = 8 /* sums side by side */ };
 
 typedef struct {
     int64_t start, end;
 } Span;
 
 INLINE bool covered(const float *x, const float *y, int64_t count) {
-    float low = BACKGROUND;
-    for (int64_t i = 0; i < count; i++) {
-        float lower = x[i] < y[i] ? x[i] : y[i];
-        low = lower < low ? lower : low;
-    }
-    return low < COVERED;
+    int32_t any = 0;
+    _Pragma("GCC unroll 1") /* one vector at a time */
+    for (int64_t i = 0; i < count; i++) any |= (x[i] < COVERED) | (y[i] < COVERED);
+    return any;
 }
 
 /* The columns of a row from the first that either picture covers to behind the last one. */
@@ -90,20 +88,20 @@ INLINE void blur_down(const float *restrict rows, int64_t stride, int64_t middle
 }
 
 /* Marks of this row, column sums of the last `WINDOW` rows, and the most marks in a square that ends here. */
-INLINE int64_t densest(const float *marks, float *ring, float *columns, int64_t start, int64_t end) {
-    float any = 0.0f;
+INLINE int64_t densest(const float *marks, float *restrict ring, float *restrict columns, int64_t start, int64_t end) {
+    int32_t any = 0, most = 0;
     for (int64_t i = start; i < end; i++) {
         columns[i] += marks[i] - ring[i];
         ring[i] = marks[i];
-        any = columns[i] > any ? columns[i] : any;
+        any |= columns[i] > 0.0f;
     }
-    if (any == 0.0f) return 0;
-    float sum = 0.0f, most = 0.0f;
-    for (int64_t i = start; i < end; i++) {
-        sum += columns[i] - (i >= start + WINDOW ? columns[i - WINDOW] : 0.0f);
-        most = sum > most ? sum : most;
+    for (int64_t i = start; any && i < end; i++) { /* columns behind the last one are empty */
+        float sum = 0.0f;
+        for (int64_t k = 0; k < WINDOW; k++) sum += columns[i + k];
+        int32_t found = (int32_t)sum;
+        most = found > most ? found : most;
     }
-    return (int64_t)most;
+    return most;
 }
 
 /* `wide` and `narrow` are the halves of both blurs, from the middle. Over pixels that either picture covers, to `sums`:
@@ -121,7 +119,7 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         return MISUSED;
     float *padded = scratch.data, *down = padded + (FIELDS + 1) * stride, *ring = down + (FIELDS + 1) * stride;
     float *x = padded, *y = padded + stride, *difference = padded + FIELDS * stride;
-    double dissimilar = 0.0;
+    double dissimilar[LANES] = {0.0};
     float *marks = ring + (FIELDS + 1) * KEPT * stride, *columns = marks + stride, *marked = columns + stride;
     int64_t seen = 0, count = 0, gone = 0;
     for (int i = 0; i < 4; i++) sums.data[i] = 0.0;
@@ -173,7 +171,9 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
             differ += counts & ((double)__builtin_fabsf(change[i]) > visible);
             inside += counts;
         }
-        for (int64_t i = from; i < to; i++) dissimilar += (double)one_less[i];
+        for (int64_t i = to; i < to + LANES - 1; i++) one_less[i] = 0.0f;
+        for (int64_t i = from; i < to; i += LANES)
+            for (int64_t k = 0; k < LANES; k++) dissimilar[k] += (double)one_less[i + k];
         seen += differ;
         count += inside;
         for (int64_t i = from; blamed.size && i < to; i++) {
@@ -186,7 +186,7 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         for (int64_t i = from; i < to; i++) marks[i] = (double)__builtin_fabsf(change[i]) > plain ? 1.0f : 0.0f;
         gone = largest(gone, densest(marks, marked + at % WINDOW * stride, columns, box.start, box.end));
     }
-    sums.data[0] = dissimilar;
+    for (int k = 0; k < LANES; k++) sums.data[0] += dissimilar[k];
     sums.data[1] = (double)seen;
     sums.data[2] = (double)count;
     sums.data[3] = (double)gone;

@@ -102,15 +102,15 @@ class Decoder {
         locked([&] { return bsmdec_finish(decoder); });
     }
 
-    // The next event whose type is in `wanted`: type, index, count, vertices, faces. Raises the stream's error.
+    // The next event of a wanted type, or one that nothing follows for now: type, index, count, vertices, faces.
     nb::tuple next(uint32_t wanted) {
-        const int AT_ONCE = 64;
+        wanted |= 1u << BSMDEC_NEED_DATA | 1u << BSMDEC_END_OF_STREAM;
         bsmdec_event event;
         bsmdec_status status;
         do {
             status = locked([&] {
                 bsmdec_status found;
-                int left = AT_ONCE;
+                int left = 64;  // then signals are looked at
                 do found = bsmdec_next(decoder, &event);
                 while (found == BSMDEC_OK && --left > 0 && !(wanted >> event.type & 1));
                 return found;

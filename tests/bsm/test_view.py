@@ -383,7 +383,8 @@ def sent(server: PageServer, head: dict[str, str], body: bytes = b"", query: str
         return b"".join(iter(lambda: page.recv(1 << 16), b""))
 
 
-def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path):
+def test_uploads_come_from_this_page_alone_and_one_at_a_time(tmp_path, monkeypatch):
+    monkeypatch.setattr("bsm.viewer.page._PATIENCE", 0.05)
     bsm.save(torus(), tmp_path / "ball.ply")
     data = (tmp_path / "ball.ply").read_bytes()
     with PageServer([]) as server:

@@ -297,7 +297,7 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.LENGTH_REQUIRED)
         elif int(length) > MOST_BYTES:
             self.send_error(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"At most {MOST_BYTES >> 20} MiB")
-        elif not self.server.encoding.acquire(timeout=3 * _PATIENCE):  # one that was cancelled ends soon
+        elif not self.server.encoding.acquire(timeout=10 * _PATIENCE):  # one that was cancelled ends soon
             self.send_error(HTTPStatus.SERVICE_UNAVAILABLE, "One mesh at a time")
         else:
             try:
