@@ -134,9 +134,9 @@ class LookMetric:
         return other
 
     @property
-    def is_exhausted(self) -> bool:
-        """Whether so much was drawn that nothing should be drawn that need not be."""
-        return self._drawn_pictures * self._size.work > MOST_WORK + WORK_PER_FACE * len(self._mesh.faces)
+    def spent(self) -> float:
+        """How much was drawn, over that from which on nothing should be drawn that need not be."""
+        return self._drawn_pictures * self._size.work / (MOST_WORK + WORK_PER_FACE * len(self._mesh.faces))
 
     def look(self, positions: Positions) -> Look:
         """How these positions look on the faces of the original, with normals that follow from them."""

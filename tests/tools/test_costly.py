@@ -9,7 +9,7 @@ import bsm
 from bsm.codec.look.measure import MOST_WORK, WORK_PER_FACE, LookMetric
 from tools.attack.costly import Recipe, changed, drawn, encoded, search
 
-FEWER = 3.0  # a search for a stream may draw this many times its budget before it skips everything optional
+FEWER = 4.0  # a search for a stream may draw this many times its budget before it skips everything optional
 WORST = 5.0  # and where it looks at attributes, too: some 5 s
 
 

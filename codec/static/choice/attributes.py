@@ -172,7 +172,7 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
         return given.dressed(bare)
     _first(enough, LEAST_NORMAL_BITS, int(given.wanted[free][1].amount))
     kept = given.dressed(bare)
-    if may and not metric.is_exhausted and looks(recomputed, given.prepared.positions):  # finer ones are, too, perhaps
+    if may and metric.spent <= 1.0 and looks(recomputed, given.prepared.positions):  # finer ones are, too, perhaps
         with suppress(TargetError):
             finer = search.shaded_by(recomputed[free].normals).smallest(contract)
             other = with_attributes(finer, recomputed, given.given.metadata)

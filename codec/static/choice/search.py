@@ -105,7 +105,7 @@ class Search:
         ways = dict[int, Way]()
         for way in self._ways(bounds, contract.look):
             on_grid = any(candidate.draft.places is not None for candidate in (*kept, *made))
-            if made and on_grid and self._exhausted:  # one grid is tried in any case: it may be much smaller
+            if made and on_grid and self._exhausted():  # one grid is tried in any case: it may be much smaller
                 break
             if isinstance(way, Gridded) and not on_grid and way.guess() > GUESSED * least:
                 continue
@@ -159,7 +159,7 @@ class Search:
             way = Unfolding(Gridded(self._prepared, bounds, 0.0), best.step)
             for candidate in map(way.at, np.geomspace(best.step, best.step / 2.0, 9).tolist()):
                 if (
-                    not self._exhausted
+                    not self._exhausted()
                     and folds(candidate) < least
                     and candidate.draft.size < dearest
                     and bounds.keeps(candidate.positions)
@@ -203,9 +203,8 @@ class Search:
         found = [c for c in found if self._size(c.draft) <= most_bytes and bounds.keeps(c.positions)]
         return min(found, key=lambda candidate: bounds.quality(candidate.positions)).draft if found else None
 
-    @property
-    def _exhausted(self) -> bool:
-        return self.metric is not None and self.metric.is_exhausted
+    def _exhausted(self, budgets: float = 1.0) -> bool:
+        return self.metric is not None and self.metric.spent > budgets
 
     def seen(self, draft: Draft) -> str:
         metric = self._measures.look
@@ -232,8 +231,9 @@ class Search:
         if prepared.graph.size < FEW_VERTICES:
             grid = Gridded(prepared, bounds, 0.0)
             wider = (grid.at(max(steps) * 2.0 ** (eighths / 8.0)) for eighths in range(24 if steps else 0, 0, -1))
-            yield from grid.fitting()  # whatever was drawn before, so that stricter contracts find no smaller ones
-            yield from takewhile(lambda _: not self._exhausted, wider)
+            # The former also behind others that took long, so that stricter contracts find no smaller ones.
+            yield from takewhile(lambda _: not self._exhausted(3.5), grid.fitting())
+            yield from takewhile(lambda _: not self._exhausted(), wider)
         elif steps and self._measures.shaper.character.is_sharp:
             yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
 
