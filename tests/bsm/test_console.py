@@ -54,12 +54,12 @@ def test_time_is_reported_where_nothing_else_is():
     work = "import time; from bsm.console import Console\nwith Console(json={}).progress('denoising') as progress:\n"
     work += " time.sleep(1.5); progress.stage('rehearsing', 0.1); time.sleep(2.2)"
     ours, theirs = pty.openpty()
-    subprocess.run([sys.executable, "-c", work.format(False)], stderr=theirs, check=True)
+    with subprocess.Popen([sys.executable, "-c", work.format(False)], stderr=theirs):
+        done = subprocess.run([sys.executable, "-c", work.format(True)], capture_output=True, text=True, check=True)
     os.close(theirs)
     drawn = os.read(ours, 1 << 14).decode()
     assert drawn.index("denoising: 00:0") < drawn.index("rehearsing:  10%|") and "<00:1" in drawn
     os.close(ours)
-    done = subprocess.run([sys.executable, "-c", work.format(True)], capture_output=True, text=True, check=True)
     lines = [json.loads(line) for line in done.stderr.splitlines()]
     assert lines[0]["seconds"] < 1.5 and lines[0]["seconds_left"] is None
     shares = [line["share"] for line in lines[1:]]

@@ -33,7 +33,7 @@ REFUSED = {
 """How, and what the message is about."""
 
 
-LONG = ("moving", "moving-frames", "moving-most", "seams-many", "nested-attribute")
+LONG = ("moving", "moving-frames", "moving-most", "seams-many", "nested-attribute", "nested-header")
 
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow) if n in LONG else n for n in REFUSED])
