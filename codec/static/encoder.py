@@ -240,6 +240,11 @@ class Encoder:
             best = search_step(attempt, target, self.options.first_step, smallest_step(self._input.prepared.size))
         return best if target.shrinks_with_step else replace(best, draft=self._input.dressed(best.draft))
 
+    def attempt(self, step: float, progress: Progress | None = None) -> Attempt:
+        """Encode blocks with a given quantization step, and see what the decoder will."""
+        with as_of_decoders(self.options.limits):
+            return self._judged(self._input.dressed(self._spectral.base(step, progress).draft))
+
     def seen(self, attempt: Attempt) -> str:
         """What is visible of an attempt, in words."""
         return self._input.search(Contract(WIDEST), None).seen(attempt.draft)

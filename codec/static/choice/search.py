@@ -274,13 +274,14 @@ def widest(
     fine = NEARLY[0] * max((candidate.step for candidate, _ in kept), default=0.0)
     fine *= len(bounds.reaches) >= FEW_VERTICES  # of many vertices, what has far finer steps is no smaller
     kept.sort(key=lambda pair: pair[0].draft.size if pair[0].step > fine else math.inf)
-    found, failed = None, 0.0
+    found, good, bad = None, math.inf, 0.0
     for candidate, look in kept:
         if bounds.keeps(candidate.positions, look):
-            found = candidate
+            found, good = candidate, candidate.step
             break
-        failed = candidate.step  # a few sides have praised it too much
-    while found is not None and failed > found.step * math.exp(SLACK):
-        between = way.at(math.sqrt(found.step * failed))
-        found, failed = (between, failed) if bounds.keeps(between.positions) else (found, between.step)
+        bad = candidate.step  # a few sides have praised it too much
+    while bad > good * math.exp(SLACK):
+        step = math.sqrt(good * bad)
+        between = way.at(step)
+        found, good, bad = (between, step, bad) if bounds.keeps(between.positions) else (found, good, step)
     return found
