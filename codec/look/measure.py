@@ -50,7 +50,7 @@ MOST_WORK, WORK_PER_FACE = 120_000_000, 10_000
 
 Paint = Callable[[Canvas, Positions, Faces, Matrix, Matrix], list[Picture]]
 Shading = Callable[[Positions], Normals]  # normals of corners, where vertices are known
-Version = tuple[Sequence[Picture], Positions, Normals, dict[int, Matrix]]
+Version = tuple["Gallery", Positions, Normals, dict[int, Matrix]]
 """Pictures of an original; where a version has its vertices, its normals; and what is known of sides."""
 
 
@@ -90,6 +90,20 @@ class Look:
         return math.pow(self.dissimilarity / MOVING, POWER)
 
 
+class Gallery:
+    """Pictures of an original; each is drawn when it is first looked at."""
+
+    def __init__(self, cameras: Sequence[Matrix], positions: Positions, faces: Faces, normals: Normals) -> None:
+        self._cameras, self._mesh = cameras, (positions, faces, normals)
+        self._pictures: dict[int, Picture] = {}
+
+    def picture(self, canvas: Canvas, side: int) -> Picture:
+        """The picture from one side, drawn on this canvas if nobody has seen it yet."""
+        if side not in self._pictures:
+            self._pictures[side] = canvas.draw(*self._mesh, self._cameras[side]).copy()
+        return self._pictures[side]
+
+
 class LookMetric:
     """Pictures of an original, and versions of it: with its own normals if it has some, or what `shading` makes."""
 
@@ -113,15 +127,18 @@ class LookMetric:
         self._middle = low + (high - low) / 2
         positions = self._placed(mesh.positions)
         self._shape = Shape.of(positions, mesh.faces)
-        self._size, self._drawn_pictures = Size.of(positions, mesh.faces, most_pixels), 0
+        self._size = Size.of(positions, mesh.faces, most_pixels)
         self.pixels = self._size.pixels
         self._cameras = cameras(self._placed(used), self.pixels)
-        self._idle = list[Canvas]()
-        self._pictures = self._drawn(positions, self._shape.faces, self._shape.normals(positions))
-        if self._size.largest < LEAST_AREA or not any(picture.min() < BACKGROUND for picture in self._pictures):
+        self._sides = range(len(self._cameras))
+        self._idle = [Canvas(self.pixels)]
+        self._pictures = Gallery(self._cameras, positions, self._shape.faces, self._shape.normals(positions))
+        covered = (self._covered(side) for side in self._sides)
+        if self._size.largest < LEAST_AREA or not any(covered):
             raise MeshError("the mesh cannot be looked at: its faces have no area")
         own = own_normals(mesh)
-        self._own = None if own is None else (self._drawn(positions, self._shape.faces, own), own)
+        self._own = None if own is None else (Gallery(self._cameras, positions, self._shape.faces, own), own)
+        self._drawn_pictures = len(self._cameras) * (1 if own is None else 2)  # sooner or later
         self._shading = shading
         self._worst = list(FEW)
         self._known: dict[bytes, tuple[dict[int, Matrix], ...]] = {}
@@ -157,7 +174,7 @@ class LookMetric:
     def breaks(self, positions: Positions, most: float) -> bool:
         """Whether a few sides, first those that did so last, show that `positions`, shape (n, 3), look farther."""
         version = self._versions(positions)[0]
-        own = {side: float((self._pictures[side] < BACKGROUND).sum()) for side in FEW}
+        own = {side: self._covered(side) for side in FEW}
         dissimilar, visible, covered = 0.0, 0.0, max(sum(own.values()), 1.0)
         for at, side in enumerate(self._worst):
             sums = self._of(version, [side])[0]
@@ -173,7 +190,7 @@ class LookMetric:
         seen = summed(few) if few[:, 2].any() else None
         if seen is not None and not least <= seen.distance <= most:
             return seen, None
-        whole = summed(self._of(version, range(len(self._cameras))))
+        whole = summed(self._of(version, self._sides))
         return seen or whole, whole
 
     def _versions(self, positions: Positions) -> list[Version]:
@@ -204,11 +221,12 @@ class LookMetric:
         turned, placed = np.degrees(np.arccos(cosines)).reshape(-1, 3).mean(axis=1), self._placed(positions)
 
         def seen(canvas: Canvas, side: int) -> tuple[Matrix, float]:
+            original = pictures.picture(canvas, side)
             picture = canvas.draw(placed, self._shape.faces, normals, self._cameras[side])
             shown = canvas.owner[canvas.owner >= 0]
-            return difference(pictures[side], picture), float(turned[shown].mean()) if len(shown) else 0.0
+            return difference(original, picture), float(turned[shown].mean()) if len(shown) else 0.0
 
-        found = self._each(seen, range(len(pictures)))
+        found = self._each(seen, self._sides)
         return max(summed(np.array([sums for sums, _ in found])).distance, max(angle for _, angle in found) / TURNED)
 
     @property
@@ -253,11 +271,11 @@ class LookMetric:
         normals = self._shape.normals(placed)
 
         def blamed(canvas: Canvas, side: int) -> tuple[int, Matrix]:
-            version, found = canvas.draw(placed, faces, normals, self._cameras[side]), np.zeros(len(faces))
-            difference(self._pictures[side], version, canvas.owner, found)
+            original, found = self._pictures.picture(canvas, side), np.zeros(len(faces))
+            difference(original, canvas.draw(placed, faces, normals, self._cameras[side]), canvas.owner, found)
             return int((canvas.owner >= 0).sum()), found
 
-        counts, added = zip(*self._each(blamed, range(len(self._cameras))), strict=True)
+        counts, added = zip(*self._each(blamed, self._sides), strict=True)
         return np.asarray(np.sum(added, axis=0) / max(sum(counts), 1))
 
     def pictures(self, other: TriangleMesh) -> tuple[Picture, Picture]:
@@ -265,7 +283,12 @@ class LookMetric:
         placed = self._placed(other.positions)
         shape = Shape.of(placed, other.faces)
         drawn = self._drawn(placed, shape.faces, shape.normals(placed))
-        return max(zip(self._pictures, drawn, strict=True), key=lambda pair: difference(*pair)[0])
+        originals = self._each(self._pictures.picture, self._sides)
+        return max(zip(originals, drawn, strict=True), key=lambda pair: difference(*pair)[0])
+
+    def _covered(self, side: int) -> float:
+        """How many pixels the original covers."""
+        return float((self._pictures.picture(self._idle[-1], side) < BACKGROUND).sum())
 
     def _placed(self, positions: Positions) -> Positions:
         with np.errstate(over="ignore"):
@@ -289,19 +312,19 @@ class LookMetric:
 
     def _drawn(self, placed: Positions, faces: Faces, normals: Normals) -> list[Picture]:
         """From all sides."""
-        sides, cameras = range(len(self._cameras)), self._cameras
-        return self._each(lambda canvas, side: canvas.draw(placed, faces, normals, cameras[side]).copy(), sides)
+        drawn = Gallery(self._cameras, placed, faces, normals)
+        return self._each(drawn.picture, self._sides)
 
-    def _seen(self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals) -> Look:
-        return summed(self._sums(pictures, placed, faces, normals, range(len(pictures))))
+    def _seen(self, pictures: Gallery, placed: Positions, faces: Faces, normals: Normals) -> Look:
+        return summed(self._sums(pictures, placed, faces, normals, self._sides))
 
     def _sums(
-        self, pictures: Sequence[Picture], placed: Positions, faces: Faces, normals: Normals, sides: Sequence[int]
+        self, pictures: Gallery, placed: Positions, faces: Faces, normals: Normals, sides: Sequence[int]
     ) -> Matrix:
         """What `difference` says of some sides, a row each."""
 
         def sums(canvas: Canvas, side: int) -> Matrix:
-            return difference(pictures[side], canvas.draw(placed, faces, normals, self._cameras[side]))
+            return difference(pictures.picture(canvas, side), canvas.draw(placed, faces, normals, self._cameras[side]))
 
         return np.array(self._each(sums, sides))
 
