@@ -4,6 +4,7 @@ attributes  what attributes take, against Draco's
 encoding    what encoding takes, in bytes and in time, over Draco's and another checkout's
 speed       what decoding by bsmdec takes, over Draco's
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
+butteraugli how presets look to Butteraugli, beside Draco at 11 bits
 house       how large the repository is, beside its limits
 """
 
@@ -16,6 +17,7 @@ COMMANDS = {
     "fields": "fields:main",
     "encoding": "encoding:main",
     "speed": "speed:main",
+    "butteraugli": "butteraugli:main",
     "house": "house:main",
 }
 """The function that does what a word asks for, and its module."""
