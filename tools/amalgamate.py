@@ -15,6 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 FOLDERS = ("bitstream", "codec/basis", "codec/blocks", "codec/signal", "codec/sequence")
 FILES = ("codec/geometry/graph.c", "codec/static/units.c")
+SHORT = "bitstream/fields/"  # its loops are short, and slower as vectors
 INTERFACE, VECTORS = "engine/bsmdec.h", "codec/basis/vectors.h"
 LEVELS = {1: "", 3: "avx2,bmi,bmi2", 4: "avx2,bmi,bmi2,avx512f,avx512vl,avx512dq,avx512bw"}
 _HEAD = """#include "bsmdec.h"
@@ -45,6 +46,16 @@ _BEGIN = """#if defined(__clang__)
 _END = """#if defined(__clang__)
 #pragma clang attribute pop
 #else
+#pragma GCC pop_options
+#endif
+"""
+_SCALAR = """
+#if !defined(__clang__)
+#pragma GCC push_options
+#pragma GCC optimize("no-tree-vectorize", "no-tree-slp-vectorize")
+#endif
+{0}
+#if !defined(__clang__)
 #pragma GCC pop_options
 #endif
 """
@@ -150,6 +161,7 @@ def amalgamated() -> str:
         suffix = re.sub(r"\W", "_", path[:-2])
         clashing = [name for name in own[path] if count[name] > 1 or name in shared]
         text = f"\n/* {path} */\n{_private(_renamed(texts[path], clashing, suffix))}"
+        text = _SCALAR.format(text) if path.startswith(SHORT) else text
         (per_isa if path.endswith(".simd.c") else pieces).append(text)
     return "".join([*pieces, *_each_isa("".join(per_isa)), _OWN.sub("", _read("codec/isa.c")), _private(priors())])
 

@@ -49,7 +49,7 @@ def test_recipes_are_files_that_are_read_and_mutants_are_others():
 @pytest.mark.slow
 def test_a_short_search_finds_no_file_over_the_bound():
     worst = search(30.0, "test")
-    assert worst[0][0] <= 3.0, worst[0]  # as src/bsm/SERVICE.md says
+    assert worst[0][0] <= 6.0, worst[0]  # on a slow core, as src/bsm/SERVICE.md says
 
 
 @pytest.mark.slow
