@@ -6,7 +6,7 @@ import { basename, join } from "node:path";
 import test, { after, before, describe } from "node:test";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { readNpz } from "./npz";
-import { base64, CHROMIUM, contentOf, FLAGS, rowsOf, savedPage, silhouette, VECTORS, viewerScript } from "./shared";
+import { base64, CHROMIUM, contentOf, FLAGS, PATIENCE, rowsOf, savedPage, silhouette, VECTORS, viewerScript } from "./shared";
 
 const STREAM = "good-labels";
 /** One of the specification, and a real one if it is named. */
@@ -39,6 +39,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     before(async () => {
         const options = { executablePath: CHROMIUM, headless: true, args: FLAGS, viewport: { width: 800, height: 500 } };
         context = await chromium.launchPersistentContext(join(folder, "profile"), options);
+        context.setDefaultTimeout(PATIENCE);
         page = await context.newPage();
         await context.addInitScript((bare) => document.addEventListener("DOMContentLoaded", () => {
             document.head.append(Object.assign(document.createElement("style"), { textContent: bare }));
@@ -53,7 +54,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     });
 
     const whole = readFileSync(join(VECTORS, `${STREAM}.bsm`));
-    const state = (name: string): Promise<unknown> => page.waitForSelector(`body[data-state=${name}]`, { timeout: 20_000 });
+    const state = (name: string): Promise<unknown> => page.waitForSelector(`body[data-state=${name}]`);
 
     test("draws a stream to its end, and fetches nothing", async () => {
         await page.goto(savedPage(folder, { whole }));
@@ -126,7 +127,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         test(`plays, holds and seeks ${basename(path)}`, async () => {
             await page.goto(savedPage(folder, { sequence: readFileSync(path) }));
             await state("complete");
-            await page.waitForFunction(() => Number(document.body.dataset.frame) > 0, undefined, { timeout: 20_000 });
+            await page.waitForFunction(() => Number(document.body.dataset.frame) > 0);
             const slider = page.getByRole("slider", { name: "Frame" });
             await page.getByRole("button", { name: "Pause" }).click();
             const held = await frameOf();
@@ -155,7 +156,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         const fresh = await context.newPage();
         // Half of the image is red, half is green: a page without the texture has neither.
         await fresh.goto(savedPage(folder, { worn: readFileSync(join(VECTORS, "good-attribute-textured.bsm")) }));
-        await fresh.waitForSelector("body[data-state=complete]", { timeout: 20_000 });
+        await fresh.waitForSelector("body[data-state=complete]");
         await fresh.waitForFunction(() => document.querySelector<HTMLSelectElement>("[name=color]")!.value === "own");
         await fresh.waitForTimeout(300);
         const counts = colorsIn(await fresh.locator("canvas").screenshot());
@@ -245,7 +246,7 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
             window.change = () => listeners["change:content"]();`;
         await page.setContent(`<style>${BARE}</style><main></main><script type="module">${script}</script>`);
         const shown = page.locator("main > [data-state=complete]");
-        await shown.waitFor({ timeout: 20_000 });
+        await shown.waitFor();
         const { share } = silhouette(await page.locator("canvas").screenshot());
         assert.ok(share > 0.02 && share < 0.6, `share ${share}`);
         assert.equal(await page.locator("h1").textContent(), "a stream");

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { describe, test } from "node:test";
 import { chromium } from "playwright-core";
-import { base64, CHROMIUM, FLAGS } from "./shared";
+import { base64, CHROMIUM, FLAGS, PATIENCE } from "./shared";
 
 const given = process.env.BSM_DROP;
 
@@ -27,7 +27,7 @@ describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `
                 }, base64(readFileSync(mesh)));
             await drop();
             await page.getByRole("progressbar").waitFor();
-            await page.waitForFunction(() => Number(document.body.dataset.layers) >= 2, undefined, { timeout: 60_000 });
+            await page.waitForFunction(() => Number(document.body.dataset.layers) >= 2, undefined, { timeout: PATIENCE });
             assert.equal(await page.locator("h1").textContent(), "ball.ply");
             assert.match(await page.locator("[data-part=claim]").innerText(), /^\d[\d.]* times smaller$/);
             assert.ok(await page.getByRole("radio", { name: "Wipe" }).isChecked());

@@ -8,12 +8,12 @@ import { setTimeout as delay } from "node:timers/promises";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
 import { decode } from "../src/index";
 import { serveSite, POLICY, type Site } from "./server";
-import { BUILDS, compile, savedPage, VECTORS } from "./shared";
+import { BUILDS, compile, PATIENCE, savedPage, VECTORS } from "./shared";
 
 const FIREFOX = process.env.FIREFOX ?? "/usr/bin/firefox-esr";
 const NAMES = ["good-labels", "good-grid", "good-refined", "good-sequence-learnt", "good-attribute-uv-blocks"];
 
-describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, timeout: 120_000 }, () => {
+describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, timeout: 5 * PATIENCE }, () => {
     const folder = mkdtempSync(join(tmpdir(), "bsm-firefox-"));
     const read = (name: string): Buffer => readFileSync(join(VECTORS, `${name}.bsm`));
     let browser: Browser;
@@ -87,7 +87,7 @@ describe("Firefox", { skip: !existsSync(FIREFOX) && `no Firefox at ${FIREFOX}`, 
 
     test("draws and plays, or says that this machine cannot draw", async (t) => {
         await page.goto(savedPage(folder, { sequence: read("good-sequence-learnt") }));
-        await page.waitForSelector("body[data-state=complete], body[data-state=failed]", { timeout: 30_000 });
+        await page.waitForSelector("body[data-state=complete], body[data-state=failed]", { timeout: PATIENCE });
         if (await page.evaluate(() => document.createElement("canvas").getContext("webgl2") === null)) {
             assert.match(await page.$eval("[role=alert]", (alert) => alert.textContent ?? ""), /does not draw in three dimensions/);
             return t.skip("Firefox draws nothing here: no WebGL");

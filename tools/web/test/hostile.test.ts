@@ -4,7 +4,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import test from "node:test";
 import { BsmError, LimitError, TruncatedError, decode } from "../src/index";
-import { BUILDS, compile, eventsOf, FOLDERS, mended, meshOfEvents, VECTORS } from "./shared";
+import { BUILDS, compile, eventsOf, FOLDERS, mended, meshOfEvents, PATIENCE, VECTORS } from "./shared";
 
 const MEMORY = 2 ** 26;
 const STREAMS = FOLDERS.flatMap((folder) => readdirSync(folder).map((name) => join(folder, name)))
@@ -19,7 +19,7 @@ function* numbers(seed: number): Generator<number, never> {
 for (const build of BUILDS) {
     const kernels = compile(build);
 
-    test(`${build} mutated streams`, { timeout: 120_000 }, async () => {
+    test(`${build} mutated streams`, { timeout: 5 * PATIENCE }, async () => {
         const compiled = await kernels;
         const random = numbers(20);
         const next = (count: number): number => Math.floor(random.next().value * count);

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { appendFileSync, existsSync, readFileSync } from "node:fs";
 import { chromium, type Page } from "playwright-core";
-import { CHROMIUM, FLAGS } from "./shared";
+import { CHROMIUM, FLAGS, PATIENCE } from "./shared";
 
 const FRAMES = 6;
 const given = process.env.BSM_LIVE;
@@ -14,10 +14,11 @@ test("a stream that is still being written", { skip: !given || (!existsSync(CHRO
     const write = (from: number, to: number): void => appendFileSync(growing, stream.subarray(from, to));
     const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: FLAGS });
     const there = (page: Page, frames: number): Promise<unknown> =>
-        page.waitForFunction((frames) => Number(document.body.dataset.there) === frames, frames, { timeout: 20_000 });
+        page.waitForFunction((frames) => Number(document.body.dataset.there) === frames, frames);
     const state = (page: Page): Promise<string | null> => page.locator("body").getAttribute("data-state");
     try {
         const [early, late] = [await browser.newPage(), await browser.newPage()];
+        for (const page of [early, late]) page.setDefaultTimeout(PATIENCE);
         await early.goto(address);
         await there(early, FRAMES);
         write(ends[0], ends[1] + 2); // one group, and a little of the next

@@ -8,12 +8,12 @@ import { chromium, type Browser, type Page } from "playwright-core";
 import { serveSite, POLICY, type Site } from "./server";
 import { decode } from "../src/index";
 import { sceneOf } from "./scene";
-import { BUILDS, CHROMIUM, compile, FLAGS, VECTORS, WEB } from "./shared";
+import { BUILDS, CHROMIUM, compile, FLAGS, PATIENCE, VECTORS, WEB } from "./shared";
 
 const STREAM = "good-labels";
 const KEYS = "good-keys";
 
-describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 180_000 }, () => {
+describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 5 * PATIENCE }, () => {
     let browser: Browser;
     let page: Page;
     let site: Site;
@@ -48,7 +48,7 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
             try { window.found = await (async () => { ${script} })(); } catch (error) { window.found = { failed: error.stack ?? String(error) }; }`);
         complaints.length = 0;
         await page.goto(site.address);
-        const value = await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: 30_000 })).jsonValue();
+        const value = await (await page.waitForFunction(() => (window as unknown as { found: unknown }).found, undefined, { timeout: PATIENCE })).jsonValue();
         assert.deepEqual(complaints, []);
         const outcome = value as Record<string, unknown>;
         assert.ok(!("failed" in outcome), String(outcome.failed));

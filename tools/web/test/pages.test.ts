@@ -4,7 +4,7 @@ import { existsSync } from "node:fs";
 import { describe, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
-import { CHROMIUM, FLAGS, silhouette } from "./shared";
+import { CHROMIUM, FLAGS, PATIENCE, silhouette } from "./shared";
 
 interface Shot {
     page: string;
@@ -24,7 +24,7 @@ describe("pictures of pages", { skip: !given || (!existsSync(CHROMIUM) && `no Ch
             try {
                 const page = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light" });
                 await page.goto(pathToFileURL(path).href);
-                await page.waitForSelector(`body[data-layers="${layers}"]`, { timeout: 120_000 });
+                await page.waitForSelector(`body[data-layers="${layers}"]`, { timeout: PATIENCE });
                 for (const key of keys) await page.keyboard.press(key);
                 await page.waitForTimeout(2000);
                 assert.match(await page.locator("[data-part=figures]").innerText(), /^[\d,.]+ kB → [\d.]+ kB$/);

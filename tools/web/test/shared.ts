@@ -21,6 +21,9 @@ export const FLAGS = [
     "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
 ];
 
+/** Milliseconds that a test waits for a page: a slow machine that does other things as well draws by software. */
+export const PATIENCE = 120_000;
+
 /** A build of less than all, as the decoder that tests of the sources take. */
 export async function lesserDecode(build: "small" | "quick" | "moving"): Promise<(data: Uint8Array) => Mesh> {
     const lesser = (await import(pathToFileURL(join(WEB, `built/${build}.js`)).href)) as { decode: typeof decode; Decoder: typeof Decoder; Kernels: typeof Kernels };

@@ -6,7 +6,7 @@ import { after, before, describe, test } from "node:test";
 import { build } from "esbuild";
 import { chromium, type Browser, type Page } from "playwright-core";
 import { serveSite } from "./server";
-import { CHROMIUM, FLAGS, silhouette, WEB } from "./shared";
+import { CHROMIUM, FLAGS, PATIENCE, silhouette, WEB } from "./shared";
 
 /** Where `bsm view` serves the tiles, their folder with a tileset, faces of the coarsest level and of all the mesh. */
 interface Given {
@@ -85,7 +85,7 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
             new MutationObserver(() => seen.push(Number(document.body?.dataset.faces ?? 0))).observe(document, { attributes: true, subtree: true, attributeFilter: ["data-faces"] });
         });
         await page.goto(address);
-        await page.waitForSelector("body[data-state=complete]", { timeout: 60_000 });
+        await page.waitForSelector("body[data-state=complete]", { timeout: PATIENCE });
         // A function, since a text that is not true at once would be evaluated by the page, which forbids that.
         await page.waitForFunction(() => (globalThis as unknown as { seen: number[] }).seen.some((faces) => faces > 0));
         const seen = (await page.evaluate("seen.filter((faces) => faces > 0)")) as number[];
@@ -100,11 +100,11 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         const before = Number(await page.locator("body").getAttribute("data-faces"));
         await page.locator("canvas").focus();
         for (let k = 0; k < 12; k++) await page.keyboard.press("+");
-        await page.waitForFunction((before) => document.body.dataset.state === "complete" && Number(document.body.dataset.faces) > before, before, { timeout: 60_000 });
+        await page.waitForFunction((before) => document.body.dataset.state === "complete" && Number(document.body.dataset.faces) > before, before, { timeout: PATIENCE });
         assert.ok(Number(await page.locator("body").getAttribute("data-faces")) <= faces);
         assert.ok(silhouette(await page.locator("canvas").screenshot()).share > share);
         for (let k = 0; k < 60; k++) await page.keyboard.press("-");
-        await page.waitForFunction((before) => Number(document.body.dataset.faces) < before, before, { timeout: 60_000 });
+        await page.waitForFunction((before) => Number(document.body.dataset.faces) < before, before, { timeout: PATIENCE });
         assert.deepEqual(complaints, []);
     });
 
@@ -119,7 +119,7 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
             const page = await opened();
             await page.goto(site.address);
             const tileState = async (): Promise<{ loaded: string[]; faces: number }> => {
-                await page.waitForFunction("tileState().quiet > 5 && tileState().faces > 0", undefined, { timeout: 60_000 });
+                await page.waitForFunction("tileState().quiet > 5 && tileState().faces > 0", undefined, { timeout: PATIENCE });
                 return (await page.evaluate("tileState()")) as { loaded: string[]; faces: number };
             };
             const far = await tileState();
