@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_652,
-    "product Python, lines": 33_227,
+    "product in all languages, lines": 61_671,
+    "product Python, lines": 33_246,
     "product C and C++, lines": 20_860,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,
-    "all Python, lines": 73_368,
+    "all Python, lines": 73_394,
     "product modules": 200,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

@@ -299,6 +299,7 @@ class Refined:
     def under(self, bounds: Bounds) -> "Refined":
         other = copy(self)
         other._bounds = bounds
+        other.__dict__.pop("_begun", None)
         return other
 
     @cached_property
@@ -306,6 +307,13 @@ class Refined:
         return self._bounds.first_step if self._sensitivity is None else self._sensitivity.first_step(self._look)
 
     def at(self, step: float) -> Candidate:
+        return self._begun if math.isclose(step, self.first) else self._made(step)
+
+    @cached_property
+    def _begun(self) -> Candidate:
+        return self._made(self.first)
+
+    def _made(self, step: float) -> Candidate:
         base = self._base
         if self._sensitivity is not None:
             layer, levels = self._evened(step, self._sensitivity)

@@ -223,7 +223,9 @@ class Search:
             blocks += [Refined(prepared, options, bounds, look)]
             if not seen:
                 blocks += [Plain(prepared, options, bounds)]
-        yield from (*blocks, *grids)  # the smaller ones first, nearly always: the others are left alone sooner
+        # The smaller ones first, nearly always: the others are left alone sooner.
+        last = character.is_sharp and any(begun(way) > grids[0].guess() for way in blocks[:1])
+        yield from (*grids, *blocks) if last else (*blocks, *grids)
 
     def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""
@@ -248,15 +250,21 @@ def unfolded(found: Candidate, way: Way, bounds: Bounds) -> Candidate:
     return turned or found
 
 
+def begun(way: Way) -> float:
+    """Bytes of a way at its first step; infinite where decoders would refuse it."""
+    try:
+        return way.at(way.first).draft.size
+    except LimitError:
+        return math.inf
+
+
 def widest(
     way: Way, bounds: Bounds, most_bytes: float = math.inf, first: float | None = None, patient: bool = False
 ) -> Candidate | None:
     """Return the smallest candidate found that keeps the bounds; None if it would not be smaller than `most_bytes`."""
     kept, excess = list[tuple[Candidate, float | None]](), bounds.excess()
     begin = min(max(first or way.first, way.least), way.most)
-    tried = way.at(begin) if most_bytes < math.inf else None
-    if tried is not None and tried.draft.size > DEARER * most_bytes:
-        return None
+    tried: Candidate | None = None
 
     def at(step: float) -> float | None:
         candidate = tried if tried is not None and math.isclose(step, begin) else way.at(step)
@@ -270,6 +278,9 @@ def widest(
         return over if over < sure else None
 
     with suppress(LimitError):  # blocks that decoders would refuse
+        tried = way.at(begin) if most_bytes < math.inf else None
+        if tried is not None and tried.draft.size > DEARER * most_bytes:
+            return None
         secant(at, begin, way.least, way.most, *((3 * TRIES, 1.0, SLACK / 4.0) if patient else ()))
     fine = NEARLY[0] * max((candidate.step for candidate, _ in kept), default=0.0)
     fine *= len(bounds.reaches) >= FEW_VERTICES  # of many vertices, what has far finer steps is no smaller

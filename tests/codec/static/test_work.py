@@ -85,6 +85,13 @@ def test_a_promise_is_kept_by_a_grid_where_blocks_would_be_refused():
     assert len(decode(stream).faces) > 5000
 
 
+def test_a_mesh_that_was_made_on_a_grid_is_sent_on_it_where_blocks_would_be_refused():
+    mesh = torus(100, 80)
+    made = TriangleMesh(np.rint(300.0 * mesh.positions), mesh.faces)
+    stream = encode(made, EncodeOptions(block_size=8192, limits="service"))
+    assert len(decode(stream, Limits.service()).positions) == 8000
+
+
 def test_the_default_allows_wide_dictionaries():
     stream = encode(torus(60, 50), changed(EncodeOptions(), bits=12, keep=0.4, block_size=500, key_interval=0))
     assert len(decode(stream, DEFAULT_LIMITS).positions) == 3000
