@@ -29,7 +29,7 @@ using namespace nb::literals;
 
 NB_MODULE(_kernels, m) {
     m.def("vertex_faces", &vertex_faces, "faces"_a, "starts"_a, "members"_a, Unlocked());
-    m.def("crosses_around", &crosses_around, "positions"_a, "faces"_a, "crosses"_a, "lengths"_a, Unlocked());
+    m.def("normals_apart", &normals_apart, "original"_a, "decoded"_a, "faces"_a, "around"_a, Unlocked());
     m.def("face_normals", &face_normals, "positions"_a, "faces"_a, "normals"_a, Unlocked());
     m.def("geometric_laplacian", &geometric_laplacian, "positions"_a, "starts"_a, "members"_a, "result"_a, Unlocked());
     m.def("build_tree", &build_tree, "lowest"_a, "highest"_a, "order"_a, "low"_a, "high"_a, "first"_a,

@@ -40,10 +40,19 @@ def encode_levels(
     leads: Sequence[Lead | None] | None = None,
 ) -> bytes:
     """Code matrices one behind the other."""
-    coder = entropy.start_writing(16 * sum(m.size for m in matrices) + 8 * len(matrices) + 64)
+    coder = entropy.start_writing(0)
     for matrix, reference, lead in zip(matrices, references, leads or [None] * len(matrices), strict=True):
-        code_matrix(coder, bank, matrix, reference, _occupied(matrix), extent_of(matrix, lead))
+        coder = write_levels(coder, bank, matrix, reference, lead)
     return entropy.finish_writing(coder)
+
+
+def write_levels(
+    coder: entropy.Coder, bank: entropy.Bank, matrix: Levels, reference: Levels, lead: Lead | None = None
+) -> entropy.Coder:
+    """Code a matrix behind what `coder` has; returns the coder that goes on."""
+    coder = entropy.make_room(coder, 16 * matrix.size + 64)
+    code_matrix(coder, bank, matrix, reference, _occupied(matrix), extent_of(matrix, lead))
+    return coder
 
 
 def first_prices(rows: int, columns: int, lead: Lead | None = None) -> Prices:

@@ -14,7 +14,7 @@ int64_t component_sizes(ConstInts offsets, ConstInts neighbors, Bytes seen, Ints
 int64_t reaches_all(ConstInts offsets, ConstInts neighbors, Ints scratch);
 void vertex_faces(ConstInts2 faces, Longs starts, Ints members);
 void face_normals(ConstDoubles2 positions, ConstInts2 faces, Doubles2 normals);
-void crosses_around(ConstDoubles2 positions, ConstInts2 faces, Doubles2 crosses, Doubles lengths);
+double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around);
 void geometric_laplacian(ConstDoubles2 positions, ConstLongs starts, ConstInts members, Doubles2 result);
 double weighted_angle(ConstDoubles2 normals, ConstDoubles weights, ConstDoubles2 decoded, ConstInts2 faces,
                       double lost);

@@ -28,20 +28,37 @@ void face_normals(ConstDoubles2 positions, ConstInts2 faces, Doubles2 normals) {
     }
 }
 
-/* Adds up around each vertex the cross products of its faces' edges, and their lengths; both begin as zeros. */
-void crosses_around(ConstDoubles2 positions, ConstInts2 faces, Doubles2 crosses, Doubles lengths) {
-    if (crosses.rows < positions.rows || lengths.size < positions.rows) return;
+/* How far normals of vertices of `decoded` are off those of `original`, by the areas around: the mean of sqrt(1 - cos).
+ * Where a normal is zero, the cosine is. `around`, which begins as zeros, has of each vertex the sums of the cross
+ * products of the faces' edges, of both, and of the original's lengths: 7 numbers. */
+double normals_apart(ConstDoubles2 original, ConstDoubles2 decoded, ConstInts2 faces, Doubles2 around) {
+    int64_t n = least(original.rows, least(decoded.rows, around.rows));
+    double apart = 0.0, total = 0.0;
+    if (original.columns != 3 || decoded.columns != 3 || faces.columns != 3 || around.columns != 7) return 0.0;
     for (int64_t f = 0; f < faces.rows; f++) {
         const int32_t *face = faces.data + 3 * f;
-        const Cross cross = cross_of(positions, face);
+        if (largest(face[0], largest(face[1], face[2])) >= n || least(face[0], least(face[1], face[2])) < 0) return 0.0;
+        const Cross own = cross_of(original, face), other = cross_of(decoded, face);
         for (int k = 0; k < 3; k++) {
-            double *sum = crosses.data + 3 * (int64_t)face[k];
-            sum[0] += cross.x;
-            sum[1] += cross.y;
-            sum[2] += cross.z;
-            lengths.data[face[k]] += cross.length;
+            double *sums = around.data + 7 * (int64_t)face[k];
+            sums[0] += own.x;
+            sums[1] += own.y;
+            sums[2] += own.z;
+            sums[3] += other.x;
+            sums[4] += other.y;
+            sums[5] += other.z;
+            sums[6] += own.length;
         }
     }
+    for (int64_t v = 0; v < n; v++) {
+        const double *a = around.data + 7 * v, *b = a + 3;
+        double lengths = __builtin_sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+        lengths *= __builtin_sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+        double cosine = lengths > 0.0 ? (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / lengths : 0.0;
+        apart += a[6] * __builtin_sqrt(cosine < 1.0 ? 1.0 - cosine : 0.0);
+        total += a[6];
+    }
+    return total > 0.0 ? apart / total : 0.0;
 }
 
 /* Each vertex minus the mean of its neighbors, weighted by inverse distance; zero beside a neighbor at distance 0. */

@@ -112,10 +112,11 @@ KERNEL void learn_around(ConstDoubles2 known, ConstDoubles2 field, Doubles2 mome
 enum { STATES = TRELLIS_STATES, BIT_UNIT = 256, LARGEST_LEVEL = (1 << 23) - 1 };
 #define NEVER __builtin_inf()
 
+/* Survivors of all states, side by side. */
 typedef struct {
-    double cost;
-    double *expect;
-} Survivor;
+    double cost[STATES];
+    const double *expect[STATES]; /* of a row's columns */
+} Survivors;
 
 /* Bits of a magnitude, in 1 / BIT_UNIT: those above what has a price cost two bits for each doubling. */
 INLINE double price_of(const int16_t *prices, int32_t magnitude) {
@@ -123,6 +124,33 @@ INLINE double price_of(const int16_t *prices, int32_t magnitude) {
     int doublings = 31 - __builtin_clz((unsigned)magnitude);
     double part = (double)magnitude / (double)(UINT32_C(1) << doublings) - 1.0;
     return prices[PRICED - 1] + 2.0 * BIT_UNIT * (doublings + part - 2.25);
+}
+
+/* Of the levels around a target, and none: the cheapest even and the cheapest odd one behind what cost `before`. */
+INLINE void weigh_levels(double before, double scaled, int grid, const int16_t *prices, double bit, double *even,
+    double *odd, int32_t *levels) {
+    double size_of = __builtin_fabs(scaled), halves = 0.5 * (size_of + grid), error = size_of - (2 - grid);
+    int32_t sign = scaled < 0.0 ? -1 : 1;
+    *even = before + size_of * size_of + bit * prices[0];
+    levels[0] = 0;
+    if (halves < 1.0) { /* none or one, mostly */
+        *odd = before + error * error + bit * prices[1];
+        levels[1] = sign;
+        return;
+    }
+    halves = __builtin_floor(halves);
+    int32_t below = (int32_t)(halves < LARGEST_LEVEL - 1 ? halves : LARGEST_LEVEL - 1);
+    for (int32_t magnitude = below; magnitude < below + 2; magnitude++) {
+        error = size_of - (2 * magnitude - grid);
+        double cost = before + error * error + bit * price_of(prices, magnitude);
+        if (magnitude & 1) {
+            *odd = cost;
+            levels[1] = sign * magnitude;
+        } else if (!(*even < cost)) {
+            *even = cost;
+            levels[0] = sign * magnitude;
+        }
+    }
 }
 
 /* Fills `levels` and `decoded` from `targets`, and moments as the decoder has them afterwards. `prices` are those of
@@ -136,9 +164,11 @@ KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts 
     int state = 0;
     for (int64_t j = 0; j < levels.rows; j++) {
         if (is_renewed(rules, j)) factorize_moments(moments, rules.ridge, factor.data);
-        Survivor old[STATES], new[STATES];
-        for (int s = 0; s < STATES; s++) new[s] = (Survivor){NEVER, 0};
-        new[state] = (Survivor){0.0, expected.data};
+        Survivors both[2], *new = &both[0];
+        for (int s = 0; s < STATES; s++) {
+            new->cost[s] = s == state ? 0.0 : NEVER;
+            new->expect[s] = expected.data;
+        }
         for (int64_t b = 0; b < width; b++) expected.data[b] = 0.0;
         for (int64_t b = 0; b < count; b++) {
             now[b] = known.data[j * count + b];
@@ -150,44 +180,37 @@ KERNEL void search_rows(ConstDoubles2 known, ConstDoubles2 targets, ConstShorts 
             const int16_t *here = prices.data + 2 * PRICED * (j * coded + i);
             int32_t *way = ways.data + STATES * i;
             uint8_t *origin = origins.data + STATES * i;
+            double even[STATES], odd[STATES], *value = values.data + STATES * i;
+            int32_t found[STATES][2];
+            const Survivors *old = &both[i & 1];
+            new = &both[~i & 1];
             for (int s = 0; s < STATES; s++) {
-                old[s] = new[s];
-                new[s].cost = NEVER;
-            }
-            for (int s = 0; s < STATES; s++) {
-                if (old[s].cost == NEVER) continue;
-                int grid = trellis_grid(s);
-                double scaled = (target - old[s].expect[b]) / half_step, size_of = __builtin_fabs(scaled);
-                double below = __builtin_floor(0.5 * (size_of + grid));
-                if (!(below < LARGEST_LEVEL - 1)) below = LARGEST_LEVEL - 1;
-                for (int candidate = 0; candidate < 3; candidate++) {
-                    if (candidate == 2 && below == 0.0) break;
-                    int32_t magnitude = candidate < 2 ? (int32_t)below + candidate : 0;
-                    double error = size_of - trellis_point(s, magnitude);
-                    double cost = old[s].cost + error * error + bit * price_of(here + PRICED * grid, magnitude);
-                    int32_t level = scaled < 0.0 ? -magnitude : magnitude;
-                    int after = trellis_following(s, level);
-                    if (cost < new[after].cost) {
-                        new[after].cost = cost;
-                        way[after] = level;
-                        origin[after] = (uint8_t)s;
-                    }
-                }
+                double scaled = (target - old->expect[s][b]) / half_step;
+                const int16_t *own = here + PRICED * trellis_grid(s);
+                weigh_levels(old->cost[s], scaled, trellis_grid(s), own, bit, &even[s], &odd[s], found[s]);
             }
             double *room = expected.data + width * (1 + (i & 1 ? STATES : 0));
-            for (int s = 0; s < STATES; s++) {
-                if (new[s].cost == NEVER) continue;
-                double *before = old[origin[s]].expect;
-                values.data[STATES * i + s] = before[b] + trellis_point(origin[s], way[s]) * half_step;
-                new[s].expect = before;
-                if (b >= size) continue;
-                new[s].expect = room + width * s;
-                expect_apart(factor.data, width, b, values.data[STATES * i + s] - before[b], before, new[s].expect);
+            _Pragma("GCC unroll 8") for (int s = 0; s < STATES; s++) {
+                /* The states that lead here, and the parities of levels that do. */
+                int one = s >> 1, other = one | STATES >> 1;
+                int first = trellis_following(one, s & 1) & 1, second = trellis_following(other, s & 1) & 1;
+                double cost = first ? odd[one] : even[one], rival = second ? odd[other] : even[other];
+                int from = rival < cost ? other : one;
+                new->cost[s] = rival < cost ? rival : cost;
+                way[s] = rival < cost ? found[other][second] : found[one][first];
+                origin[s] = (uint8_t)from;
+                new->expect[s] = old->expect[from];
+                value[s] = new->expect[s][b] + trellis_point(from, way[s]) * half_step;
+            }
+            for (int s = 0; s < STATES && b < size; s++) {
+                if (new->cost[s] == NEVER) continue;
+                expect_apart(factor.data, width, b, value[s] - new->expect[s][b], new->expect[s], room + width * s);
+                new->expect[s] = room + width * s;
             }
         }
         int best = state;
         for (int s = 0; s < STATES; s++)
-            if (new[s].cost < new[best].cost) best = s;
+            if (new->cost[s] < new->cost[best]) best = s;
         state = best;
         for (int64_t i = coded; i-- > 0;) {
             int64_t at = STATES * i + best;

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from bsm.bitstream.coefficients.adaptive import STATES
-from bsm.bitstream.coefficients.matrices import Lead, Prices, encode_levels, first_prices, price_levels
-from bsm.bitstream.entropy.range_coder import Bank, copy_bank
+from bsm.bitstream.coefficients.matrices import Lead, Prices, first_prices, price_levels, write_levels
+from bsm.bitstream.entropy.range_coder import Bank, copy_bank, finish_writing, start_writing
 from bsm.bitstream.errors import OptionError
 from bsm.codec import _kernels
 from bsm.codec.arrays import Levels, Matrix
@@ -80,12 +80,8 @@ class LevelWriter:
 
     def __init__(self, bank: Bank, columns: int, rounds: int = ROUNDS) -> None:
         self.levels: list[Levels] = []
-        self._references: list[Levels] = []
-        self._leads: list[Lead | None] = []
-        self._columns = columns
-        self._bank = bank
-        self._rounds = rounds
-        self._ahead = copy_bank(bank)
+        self._columns, self._rounds = columns, rounds
+        self._bank, self._ahead, self._coder = bank, copy_bank(bank), start_writing(0)
         self._none = np.zeros((0, columns), np.int32)
 
     def write(
@@ -105,11 +101,11 @@ class LevelWriter:
             levels, _ = loop.copy().search(known, targets, step, prices, WEIGHT)
             prices = price_levels(self._ahead, levels, reference, lead)
         levels, decoded = loop.search(known, targets, step, prices, WEIGHT)
-        self._leads.append(lead)
-        encode_levels(self._ahead, [levels], [reference], self._leads[-1:])
+        self._coder = write_levels(self._coder, self._ahead, levels, reference, lead)
         self.levels.append(levels)
-        self._references.append(reference)
         return decoded
 
     def finish(self) -> bytes:
-        return encode_levels(self._bank, self.levels, self._references, self._leads)
+        """The payload; the bank is as it is behind it."""
+        self._bank.slots[...], self._bank.weights[...] = self._ahead.slots, self._ahead.weights
+        return finish_writing(self._coder)

@@ -117,7 +117,6 @@ class StepSearch:
         self._looked: tuple[Positions, dict[tuple[int, int], float]] = frames, {}  # what was seen of decoded ones
         if promise.look < math.inf:
             self._twins = same_frames(frames, (), TWIN_STEP * self._reach)
-            self._shading = Shading(frames.shape[1], faces)
             self._knots = np.linspace(0, len(frames) - 1, min(KNOTS, len(frames))).round().astype(int).tolist()
 
     def run(self, encode: Callable[[float, Matrix | None, int], Found], first: float, finest: float) -> Found:
@@ -169,12 +168,10 @@ class StepSearch:
     def _measure(self, decoded: Positions) -> Measured:
         """How the frames look, by small pictures of those all over the GOP, and large ones of what seems the worst."""
         pairs = list(zip(self._frames, decoded, strict=True))
-        farthest = math.sqrt(max(float(np.square(a - b).sum(axis=1).max()) for a, b in pairs)) / self._reach
+        farthest = max(_kernels.farthest_apart(*map(np.ascontiguousarray, pair)) for pair in pairs) / self._reach
         if not self._knots:
             return Measured(farthest, np.zeros(0), {})
-        wrong = ordered_map(
-            lambda pair: self._shading.error(self._shading.normals(pair[0]), pair[1]), pairs, self._threads
-        )
+        wrong = ordered_map(lambda pair: shading_error(*pair, self._faces), pairs, self._threads)
         errors = np.array(list(wrong)).clip(1e-12)
         small = {index: self._look(index, decoded, SMALL) for index in self._knots} if len(pairs) > 1 else {}
         self._power = self._power or _power_of(errors[list(small)], np.array(list(small.values())))
@@ -327,22 +324,8 @@ def _evening(shares: Matrix) -> Matrix:
     return evening
 
 
-class Shading:
-    """How faces are shaded, for a measure that is much cheaper than pictures: by normals of vertices alone."""
-
-    def __init__(self, vertices: int, faces: Faces) -> None:
-        self._faces, self._count = np.ascontiguousarray(faces, np.int32), vertices
-
-    def normals(self, positions: Positions) -> tuple[Matrix, Matrix]:
-        """Normals of vertices, shape (n, 3), with the areas around them, shape (n,), of `positions`, shape (n, 3)."""
-        sums, areas = np.zeros((self._count, 3)), np.zeros(self._count)
-        _kernels.crosses_around(np.ascontiguousarray(positions, np.float64), self._faces, sums, areas)
-        lengths = np.sqrt(np.einsum("ij,ij->i", sums, sums))[:, None]
-        return np.divide(sums, lengths, out=sums, where=lengths > 0.0), areas
-
-    def error(self, original: tuple[Matrix, Matrix], decoded: Positions) -> float:
-        """How far normals of vertices of `decoded`, shape (n, 3), are off those that `normals` gives of the original"""
-        (own, areas), (other, _) = original, self.normals(decoded)
-        cosines = np.minimum(np.einsum("ij,ij->i", own, other), 1.0)
-        total = float(areas.sum())
-        return float(areas @ np.sqrt(1.0 - cosines)) / total if total else 0.0
+def shading_error(original: Positions, decoded: Positions, faces: Faces) -> float:
+    """How far normals of vertices, shape (n, 3), are off the original's: a measure much cheaper than pictures."""
+    first, second = (np.ascontiguousarray(positions, np.float64) for positions in (original, decoded))
+    around = np.zeros((len(first), 7))
+    return _kernels.normals_apart(first, second, np.ascontiguousarray(faces, np.int32), around)

@@ -23,7 +23,6 @@ from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
-from bsm.codec.sequence.step_search import Shading
 from bsm.codec.static.attributes.quality import MOVING
 from bsm.files.formats.npz import read_arrays
 
@@ -37,10 +36,13 @@ Array = npt.NDArray[Any]
 
 def lit(frames: Positions, faces: Faces) -> Array:
     """Colours of vertices, shape (T, n, 3), uint8."""
-    shading = Shading(frames.shape[1], faces)
     found = np.empty(frames.shape, np.uint8)
     for number, frame in enumerate(frames):
-        normals = shading.normals(frame)[0]
+        a, b, c = (frame[corner] for corner in faces.T)
+        crosses = np.repeat(np.cross(b - a, c - a), 3, axis=0)
+        sums = np.column_stack([np.bincount(faces.ravel(), own, len(frame)) for own in crosses.T])
+        lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+        normals = np.divide(sums, lengths, out=sums, where=lengths > 0.0)
         light = np.full(frame.shape, 12.0)
         for direction, colour in LAMPS:
             towards = np.array(direction) / np.linalg.norm(direction)

@@ -244,10 +244,9 @@ class VerifyingDecoder:
 
     def _take_worst(self, frame: Positions, event: FrameEvent) -> None:
         """Keep a frame if its normals are farther off than those of all before."""
-        from bsm.codec.sequence.step_search import Shading
+        from bsm.codec.sequence.step_search import shading_error
 
-        shading = Shading(len(frame), event.faces)
-        error = shading.error(shading.normals(frame), event.positions)
+        error = shading_error(frame, event.positions, event.faces)
         if self._worst is None or error > self._worst[0]:
             self._worst = error, TriangleMesh(frame, event.faces), event.positions
 
