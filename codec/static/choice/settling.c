@@ -118,6 +118,7 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
             double best = loss_of(&x, x.error) + rate[size_of(before, center)];
             if (hangs) best += wrong_creases(&creases, moved.data, v);
             for (int i = 0; i < TRIED; i++) {
+                if (tried[i] == *level || tried[i] == before) continue;
                 double error[3] = {x.error[0], x.error[1], x.error[2]};
                 error[a] = step * tried[i] - offset;
                 double then = along(error, error), cost = loss_of(&x, error) + rate[size_of(tried[i], center)];
