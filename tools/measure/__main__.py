@@ -5,6 +5,7 @@ encoding    what encoding takes, in bytes and in time, over Draco's and another 
 speed       what decoding by bsmdec takes, over Draco's
 fields      colours and fields that change in moving meshes, against zstd and Draco frame by frame
 butteraugli how presets look to Butteraugli, beside Draco at 11 bits
+targets     what a target beside the look takes, over the larger of what both take alone
 house       how large the repository is, beside its limits
 """
 
@@ -18,6 +19,7 @@ COMMANDS = {
     "encoding": "encoding:main",
     "speed": "speed:main",
     "butteraugli": "butteraugli:main",
+    "targets": "targets:main",
     "house": "house:main",
 }
 """The function that does what a word asks for, and its module."""

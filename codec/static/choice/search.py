@@ -224,8 +224,8 @@ class Search:
             if not seen:
                 blocks += [Plain(prepared, options, bounds)]
         # The smaller ones first, nearly always: the others are left alone sooner.
-        last = character.is_sharp and any(begun(way) > grids[0].guess() for way in blocks[:1])
-        yield from (*grids, *blocks) if last else (*blocks, *grids)
+        grids_first = character.is_sharp and any(first_size(way) > grids[0].guess() for way in blocks[:1])
+        yield from (*grids, *blocks) if grids_first else (*blocks, *grids)
 
     def _made_on(self, bounds: Bounds, found: list[Candidate]) -> Iterator[Candidate]:
         """Grids of few cells, or finer than one that was found, on which a model may have been made."""
@@ -250,7 +250,7 @@ def unfolded(found: Candidate, way: Way, bounds: Bounds) -> Candidate:
     return turned or found
 
 
-def begun(way: Way) -> float:
+def first_size(way: Way) -> float:
     """Bytes of a way at its first step; infinite where decoders would refuse it."""
     try:
         return way.at(way.first).draft.size
