@@ -58,12 +58,13 @@ def test_time_is_reported_where_nothing_else_is():
         done = subprocess.run([sys.executable, "-c", work.format(True)], capture_output=True, text=True, check=True)
     os.close(theirs)
     drawn = os.read(ours, 1 << 14).decode()
-    assert drawn.index("denoising: 00:0") < drawn.index("rehearsing:  10%|") and "<00:1" in drawn
+    assert drawn.index("denoising: 00:0") < drawn.index("rehearsing:  10%|") and "<00:" in drawn
     os.close(ours)
     lines = [json.loads(line) for line in done.stderr.splitlines()]
-    assert lines[0]["seconds"] < 1.5 and lines[0]["seconds_left"] is None
-    shares = [line["share"] for line in lines[1:]]
-    assert len(shares) >= 2 and 0.1 < shares[0] < shares[1] < 1 and lines[-1]["seconds_left"] > 0
+    first, second = ([line for line in lines if name in line["stage"]] for name in ("denoising", "rehearsing"))
+    assert first and all(line["seconds_left"] is None for line in first)
+    shares = [line["share"] for line in second]
+    assert len(shares) >= 2 and 0.1 <= shares[0] < shares[-1] < 1 and second[-1]["seconds_left"] > 0
 
 
 def test_programs_are_reported_in_lines_of_json(monkeypatch, capsys):
