@@ -12,7 +12,8 @@
 #define COVERED 0.999f
 #define STEADY_MEAN 1e-4f
 #define STEADY_SPREAD 9e-4f
-enum { X, Y, SQUARES, XY, FIELDS, LANES = 8 /* sums side by side */ };
+#define HIDING 0.04f /* a standard deviation of shades that hides half of a difference */
+enum { X, Y, SQUARES, XY, FIELDS, SUMS = 5, LANES = 8 /* sums side by side */ };
 
 typedef struct {
     int64_t start, end;
@@ -105,24 +106,25 @@ INLINE int64_t densest(const float *marks, float *restrict ring, float *restrict
 }
 
 /* `wide` and `narrow` are the halves of both blurs, from the middle. Over pixels that either picture covers, to `sums`:
- * of 1 - SSIM; how many differ by more than `visible` after the narrow blur; how many there are; and how many
- * differ by more than `plain` in the square that has most of these. To `blamed`, which may be empty, comes for each
+ * of 1 - SSIM; how many differ by more than `visible` after the narrow blur; how many there are; how many
+ * differ by more than `plain` in the square that has most of these; and the eighth powers of differences after
+ * the wide blur, each less where shades around it vary. To `blamed`, which may be empty, comes for each
  * face how unlike the pixels are that show it, by `owner`: 1 - SSIM, and up to 1 by the square of a difference. */
 KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles wide, ConstSingles narrow,
                         double visible, double plain, Singles2 scratch, Doubles sums, ConstInts2 owner,
                         Doubles blamed) {
     int64_t stride = scratch.columns;
     if (first.rows != second.rows || first.columns != second.columns || wide.size != WIDE + 1 ||
-        narrow.size != NARROW + 1 || sums.size != 4 || stride < first.columns + 2 * WIDE ||
+        narrow.size != NARROW + 1 || sums.size != SUMS || stride < first.columns + 2 * WIDE ||
         (blamed.size && (owner.rows != first.rows || owner.columns != first.columns)) ||
         scratch.rows < (FIELDS + 1) * (KEPT + 2) + WINDOW + 2)
         return MISUSED;
     float *padded = scratch.data, *down = padded + (FIELDS + 1) * stride, *ring = down + (FIELDS + 1) * stride;
     float *x = padded, *y = padded + stride, *difference = padded + FIELDS * stride;
-    double dissimilar[LANES] = {0.0};
+    double dissimilar[LANES] = {0.0}, striking[LANES] = {0.0};
     float *marks = ring + (FIELDS + 1) * KEPT * stride, *columns = marks + stride, *marked = columns + stride;
     int64_t seen = 0, count = 0, gone = 0;
-    for (int i = 0; i < 4; i++) sums.data[i] = 0.0;
+    for (int i = 0; i < SUMS; i++) sums.data[i] = 0.0;
     for (int64_t i = 0; i < (WINDOW + 2) * stride; i++) marks[i] = 0.0f;
     Span box = {0, 0}, high = {0, 0}, near[2 * NEAR + 1];
     for (int64_t row = 0; row < first.rows; row++) {
@@ -154,13 +156,16 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         for (int field = 0; field < FIELDS; field++)
             blur_down(ring + field * KEPT * stride, stride, middle, down + field * stride, from, to, wide.data, WIDE);
         blur_down(ring + FIELDS * KEPT * stride, stride, middle, down + FIELDS * stride, from, to, narrow.data, NARROW);
-        float *one_less = down;
+        float *one_less = down, *strikes = down + XY * stride;
         for (int64_t i = from; i < to; i++) {
             float mx = down[X * stride + i], my = down[Y * stride + i], product = mx * my;
             float squares = mx * mx + my * my, both = down[XY * stride + i] - product;
             float spread = down[SQUARES * stride + i] - squares;
             float same = (2.0f * product + STEADY_MEAN) * (2.0f * both + STEADY_SPREAD);
             one_less[i] = 1.0f - same / ((squares + STEADY_MEAN) * (spread + STEADY_SPREAD));
+            float hidden = (mx - my) / (1.0f + __builtin_sqrtf(spread > 0.0f ? 0.5f * spread : 0.0f) / HIDING);
+            float square = hidden * hidden, fourth = square * square;
+            strikes[i] = fourth * fourth;
         }
         const float *own = first.data + at * first.columns, *other = second.data + at * first.columns;
         const float *change = down + FIELDS * stride;
@@ -168,12 +173,16 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         for (int64_t i = from; i < to; i++) {
             bool counts = own[i] < COVERED || other[i] < COVERED;
             one_less[i] = counts ? one_less[i] : 0.0f;
+            strikes[i] = counts ? strikes[i] : 0.0f;
             differ += counts & ((double)__builtin_fabsf(change[i]) > visible);
             inside += counts;
         }
-        for (int64_t i = to; i < to + LANES - 1; i++) one_less[i] = 0.0f;
+        for (int64_t i = to; i < to + LANES - 1; i++) one_less[i] = strikes[i] = 0.0f;
         for (int64_t i = from; i < to; i += LANES)
-            for (int64_t k = 0; k < LANES; k++) dissimilar[k] += (double)one_less[i + k];
+            for (int64_t k = 0; k < LANES; k++) {
+                dissimilar[k] += (double)one_less[i + k];
+                striking[k] += (double)strikes[i + k];
+            }
         seen += differ;
         count += inside;
         for (int64_t i = from; blamed.size && i < to; i++) {
@@ -186,7 +195,7 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
         for (int64_t i = from; i < to; i++) marks[i] = (double)__builtin_fabsf(change[i]) > plain ? 1.0f : 0.0f;
         gone = largest(gone, densest(marks, marked + at % WINDOW * stride, columns, box.start, box.end));
     }
-    for (int k = 0; k < LANES; k++) sums.data[0] += dissimilar[k];
+    for (int k = 0; k < LANES; k++) sums.data[0] += dissimilar[k], sums.data[4] += striking[k];
     sums.data[1] = (double)seen;
     sums.data[2] = (double)count;
     sums.data[3] = (double)gone;

@@ -41,6 +41,7 @@ VISIBLE_SHARE = 0.005  # share of covered pixels that differ visibly, at distanc
 MOVING = 0.05  # 1 - SSIM of a frame of a moving picture at distance 1; no pixel of it counts by itself
 POWER = 0.8  # of the larger of both over its bound: so that a distance is about linear in the step of a quantizer
 GONE, GONE_POWER = 0.5, 2.0  # the same of `Look.gone`: what is gone altogether is at distance 4, however small it is
+STRIKING, STRIKING_POWER = 0.0055, 1.5  # the same of `Look.striking`: about 4 in Butteraugli's 3-norm at distance 1
 TURNED = 1.5  # degrees that normals may be turned, on average over the picture where that is most, at distance 1
 MOST_TILES = 2.0**20  # how often a texture may be repeated
 LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
@@ -70,6 +71,9 @@ class Look:
     gone : float
         Share of pixels that differ by more than 48 of 255, in the square of 8 by 8 pixels where it is largest: half if
         an edge moves by some pixels, all if a part is missing.
+    striking : float
+        8-norm of the difference of shades after a blur, which counts less where shades vary: it sees grain on smooth
+        places, and contours that have moved.
 
     Examples
     --------
@@ -83,6 +87,7 @@ class Look:
     dissimilarity: float
     visible: float
     gone: float
+    striking: float
 
     @property
     def moving(self) -> float:
@@ -175,12 +180,12 @@ class LookMetric:
         """Whether a few sides, first those that did so last, show that `positions`, shape (n, 3), look farther."""
         version = self._versions(positions)[0]
         own = {side: self._covered(side) for side in FEW}
-        dissimilar, visible, covered = 0.0, 0.0, max(sum(own.values()), 1.0)
+        dissimilar, visible, striking, covered = 0.0, 0.0, 0.0, max(sum(own.values()), 1.0)
         for at, side in enumerate(self._worst):
             sums = self._of(version, [side])[0]
             dissimilar, visible = dissimilar + float(sums[0]), visible + float(sums[1])
-            covered += float(sums[2]) - own[side]
-            if judged(dissimilar / covered, visible / covered, float(sums[3]) / SQUARE).distance > most:
+            covered, striking = covered + float(sums[2]) - own[side], striking + float(sums[4]) / len(FEW)
+            if judged(dissimilar / covered, visible / covered, float(sums[3]) / SQUARE, striking).distance > most:
                 self._worst.insert(0, self._worst.pop(at))
                 return True
         return False
@@ -381,16 +386,17 @@ def look(original: TriangleMesh, other: TriangleMesh, *, threads: int | None = N
 
 
 def summed(sums: Matrix) -> Look:
-    """The look of what `difference` says of some sides, shape (sides, 4)."""
-    dissimilar, visible, covered, _ = (float(sum(column)) for column in sums.T)
-    return judged(dissimilar / covered, visible / covered, float(sums[:, 3].max()) / SQUARE)
+    """The look of what `difference` says of some sides, shape (sides, 5)."""
+    dissimilar, visible, covered, _, striking = (float(sum(column)) for column in sums.T)
+    return judged(dissimilar / covered, visible / covered, float(sums[:, 3].max()) / SQUARE, striking / len(sums))
 
 
-def judged(dissimilarity: float, visible: float, gone: float) -> Look:
+def judged(dissimilarity: float, visible: float, gone: float, striking: float) -> Look:
     """The distance that these numbers make."""
     dissimilarity = max(0.0, dissimilarity)  # of equal pictures it is a rounding error
     distance = max(dissimilarity / DISSIMILAR, visible / VISIBLE_SHARE) ** POWER
-    return Look(max(distance, (gone / GONE) ** GONE_POWER), dissimilarity, visible, gone)
+    distance = max(distance, (gone / GONE) ** GONE_POWER, (striking / STRIKING) ** STRIKING_POWER)
+    return Look(distance, dissimilarity, visible, gone, striking)
 
 
 def _used(faces: Faces, count: int) -> Mask:

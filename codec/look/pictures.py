@@ -22,6 +22,7 @@ _HALF_CREASE = math.cos(math.radians(19.9))
 MOST_AROUND = 128  # faces around a vertex, above which its corners are shaded as their faces are
 VISIBLE = 12.0 / 255.0  # difference of shades, after the narrow blur, that is seen
 PLAIN = 48.0 / 255.0  # difference that is plain; where it fills a square, a part is gone
+POOLED = 8  # the power by which the worst pixels of a picture count most
 SQUARE = 64.0  # pixels of such a square
 BACKGROUND = 1.0
 TOWARDS = (
@@ -207,11 +208,12 @@ def interpolated(
 
 
 def difference(first: Picture, second: Picture, owner: Indices = _NOWHERE, blamed: Matrix = _NOBODY) -> Matrix:
-    """Sums over pixels that either picture, shape (h, w), covers; shape (4,). To `blamed`, shape (m,), comes how unlike
+    """Sums over pixels that either picture, shape (h, w), covers; shape (5,). To `blamed`, shape (m,), comes how unlike
     those are that show each face, by `owner`."""
-    sums = np.zeros(4)
+    sums = np.zeros(5)
     scratch = np.empty((_SCRATCH_ROWS, first.shape[1] + 2 * _SPREADS["wide"][1]), np.float32)
     _kernels.likeness(first, second, _WIDE, _NARROW, VISIBLE, PLAIN, scratch, sums, owner, blamed)
+    sums[4] = (sums[4] / first.size) ** (1.0 / POOLED)
     return sums
 
 

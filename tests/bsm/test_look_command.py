@@ -37,6 +37,7 @@ def test_the_command_says_what_python_says(files, capsys):
         "dissimilarity": seen.dissimilarity,
         "visible": seen.visible,
         "gone": seen.gone,
+        "striking": seen.striking,
         "flat": pytest.approx(LookMetric(original).flat(decoded)),
     }
     assert seen.distance > 0

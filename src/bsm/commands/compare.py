@@ -96,7 +96,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if compared else []
     lines += [f"{name:<19}{'-inf' if value is None else f'{value:.6g}'}\n" for name, value in compared.items()]
     if seen:
-        parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly"
+        parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly, "
+        parts += f"striking {seen.striking:.2g}"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
         lines.append(f"{'look in facets':<19}1 - SSIM {more['flat']:.4g}\n")
         lines += [

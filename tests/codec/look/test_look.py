@@ -146,7 +146,7 @@ def test_normals_that_a_mesh_has_are_looked_at_too():
     assert look(MESH, other).distance < 1e-3
 
 
-@pytest.mark.parametrize(("degrees", "enough"), [(1.2, True), (1.8, False)])
+@pytest.mark.parametrize(("degrees", "enough"), [(0.8, True), (1.8, False)])
 def test_normals_that_are_turned_do_not_pass_where_pictures_show_little(degrees, enough):
     smooth = Shape.of(MESH.positions, MESH.faces).normals(MESH.positions)
     looker = LookMetric(
@@ -174,12 +174,14 @@ def test_positions_are_looked_at_by_normals_that_the_original_has():
 
 
 def test_the_distance_is_one_at_its_bounds():
-    assert judged(0.03, 0.0, 0.0).distance == 1
-    assert judged(0.0, 0.005, 0.0).distance == 1
-    assert judged(0.06, 0.005, 0.1).distance == pytest.approx(2**0.8)
-    assert judged(-1e-9, 0.0, 0.0).distance == 0
-    assert judged(0.0, 0.0, 0.5).distance == 1
-    assert judged(0.0, 0.0, 1.0).distance == 4
+    assert judged(0.03, 0.0, 0.0, 0.0).distance == 1
+    assert judged(0.0, 0.005, 0.0, 0.0).distance == 1
+    assert judged(0.06, 0.005, 0.1, 0.0055).distance == pytest.approx(2**0.8)
+    assert judged(-1e-9, 0.0, 0.0, 0.0).distance == 0
+    assert judged(0.0, 0.0, 0.5, 0.0).distance == 1
+    assert judged(0.0, 0.0, 1.0, 0.0).distance == 4
+    assert judged(0.0, 0.0, 0.0, 0.0055).distance == 1
+    assert judged(0.0, 0.0, 0.0, 0.022).distance == pytest.approx(8)
 
 
 def test_a_square_from_above_has_one_shade():
@@ -238,6 +240,24 @@ def test_dissimilarity_is_that_of_the_definition():
     assert found[0] == pytest.approx((1 - ssim[inside]).sum(), rel=1e-4)
     assert found[1] == pytest.approx((visible & inside).sum(), abs=2)
     assert found[2] == inside.sum()
+    strikes = np.abs(mx - my) / (1 + np.sqrt(np.maximum(vx + vy, 0) / 2) / 0.04)
+    assert found[4] == pytest.approx(((strikes[inside] ** 8).sum() / x.size) ** (1 / 8), rel=1e-4)
+
+
+def test_grain_strikes_on_smooth_places_more_than_on_rough_ones():
+    random = np.random.default_rng(5)
+    smooth = np.full((64, 64), 0.5)
+    rough = smooth + random.normal(0.0, 0.1, smooth.shape)
+    grain = random.normal(0.0, 0.02, smooth.shape)
+    strikes = [difference(x.astype(np.float32), (x + grain).astype(np.float32))[4] for x in (smooth, rough)]
+    assert strikes[0] > 1.5 * strikes[1] > 0.0
+
+
+def test_a_contour_that_moves_by_a_pixel_strikes():
+    first = np.ones((128, 128), np.float32)
+    first[30:100, 30:90] = 0.3
+    second = np.roll(first, 1, axis=1)
+    assert difference(first, second)[4] > 0.0055
 
 
 def test_pictures_of_dense_meshes_have_more_pixels():
