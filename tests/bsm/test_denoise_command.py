@@ -21,7 +21,7 @@ from bsm.codec.geometry.metrics import mnd, theta
 from bsm.codec.threads import available_threads
 from bsm.commands.denoise import FINE, GOALS, HAND_OVERS
 from bsm.files.formats.npz import npz_frames, shape_of
-from bsm.files.mesh import read_mesh, write_mesh
+from bsm.files.mesh import format_mesh, read_mesh, write_mesh
 from tests.bsm import program
 from tests.shapes import torus
 from tools.noise import gaussian_along_normals
@@ -73,6 +73,21 @@ def test_a_clean_mesh_comes_back_with_a_sentence(tmp_path):
     command = ran.stderr.split("ask for a filter: bsm ")[1].splitlines()[0].replace("IN", str(tmp_path / "clean.npz"))
     assert bsm(*command.split(), "-o", tmp_path / "forced.npz").returncode == 0
     assert (read_mesh(tmp_path / "forced.npz").mesh.positions != CLEAN.positions).any()
+
+
+def test_a_mesh_that_stays_as_it_was_is_copied_with_what_it_names(tmp_path):
+    (tmp_path / "out").mkdir()
+    named = b"mtllib red.mtl\nusemtl red\n" + format_mesh(CLEAN, "obj") + b"# as it was\n"
+    files = {"red.mtl": b"newmtl red\nKd 1 0 0\n", "clean.obj": named, "clean.glb": format_mesh(CLEAN, "glb") + b"    "}
+    for name, data in files.items():
+        (tmp_path / name).write_bytes(data)
+    for name in ("clean.obj", "clean.glb"):
+        ran = bsm("denoise", tmp_path / name, "-o", tmp_path / "out" / name)
+        assert ran.returncode == 0 and "copied" in ran.stderr and "left out" not in ran.stderr
+    assert {name: (tmp_path / "out" / name).read_bytes() for name in files} == files
+    (tmp_path / "red.mtl").unlink()
+    assert "left out: red.mtl" in bsm("denoise", tmp_path / "clean.obj", "-o", tmp_path / "out" / "b.obj").stderr
+    assert "copied" not in bsm("denoise", tmp_path / "clean.obj", "-o", tmp_path / "out" / "c.off").stderr
 
 
 def test_harm_has_an_exit_code_of_its_own_and_writes_nothing_unless_forced(tmp_path):

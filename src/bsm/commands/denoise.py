@@ -18,7 +18,7 @@ from bsm.codec.geometry.metrics import mean_edge_length
 from bsm.commands.flags import add_inputs, add_reader_flag, asked, refuse_two_on_one_pipe
 from bsm.console import Console
 from bsm.files.formats.metadata import Written
-from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, format_of_name, read_mesh, save_written, written_mesh
+from bsm.files.mesh import MESH_FORMATS, WRITTEN_FORMATS, copied, format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import separate_meshes
 from bsm.files.motion.frames import Frames
 from bsm.files.output import output_inside, refuse_to_overwrite
@@ -133,8 +133,6 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
 
     with console.progress("reading", until=0.05):
         source = read_mesh(args.input, args.format, reader=args.reader)
-    for note in source.notes:
-        console.note(f"{args.input}: {note}")
     mesh = source.mesh
     begin = time.perf_counter()
     with console.progress("denoising", until=0.95) as progress:
@@ -149,15 +147,24 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     mean = float(moves[moves > 0.0].mean()) if touched else 0.0
     who = "all vertices" if touched == len(moves) else f"{touched} of {counted(vertices=len(moves))}"
     how = f"by {length(mean, unit)} on average, {length(farthest, unit)} at most"
-    console.note(f"moved      {who}, {how}" if touched else "moved      no vertex")
+    same = not touched and kind == format_of_name(args.input) and Path(args.input).is_file()
+    for note in source.notes if not same else ():
+        console.note(f"{args.input}: {note}")
+    copy = ", and the file is copied" if same else ""
+    console.note(f"moved      {who}, {how}" if touched else f"moved      no vertex{copy}")
     seconds = time.perf_counter() - begin
-    moved, stale = mesh.moved(positions)
+    moved, stale = mesh.moved(positions) if not same else (mesh, ())
     more: dict[str, Any] = {"moved": {"vertices": touched, "mean": mean, "farthest": farthest}}
     if args.look:
         seen = look(mesh, moved)
         console.note(f"looks      {seen.distance:.2g} from the input (the same up to 1)")
         more["look"] = asdict(seen)
-    file = Written(encode(moved, preset="near-lossless")) if kind == STREAM else written_mesh(moved, kind, args.output)
+    if same:
+        file = copied(args.input, mesh, args.output)
+    elif kind == STREAM:
+        file = Written(encode(moved, preset="near-lossless"))
+    else:
+        file = written_mesh(moved, kind, args.output)
     left_out = save_written(args.output, file, overwrite=args.may_replace(args.output), overwrite_beside=args.force)
     if left_out or stale:
         console.note(f"{args.input}: left out: {', '.join((*stale, *left_out))}")

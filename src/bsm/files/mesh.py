@@ -23,10 +23,10 @@ from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError, imported
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits, as_limits
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.files.formats.metadata import Written, fetched
+from bsm.files.formats.metadata import Written, fetched, images_in
 from bsm.files.formats.polygons import MeshFile, Polygons
 from bsm.files.output import can_be_replaced, refuse_to_overwrite, write_output
-from bsm.files.pipes import Source, as_input, is_url
+from bsm.files.pipes import Source, as_input, file_beside, is_url
 from bsm.files.room import gunzipped, require_archive, require_counts_of_head, require_room
 
 _PLAIN = ("obj", "off", "ply", "stl")  # read whole, with nothing but what the bytes say
@@ -143,6 +143,19 @@ def write_mesh(path: str | os.PathLike[str], mesh: TriangleMesh, *, overwrite: b
         raise OptionError(f"{path}: the suffix is not that of a mesh format; use one of .{', .'.join(WRITTEN_FORMATS)}")
     written = written_mesh(mesh, kind, path)
     return save_written(path, written, overwrite=overwrite)
+
+
+def copied(source: str, mesh: TriangleMesh, output: str | os.PathLike[str]) -> Written:
+    """The bytes of a mesh file, and, unless they go to its own folder, those of the files there that it names."""
+    folder, beside, lost = Path(source).resolve().parent, dict[str, bytes](), list[str]()
+    if not can_be_replaced(output) or Path(output).resolve().parent != folder:
+        library, images = str(mesh.metadata.get("mtllib", "")), images_in(mesh.metadata).values()
+        for name in filter(None, (library, *(name for name, _ in images))):
+            try:
+                beside[Path(name).name] = file_beside(folder, Path(name).name).read_bytes()
+            except FormatError:
+                lost.append(name)
+    return Written(Path(source).read_bytes(), tuple(lost), beside)
 
 
 def save_written(
