@@ -18,9 +18,9 @@ from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
 from bsm.codec.denoise.recipe import RAYS, Patient, Recipe, Step
-from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Progress, Rehearsal, discrepant, silent
+from bsm.codec.denoise.rehearsal import GOALS, MOST_MEMBERS, Forecast, Progress, Rehearsal, discrepant, silent
 from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
-from bsm.codec.denoise.surface import Floats
+from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
 from bsm.codec.geometry.welding import weld
@@ -89,8 +89,8 @@ normals turned by less than their estimated error are no closer to the clean one
 meshes that were taken for noisy 1.1 and 2.1."""
 
 
-DETAIL = 2.5
-"""Error that came over the expected one, at most: .9 to 1 on CAD, 1.1 to 1.6 on scans, 2.5 on the armadillo."""
+DETAIL = 1.65
+"""Error that may come over the expected one where detail is lost: twice on an armadillo of decimated rings, at most."""
 
 
 @dataclass(frozen=True)
@@ -105,11 +105,25 @@ class AutomaticChoice:
     learnt: float = 0.0
     outliers: int = 0
     ripples: tuple[float, ...] = ()
+    forecast: Forecast | None = None
 
     @property
     def at_most(self) -> float:
         """The error to expect where detail is as fine as the noise, which a rehearsal does not see."""
-        return min(DETAIL * self.expected, self.untreated) if self.rehearsals else self.expected
+        unsure = self.forecast is not None and not self.forecast.sure
+        return max(min(DETAIL * self.expected, self.untreated), self.expected) if unsure else self.expected
+
+    def seen(
+        self, share: float, full: Positions, result: Positions, noisy: Mask, topology: Topology
+    ) -> AutomaticChoice:
+        """The choice with the angles of the whole mesh: what is not done of the full treatment is left, of its faults
+        that share is there."""
+        assert self.forecast is not None
+        ends = (face_geometry(positions, topology.faces).normals for positions in (full, result))
+        undone = np.degrees(2.0 * np.arcsin(np.minimum(0.5 * np.linalg.norm(np.subtract(*ends), axis=1), 1.0)))
+        touched = noisy[topology.faces].any(axis=1)
+        expected = float((touched * np.hypot(undone, share * self.forecast.expected)).mean())
+        return replace(self, untreated=self.forecast.untreated * float(touched.mean()), expected=expected)
 
     def after(self, outliers: Outliers, ripples: Ripples) -> AutomaticChoice:
         """The choice for a mesh of which outliers and ripples have been put back."""
@@ -131,10 +145,7 @@ def denoise_automatically(
     calmed, outliers, ripples = calm(welded, patient)
     finding = find_noise(calmed, patient.probe)
     choice = choose(calmed, finding, patient, goal).after(outliers, ripples)
-    result, verdict = treat(choice, calmed, finding, patient)
-    choice = replace(choice, learnt=verdict.learnt)
-    if not verdict.holds:
-        choice = replace(choice, steps=(), reason=verdict.reason)
+    result, choice = treat(choice, calmed, finding, patient)
     moved = (result != welded).any(axis=1)[index]
     return np.where(moved[:, None], result[index], given), choice
 
@@ -186,7 +197,8 @@ def choose(
         reason = f"{reason}, but the result is expected to be as far off as what it changes"
     level = rehearsal.level
     noise = NoiseLevel(level.normal / finding.edge, level.tangential / finding.edge)
-    return AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
+    choice = AutomaticChoice(steps, finding.kind, reason, noise, untreated, expected, rehearsal.rounds, share)
+    return replace(choice, forecast=rehearsal.forecast(winner, share, gain)) if goal == "shading" else choice
 
 
 def _persist(positions: Positions, finding: Finding, patient: Patient) -> AutomaticChoice:
@@ -208,26 +220,34 @@ def _suited(recipes: tuple[Recipe, ...], level: NoiseLevel, edge: float) -> tupl
     return (*recipes, *sliding) if level.normal > DROWNED * edge else recipes
 
 
-def treat(choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:
-    """Do to `noisy`, shape (n, 3), what was chosen, where there is noise and as far as the result may stand."""
+def treat(
+    choice: AutomaticChoice, noisy: Positions, finding: Finding, patient: Patient, strength: float = 1.0
+) -> tuple[Positions, AutomaticChoice]:
+    """Do to `noisy`, shape (n, 3), what was chosen, where there is noise and as far as the result may stand; and say
+    what of the choice was done, and what to expect if vertices go but a part of the way, `strength`."""
     if not choice.steps:
-        return noisy, Verdict(np.ones(len(noisy), dtype=np.bool_), 0.0, 0.0, "")
+        return noisy, choice
     patient.view = finding.view
     patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
     treatments = patient.treatments(noisy)
-    result, verdict = _judged(treatments.mean(choice.steps), noisy, finding, patient)
+    full, verdict = _judged(treatments.mean(choice.steps), noisy, finding, patient)
+    learnt = 0.0
     if choice.learnt > 0.0:
-        mean = joined(result, treatments.learnt, choice.learnt, patient.topology)
+        mean = joined(full, treatments.learnt, choice.learnt, patient.topology)
         other, judgement = _judged(mean, noisy, finding, patient)
         # Made shapes have less detail than real ones: where the networks move more than the recipes, they take it away.
         if judgement.movement < verdict.movement + LEARNT_MORE:
-            result, verdict = other, replace(judgement, learnt=choice.learnt)
+            full, verdict, learnt = other, judgement, choice.learnt
     if not verdict.holds:
-        return noisy, verdict
+        return noisy, replace(choice, steps=(), learnt=learnt, reason=verdict.reason)
     share = restraint(verdict.movement, finding)
-    if share < 1.0:
-        result = noisy + share * (result - noisy)
-    return keep_good(noisy, result, verdict.good), verdict
+    result = full if share == 1.0 else noisy + share * (full - noisy)
+    result = keep_good(noisy, result, verdict.good)
+    choice = replace(choice, learnt=learnt)
+    if choice.forecast:
+        part = noisy + strength * (result - noisy)
+        choice = choice.seen(share * strength, full, part, finding.levels > 0.0, patient.topology)
+    return result, choice
 
 
 def _judged(result: Positions, noisy: Positions, finding: Finding, patient: Patient) -> tuple[Positions, Verdict]:

@@ -79,15 +79,17 @@ class FrameDenoiser:
 
     def _automatic(self, frames: Iterator[Positions]) -> Iterator[Pair]:
         found: Finding | None = None
+        choice: AutomaticChoice | None = None
 
-        def finish(pair: Pair) -> Pair:
+        def finish(pair: Pair) -> tuple[Pair, AutomaticChoice]:
             given, welded = pair
-            assert self.choice is not None and found is not None
-            if self.choice.outliers:
+            assert choice is not None and found is not None
+            if choice.outliers:
                 welded = find_outliers(welded, self._patient.probe).put_back(welded)
-            if self.choice.ripples:
+            if choice.ripples:
                 welded = find_ripples(welded, self._patient.probe).put_back(welded)
-            return given, treat(self.choice, welded, found, self._patient)[0]
+            result, done = treat(choice, welded, found, self._patient, self._strength)
+            return (given, result), done
 
         for group, remaining in self._steadied(frames):
             if found is None:
@@ -99,13 +101,15 @@ class FrameDenoiser:
                 if remaining is not None and remaining >= UNSTEADY * found.edge:
                     found = Finding("unsteady", remaining, np.full(len(begun), remaining), found.edge, CHANGING)
                 goal = "both" if remaining is not None and self._goal == "shading" else self._goal
-                self.choice = choose(begun, found, self._patient, goal, self._progress)
+                choice = choose(begun, found, self._patient, goal, self._progress)
                 self._progress("filtering", CHOSEN)
                 if remaining is None:
-                    self.choice = self.choice.after(outliers, ripples)
-                elif not self.choice.steps:
-                    self.choice = replace(self.choice, kind="unsteady", reason=CHANGING)
-            yield from ordered_map(finish, group, None)
+                    choice = choice.after(outliers, ripples)
+                elif not choice.steps:
+                    choice = replace(choice, kind="unsteady", reason=CHANGING)
+            for pair, done in ordered_map(finish, group, None):
+                self.choice = self.choice or done  # of the first frame
+                yield pair
 
     def _steadied(self, frames: Iterator[Positions]) -> Iterator[tuple[list[Pair], float | None]]:
         """Pairs of given frames and welded ones after the temporal filter, and the level of noise that is left."""

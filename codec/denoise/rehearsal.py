@@ -20,6 +20,7 @@ from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
 from bsm.codec.denoise.recipe import Patient, Recipe, Step, blend
+from bsm.codec.denoise.surface import face_geometry, pair_distances
 from bsm.codec.geometry.metrics import Reference, mean_edge_length
 from bsm.codec.threads import ordered_map
 
@@ -36,6 +37,11 @@ ROUND = 0.1  # of all work, what the recipes of a round take, more or less
 DISCREPANCY, MOST_DISCREPANT, DISCREPANCY_PASSES = 2.2, 60, 8
 """Noise of fused views is this much stronger than its fine level (a discrepancy principle, Morozov 1966): a guess that
 has lost less still has such noise, which looks like shape."""
+LOST, LOST_MORE = (-0.04, 0.2), 3.5
+"""What is lost of a guess's roughness (a logarithm, within bounds), and how much more has been lost of the mesh."""
+LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
+NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
+OF_MIRRORED = 0.78  # share of a rehearsed error that comes, of mirrored noise: it has the guess's own mistakes
 MIRRORED = ("impulses",)  # kinds of which too little is known to draw such noise anew: it is taken as it was found
 
 Goal = Callable[[Reference, Positions], float]
@@ -81,6 +87,15 @@ class Outcome:
     steps: tuple[Step, ...]
     error: float
     result: Positions
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """Angles to expect where there is noise, without and with the filter, and whether they are sure."""
+
+    untreated: float
+    expected: float
+    sure: bool
 
 
 class Rehearsal:
@@ -132,6 +147,29 @@ class Rehearsal:
         errors = np.array([self._goal(self.truth, self._within(mean, self.noisy)) for mean in means])
         best = int(np.flatnonzero(errors <= GAIN * errors.min())[-1])
         return LEARNT_SHARES[best], float(errors[best]) / (winner.error or 1.0)
+
+    def forecast(self, winner: Outcome, share: float, gain: float) -> Forecast:
+        """Angles to expect on the mesh that is rehearsed for. What is lost of the guess has been lost of the mesh, too:
+        the guess is what was left of it."""
+        result = winner.result
+        if share > 0.0:
+            result = self._within(joined(result, self._treatments.learnt, share, self._topology), self.noisy)
+        guess, left = self._roughness(self.truth.positions), self._roughness(result)
+        scanned = self._finding.kind in ("view", "fused")  # whose noise is known so well that rehearsals say enough
+        lost = float(np.clip(np.log(guess / left), *LOST)) if guess > 0.0 and left > 0.0 and not scanned else 0.0
+        clean = guess * np.exp(LOST_MORE * max(lost, 0.0))
+        drawn = self._roughness(self.noisy) ** 2 - guess**2
+        found = self._roughness(self._given) ** 2 - clean**2
+        before = float(np.sqrt(np.clip(found / drawn, *NOISE_OVER))) if drawn > 0.0 else 1.0
+        after = np.exp(LOST_MORE * lost) * (OF_MIRRORED if self._finding.kind in MIRRORED else 1.0)
+        noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
+        sure = lost <= LOST_SURELY and self._finding.kind != "correlated" and not scanned
+        return Forecast(before * self.untreated / noisy, float(after) * gain * winner.error / noisy, sure)
+
+    def _roughness(self, positions: Positions) -> float:
+        """Mean distance between the normals of neighbouring faces."""
+        normals = face_geometry(positions, self._topology.faces).normals
+        return float(pair_distances(normals, self._topology.pairs).mean())
 
     def _rehearse(self, guess: Positions, noisy: Positions) -> None:
         self.truth = Reference(guess, self._topology.faces)

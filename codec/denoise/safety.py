@@ -32,7 +32,6 @@ class Verdict:
     movement: float
     failed: float
     reason: str
-    learnt: float = 0.0
 
     @property
     def holds(self) -> bool:

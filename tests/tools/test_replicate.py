@@ -128,7 +128,7 @@ class TestTables:
         moving = {"sequence": "s", "frames": 4, "vertices": 500, "points": points}
         moving["tools"] = dict.fromkeys(ablation.MOVING_TOOLS, 1.2)
         results = {"rates": [row("a", 0.5), row("b", 0.7), row("c", 0.6, "tuned")], "times": [timed]}
-        entry = {"noisy": 9.0, "rival": 4.0, "ours": 3.0}
+        entry = {"noisy": 9.0, "rival": 4.0, "ours": 3.0, "estimate": [1.5, 2.0]}
         noisy = {"mesh": "m", "group": "unseen", "vertices": 500, "turned": 0.1, "untouched": False, "white": entry}
         noisy |= {"kinds": dict.fromkeys(denoising.KINDS, entry), "scans": {}, "frames": {"flicker": 0.4}}
         paired = {"mesh": "p", "group": "pairs", "vertices": 0, "pair": entry}
@@ -152,6 +152,8 @@ class TestTables:
         assert "0.60 (0.55-0.65)" in (tmp_path / "rates-unseen.md").read_text()
 
         assert "| 0.750 |" in (tmp_path / "denoising.md").read_text()
+        assert "| estimates |     11 | 1.500 |" in (tmp_path / "denoising.md").read_text()
+        assert "| 1.5 to 2.0 |" in (tmp_path / "denoising-pairs.md").read_text()
 
     def test_tables_are_put_into_the_page_and_others_stay(self, tmp_path, monkeypatch):
         page = tmp_path / "measured.md"

@@ -94,8 +94,7 @@ def denoise_mesh(source: Source) -> Row:
     for kind, make in KINDS.items():
         noisy = make(clean, faces)
         best = min(best_fixed(noisy, faces, reference), reference.theta(noisy))
-        ours = reference.theta(denoise_automatically(noisy, faces)[0])
-        found["kinds"][kind] = {"noisy": reference.theta(noisy), "rival": best, "ours": ours}
+        found["kinds"][kind] = {"noisy": reference.theta(noisy), "rival": best, **ours(noisy, faces, reference.theta)}
     found["white"] = against_oracle(KINDS["white"](clean, faces), faces, reference.theta)
     found["scans"] = {}
     for camera, model in CAMERAS.items():
@@ -105,11 +104,17 @@ def denoise_mesh(source: Source) -> Row:
     return facts | found | {"frames": in_motion(bent(mesh, FRAMES), faces)}
 
 
-def against_oracle(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float]) -> dict[str, float]:
+def against_oracle(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float]) -> Row:
     """The angle before, behind the best rival that an oracle stops, and behind ours."""
     treatments = _treatments(noisy, faces)
     rival = min(_best(treatments.iterates(recipe), angle_of) for recipe in RIVALS.values())
-    return {"noisy": angle_of(noisy), "rival": rival, "ours": angle_of(denoise_automatically(noisy, faces)[0])}
+    return {"noisy": angle_of(noisy), "rival": rival, **ours(noisy, faces, angle_of)}
+
+
+def ours(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float]) -> Row:
+    """The angle behind ours, and the least and largest that are expected; none where nothing was filtered."""
+    result, choice = denoise_automatically(noisy, faces)
+    return {"ours": angle_of(result), "estimate": [choice.expected, choice.at_most] if choice.steps else None}
 
 
 def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:
@@ -178,8 +183,17 @@ def denoising_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     ):
         if entries:
             found.append(spread(label, rival, [(e["ours"] / max(e["rival"], 1e-9), row["mesh"]) for e, row in entries]))
+    every = [(entry, row) for row in rows for entry in row["kinds"].values() if entry.get("estimate")]
+    if every:
+        found.append(spread("all", "estimates", [(missed(entry), row["mesh"]) for entry, row in every]))
     moving = {name: [(row["frames"][name], row["mesh"]) for row in rows] for name in rows[0]["frames"]}
     return found + [spread(f"{name} of sequences", "frames", values) for name, values in moving.items()]
+
+
+def missed(entry: Row) -> float:
+    """The factor between the angle that came and the nearest of the estimate."""
+    least, most = entry["estimate"]
+    return float(max(least / entry["ours"], entry["ours"] / most, 1.0))
 
 
 def denoising_note(rows: Sequence[Row]) -> str:
@@ -191,7 +205,8 @@ def denoising_note(rows: Sequence[Row]) -> str:
         f"{max(row['vertices'] for row in rows):,} vertices, with noise of {LEVEL} mean edges. Numbers are mean "
         "angles to the clean normals by the automatic mode, over those of the best rival. Rivals are guided filtering, "
         "bilateral normal filtering and the paper's scheme. They have fixed numbers of iterations, or an oracle stops "
-        "them. Sequences are over their frames one by one. Without noise "
+        "them. Sequences are over their frames one by one. Estimates count the factor between the angle that came "
+        "and the nearest of the range that bsm denoise prints. Without noise "
         f"{sum(row['untouched'] for row in rows)} of {len(rows)} come back bit for bit, and normals turn by at most "
         f"{max(row['turned'] for row in rows):.2f} degrees. {sum(worse)} of {len(worse)} noisy meshes become worse."
     )
@@ -200,7 +215,11 @@ def denoising_note(rows: Sequence[Row]) -> str:
 def pairs_table(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     """Angles on the files that papers share."""
     return [
-        (row["mesh"], *(f"{row['pair'][k]:.2f}" for k in ("noisy", "rival", "ours")))
+        (
+            row["mesh"],
+            *(f"{row['pair'][k]:.2f}" for k in ("noisy", "rival", "ours")),
+            " to ".join(dict.fromkeys(f"{angle:.1f}" for angle in row["pair"].get("estimate") or ())),
+        )
         for row in rows
         if row["group"] == "pairs"
     ]

@@ -76,14 +76,14 @@ def tables(results: dict[str, list[Row]]) -> dict[str, Table]:
         lines = denoising_table(noisy)
         found["denoising"] = Table("Denoising", ("noise", "rivals", *COLUMNS[2:]), lines, denoising_note(noisy))
     if any(row["group"] == "pairs" for row in noisy):
-        note = "Mean angles to the clean mesh in degrees; an oracle stops the best rival."
+        note = "Mean angles to the clean mesh in degrees; an oracle stops the best rival. Estimates: bsm denoise."
         found["denoising-pairs"] = Table("Denoising, files that papers share", PAIRED, pairs_table(noisy), note)
     for at, row in enumerate(results.get("paper", [])):
         found[f"paper-{at}"] = Table(row["title"], row["columns"], row["rows"], row["note"])
     return found
 
 
-PAIRED = ("file", "noisy", "best rival", "automatic")
+PAIRED = ("file", "noisy", "best rival", "automatic", "estimate")
 FILES = ("mesh", "vertices", "Draco", "default", "distance, Draco", "distance, default", "of Draco's bytes")
 
 

@@ -234,9 +234,10 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
     if goal == "shape":
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
     elif choice.kind != "unsteady":
-        line += f"; normals about {choice.untreated:.0f} -> {choice.expected:.0f}"
-        most = f" to {choice.at_most:.0f}" if choice.rehearsals else ""
-        line += f"{most} degrees off, the more the finer the detail"
+        least, most = round(choice.expected), round(choice.at_most)
+        then = "below 2" if most < 2 else f"{least} to {most}" if least < most else f"{least}"
+        line += f"; normals about {choice.untreated:.0f} -> {then} degrees off"
+        line += ", the more the finer the detail" if least < most else ""
     lines.append(line)
     for step, times in Counter(choice.steps).items():
         share = times / len(choice.steps) * (1.0 - choice.learnt)

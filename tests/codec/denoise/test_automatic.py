@@ -38,6 +38,17 @@ def test_it_beats_a_fixed_number_of_iterations(shape) -> None:  # type: ignore[n
     assert theta(clean, denoised, faces) < theta(clean, guided_normal_filtering(noisy, faces, 20), faces)
 
 
+@pytest.mark.parametrize("shape", [cube, sphere])
+def test_the_angle_that_it_expects_is_the_one_that_comes(shape) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(20)
+    for make in (gaussian_along_normals, gaussian_isotropic):
+        noisy = make(clean, faces, 0.2, seed=7)
+        denoised, choice = denoise_automatically(noisy, faces)
+        came = theta(clean, denoised, faces)
+        assert choice.untreated == pytest.approx(theta(clean, noisy, faces), rel=0.15)
+        assert choice.expected / 1.3 < came < 1.3 * choice.at_most
+
+
 @pytest.mark.slow
 def test_the_goal_decides_between_normals_and_vertices() -> None:
     clean, faces = sphere(20)
