@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_781,
-    "product Python, lines": 33_315,
+    "product in all languages, lines": 61_785,
+    "product Python, lines": 33_319,
     "product C and C++, lines": 20_910,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,
-    "all Python, lines": 73_565,
+    "all Python, lines": 73_581,
     "product modules": 200,
     "product C files and headers": 72,
     "docstring lines of the product, percent": 12,

@@ -22,6 +22,9 @@ FAINTEST = 0.05  # levels below, in mean edges, are left alone: the finest detai
 MANY_WINDOWS = 20
 FAINTEST_OF_FEW = {"white": 0.085, "correlated": 0.1, "impulses": 0.14, "local": 0.14}
 """With fewer windows their spread says less, and noise has to be this strong."""
+SURELY_CORRELATED, FAINTEST_CORRELATED = 0.75, 0.075
+"""Below this ratio of the finest frequencies to the fine ones fainter noise is believed: detail as even as noise reads
+0.78 and more."""
 BROADEST_OF_FEW = 1.06
 """And no stronger at lower frequencies: noise reads 0.9 to 1.03, fractal detail of made shapes 0.96 to 1.5."""
 FAINT, SURE = 0.115, 0.15
@@ -29,9 +32,9 @@ FAINT, SURE = 0.115, 0.15
 EVEN_FAINT, EVEN, EVEN_CORRELATED = 0.1, 0.145, 0.18
 """Largest spread of the levels of windows (logarithms) beyond chance: for faint, ordinary, and correlated noise, which
 clean meshes have little of."""
-SURELY_WHITE = (0.925, 1.06)
+SURELY_WHITE = (0.925, 1.2)
 """Faint noise whose finest frequencies are in this ratio to the fine ones is judged like ordinary noise: noise of 0.08
-edges and more reads 0.93 to 1.03, the rough clean meshes as even as noise 0.87 and less."""
+edges and more reads 0.93 to 1.03, impulses to 1.17, the rough clean meshes as even as noise 0.87 and less."""
 WHITE = 0.82  # the finest frequencies carry as much white noise as the fine ones; below this ratio it is correlated
 HEAVY = 1.25  # tails beyond the normal distribution's from which noise counts as impulses
 LOCAL_LEVEL, LOCAL_STEP, LOCAL_SHARE = 0.12, 1.5, 0.1
@@ -153,7 +156,8 @@ def _everywhere(positions: Positions, evidence: Evidence) -> Finding | None:
     if len(levels) < MANY_WINDOWS:
         broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))
         share = float(np.quantile(broad[windows.valid] / levels, 0.25))
-        if level < FAINTEST_OF_FEW[kind] or (level < SURE and share > BROADEST_OF_FEW):
+        least = FAINTEST_CORRELATED if whiteness < SURELY_CORRELATED else FAINTEST_OF_FEW[kind]
+        if level < least or (level < SURE and share > BROADEST_OF_FEW):
             return None
     if spread(levels, windows) > _allowed(level, kind, whiteness):
         return None

@@ -53,6 +53,18 @@ def test_kinds_differ(shape, kind: str) -> None:  # type: ignore[no-untyped-def]
         assert level == pytest.approx(0.35 if kind == "impulses" else 0.25, rel=0.35)
 
 
+@pytest.mark.parametrize(("shape", "size"), [(sphere, 20), (sphere, 24), (cube, 24)])
+def test_correlated_noise_is_found_on_few_vertices(shape, size: int) -> None:  # type: ignore[no-untyped-def]
+    clean, faces = shape(size)
+    assert find(correlated_along_normals(clean, faces, 0.2, seed=4), faces).kind == "correlated"
+
+
+def test_fainter_impulses_are_found_on_many_vertices() -> None:
+    clean, faces = cube(60)
+    finding = find(impulsive(clean, faces, 0.18, 0.5, seed=4), faces)
+    assert finding.noisy and finding.whiteness > 1.1
+
+
 def test_the_axis_is_found_and_noise_that_grows_along_it() -> None:
     clean, faces = sphere(30)
     direction = np.array([1.0, 2.0, -2.0]) / 3.0
