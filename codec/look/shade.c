@@ -7,6 +7,8 @@
 #define BACKGROUND 1.0f
 #define TILE 8    /* pixels of the side of squares that faces may be hidden in */
 #define SAMPLE 4096 /* faces that tell which half is ahead */
+#define LANES 8   /* pixels of a row that are drawn at once */
+#define EACH_LANE _Pragma("GCC unroll 1") for (int k = 0; k < LANES; k++) /* as vectors */
 #define CAMERA 15 /* three rows of a rotation with an offset each, then the light in the mesh's own axes */
 
 /* The first pixel whose center is at `x` or behind, in 0..size. */
@@ -80,6 +82,46 @@ INLINE bool hidden(Face face, ConstSingles2 farthest) {
     return behind;
 }
 
+/* `LANES` pixels of a row from `x` on, as those of `draw_face` one by one; false, and nothing is drawn, where one of
+ * them is as near as what is there. */
+INLINE bool draw_lanes(Face face, double inverse, const float *n, const double *light, int32_t number, double x,
+                       double y, float *restrict depths, float *restrict lengths, float *restrict facings,
+                       int32_t *restrict owners) {
+    const double *a = face.a, *b = face.b, *c = face.c;
+    double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+    double ax = a[0], az = a[2], bz = b[2] - a[2], cz = c[2] - a[2], down = y - a[1], s[LANES], r[LANES];
+    float z[LANES], facing[LANES], length[LANES];
+    int32_t any = 0, ties = 0;
+    EACH_LANE {
+        double across = (x + (double)k) - ax;
+        s[k] = within((across * cy - down * cx) * inverse);
+        r[k] = within((bx * down - by * across) * inverse);
+        z[k] = depth_of(az + s[k] * bz + r[k] * cz);
+    }
+    EACH_LANE {
+        any |= z[k] > depths[k];
+        ties |= z[k] == depths[k];
+    }
+    if (ties) return false;
+    if (!any) return true;
+    EACH_LANE {
+        double q = 1.0 - s[k] - r[k];
+        double nx = q * (double)n[0] + s[k] * (double)n[3] + r[k] * (double)n[6];
+        double ny = q * (double)n[1] + s[k] * (double)n[4] + r[k] * (double)n[7];
+        double nz = q * (double)n[2] + s[k] * (double)n[5] + r[k] * (double)n[8];
+        facing[k] = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
+        length[k] = (float)(nx * nx + ny * ny + nz * nz);
+    }
+    EACH_LANE {
+        bool shown = z[k] > depths[k];
+        depths[k] = shown ? z[k] : depths[k];
+        facings[k] = shown ? facing[k] : facings[k];
+        lengths[k] = shown ? length[k] : lengths[k];
+        owners[k] = shown ? number : owners[k];
+    }
+    return true;
+}
+
 INLINE void draw_face(Face face, const float *normals, const double *light, int32_t number, Singles2 depth,
                       Singles2 lengths, Singles2 picture, Ints2 owner) {
     const double *a = face.a, *b = face.b, *c = face.c;
@@ -102,11 +144,21 @@ INLINE void draw_face(Face face, const float *normals, const double *light, int3
         double from = crossing(whole, y), to = y < middle[1] ? crossing(upper, y) : crossing(beneath, y);
         int64_t column = first_center(from < to ? from : to, picture.columns);
         int64_t stop = behind_center(from < to ? to : from, picture.columns);
-        for (; column < stop; column++) {
+        int64_t alone = column; /* up to there pixels are drawn one by one */
+        while (column < stop) {
             double x = (double)column + 0.5;
+            int64_t pixel = row * picture.columns + column;
+            if (stop - column >= LANES && column >= alone) {
+                alone = column + LANES;
+                if (draw_lanes(face, inverse, n, light, number, x, y, depth.data + pixel, lengths.data + pixel,
+                               picture.data + pixel, owner.data + pixel)) {
+                    column = alone;
+                    continue;
+                }
+            }
+            column++;
             double s = within(((x - a[0]) * cy - (y - a[1]) * cx) * inverse);
             double r = within((bx * (y - a[1]) - by * (x - a[0])) * inverse);
-            int64_t pixel = row * picture.columns + column;
             float z = depth_of(a[2] + s * bz + r * cz);
             if (!(z >= depth.data[pixel])) continue;
             double q = 1.0 - s - r;

@@ -36,7 +36,7 @@ CORE = re.compile(r"core[^/]*\.md$")
 LIMITS = {
     "product in all languages, lines": 61_785,
     "product Python, lines": 33_319,
-    "product C and C++, lines": 20_910,
+    "product C and C++, lines": 20_953,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,
