@@ -27,6 +27,7 @@ from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepare
 from bsm.codec.static.targets import SLACK, TRIES, Contract
 
 ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
+FINER = 2.0  # budgets of pictures up to which finer positions are tried for normals that decoders make: they save most
 
 
 class Input:
@@ -98,7 +99,7 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
         if looks:
             given.carried = given.carry(given.wanted)
         kept = _shaded(given, search, asked)
-        positions = given.prepared.units.into(kept.decoded)
+        positions = _decoded(given, kept)
         seen = max((look.distance(positions, given.carried[at].at_corners) for at, look in looks), default=0.0)
         if seen <= contract.look:
             break
@@ -154,10 +155,10 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     bare, metric, free = search.smallest(contract), search.metric, _free_normals(given)
     if free is None or metric is None or contract.look == math.inf:
         return given.dressed(bare)
-    recomputed, decoded = given.carry_with(free, Quality("recompute")), given.prepared.units.into(bare.decoded)
+    recomputed, decoded, asked = given.carry_with(free, Quality("recompute")), _decoded(given, bare), contract.look
 
     def looks(carried: tuple[PreparedAttribute, ...], positions: Positions) -> bool:
-        return metric.shaded(positions, carried[free].normals(positions)) <= contract.look
+        return metric.shaded(positions, carried[free].normals(positions)) <= asked
 
     def enough(bits: int) -> bool:
         carried = given.carry_with(free, Quality("bits", bits))
@@ -172,13 +173,25 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
         return given.dressed(bare)
     _first(enough, LEAST_NORMAL_BITS, int(given.wanted[free][1].amount))
     kept = given.dressed(bare)
-    if may and metric.spent <= 1.0 and looks(recomputed, given.prepared.positions):  # finer ones are, too, perhaps
+    if may and metric.spent <= FINER and looks(recomputed, given.prepared.positions):
+        finer = search.shaded_by(recomputed[free].normals)
         with suppress(TargetError):
-            finer = search.shaded_by(recomputed[free].normals).smallest(contract)
-            other = with_attributes(finer, recomputed, given.given.metadata)
-            if other.size < kept.size and looks(recomputed, given.prepared.units.into(finer.decoded)):
-                given.carried, kept = recomputed, other
+            for _ in range(TRIES):
+                draft = finer.smallest(contract)
+                other, decoded = with_attributes(draft, recomputed, given.given.metadata), _decoded(given, draft)
+                if other.size >= kept.size:
+                    break
+                seen = metric.shaded(decoded, recomputed[free].normals(decoded)) / asked
+                if seen <= 1.0:
+                    given.carried, kept = recomputed, other
+                    break
+                contract = replace(contract, look=contract.look / seen * (1.0 - SLACK))
     return kept
+
+
+def _decoded(given: Input, draft: Draft) -> Positions:
+    """What a decoder has, in the units of coding."""
+    return given.prepared.units.into(draft.decoded)
 
 
 def _first(holds: Callable[[int], bool], low: int, high: int) -> int:
