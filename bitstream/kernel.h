@@ -68,7 +68,7 @@ BSM_ARRAY(Doubles, double)
 #endif
 
 /* A file *.simd.c is compiled as a whole for each level of x86-64, with a name of its own for what others call, since
- * the shape of its vectors depends on the level; `codec/isa.c` chooses when the program runs. */
+ * the shape of its vectors depends on the level; `isa.c` of the room chooses when the program runs. */
 #ifdef KERNEL_ISA
 #define ISA_OF(name, level) name##_v##level
 #define ISA_NAME(name, level) ISA_OF(name, level)
@@ -76,6 +76,29 @@ BSM_ARRAY(Doubles, double)
 #else
 #define ISA(name) name
 #endif
+
+/* In isa.c: which of these runs. */
+#define CHOOSE_1(give, result, name, parameters, arguments)                                                            \
+    result name##_v1 parameters;                                                                                       \
+    result name parameters { give name##_v1 arguments; }
+#define CHOOSE_3(give, result, name, parameters, arguments)                                                            \
+    result name##_v1 parameters;                                                                                       \
+    result name##_v3 parameters;                                                                                       \
+    result name##_v4 parameters;                                                                                       \
+    result name parameters {                                                                                           \
+        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&                                 \
+            __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))                                  \
+            give name##_v4 arguments;                                                                                  \
+        else if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2"))                                     \
+            give name##_v3 arguments;                                                                                  \
+        else                                                                                                           \
+            give name##_v1 arguments;                                                                                  \
+    }
+#define CHOOSE_ISAS(isas) CHOOSE_##isas
+#define CHOOSE_OF(isas) CHOOSE_ISAS(isas)
+#define CHOOSE(...) CHOOSE_OF(KERNEL_ISAS)(return, __VA_ARGS__)
+#define CHOOSE_VOID(...) CHOOSE_OF(KERNEL_ISAS)(, void, __VA_ARGS__)
+
 /* Copied to every call, but where a decoder is built alone that has to be small: what that costs time is little. */
 #ifdef BSM_LEAN
 #define INLINE static inline __attribute__((unused))

@@ -1,31 +1,9 @@
-/* Which of the compiled levels of a kernel runs: the best that the processor has. */
+/* The kernels of this room that are compiled for several levels of processors. */
 #ifdef KERNEL_ISAS
 
 #include "codec/basis/basis.h"
 #include "codec/sequence/temporal.h"
 #include "codec/signal/signal.h"
-
-#if KERNEL_ISAS == 1
-#define CHOOSE_BY(give, result, name, parameters, arguments)                                                           \
-    result name##_v1 parameters;                                                                                       \
-    result name parameters { give name##_v1 arguments; }
-#else
-#define CHOOSE_BY(give, result, name, parameters, arguments)                                                           \
-    result name##_v1 parameters;                                                                                       \
-    result name##_v3 parameters;                                                                                       \
-    result name##_v4 parameters;                                                                                       \
-    result name parameters {                                                                                           \
-        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&                                 \
-            __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))                                  \
-            give name##_v4 arguments;                                                                                  \
-        else if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2"))                                     \
-            give name##_v3 arguments;                                                                                  \
-        else                                                                                                           \
-            give name##_v1 arguments;                                                                                  \
-    }
-#endif
-#define CHOOSE(...) CHOOSE_BY(return, __VA_ARGS__)
-#define CHOOSE_VOID(...) CHOOSE_BY(, void, __VA_ARGS__)
 
 CHOOSE(bool, are_vectors_exact, (void), ())
 CHOOSE_VOID(cosines, (Doubles table, Doubles2 columns), (table, columns))

@@ -28,15 +28,17 @@ bool order_mesh(Corners *corners, Arena *arena, Arena *scratch, Ints *order) {
 }
 
 bool make_value_model(Arena *arena, ValueModel *model) {
-    if (!take_words(arena, MODEL_SLOTS, &model->slots) || !take_words(arena, PREDICTIONS * HIT_CONTEXTS, &model->hits)
-        || !zero_ints2(arena, VALUE_NODES + WEIGHT_SETS * KINDS, VALUE_INPUTS, &model->weights)
-        || !zero_ints2(arena, PREDICTIONS * SCALE_CONTEXTS, 2, &model->scales))
+    if (!take_words(arena, MODEL_SLOTS, &model->slots) || !take_words(arena, HIT_CONTEXTS * MODEL_ROW, &model->hits)
+        || !zero_ints2(arena, VALUE_NODES + WEIGHT_SETS * KINDS, WEIGHT_ROW, &model->weights)
+        || !zero_ints2(arena, SCALE_CONTEXTS, MODEL_ROW, &model->scales))
         return false;
     for (int64_t i = 0; i < model->slots.size; i++) model->slots.data[i] = 1u << 31;
     for (int64_t i = 0; i < model->hits.size; i++) model->hits.data[i] = UNLEARNED_HIT;
-    for (int row = 0; row < VALUE_NODES; row++)
-        for (int i = 0; i < VALUE_INPUTS - 1; i++)
-            model->weights.data[row * VALUE_INPUTS + i] = i < PREDICTIONS ? ONE * 9 / (8 * PREDICTIONS) : SLOT_WEIGHT;
+    for (int row = 0; row < VALUE_NODES; row++) {
+        int32_t *weight = model->weights.data + row * WEIGHT_ROW;
+        for (int i = 0; i < PREDICTIONS; i++) weight[i] = ONE * 9 / (8 * PREDICTIONS);
+        for (int i = CONSTANT_INPUT + 1; i < VALUE_INPUTS; i++) weight[i] = SLOT_WEIGHT;
+    }
     return true;
 }
 

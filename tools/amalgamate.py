@@ -16,6 +16,7 @@ ROOT = Path(__file__).parents[1]
 FOLDERS = ("bitstream", "codec/basis", "codec/blocks", "codec/signal", "codec/sequence")
 FILES = ("codec/geometry/graph.c", "codec/static/units.c")
 SHORT = "bitstream/fields/"  # its loops are short, and slower as vectors
+CHOICES = ("bitstream/isa.c", "codec/isa.c")
 INTERFACE, VECTORS = "engine/bsmdec.h", "codec/basis/vectors.h"
 LEVELS = {1: "", 3: "avx2,bmi,bmi2", 4: "avx2,bmi,bmi2,avx512f,avx512vl,avx512dq,avx512bw"}
 _HEAD = """#include "bsmdec.h"
@@ -63,7 +64,7 @@ _OWN = re.compile(r'^#include "([^"]+)"\n', re.MULTILINE)
 _WORDS = r"(?!typedef|static|extern|return|INLINE|SHARED|KERNEL|OFTEN|struct|enum|union)(?:const )?"
 _PROTOTYPE = re.compile(rf"^(?={_WORDS}\w+ \**(?!bsmdec_)[^=;{{]*\([^;{{]*\);)", re.MULTILINE)
 _FUNCTION = re.compile(
-    r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:const )?\w+ \**(?:ISA\()?(\w+)\)?\(", re.MULTILINE
+    r"^(?:KERNEL |OFTEN )*(?:static |INLINE |SHARED )+(?:OFTEN )?(?:const )?\w+ \**(?:ISA\()?(\w+)\)?\(", re.MULTILINE
 )
 _BARE = re.compile(rf"^(?=(?:KERNEL |OFTEN )*{_WORDS}\w+ \**(?!bsmdec_)(?:ISA\()?\w+\)?\([^;{{]*\) \{{)", re.MULTILINE)
 _DOUBLES = '#define VECTORS_OF_DOUBLES\n#include "codec/basis/vectors.h"\n'
@@ -77,7 +78,8 @@ def sources() -> list[str]:
     """The files of the library, kernels first, by their paths in the repository."""
     kernels = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.c"))]
     engine = sorted((ROOT / "engine").glob("*.c"))
-    return [str(path.relative_to(ROOT)) for path in [*kernels, *(ROOT / name for name in FILES), *engine]]
+    paths = (str(path.relative_to(ROOT)) for path in [*kernels, *(ROOT / name for name in FILES), *engine])
+    return [path for path in paths if path not in CHOICES]
 
 
 def priors() -> str:
@@ -163,7 +165,8 @@ def amalgamated() -> str:
         text = f"\n/* {path} */\n{_private(_renamed(texts[path], clashing, suffix))}"
         text = _SCALAR.format(text) if path.startswith(SHORT) else text
         (per_isa if path.endswith(".simd.c") else pieces).append(text)
-    return "".join([*pieces, *_each_isa("".join(per_isa)), _OWN.sub("", _read("codec/isa.c")), _private(priors())])
+    choices = [_OWN.sub("", _read(path)) for path in CHOICES]
+    return "".join([*pieces, *_each_isa("".join(per_isa)), *choices, _private(priors())])
 
 
 def _each_isa(text: str) -> Iterator[str]:

@@ -152,3 +152,74 @@ void gather_around(const Corners *c, int32_t v, Around *around) {
             around->flap[around->flaps++] = (Flap){ends[0], ends[1], vertex[beyond], beyond};
     }
 }
+
+bool fits_values(const ValueModel *model) {
+    return model->slots.size == CONTEXTS * CONTEXT_SIZE * VALUE_NODES && model->hits.size == HIT_CONTEXTS * MODEL_ROW
+        && model->weights.rows == VALUE_NODES + WEIGHT_SETS * KINDS && model->weights.columns == WEIGHT_ROW
+        && model->scales.rows == SCALE_CONTEXTS && model->scales.columns == MODEL_ROW;
+}
+
+enum { WORDS_SEARCHED = 4 };
+
+int32_t nearest_seen(const int64_t *row, int64_t words, int32_t v) {
+    const uint64_t *seen = (const uint64_t *)row;
+    int32_t word = v >> 6, bit = v & 63, below = -1;
+    uint64_t low = seen[word] & ((UINT64_C(2) << bit) - 1), high = seen[word] & ~((UINT64_C(1) << bit) - 1);
+    for (int i = 0; i < WORDS_SEARCHED && below < 0; i++) {
+        if (low != 0) below = ((word - i) << 6) + 63 - __builtin_clzll(low);
+        if (word - i == 0) break;
+        low = seen[word - i - 1];
+    }
+    for (int i = 0; i < WORDS_SEARCHED; i++) {
+        if (high != 0) {
+            int32_t above = ((word + i) << 6) + __builtin_ctzll(high);
+            return below < 0 || above - v < v - below ? above : below;
+        }
+        if (word + i + 1 == words) break;
+        high = seen[word + i + 1];
+    }
+    return below < 0 ? v : below;
+}
+
+enum { MOST_ERROR = 1 << 28 };
+
+bool fits_range(ConstInts largest, int64_t columns) {
+    bool fits = largest.size == columns;
+    for (int j = 0; j < columns && fits; j++) fits = largest.data[j] >= 0 && largest.data[j] < MOST_SPAN;
+    return fits;
+}
+
+bool fits_seen(ConstInts largest, Longs2 seen) {
+    bool fits = seen.rows == largest.size;
+    for (int j = 0; j < largest.size && fits; j++) fits = largest.data[j] / 64 < seen.columns;
+    return fits;
+}
+
+int32_t error_at(const Ints2 *gaps, int32_t v) {
+    int64_t sum = 0;
+    for (int j = 0; j < gaps->columns; j++) sum += size_of(gaps->data[gaps->columns * v + j]);
+    return (int32_t)least(sum, MOST_ERROR);
+}
+
+void pass_on(const Corners *corners, const Ints2 *values, const Longs2 *sums, int32_t v) {
+    int64_t columns = values->columns;
+    for (int32_t i = corners->starts.data[v]; i < corners->starts.data[v + 1]; i++) {
+        int64_t *sum = sums->data + (columns + 1) * corners->faces.data[next_corner(corners->corners.data[i])];
+        for (int j = 0; j < columns; j++) sum[j] += values->data[columns * v + j];
+        sum[columns]++;
+    }
+}
+
+int32_t balance(const Corners *corners, const Ints2 *values, const Longs2 *sums, const Around *around, int j,
+    int32_t otherwise) {
+    int64_t columns = values->columns, total = 0;
+    int32_t found = 0;
+    for (int i = 0; i < around->neighbors; i++) {
+        int32_t u = around->neighbor[i];
+        const int64_t *sum = sums->data + (columns + 1) * u;
+        if (faces_at(corners, u) - sum[columns] > 1) continue;
+        total += limited(FINE * ((sum[columns] + 1) * values->data[columns * u + j] - sum[j]) - otherwise);
+        found++;
+    }
+    return found > 0 ? divided(total, found) : 0;
+}

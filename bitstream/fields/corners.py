@@ -127,13 +127,11 @@ def checked_largest(largest: npt.ArrayLike, columns: range) -> Ints:
 
 PREDICTIONS = 7
 TERMS = 7
-_CONTEXTS = 6
-_CONTEXT_SIZE = 512
-_NODES = 66
+_CONTEXTS, _CONTEXT_SIZE, _NODES = 6, 512, 66
 _WEIGHT_ROWS = _NODES + 3 * 6
 _INPUTS = PREDICTIONS + _CONTEXTS + 1
-_HIT_CONTEXTS = 32
-_SCALE_CONTEXTS = 512
+_WEIGHT_ROW, _MODEL_ROW = 16, 8  # numbers from one row to the next
+_HIT_CONTEXTS, _SCALE_CONTEXTS = 32, 512
 
 
 class ValueModel(NamedTuple):
@@ -147,19 +145,20 @@ class ValueModel(NamedTuple):
 
 def make_model() -> ValueModel:
     """A model that has learnt nothing."""
-    weights = np.zeros((_WEIGHT_ROWS, _INPUTS), np.int32)
+    weights = np.zeros((_WEIGHT_ROWS, _WEIGHT_ROW), np.int32)
     weights[:_NODES, :PREDICTIONS] = (1 << 16) * 9 // (8 * PREDICTIONS)
-    weights[:_NODES, PREDICTIONS:-1] = 6000
+    weights[:_NODES, PREDICTIONS + 1 : _INPUTS] = 6000
     return ValueModel(
         np.full(_CONTEXTS * _CONTEXT_SIZE * _NODES, 1 << 31, np.uint32),
-        np.full(PREDICTIONS * _HIT_CONTEXTS, 1 << 28, np.uint32),
+        np.full(_HIT_CONTEXTS * _MODEL_ROW, 1 << 28, np.uint32),
         weights,
-        np.zeros((PREDICTIONS * _SCALE_CONTEXTS, 2), np.int32),
+        np.zeros((_SCALE_CONTEXTS, _MODEL_ROW), np.int32),
     )
 
 
 def make_learners(start: npt.ArrayLike) -> npt.NDArray[np.int64]:
     """Learners that have learnt nothing."""
     weights = np.asarray(start, np.int64)
-    empty = np.zeros((len(weights), TERMS * (TERMS + 1)), np.int64)
-    return np.ascontiguousarray(np.hstack([empty, weights, weights]))
+    learners = np.zeros((len(weights), TERMS + 3, _MODEL_ROW), np.int64)
+    learners[:, -2:, :TERMS] = weights[:, np.newaxis]
+    return learners.reshape(len(weights), -1)

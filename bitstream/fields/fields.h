@@ -40,7 +40,7 @@ int64_t order_vertices(Corners corners, Ints order, Ints2 scratch);
 /* One integer, given predictions of it and what their errors may depend on (specification, V 3 to V 5).
  *
  * Each prediction is taken as the middle of a distribution whose width is learned; each decision about the value then
- * mixes what these distributions and some adaptive slots say. The front-ends (grid.c, layer.c) make the predictions.
+ * mixes what these distributions and some adaptive slots say. The front-ends (grid, layer) make the predictions.
  */
 enum {
     FINE = 16, /* predictions and their errors are in 1/16 */
@@ -52,7 +52,10 @@ enum {
     WEIGHT_SETS = 3,
     KINDS = 6, /* of decisions */
     MOST_ASKS = 3,
+    CONSTANT_INPUT = PREDICTIONS, /* behind it are those of the contexts */
     VALUE_INPUTS = PREDICTIONS + CONTEXTS + 1,
+    WEIGHT_ROW = 16,
+    MODEL_ROW = 8, /* numbers from one row to the next, some beyond the last */
     /* Nodes of the decisions, by kind. */
     ASK_NODE = 0,
     SIDE_NODE = ASK_NODE + 2 * PREDICTIONS,
@@ -65,13 +68,13 @@ enum {
 /* As Python keeps it. */
 typedef struct {
     Words slots;   /* CONTEXTS x CONTEXT_SIZE x VALUE_NODES */
-    Words hits;    /* PREDICTIONS x HIT_CONTEXTS: how often a prediction is exact */
-    Ints2 weights; /* VALUE_NODES + WEIGHT_SETS * KINDS rows of VALUE_INPUTS */
-    Ints2 scales;  /* PREDICTIONS x SCALE_CONTEXTS rows: mean size of an error in 1/4096, and how often it was seen */
+    Words hits;    /* HIT_CONTEXTS x MODEL_ROW: how often a prediction is exact */
+    Ints2 weights; /* VALUE_NODES + WEIGHT_SETS * KINDS rows of WEIGHT_ROW, VALUE_INPUTS of which are used */
+    Ints2 scales;  /* SCALE_CONTEXTS rows of MODEL_ROW: mean sizes of errors in 1/4096, and how many were seen */
 } ValueModel;
 
 typedef struct { /* filled by the front-end */
-    int32_t prediction[PREDICTIONS]; /* below 2^28 in magnitude; the last is the best guess */
+    int32_t prediction[MODEL_ROW]; /* below 2^28 in magnitude; the last is the best guess */
     int32_t scale;                   /* what to expect of the size of its error, in 1/16; 0 .. 2^28 */
     int32_t asks;                    /* predictions that may be asked for, at most MOST_ASKS */
     int32_t scale_context, hit_context, context[CONTEXTS], set;
@@ -110,7 +113,7 @@ INLINE int32_t hits_of(const Expectation *e, int32_t value) {
 
 bool fits_values(const ValueModel *model);
 /* Codes an integer less than 2^21 away from the best guess; what a reader returns may be 2^24 away. */
-int32_t code_value(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value);
+int32_t ISA(code_value)(RangeCoder *coder, const ValueModel *model, const Expectation *e, int32_t value);
 
 /* Which values a component has taken already, a bit each (specification, V 8.7, A 2.5): a row of `words` words. */
 INLINE void mark_seen(int64_t *seen, int32_t v) { seen[v >> 6] |= (int64_t)(UINT64_C(1) << (v & 63)); }
@@ -122,6 +125,7 @@ int32_t nearest_seen(const int64_t *seen, int64_t words, int32_t v);
  * sample, in integers (specification, V 6). */
 enum {
     MOST_TERMS = 7,
+    LEARNER_ROW = 8,
     LEARNER_MEMORY = 11,            /* a sample is forgotten after about 2^LEARNER_MEMORY others */
     RIDGE = 1 << 19,        /* pulls weights towards where they started */
     MOST_WEIGHT = 1 << 18,  /* 1.0 is 2^16 */
@@ -130,8 +134,8 @@ enum {
 
 typedef struct { /* a row of what Python keeps */
     /* normal equations of the samples; of `square`, the lower half */
-    int64_t square[MOST_TERMS][MOST_TERMS], product[MOST_TERMS];
-    int64_t weight[MOST_TERMS], start[MOST_TERMS];
+    int64_t square[MOST_TERMS][LEARNER_ROW], product[LEARNER_ROW];
+    int64_t weight[LEARNER_ROW], start[LEARNER_ROW];
 } Learner;
 
 enum { LEARNER_COLUMNS = sizeof(Learner) / sizeof(int64_t) };
@@ -145,11 +149,15 @@ INLINE int32_t foretell(const Learner *l, int terms, const int32_t *term, int32_
 }
 
 /* |term| <= MOST_TERM, |target| < 2^30. Samples count by 1 / scale^2, and less where a term or the target is large
- * against that: so sums stay below 2^40, and no outlier spoils them. */
-INLINE void take_sample(Learner *l, int terms, const int32_t *term, int32_t target, int32_t scale) {
+ * against that: so sums stay below 2^40, and no outlier spoils them. By how many bits products are shifted. */
+INLINE int fineness(int terms, const int32_t *term, int32_t target, int32_t scale) {
     int32_t unit = (int32_t)largest(scale, size_of(target) >> 4);
     for (int i = 0; i < terms; i++) unit = (int32_t)largest(unit, size_of(term[i]) >> 5);
-    int down = 2 * bit_length((uint32_t)unit + 8) - 8;
+    return 2 * bit_length((uint32_t)unit + 8) - 8;
+}
+
+INLINE void take_sample(Learner *l, int terms, const int32_t *term, int32_t target, int32_t scale) {
+    int down = fineness(terms, term, target, scale);
     for (int i = 0; i < terms; i++) {
         for (int j = 0; j <= i; j++)
             l->square[i][j] += ((int64_t)term[i] * term[j] * 256 >> down) - (l->square[i][j] >> LEARNER_MEMORY);
@@ -198,11 +206,15 @@ INLINE void foresee_error(Forecast *f, int32_t far, bool informed) {
     if (informed) f->typical = within(foretell(f->size, HINTS, f->hint, far), f->hint[0] / 8 + 1, far);
 }
 
+INLINE int32_t gap_seen(const Forecast *f, int32_t gap) {
+    return (int32_t)least(size_of(gap), 8 * (int64_t)f->typical + 64);
+}
+
 /* The value was `error` above the base; returns by how much it was above the guess. */
 INLINE int32_t take(Forecast *f, int32_t error) {
     int32_t gap = error - f->shift;
     learn(f->guess, TERMS, f->term, error, f->typical);
-    learn(f->size, HINTS, f->hint, (int32_t)least(size_of(gap), 8 * (int64_t)f->typical + 64), f->typical);
+    learn(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical);
     return gap;
 }
 
@@ -251,7 +263,7 @@ extern INSIDE const int32_t SURVIVAL[2 * SURVIVAL_REACH + 1];
 extern INSIDE const int16_t ODDS[ODDS_SIZE];
 extern INSIDE const int16_t LESS[ODDS_SIZE];
 
-/* Positions on a grid. See grid.c. */
+/* Positions on a grid. See grid.simd.c. */
 /* As Python keeps it. */
 typedef struct {
     ConstInts largest; /* 3: values of each axis are 0 .. largest, below 2^20 */
@@ -263,7 +275,7 @@ typedef struct {
     Longs2 learners;
 } Grid;
 
-int64_t code_grid(Coder coder, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count);
+int64_t ISA(code_grid)(Coder coder, ValueModel model, Corners corners, Grid grid, int64_t first, int64_t count);
 
 /* Positions on a grid by a small model, vertices as they are numbered. See light.c. */
 enum {

@@ -1,4 +1,4 @@
-/* Positions on a grid by a small model: many times quicker to decode than grid.c (specification, V 15). */
+/* Positions on a grid by a small model: many times quicker to decode than by grid.simd.c (specification, V 15). */
 #include "bitstream/fields/fields.h"
 
 enum {

@@ -34,9 +34,9 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_785,
+    "product in all languages, lines": 61_857,
     "product Python, lines": 33_319,
-    "product C and C++, lines": 20_953,
+    "product C and C++, lines": 21_060,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,

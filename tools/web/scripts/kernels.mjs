@@ -133,7 +133,7 @@ function checkTables(clang, objects, priors, target) {
 }
 
 /** Sources of what takes most time where positions are on a grid. */
-const HOT = /fields\/(value|grid|corners)/;
+const HOT = /fields\/(expectation|grid|corners)/;
 
 /** Every build: whether with vector instructions, what of the decoder it is without, and which sources are compiled for speed, and not for their size alone. */
 export const KERNEL_BUILDS = {

@@ -1,6 +1,10 @@
 /* Positions on a grid, vertex after vertex, predicted from coded neighbors (specification, V 7 to V 10). */
 #include "bitstream/fields/fields.h"
 
+#if KERNEL_ISA == 4 || (defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__))
+#define LONG_TERMS
+#endif
+
 
 enum {
     AXES = 3,
@@ -26,6 +30,43 @@ typedef struct { /* what is known of a vertex before its axes */
     Plane whole, plane[2];
     int axis[STEPS];
 } Place;
+
+#ifdef LONG_TERMS
+/* The same as `learn` and `take`, on rows as vectors: of `square`, both halves. */
+typedef __attribute__((vector_size(64))) int64_t Terms;
+typedef __attribute__((vector_size(64), __aligned__(8), may_alias)) int64_t UnalignedTerms;
+
+INLINE Terms terms_at(const int64_t *row) { return *(const UnalignedTerms *)row; }
+
+INLINE void fade_and_add(int64_t *row, Terms sample) {
+    Terms old = terms_at(row);
+    *(UnalignedTerms *)row = old + sample - (old >> LEARNER_MEMORY);
+}
+
+INLINE void learn_all(Learner *l, int terms, const int32_t *term, int32_t target, int32_t scale) {
+    int down = fineness(terms, term, target, scale);
+    Terms all = {0};
+    for (int i = 0; i < terms; i++) all[i] = (int64_t)term[i] * 256;
+    for (int i = 0; i < terms; i++) fade_and_add(l->square[i], all * term[i] >> down);
+    fade_and_add(l->product, all * target >> down);
+    Terms left = terms_at(l->product) * ONE - RIDGE * (terms_at(l->weight) - terms_at(l->start));
+    for (int i = 0; i < terms; i++) left -= terms_at(l->square[i]) * l->weight[i];
+    for (int i = 0; i < terms; i++) {
+        int64_t old = l->weight[i], better = old + left[i] / (l->square[i][i] + RIDGE);
+        l->weight[i] = within(better, -MOST_WEIGHT, MOST_WEIGHT);
+        left -= terms_at(l->square[i]) * (l->weight[i] - old);
+    }
+}
+#else
+#define learn_all learn
+#endif
+
+INLINE int32_t take_all(Forecast *f, int32_t error) {
+    int32_t gap = error - f->shift;
+    learn_all(f->guess, TERMS, f->term, error, f->typical);
+    learn_all(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical);
+    return gap;
+}
 
 /* Best-behaved flaps first: where errors were small (V 8.1). */
 static void sort_flaps(const Grid *g, Around *r) {
@@ -209,11 +250,11 @@ OFTEN static bool code_axis(RangeCoder *coder, const ValueModel *model, Grid *g,
     e.context[5] = step == 0 ? 0 : *hits + (step << PREDICTIONS);
     e.set = step;
 
-    int32_t value = code_value(coder, model, &e, is_reading(coder) ? 0 : x[AXES * (int64_t)v + j]);
+    int32_t value = ISA(code_value)(coder, model, &e, is_reading(coder) ? 0 : x[AXES * (int64_t)v + j]);
     if (value < 0 || value > most) return false;
     x[AXES * (int64_t)v + j] = value;
     mark_seen(g->seen.data + j * words, value);
-    int32_t error = value * FINE - base, gap = take(&f, error);
+    int32_t error = value * FINE - base, gap = take_all(&f, error);
     g->gaps.data[AXES * (int64_t)v + j] = gap;
     *hits = hits_of(&e, value);
     if (step == 0) *first_gap = size_of(gap);
@@ -241,7 +282,7 @@ OFTEN static bool code_vertex(void *work, int64_t i) {
     return true;
 }
 
-int64_t code_grid(Coder given, ValueModel model, Corners corners, Grid g, int64_t first, int64_t count) {
+int64_t ISA(code_grid)(Coder given, ValueModel model, Corners corners, Grid g, int64_t first, int64_t count) {
     int64_t n = corners.rank.size;
     if (!fits_values(&model) || !fits_corners(&corners) || !fits_range(g.largest, AXES) || !fits_seen(g.largest, g.seen)
         || g.order.size != n || !shaped(g.values, n, AXES) || !shaped(g.gaps, n, AXES) || g.sums.rows != n
