@@ -22,7 +22,7 @@ typedef struct {
     Arena chunks, scratch;
     Layer layer;
     Packet *chunk;
-    int64_t count, at, inside;
+    int64_t count, at, inside, moves; /* moves: of the bytes of the chunks */
     Reading reading;
 } LevelsAhead;
 
@@ -37,7 +37,9 @@ struct Ahead {
     int64_t first, count;
     LevelsAhead levels;
     int64_t job, chains, jobs; /* of a run: the next job; the first ones are chains, and one more may read levels */
-    bool built, is_built;
+    bool done, is_done; /* what levels are read beside */
+    int64_t running;    /* chains that are not over */
+    Refined *refined;
 };
 
 static int64_t threads_of(const bsmdec *decoder) { return least(decoder->parallel.threads, MOST_LANES); }
@@ -111,6 +113,7 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
     int64_t place = 0, room = 0, vertex = 0;
     Packet packet;
     const Context *context = &decoder->context;
+    levels->moves = reader->moves;
     if (!header->refined || layer_field_bytes(n, m) > context->limits.field_bytes
         || layer_memory(n, m) > memory_left(context))
         return;
@@ -133,6 +136,11 @@ static void find_levels(Ahead *ahead, int64_t next_block) {
     }
 }
 
+/* Whether levels are left to be read, and their bytes where they were. */
+static bool are_left(const LevelsAhead *levels, const Reader *reader) {
+    return levels->count > 0 && levels->progress <= UNDER_WAY && levels->moves == reader->moves;
+}
+
 /* Read some more levels; false if there are no more or one failed. */
 static bool read_stretch(LevelsAhead *levels) {
     const Packet *chunk = levels->chunk + levels->at;
@@ -149,8 +157,8 @@ static bool read_stretch(LevelsAhead *levels) {
     return ++levels->at < levels->count;
 }
 
-/* Read levels, until blocks are built if `meanwhile`. */
-static void read_levels_ahead(Ahead *ahead, bool meanwhile) {
+/* Read levels, until what goes on beside them is done. */
+static void read_levels_ahead(Ahead *ahead) {
     LevelsAhead *levels = &ahead->levels;
     const Mesh *mesh = &ahead->decoder->mesh;
     bool more = true;
@@ -159,7 +167,7 @@ static void read_levels_ahead(Ahead *ahead, bool meanwhile) {
         ConstInts2 faces = const_ints2(mesh->faces);
         more = begin_levels(&levels->layer, &levels->context, &mesh->header, faces, &levels->scratch);
     }
-    while (more && !(meanwhile && __atomic_load_n(&ahead->is_built, __ATOMIC_ACQUIRE))) more = read_stretch(levels);
+    while (more && !__atomic_load_n(&ahead->is_done, __ATOMIC_ACQUIRE)) more = read_stretch(levels);
     if (failed(&levels->context)) give_up_levels(levels);
     else if (!more) levels->progress = ALL_READ;
 }
@@ -168,10 +176,10 @@ static void build_or_read(void *context, int index) {
     Ahead *ahead = context;
     (void)index;
     if (__atomic_fetch_add(&ahead->job, 1, __ATOMIC_RELAXED) == 0) {
-        ahead->built = build(ahead->decoder);
-        __atomic_store_n(&ahead->is_built, true, __ATOMIC_RELEASE);
+        ahead->done = build(ahead->decoder);
+        __atomic_store_n(&ahead->is_done, true, __ATOMIC_RELEASE);
     } else {
-        read_levels_ahead(ahead, true);
+        read_levels_ahead(ahead);
     }
 }
 
@@ -182,7 +190,7 @@ bool build_beside(bsmdec *decoder) {
     if (ahead->levels.count == 0 || ahead->levels.progress == GIVEN_UP) return build(decoder);
     ahead->job = 0;
     run_tasks(decoder, 2, build_or_read, ahead);
-    return ahead->built;
+    return ahead->done;
 }
 
 static void decode_chain(Ahead *ahead, Lane *lane, ReadyBlock *ready, int64_t count) {
@@ -211,8 +219,13 @@ static void take_jobs(void *context, int index) {
     for (;;) {
         int64_t job = __atomic_fetch_add(&ahead->job, 1, __ATOMIC_RELAXED), start = job * length;
         if (job >= ahead->jobs) return;
-        if (job < ahead->chains) decode_chain(ahead, lane, ahead->ready + start, least(length, ahead->count - start));
-        else read_levels_ahead(ahead, false);
+        if (job < ahead->chains) {
+            decode_chain(ahead, lane, ahead->ready + start, least(length, ahead->count - start));
+            bool last = __atomic_sub_fetch(&ahead->running, 1, __ATOMIC_RELAXED) == 0;
+            if (last) __atomic_store_n(&ahead->is_done, true, __ATOMIC_RELEASE);
+        } else {
+            read_levels_ahead(ahead);
+        }
     }
 }
 
@@ -269,14 +282,15 @@ void look_ahead(bsmdec *decoder, const Packet *packet) {
     forget_ready(ahead);
     ahead->first = packet->index;
     ahead->chains = find_chains(ahead, packet, CHAINS_OF_LANE * threads);
-    ahead->jobs = ahead->chains + (levels->count > 0 && levels->progress <= UNDER_WAY);
+    ahead->jobs = ahead->chains + are_left(levels, &decoder->reader);
     if (ahead->chains > 0 && ahead->jobs > 1 && open_lanes(ahead, least(ahead->jobs, threads))) {
         ahead->job = 0;
+        ahead->running = ahead->chains;
+        ahead->is_done = false;
         run_tasks(decoder, least(ahead->jobs, threads), take_jobs, ahead);
     } else {
         forget_ready(ahead);
     }
-    if (levels->progress <= UNDER_WAY) give_up_levels(levels);
 }
 
 const ReadyBlock *find_ready(const bsmdec *decoder, const Packet *packet) {
@@ -299,11 +313,11 @@ void end_chains_ahead(Mesh *mesh) {
     ahead->lanes = 0;
 }
 
-void adopt_levels(bsmdec *decoder) {
-    Context *context = &decoder->context;
-    Mesh *mesh = &decoder->mesh;
-    if (mesh->ahead == NULL) return;
-    LevelsAhead *levels = &mesh->ahead->levels;
+/* Make levels that were read ahead those of the mesh. */
+static void adopt_levels(Ahead *ahead) {
+    Context *context = &ahead->decoder->context;
+    Mesh *mesh = &ahead->decoder->mesh;
+    LevelsAhead *levels = &ahead->levels;
     release_all(&levels->chunks);
     release_all(&levels->scratch);
     double heap = context->heap + levels->context.heap;
@@ -314,6 +328,25 @@ void adopt_levels(bsmdec *decoder) {
         levels->layer = (Layer){.context = NULL};
     }
     give_up_levels(levels);
+}
+
+static void blend_or_read(void *context, int index) {
+    Ahead *ahead = context;
+    (void)index;
+    if (__atomic_fetch_add(&ahead->job, 1, __ATOMIC_RELAXED) == 0) ahead->done = blend(ahead->decoder, ahead->refined);
+    else read_levels_ahead(ahead);
+}
+
+bool blend_beside(bsmdec *decoder, Refined *refined) {
+    Ahead *ahead = decoder->mesh.ahead;
+    if (ahead == NULL) return blend(decoder, refined);
+    ahead->job = 0;
+    ahead->refined = refined;
+    ahead->is_done = false;
+    if (are_left(&ahead->levels, &decoder->reader)) run_tasks(decoder, 2, blend_or_read, ahead);
+    else ahead->done = blend(decoder, refined);
+    adopt_levels(ahead);
+    return ahead->done;
 }
 
 void end_ahead(Mesh *mesh) {

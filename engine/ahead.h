@@ -15,8 +15,8 @@ void look_ahead(bsmdec *decoder, const Packet *packet);
 const ReadyBlock *find_ready(const bsmdec *decoder, const Packet *packet);
 /* Chains are over: keep levels alone. */
 void end_chains_ahead(Mesh *mesh);
-/* Make levels that were read ahead those of the mesh, if there are any. */
-void adopt_levels(bsmdec *decoder);
+/* `blend`; meanwhile another thread reads the levels that are left. All become those of the mesh, if there are any. */
+bool blend_beside(bsmdec *decoder, Refined *refined);
 void end_ahead(Mesh *mesh);
 
 #endif

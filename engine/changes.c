@@ -225,13 +225,14 @@ static bool read_layer(bsmdec *decoder, bsmdec_changes *answer) {
     bool all = has_unread_blocks(decoder);
     int64_t end = all ? layer->positions.rows : layer->coded, count = 0;
     int64_t start = all || layer->coded == layer->positions.rows ? 0 : changes->reached;
+    Bytes whole = layer->refined.whole;
     Ints vertices;
     Doubles2 positions;
     if (!take_ints(&changes->answer, end - start, &vertices)) return false;
     changes->blocks = mesh->header.blocks;
     changes->reached = layer->coded;
     for (int64_t v = start; v < end; v++) {
-        bool known = all ? mesh->assembly.blend.weights.data[v] > 0.0 : layer->whole.size == 0 || layer->whole.data[v];
+        bool known = all ? mesh->assembly.blend.weights.data[v] > 0.0 : whole.size == 0 || whole.data[v];
         if (known) vertices.data[count++] = (int32_t)v;
     }
     vertices.size = count;

@@ -36,20 +36,24 @@ void end_layer(Layer *layer) {
     release_all(&layer->models);
 }
 
-bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole,
-    Arena *arena, Arena *scratch) {
-    int64_t n = header->vertices;
+bool find_frames(Context *context, ConstInts2 faces, Arena *arena, Refined *refined) {
+    int64_t n = refined->base.rows;
     double size = (double)n, m = (double)faces.rows;
     if (!reserve(context, layer_memory(size, m), 0) || !charge(context, layer_work(size, m, AXES), 0)
         || !WITHIN(context, field_bytes, layer_field_bytes(size, m))
-        || !(layer->begun || begin_levels(layer, context, header, faces, scratch)))
+        || !take_doubles2(arena, n, AXES * AXES, &refined->frames))
         return false;
-    layer->base = base;
-    layer->whole = whole;
-    if (!take_doubles2(arena, n, AXES, &layer->positions) || !take_doubles2(arena, n, AXES * AXES, &layer->frames))
-        return false;
-    memcpy(layer->positions.data, base.data, (size_t)(n * AXES) * sizeof(double));
-    local_frames(const_doubles2(base), faces, layer->frames);
+    local_frames(const_doubles2(refined->base), faces, refined->frames);
+    return true;
+}
+
+bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Refined refined, Arena *arena,
+    Arena *scratch) {
+    int64_t n = header->vertices;
+    if (!layer->begun && !begin_levels(layer, context, header, faces, scratch)) return false;
+    layer->refined = refined;
+    if (!take_doubles2(arena, n, AXES, &layer->positions)) return false;
+    memcpy(layer->positions.data, refined.base.data, (size_t)(n * AXES) * sizeof(double));
     return true;
 }
 
@@ -67,7 +71,7 @@ static bool mark_levels(const Layer *layer, Bytes marked, int64_t first, int64_t
 }
 
 bool fit_vertices(const Layer *layer, Arena *scratch, Bytes *fit) {
-    *fit = layer->whole;
+    *fit = layer->refined.whole;
     for (int round = 0; fit->size > 0 && round < BENT_BY; round++) {
         Bytes next;
         if (!take_bytes(scratch, fit->size, &next)) return false;
@@ -94,10 +98,10 @@ static bool slide(Layer *layer, Arena *scratch) {
         || !take_doubles(scratch, n, &steps) || !fit_vertices(layer, scratch, &fit)
         || !mark_levels(layer, fit, 0, n, scratch, &some))
         return false;
-    memcpy(upright.data, layer->base.data, (size_t)(n * AXES) * sizeof(double));
-    add_heights(upright, const_doubles2(layer->frames), const_ints2(layer->levels.levels), refinement[0]);
+    memcpy(upright.data, layer->refined.base.data, (size_t)(n * AXES) * sizeof(double));
+    add_heights(upright, const_doubles2(layer->refined.frames), const_ints2(layer->levels.levels), refinement[0]);
     tangent_steps(const_doubles2(upright), layer->faces, refinement[0], refinement[1], room, steps);
-    add_slides(layer->positions, const_doubles2(layer->frames), some, const_doubles(steps));
+    add_slides(layer->positions, const_doubles2(layer->refined.frames), some, const_doubles(steps));
     return true;
 }
 
@@ -115,9 +119,9 @@ bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Aren
     }
     layer->coded += count;
     ConstInts2 some;
-    if (!mark_levels(layer, layer->whole, first, count, scratch, &some)) return false;
-    add_heights(rows_of(layer->positions, first, count), const_doubles2(rows_of(layer->frames, first, count)), some,
-        layer->header->refinement[0]);
+    if (!mark_levels(layer, layer->refined.whole, first, count, scratch, &some)) return false;
+    ConstDoubles2 frames = const_doubles2(rows_of(layer->refined.frames, first, count));
+    add_heights(rows_of(layer->positions, first, count), frames, some, layer->header->refinement[0]);
     if (layer->coded < layer->positions.rows) return true;
     release_all(&layer->models);
     return slide(layer, scratch);

@@ -5,6 +5,12 @@
 #include "bitstream/fields/fields.h"
 #include "engine/header.h"
 
+/* What levels refine. */
+typedef struct {
+    Doubles2 base, frames; /* positions in BSM units, and their local frames */
+    Bytes whole;           /* vertices that are as the encoder had them; empty: all */
+} Refined;
+
 /* A mesh of blocks, refined by levels. */
 typedef struct {
     Context *context;
@@ -14,18 +20,20 @@ typedef struct {
     Corners corners;
     Bank bank;
     Levels levels;
-    Doubles2 base, positions, frames; /* in BSM units */
-    Bytes whole;                      /* vertices that are as the encoder had them; empty: all */
-    int64_t read, coded;              /* vertices whose levels are known, and those that are moved */
+    Refined refined;
+    Doubles2 positions;
+    int64_t read, coded; /* vertices whose levels are known, and those that are moved */
     bool begun, lossy;
 } Layer;
 
 /* What levels are read with; it needs faces alone. */
 bool begin_levels(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Arena *scratch);
 void end_layer(Layer *layer);
-/* `layer` is zero, or its levels are begun; `base` is the layer's from here on; `whole` as above. */
-bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base, Bytes whole,
-    Arena *arena, Arena *scratch);
+/* Frames of the base, if there may be so large a layer. */
+bool find_frames(Context *context, ConstInts2 faces, Arena *arena, Refined *refined);
+/* `layer` is zero, or its levels are begun; `refined` is the layer's from here on. */
+bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Refined refined, Arena *arena,
+    Arena *scratch);
 bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch);
 
 /* Marks of the vertices whose steps follow from whole ones alone; empty: all. */

@@ -37,6 +37,7 @@ bool receive(Reader *reader, Span bytes) {
         reader->room = room;
         reader->begin = 0;
         reader->end = size;
+        reader->moves++;
     }
     if (bytes.size > 0) memcpy(reader->buffer + reader->end, bytes.data, (size_t)bytes.size);
     reader->end += bytes.size;

@@ -22,7 +22,7 @@ typedef struct {
     Metadata metadata;
     Arena meshes, scratch; /* what belongs to the present mesh; what a frame takes while it is read */
     uint8_t *buffer;
-    int64_t room, begin, end;
+    int64_t room, begin, end, moves; /* moves: how often bytes went elsewhere */
     int64_t last_offset, last_frame; /* where the last packet began, and its number */
     int64_t offset, frames, metadata_bytes; /* bytes and frames behind; bytes of metadata */
     uint32_t sum;

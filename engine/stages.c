@@ -116,17 +116,14 @@ static bool accept_grid(bsmdec *decoder, const Packet *packet) {
 
 static bool ensure_layer(bsmdec *decoder) {
     Mesh *mesh = &decoder->mesh;
-    Doubles2 base;
-    Bytes whole;
+    Refined refined;
     if (mesh->has_layer) return true;
     if (!build(decoder) || !skip_to(decoder, mesh->header.blocks)) return false;
     end_chains(&mesh->chains);
     end_chains_ahead(mesh);
-    adopt_levels(decoder);
-    mesh->has_layer = blend_all(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &base)
-        && mark_whole(&mesh->assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, 1, &whole)
-        && begin_layer(&mesh->layer, &decoder->context, &mesh->header, const_ints2(mesh->faces), base, whole,
-            &mesh->arena, &decoder->scratch);
+    mesh->has_layer = blend_beside(decoder, &refined)
+        && begin_layer(&mesh->layer, &decoder->context, &mesh->header, const_ints2(mesh->faces), refined, &mesh->arena,
+            &decoder->scratch);
     return mesh->has_layer;
 }
 

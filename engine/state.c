@@ -86,3 +86,11 @@ bool build(bsmdec *decoder) {
     mesh->has_chains = begin_chains(&mesh->chains, context, &mesh->header, &mesh->graph, &mesh->blocks, &mesh->arena);
     return mesh->has_chains && announce(decoder);
 }
+
+bool blend(bsmdec *decoder, Refined *refined) {
+    Mesh *mesh = &decoder->mesh;
+    const Assembly *assembly = &mesh->assembly;
+    return blend_all(assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, &refined->base)
+        && mark_whole(assembly, &mesh->header, &mesh->graph, &mesh->arena, &decoder->scratch, 1, &refined->whole)
+        && find_frames(&decoder->context, const_ints2(mesh->faces), &mesh->arena, refined);
+}

@@ -149,6 +149,8 @@ bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count
 /* Build the graph of the faces, or the blocks with their chains and assembly, unless that was done. */
 bool graph_of(bsmdec *decoder);
 bool build(bsmdec *decoder);
+/* What levels refine, of all blocks. */
+bool blend(bsmdec *decoder, Refined *refined);
 /* Report once that faces are known. Without tolerance, attributes must have as many rows as the faces ask for. */
 bool announce(bsmdec *decoder);
 /* Record the error as a loss of `block`, or with -1 of something else, and continue; false if it is fatal. */

@@ -29,7 +29,7 @@ ABSENT const ReadyBlock *find_ready(const bsmdec *decoder, const Packet *packet)
     return NULL;
 }
 ABSENT void end_chains_ahead(Mesh *mesh) { (void)mesh; }
-ABSENT void adopt_levels(bsmdec *decoder) { (void)decoder; }
+ABSENT bool blend_beside(bsmdec *decoder, Refined *refined) { return blend(decoder, refined); }
 ABSENT void end_ahead(Mesh *mesh) { (void)mesh; }
 
 ABSENT bool parse_declaration(Context *context, Span payload, Arena *scratch, Declaration *declaration) {
@@ -95,9 +95,13 @@ ABSENT bool decode_grid(GridField *field, int64_t first, int64_t count, Span pay
     return absent(scratch->context);
 }
 ABSENT void end_layer(Layer *layer) { (void)layer; }
-ABSENT bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Doubles2 base,
-    Bytes whole, Arena *arena, Arena *scratch) {
-    (void)layer, (void)header, (void)faces, (void)base, (void)whole, (void)arena, (void)scratch;
+ABSENT bool find_frames(Context *context, ConstInts2 faces, Arena *arena, Refined *refined) {
+    (void)faces, (void)arena, (void)refined;
+    return absent(context);
+}
+ABSENT bool begin_layer(Layer *layer, Context *context, const Header *header, ConstInts2 faces, Refined refined,
+    Arena *arena, Arena *scratch) {
+    (void)layer, (void)header, (void)faces, (void)refined, (void)arena, (void)scratch;
     return absent(context);
 }
 ABSENT bool decode_layer(Layer *layer, int64_t first, int64_t count, Span payload, Arena *scratch) {

@@ -34,15 +34,15 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_857,
+    "product in all languages, lines": 61_929,
     "product Python, lines": 33_319,
-    "product C and C++, lines": 21_060,
+    "product C and C++, lines": 21_132,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,
     "all Python, lines": 73_581,
     "product modules": 200,
-    "product C files and headers": 72,
+    "product C files and headers": 73,
     "docstring lines of the product, percent": 12,
     "numbers of a header": 36,
     "fields of EncodeOptions and Paper": 29,
