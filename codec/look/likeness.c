@@ -12,7 +12,7 @@
 #define COVERED 0.999f
 #define STEADY_MEAN 1e-4f
 #define STEADY_SPREAD 9e-4f
-#define HIDING 0.04f /* a standard deviation of shades that hides half of a difference */
+#define HIDING 0.05f /* a standard deviation of shades that hides half of a difference */
 enum { X, Y, SQUARES, XY, FIELDS, SUMS = 5, LANES = 8 /* sums side by side */ };
 
 typedef struct {
@@ -107,7 +107,7 @@ INLINE int64_t densest(const float *marks, float *restrict ring, float *restrict
 
 /* `wide` and `narrow` are the halves of both blurs, from the middle. Over pixels that either picture covers, to `sums`:
  * of 1 - SSIM; how many differ by more than `visible` after the narrow blur; how many there are; how many
- * differ by more than `plain` in the square that has most of these; and the eighth powers of differences after
+ * differ by more than `plain` in the square that has most of these; and the fourth powers of differences after
  * the wide blur, each less where shades around it vary. To `blamed`, which may be empty, comes for each
  * face how unlike the pixels are that show it, by `owner`: 1 - SSIM, and up to 1 by the square of a difference. */
 KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles wide, ConstSingles narrow,
@@ -164,8 +164,7 @@ KERNEL int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles 
             float same = (2.0f * product + STEADY_MEAN) * (2.0f * both + STEADY_SPREAD);
             one_less[i] = 1.0f - same / ((squares + STEADY_MEAN) * (spread + STEADY_SPREAD));
             float hidden = (mx - my) / (1.0f + __builtin_sqrtf(spread > 0.0f ? 0.5f * spread : 0.0f) / HIDING);
-            float square = hidden * hidden, fourth = square * square;
-            strikes[i] = fourth * fourth;
+            strikes[i] = hidden * hidden * hidden * hidden;
         }
         const float *own = first.data + at * first.columns, *other = second.data + at * first.columns;
         const float *change = down + FIELDS * stride;

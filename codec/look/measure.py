@@ -41,7 +41,7 @@ VISIBLE_SHARE = 0.005  # share of covered pixels that differ visibly, at distanc
 MOVING = 0.05  # 1 - SSIM of a frame of a moving picture at distance 1; no pixel of it counts by itself
 POWER = 0.8  # of the larger of both over its bound: so that a distance is about linear in the step of a quantizer
 GONE, GONE_POWER = 0.5, 2.0  # the same of `Look.gone`: what is gone altogether is at distance 4, however small it is
-STRIKING, STRIKING_POWER = 0.0055, 1.5  # the same of `Look.striking`: about 4 in Butteraugli's 3-norm at distance 1
+STRIKING, STRIKING_POWER = 0.0032, 1.35  # the same of `Look.striking`: about 4 in Butteraugli's 3-norm at distance 1
 TURNED = 1.5  # degrees that normals may be turned, on average over the picture where that is most, at distance 1
 MOST_TILES = 2.0**20  # how often a texture may be repeated
 LEAST_AREA = 1e-12  # of a face that faces some side, over the squared diagonal
@@ -72,7 +72,7 @@ class Look:
         Share of pixels that differ by more than 48 of 255, in the square of 8 by 8 pixels where it is largest: half if
         an edge moves by some pixels, all if a part is missing.
     striking : float
-        8-norm of the difference of shades after a blur, which counts less where shades vary: it sees grain on smooth
+        4-norm of the difference of shades after a blur, which counts less where shades vary: it sees grain on smooth
         places, and contours that have moved.
 
     Examples
@@ -229,10 +229,11 @@ class LookMetric:
             original = pictures.picture(canvas, side)
             picture = canvas.draw(placed, self._shape.faces, normals, self._cameras[side])
             shown = canvas.owner[canvas.owner >= 0]
-            return difference(original, picture), float(turned[shown].mean()) if len(shown) else 0.0
+            return difference(original, picture)[:4], float(turned[shown].mean()) if len(shown) else 0.0
 
         found = self._each(seen, self._sides)
-        return max(summed(np.array([sums for sums, _ in found])).distance, max(angle for _, angle in found) / TURNED)
+        sums = np.array([(*sums, 0.0) for sums, _ in found])
+        return max(summed(sums).distance, max(angle for _, angle in found) / TURNED)
 
     @property
     def against_faces(self) -> bool:
@@ -331,7 +332,10 @@ class LookMetric:
         def sums(canvas: Canvas, side: int) -> Matrix:
             return difference(pictures.picture(canvas, side), canvas.draw(placed, faces, normals, self._cameras[side]))
 
-        return np.array(self._each(sums, sides))
+        found = np.array(self._each(sums, sides)).reshape(-1, 5)
+        if pictures is not self._pictures:
+            found[:, 4] = 0.0  # normals that are turned change shades of a whole place, which does not strike
+        return found
 
 
 class AttributeLook:

@@ -41,7 +41,7 @@ def unknown(text: str) -> set[str]:
     return {f"{letter} {section}{rule}" for letter, section, rule in re.findall(CITED, text)} - RULES
 
 
-@pytest.mark.parametrize(("pattern", "most"), [("core-*.md", 10_250), ("*.md", 22_700)])
+@pytest.mark.parametrize(("pattern", "most"), [("core-*.md", 10_250), ("*.md", 22_770)])
 def test_prose_keeps_to_its_length(pattern, most):
     assert sum(count_prose(path.read_text()) for path in SPEC.glob(pattern)) <= most
 

@@ -34,22 +34,22 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 61_929,
-    "product Python, lines": 33_319,
-    "product C and C++, lines": 21_132,
+    "product in all languages, lines": 62_101,
+    "product Python, lines": 33_344,
+    "product C and C++, lines": 21_192,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,
-    "all Python, lines": 73_581,
+    "all Python, lines": 73_632,
     "product modules": 200,
     "product C files and headers": 73,
     "docstring lines of the product, percent": 12,
     "numbers of a header": 36,
     "fields of EncodeOptions and Paper": 29,
     "settings of --set": 12,
-    "words of prose in spec/*.md": 22_753,
+    "words of prose in spec/*.md": 22_770,
     "words of prose in the core": 10_250,
-    "tuned constants of the search": 69,
+    "tuned constants of the search": 70,
     "files that encoding a mesh walks through": 57,
 }
 

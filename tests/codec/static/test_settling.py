@@ -88,7 +88,7 @@ def test_the_step_for_a_look_is_about_right(sensitivity):
     noise = np.random.default_rng(1).uniform(-0.5, 0.5, MESH.positions.shape)
     noise *= np.column_stack([np.full(len(aside), step), aside, aside])
     seen = LookMetric(MESH).distance(MESH.positions + np.einsum("na,nad->nd", noise, FRAMES.reshape(-1, 3, 3)))
-    assert 0.4 < seen < 2.5
+    assert 0.4 < seen < 3.0
 
 
 def test_heights_make_good_what_is_left_along_axes_that_are_not_the_surfaces_own(sensitivity):
