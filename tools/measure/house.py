@@ -40,7 +40,7 @@ LIMITS = {
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,
-    "all Python, lines": 73_635,
+    "all Python, lines": 73_640,
     "product modules": 200,
     "product C files and headers": 73,
     "docstring lines of the product, percent": 12,
