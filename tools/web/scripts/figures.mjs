@@ -41,7 +41,7 @@ const ENTER = `
 import json, sys
 import bsm
 from bsm.evaluation.curve import decode_draco, encode_draco
-from bsm.viewer.page import DRACO_LEVEL
+from bsm.viewer.contents import DRACO_LEVEL
 meshes, folder = sys.argv[1:]
 mesh = bsm.load(f"{meshes}/static/bunny_34834.ply")
 races = []
