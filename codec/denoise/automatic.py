@@ -87,8 +87,7 @@ HARMFUL = 0.95
 """Where the error that is expected of the result exceeds this multiple of what it changes, nothing is handed out:
 normals turned by less than their estimated error are no closer to the clean ones. Noise reads 0.15 to 0.7, the clean
 meshes that were taken for noisy 1.1 and 2.1."""
-
-
+MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be told
 DETAIL = 1.65
 """Error that may come over the expected one where detail is lost: twice on an armadillo of decimated rings, at most."""
 
@@ -106,6 +105,13 @@ class AutomaticChoice:
     outliers: int = 0
     ripples: tuple[float, ...] = ()
     forecast: Forecast | None = None
+
+    @property
+    def foreseen(self) -> bool:
+        """Whether the errors that are expected can be told."""
+        if self.forecast is None:
+            return True
+        return self.forecast.drowned < MOST_DROWNED and self.expected < self.untreated
 
     @property
     def at_most(self) -> float:

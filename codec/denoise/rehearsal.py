@@ -91,11 +91,13 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Forecast:
-    """Angles to expect where there is noise, without and with the filter, and whether they are sure."""
+    """Angles to expect where there is noise, without and with the filter; whether they are sure; and the share of the
+    faces that are lower than the noise is high, whose normals it may turn anywhere."""
 
     untreated: float
     expected: float
     sure: bool
+    drowned: float
 
 
 class Rehearsal:
@@ -164,7 +166,16 @@ class Rehearsal:
         after = np.exp(LOST_MORE * lost) * (OF_MIRRORED if self._finding.kind in MIRRORED else 1.0)
         noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
         sure = lost <= LOST_SURELY and self._finding.kind != "correlated" and not scanned
-        return Forecast(before * self.untreated / noisy, float(after) * gain * winner.error / noisy, sure)
+        expected = float(after) * gain * winner.error / noisy
+        return Forecast(before * self.untreated / noisy, expected, sure, self._drowned)
+
+    @property
+    def _drowned(self) -> float:
+        positions, faces = self.truth.positions, self._topology.faces
+        sides = positions[faces] - positions[np.roll(faces, 1, axis=1)]
+        longest = np.sqrt(np.square(sides).sum(axis=2).max(axis=1))
+        heights = 2.0 * face_geometry(positions, faces).areas / np.maximum(longest, 1e-300)
+        return float((heights < self.level.normal + self.level.tangential).mean())
 
     def _roughness(self, positions: Positions) -> float:
         """Mean distance between the normals of neighbouring faces."""

@@ -112,9 +112,11 @@ def against_oracle(noisy: Positions, faces: Faces, angle_of: Callable[[Positions
 
 
 def ours(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float]) -> Row:
-    """The angle behind ours, and the least and largest that are expected; none where nothing was filtered."""
+    """The angle behind ours, and the least and largest that are expected; none where nobody can tell, or nothing was
+    filtered."""
     result, choice = denoise_automatically(noisy, faces)
-    return {"ours": angle_of(result), "estimate": [choice.expected, choice.at_most] if choice.steps else None}
+    told = choice.steps and choice.foreseen
+    return {"ours": angle_of(result), "estimate": [choice.expected, choice.at_most] if told else None}
 
 
 def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:

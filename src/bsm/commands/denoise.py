@@ -233,6 +233,8 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
     line = f"noise      {noise.normal:.2f} edges ({length(noise.normal * edge, unit)})"
     if goal == "shape":
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
+    elif not choice.foreseen:
+        line += "; how far off normals are cannot be estimated here"
     elif choice.kind != "unsteady":
         least, most = round(choice.expected), round(choice.at_most)
         then = "below 2" if most < 2 else f"{least} to {most}" if least < most else f"{least}"
