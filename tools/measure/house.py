@@ -40,7 +40,7 @@ LIMITS = {
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,
-    "all Python, lines": 73_640,
+    "all Python, lines": 73_690,
     "product modules": 200,
     "product C files and headers": 73,
     "docstring lines of the product, percent": 12,
@@ -49,7 +49,7 @@ LIMITS = {
     "settings of --set": 12,
     "words of prose in spec/*.md": 22_770,
     "words of prose in the core": 10_250,
-    "tuned constants of the search": 70,
+    "tuned constants of the search": 71,
     "files that encoding a mesh walks through": 57,
 }
 

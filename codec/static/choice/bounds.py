@@ -95,7 +95,7 @@ class Bounds:
         self.reaches = reaches(measures.prepared, contract) * (1.0 - MARGIN)
         self._best: tuple[float, ...] | None = None
 
-    def excess(self) -> Callable[..., tuple[float, float | None]]:
+    def excess(self, slack: float = SLACK) -> Callable[..., tuple[float, float | None]]:
         """The logarithm of the largest share of a bound, for one search, and the look from all sides where that was
         looked at: a few of them tell enough elsewhere, for what all tell beside these is about as it was before, and
         above `most`."""
@@ -110,7 +110,7 @@ class Bounds:
             ends = least, min(near[1], most)
             few, whole = self._glance(positions, *(share * self.contract.look / skew for share in ends))
             if whole is not None:
-                near = math.exp(-SLACK), math.exp(SLACK / 2.0)  # about what the search ends with
+                near = math.exp(-slack), math.exp(slack / 2.0)  # about what the search ends with
                 skew = max(whole, LEAST) / max(few, LEAST)
             look = skew * few if whole is None else whole
             self.measures.near.by(TRY)

@@ -22,7 +22,7 @@ from bsm.codec.static.choice.bounds import NEARLY, Bounds, Candidate, Measures
 from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
-from bsm.codec.static.targets import SLACK, STEEPEST, TRIES, Contract, secant
+from bsm.codec.static.targets import SLACK, SLACK_OF_LOOK, STEEPEST, TRIES, Contract, secant
 
 DEARER = 1.08  # give up a way whose first step takes this many times the bytes of the best result
 GUESSED = 1.4  # and a grid that is guessed to: of smooth surfaces it takes less than that
@@ -262,7 +262,8 @@ def widest(
     way: Way, bounds: Bounds, most_bytes: float = math.inf, first: float | None = None, patient: bool = False
 ) -> Candidate | None:
     """Return the smallest candidate found that keeps the bounds; None if it would not be smaller than `most_bytes`."""
-    kept, excess = list[tuple[Candidate, float | None]](), bounds.excess()
+    slack = SLACK_OF_LOOK if isinstance(way, Refined) and bounds.contract.look < math.inf else SLACK
+    kept, excess = list[tuple[Candidate, float | None]](), bounds.excess(slack)
     begin = min(max(first or way.first, way.least), way.most)
     tried: Candidate | None = None
 
@@ -281,7 +282,8 @@ def widest(
         tried = way.at(begin) if most_bytes < math.inf else None
         if tried is not None and tried.draft.size > DEARER * most_bytes:
             return None
-        secant(at, begin, way.least, way.most, *((3 * TRIES, 1.0, SLACK / 4.0) if patient else ()))
+        tries, slack = (3 * TRIES, slack / 4.0) if patient else (TRIES, slack)
+        secant(at, begin, way.least, way.most, tries, slack=slack)
     fine = NEARLY[0] * max((candidate.step for candidate, _ in kept), default=0.0)
     fine *= len(bounds.reaches) >= FEW_VERTICES  # of many vertices, what has far finer steps is no smaller
     kept.sort(key=lambda pair: pair[0].draft.size if pair[0].step > fine else math.inf)
@@ -291,7 +293,7 @@ def widest(
             found, good = candidate, candidate.step
             break
         bad = candidate.step  # a few sides have praised it too much
-    while bad > good * math.exp(SLACK):
+    while bad > good * math.exp(slack):
         step = math.sqrt(good * bad)
         between = way.at(step)
         found, good, bad = (between, step, bad) if bounds.keeps(between.positions) else (found, good, step)
