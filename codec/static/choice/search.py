@@ -78,6 +78,7 @@ class Search:
         self._options = options
         self._size = size
         self._before: Found | None = None
+        self._lost: frozenset[type[Way]] = frozenset()
 
     @property
     def metric(self) -> LookMetric | None:
@@ -127,13 +128,15 @@ class Search:
         if not kept:
             kept += self._last_resort(bounds)
         best = min(kept, key=lambda candidate: self._size(candidate.draft))
+        near_best = {type(ways[id(other)]) for other in made if other.draft.size <= DEARER * best.draft.size}
+        self._lost = frozenset({Refined, Plain} - near_best)
         way = ways.get(id(best), Gridded(self._prepared, bounds, 0.0))
         return self._noted(best if best.draft.places is None else self._flatter(best, bounds), way, contract)
 
     def shaded_by(self, shading: Shading) -> Search:
         """Return a search for the same mesh, where decoded meshes are drawn with normals that `shading` makes."""
         other = copy(self)
-        other._before = None  # other normals may want another way
+        other._before = None  # other normals may want another way, but none that has lost by far
         other._measures = copy(self._measures)
         if self.metric is not None:
             other._measures.look = self.metric.shaded_by(shading)
@@ -224,6 +227,7 @@ class Search:
             if not seen:
                 blocks += [Plain(prepared, options, bounds)]
         # The smaller ones first, nearly always: the others are left alone sooner.
+        blocks = [way for way in blocks if type(way) not in self._lost]
         grids_first = character.is_sharp and any(first_size(way) > grids[0].guess() for way in blocks[:1])
         yield from (*grids, *blocks) if grids_first else (*blocks, *grids)
 
