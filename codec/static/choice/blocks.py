@@ -284,8 +284,8 @@ class Plain:
         if not out.any():
             return Candidate(step, base.positions, lambda: base.draft)
         layer = Layer(single(max(float(reaches[out].min()), FINEST_LAYER)), 1.0)
-        levels = np.rint(base.offsets / layer.step)
-        return _candidate(step, base, layer, np.where(out[:, None], levels, 0.0).astype(np.int32))
+        levels = np.where(out[:, None], np.rint(base.offsets / layer.step), 0.0).astype(np.int32)
+        return Candidate(step, base.moved(layer, levels), partial(base.refined, layer, levels))
 
 
 class Refined:
@@ -324,12 +324,18 @@ class Refined:
             layer = Layer(single(step), UNSEEN_RATIO)
             heights = base.wanted(base.expected_steps(layer))[0]
             levels = base.wanted(base.known_steps(layer, heights))[0]
-        candidate = _candidate(step, base, layer, levels)
-        directions = base.wanted(base.known_steps(layer, levels))[1].reshape(-1, 9)
-        turned = self._bounds.measures.shaper.unfold(candidate.positions, levels, directions, self._bounds.reaches)
-        if turned is not None:
-            candidate = _candidate(step, base, layer, turned)
-        return replace(candidate, evened=self._sensitivity is not None)
+        return self._leveled(step, base, layer, levels)
+
+    def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels) -> Candidate:
+        positions = base.moved(layer, levels)
+
+        def unfold(flat: bool) -> Candidate | None:
+            directions = base.wanted(base.known_steps(layer, levels))[1].reshape(-1, 9)
+            turned = self._bounds.measures.shaper.unfold(positions, levels, directions, self._bounds.reaches, flat)
+            return None if turned is None else self._leveled(step, base, layer, turned)
+
+        evened = self._sensitivity is not None
+        return Candidate(step, positions, partial(base.refined, layer, levels), unfold, evened)
 
     def _evened(self, step: float, seen: Sensitivity) -> tuple[Layer, Levels]:
         """Return levels that cost little where they are seen, and are no more exact elsewhere than the bounds ask."""
@@ -381,7 +387,3 @@ class Refined:
         noise = NOISE * self._look * self._bounds.measures.shaper.character.mean_edge
         positions, faces = self._prepared.positions, self._prepared.mesh.faces
         return Sensitivity(positions, faces, self._prepared.graph, metric, noise)
-
-
-def _candidate(step: float, base: RefinementBase, layer: Layer, levels: Levels) -> Candidate:
-    return Candidate(step, base.moved(layer, levels), partial(base.refined, layer, levels))

@@ -72,14 +72,15 @@ class Measures:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """What a step comes to: positions as decoded, in BSM units, shape (n, 3), and the stream; and the same with faces
-    turned back that rounding has turned over, None if there are none."""
+    """What a step comes to: positions as decoded, in BSM units, shape (n, 3), and the stream; and the same where
+    rounding has folded less over, or left no faces flat, None if it is so already."""
 
     step: float
     positions: Matrix
     make: Callable[[], Draft]
-    unfold: Callable[[], "Candidate | None"] = lambda: None
+    unfold: Callable[[bool], "Candidate | None"] = lambda flat: None
     evened: bool = False  # whether another search than that for the step keeps the bounds that all vertices count in
+    folded: bool = False  # whether too many edges are folded over
 
     @cached_property
     def draft(self) -> Draft:

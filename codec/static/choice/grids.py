@@ -214,9 +214,9 @@ class Gridded:
         grid = Grid(origin, held, tuple(int(value) for value in np.ptp(places, axis=0)))
         candidate = self._candidate(grid, places - least)
 
-        def unfold() -> Candidate | None:
+        def unfold(flat: bool) -> Candidate | None:
             directions = held / self._prepared.units.scale * np.eye(3).reshape(1, 9)
-            turned = self._shaper.unfold(candidate.positions, places, directions, self._bounds.reaches)
+            turned = self._shaper.unfold(candidate.positions, places, directions, self._bounds.reaches, flat)
             return None if turned is None else self._placed(held, turned)
 
         return replace(candidate, unfold=unfold)

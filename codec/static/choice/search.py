@@ -11,11 +11,7 @@ from itertools import takewhile
 from operator import attrgetter
 from typing import Protocol
 
-import numpy as np
-
 from bsm.bitstream.errors import LimitError, TargetError
-from bsm.codec.geometry.metrics import folded_edges
-from bsm.codec.geometry.welding import first_of, weld
 from bsm.codec.look.measure import LookMetric, Shading
 from bsm.codec.static.choice.blocks import Plain, Refined
 from bsm.codec.static.choice.bounds import NEARLY, Bounds, Candidate, Measures
@@ -26,6 +22,9 @@ from bsm.codec.static.targets import SLACK, SLACK_OF_LOOK, STEEPEST, TRIES, Cont
 
 DEARER = 1.08  # give up a way whose first step takes this many times the bytes of the best result
 GUESSED = 1.4  # and a grid that is guessed to: of smooth surfaces it takes less than that
+LITTLE = 1.01  # and leave faces flat that rounding has made so, where giving them an area takes more than this
+FINER = [0.02 * k for k in range(1, 9)]  # how much finer steps are where mending folds breaks bounds at one
+SPENT = 3.5  # budgets of pictures after which only what is needed in any case is looked at
 
 
 class Way(Protocol):
@@ -43,20 +42,6 @@ class Way(Protocol):
 
     def at(self, step: float) -> Candidate:
         """What a step comes to."""
-
-
-class Unfolding:
-    """A way with faces turned back that rounding has turned over."""
-
-    def __init__(self, way: Way, first: float) -> None:
-        self.least, self.most, self.first, self._way = way.least, way.most, first, way
-
-    def under(self, bounds: Bounds) -> Way:
-        return Unfolding(self._way.under(bounds), self.first)
-
-    def at(self, step: float) -> Candidate:
-        candidate = self._way.at(step)
-        return candidate.unfold() or candidate
 
 
 @dataclass(frozen=True)
@@ -100,7 +85,7 @@ class Search:
             way = before.way.under(bounds)
             found = widest(way, bounds, first=before.step * contract.look / before.contract.look)
             if found is not None:
-                return self._noted(unfolded(found, way, bounds), way, contract)
+                return self._noted(unfolded(found, bounds, way), way, contract)
         kept = [c for c in Gridded(self._prepared, bounds, 0.0).made() if bounds.keeps(c.positions)]
         least, made = min((candidate.draft.size for candidate in kept), default=math.inf), list[Candidate]()
         ways = dict[int, Way]()
@@ -114,24 +99,23 @@ class Search:
             most = math.inf if isinstance(way, Plain) else least
             found = widest(way, bounds, most, patient=self._options.effort == "best")
             if found is not None:
-                made.append(unfolded(found, way, bounds))
+                made.append(unfolded(found, bounds, way))
                 ways[id(made[-1])] = way
-                least = min(least, made[-1].draft.size)
+                least = min(least, cost(made[-1]))
         kept += made
         near = bounds.excess()
         for candidate in self._made_on(bounds, made or kept):
             if candidate.draft.size < least and not bounds.breaks(candidate.positions):
                 over, look = near(candidate)
                 if over <= 0.0 and bounds.keeps(candidate.positions, look):
-                    kept.append(candidate)
-                    least = candidate.draft.size
+                    kept.append(unfolded(candidate, bounds, Gridded(self._prepared, bounds, 0.0)))
+                    least = min(least, cost(kept[-1]))
         if not kept:
             kept += self._last_resort(bounds)
-        best = min(kept, key=lambda candidate: self._size(candidate.draft))
+        best = min(kept, key=lambda candidate: self._size(candidate.draft) * cost(candidate) / candidate.draft.size)
         near_best = {type(ways[id(other)]) for other in made if other.draft.size <= DEARER * best.draft.size}
         self._lost = frozenset({Refined, Plain} - near_best)
-        way = ways.get(id(best), Gridded(self._prepared, bounds, 0.0))
-        return self._noted(best if best.draft.places is None else self._flatter(best, bounds), way, contract)
+        return self._noted(best, ways.get(id(best), Gridded(self._prepared, bounds, 0.0)), contract)
 
     def shaded_by(self, shading: Shading) -> Search:
         """Return a search for the same mesh, where decoded meshes are drawn with normals that `shading` makes."""
@@ -147,28 +131,6 @@ class Search:
         if found.step > 0.0:
             self._before = Found(way, found.step, contract)
         return found.draft
-
-    def _flatter(self, best: Candidate, bounds: Bounds) -> Candidate:
-        """The one with fewest edges folded over, of this and plain grids that take little more, where it has many."""
-        _, faces, index = weld(self._prepared.positions, self._prepared.mesh.faces)
-        faces = np.ascontiguousarray(first_of(index)[faces], np.int32)
-        most = folded_edges(self._prepared.positions, faces) - -len(faces) // 10_000
-
-        def folds(candidate: Candidate) -> int:
-            return max(folded_edges(candidate.positions, faces), most)
-
-        least, dearest = folds(best), DEARER * best.draft.size
-        if least > most:
-            way = Unfolding(Gridded(self._prepared, bounds, 0.0), best.step)
-            for candidate in map(way.at, np.geomspace(best.step, best.step / 2.0, 9).tolist()):
-                if (
-                    not self._exhausted()
-                    and folds(candidate) < least
-                    and candidate.draft.size < dearest
-                    and bounds.keeps(candidate.positions)
-                ):
-                    best, least = candidate, folds(candidate)
-        return best
 
     def _last_resort(self, bounds: Bounds) -> list[Candidate]:
         """What grids do that are finer than where a search began, where it came to nothing."""
@@ -238,20 +200,47 @@ class Search:
             grid = Gridded(prepared, bounds, 0.0)
             wider = (grid.at(max(steps) * 2.0 ** (eighths / 8.0)) for eighths in range(24 if steps else 0, 0, -1))
             # The former also behind others that took long, so that stricter contracts find no smaller ones.
-            yield from takewhile(lambda _: not self._exhausted(3.5), grid.fitting())
+            yield from takewhile(lambda _: not self._exhausted(SPENT), grid.fitting())
             yield from takewhile(lambda _: not self._exhausted(), wider)
         elif steps and self._measures.shaper.character.is_sharp:
             yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
 
 
-def unfolded(found: Candidate, way: Way, bounds: Bounds) -> Candidate:
-    """What a way has found, with faces turned back where that keeps the bounds, or does at another step."""
-    turned = found.unfold()
-    if turned is not None and not bounds.keeps(turned.positions):
-        turned = widest(Unfolding(way, found.step), bounds)
-        if turned is not None and turned.draft.size > DEARER * found.draft.size:
-            turned = None
-    return turned or found
+def cost(candidate: Candidate) -> float:
+    """Bytes, more where too many edges are folded over."""
+    return candidate.draft.size * (DEARER if candidate.folded else 1.0)
+
+
+def turned(candidate: Candidate, flat: bool = False) -> Candidate | None:
+    """The candidate with few edges folded over or no face flat, None if it is so already; levels of blocks depend on
+    those of others, so what is mended may need it again."""
+    found = last = candidate.unfold(flat)
+    for _ in range(3):
+        last = last and last.unfold(flat)
+        found = last or found
+    return found
+
+
+def unfolded(found: Candidate, bounds: Bounds, way: Way) -> Candidate:
+    """What was found, with few edges folded over where that keeps the bounds, or does at a finer step of its way; and
+    with no face flat where that costs next to nothing."""
+    shaper, metric = bounds.measures.shaper, bounds.measures.look
+    best, better, most = found, turned(found), shaper.most_folded
+    least = max(shaper.folded(found.positions), most)
+    for finer in FINER:
+        if better is None:
+            break
+        folds = max(shaper.folded(better.positions), most)
+        if folds < least and better.draft.size < DEARER * found.draft.size and not bounds.breaks(better.positions):
+            best, least = (better, folds) if bounds.keeps(better.positions) else (best, least)
+        if least == most or (metric is not None and metric.spent > SPENT):
+            break
+        better = way.at(found.step * (1.0 - finer))
+        better = turned(better) or better
+    flat = turned(best, flat=True)
+    if flat is not None and flat.draft.size <= LITTLE * best.draft.size and shaper.folded(flat.positions) <= least:
+        best = flat if bounds.keeps(flat.positions) else best
+    return replace(best, folded=least > most)
 
 
 def first_size(way: Way) -> float:

@@ -7,6 +7,9 @@
 
 enum { FAN = 32, MOVES = 32, LANES = 8 }; /* faces of one vertex that are looked at; moves; how many of them at once */
 enum { UNFOLDING = 8 };                   /* sweeps over what is turned over */
+enum { FOLDED = 1, FLAT = 2 };            /* what is wrong with an edge */
+#define FOLD 0.1   /* what a fold costs, over turning a face of mean area by a radian */
+#define AREA 1e-18 /* of squares of sides, squares of normals of faces without area */
 
 /* The faces at a vertex, `padded` with some of no weight: twice the area times the normal, in coordinates along the
  * wanted normal and across it, in some unit of the vertex; and what a step in each direction adds to that, which is the
@@ -299,59 +302,128 @@ INLINE double folded_by(const Fan *fan, const float *by, double over) {
     return sum;
 }
 
-/* Moves levels (n x 3) by one along `directions` (n x 9, or one row for all; a level long) where that turns faces back,
- * which rounding has turned over, however small they are; `moved` is kept in step. No vertex ends up farther from its
- * place than its `reach`, unless it was. Returns how often one moved. */
+/* Twice the area times the normal of a face. */
+INLINE void cross(const double *a, const double *b, const double *c, double *n) {
+    double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    n[0] = u[1] * w[2] - u[2] * w[1], n[1] = u[2] * w[0] - u[0] * w[2], n[2] = u[0] * w[1] - u[1] * w[0];
+}
+
+INLINE double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* What is wrong with an edge between two faces: it is FOLDED by more than 90 degrees, or, if that counts, one of these
+ * is FLAT, without area. The vertex `v` lies `there`. */
+INLINE int wrong_with(const double *positions, const int32_t *flap, bool flat, int32_t v, const double *there) {
+    const double *at[4];
+    for (int k = 0; k < 4; k++) at[k] = flap[k] == v ? there : positions + 3 * (int64_t)flap[k];
+    double n[3], m[3], edge = AREA * square(at[0], at[1]);
+    cross(at[0], at[1], at[2], n), cross(at[1], at[0], at[3], m);
+    if (flat && (dot(n, n) <= edge * square(at[0], at[2]) || dot(m, m) <= edge * square(at[0], at[3]))) return FLAT;
+    return dot(n, m) < 0.0 ? FOLDED : 0;
+}
+
+/* How many edges between faces are folded by more than 90 degrees. */
+int64_t count_folds(ConstDoubles2 positions, ConstInts2 flaps) {
+    int64_t count = 0;
+    if (positions.columns != 3 || flaps.columns != 4) return MISUSED;
+    for (int64_t f = 0; f < flaps.rows; f++)
+        count += wrong_with(positions.data, flaps.data + 4 * f, false, -1, positions.data);
+    return count;
+}
+
+/* Edges between faces, as rows of four vertices, `members` / 2 at each vertex, and what was `wrong` with each. */
+typedef struct {
+    ConstInts2 flaps;
+    ConstInts starts, members;
+    ConstBytes wrong;
+    bool flat;
+} Edges;
+
+/* How much is wrong with edges beside a vertex that lies `there`, and was not. */
+INLINE int wrong_around(const Edges *edges, const double *positions, int32_t v, const double *there) {
+    int count = 0;
+    for (int32_t i = edges->starts.data[v]; i < edges->starts.data[v + 1]; i++) {
+        int64_t f = edges->members.data[i] >> 1;
+        count += !edges->wrong.data[f] && wrong_with(positions, edges->flaps.data + 4 * f, edges->flat, v, there);
+    }
+    return count;
+}
+
+/* Moves levels (n x 3) by up to two along `directions` (n x 9, or one row for all; a level long) where that turns faces
+ * back, however small they are, which rounding has turned over, or folded onto another at more than `most` edges more
+ * than there were; or else, with `flat`, gives faces an area again. `moved` is kept in step. No vertex ends up farther
+ * from its place than its `reach`, unless it was. `flaps` as in `shape_grid`; `wrong` is scratch. Returns how often one
+ * moved. */
 KERNEL int64_t unfold_levels(Wanted wanted, ConstDoubles reach, Doubles2 moved, Ints2 levels, ConstDoubles2 directions,
-                             Bytes open) {
+                             ConstInts2 flaps, ConstInts starts, ConstInts members, int64_t most, bool flat,
+                             Creases creases, Bytes wrong, Bytes open) {
     if (!fits(&wanted, moved, levels, open) || levels.columns != 3 || directions.columns != 9
-        || reach.size != levels.rows || (directions.rows != levels.rows && directions.rows != 1))
+        || reach.size != levels.rows || (directions.rows != levels.rows && directions.rows != 1) || flaps.columns != 4
+        || starts.size != levels.rows + 1 || wrong.size != flaps.rows || !fits_creases(&creases, levels.rows))
         return MISUSED;
     ConstDoubles2 now_at = {moved.data, moved.rows, moved.columns};
-    double over = 1.0 / (double)largest(wanted.faces.rows, 1);
-    int64_t moves = 0;
+    Edges edges = {flaps, starts, members, {wrong.data, wrong.size}, flat};
+    double over = FOLD / (double)largest(wanted.faces.rows, 1);
+    int64_t more = 0, moves = 0;
     Fan fan;
     for (int64_t v = 0; v < open.size; v++) open.data[v] = 0;
+    for (int64_t f = 0; f < flaps.rows; f++) {
+        const int32_t *flap = flaps.data + 4 * f;
+        int then = wrong_with(wanted.positions.data, flap, flat, -1, moved.data);
+        int now = wrong_with(moved.data, flap, flat, -1, moved.data);
+        more += flat ? now == FLAT && then != FLAT : now - then;
+        wrong.data[f] = (uint8_t)then;
+        for (int k = 0; k < 4 && now && !then; k++) open.data[flap[k]] = 1;
+    }
+    if (more <= (flat ? 0 : most)) return 0;
     for (int64_t f = 0; f < wanted.faces.rows; f++) {
         const int32_t *face = wanted.faces.data + 3 * f;
-        const double *a = moved.data + 3 * (int64_t)face[0], *b = moved.data + 3 * (int64_t)face[1];
-        const double *c = moved.data + 3 * (int64_t)face[2], *normal = wanted.normals.data + 3 * f;
-        double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-        double n[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
-        double along = normal[0] * n[0] + normal[1] * n[1] + normal[2] * n[2];
-        bool over = along < 0.0 || n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 4.0 * along * along;
-        for (int k = 0; k < 3 && over; k++) open.data[face[k]] = 1;
+        const double *normal = wanted.normals.data + 3 * f, *at[3];
+        for (int k = 0; k < 3; k++) at[k] = moved.data + 3 * (int64_t)face[k];
+        double n[3];
+        cross(at[0], at[1], at[2], n);
+        double along = dot(normal, n);
+        for (int k = 0; k < 3 && (along < 0.0 || dot(n, n) > 4.0 * along * along); k++) open.data[face[k]] = 1;
     }
     for (int64_t sweep = 0; sweep < UNFOLDING; sweep++)
         for (int32_t v = 0; v < (int32_t)levels.rows; v++) {
             if (!open.data[v]) continue;
             open.data[v] = 0;
+            double *at = moved.data + 3 * (int64_t)v;
             gather(&wanted, now_at, v, &fan);
-            bool any = false;
+            int folds = wrong_around(&edges, moved.data, v, at);
+            bool any = folds > 0, hangs = creases.starts.data[v + 1] > creases.starts.data[v];
             for (int k = 0; k < fan.count; k++) any |= is_over(fan.normal[0][k], fan.normal[1][k], fan.normal[2][k]);
             if (!any) continue;
             const double *direction = directions.data + (directions.rows == 1 ? 0 : 9 * (int64_t)v);
             const double *place = wanted.positions.data + 3 * (int64_t)v;
-            double *at = moved.data + 3 * (int64_t)v, far = square(place, at), most = reach.data[v] * reach.data[v];
+            double stay[3] = {at[0], at[1], at[2]}, far = square(place, at), most_far = reach.data[v] * reach.data[v];
             for (int a = 0; a < 3; a++) find_turn(&fan, a, direction + 3 * a);
-            float stay[3] = {0.0f};
-            double best = folded_by(&fan, stay, over);
-            int pick = 13;
-            for (int c = 0; c < 27; c++) {
-                float by[3] = {(float)(c % 3 - 1), (float)(c / 3 % 3 - 1), (float)(c / 9 - 1)};
-                double there[3];
-                for (int j = 0; j < 3; j++)
-                    there[j] = at[j] + by[0] * direction[j] + by[1] * direction[3 + j] + by[2] * direction[6 + j];
-                double away = square(place, there);
-                if (c == 13 || (away > most && away > far)) continue;
-                double then = folded_by(&fan, by, over);
-                if (then < best) best = then, pick = c;
-            }
-            if (pick == 13) continue;
-            int by[3] = {pick % 3 - 1, pick / 3 % 3 - 1, pick / 9 - 1};
+            double best = __builtin_inf();
+            int pick[3] = {0};
+            for (int wide = 0; wide <= 2 && (wide < 2 || folds); wide++)
+                for (int side = 2 * wide + 1, c = 0; c < side * side * side; c++) {
+                    int move[3] = {c % side - wide, c / side % side - wide, c / side / side - wide};
+                    float by[3] = {(float)move[0], (float)move[1], (float)move[2]};
+                    double there[3];
+                    for (int j = 0; j < 3; j++)
+                        there[j] = stay[j] + by[0] * direction[j] + by[1] * direction[3 + j] + by[2] * direction[6 + j];
+                    double away = square(place, there);
+                    if (wide && away > most_far && away > far) continue;
+                    double then = folded_by(&fan, by, over);
+                    if (then >= best) continue;
+                    int wrong_then = wrong_around(&edges, moved.data, v, there);
+                    then += over * wrong_then;
+                    for (int a = 0; a < 3; a++) at[a] = there[a];
+                    if (hangs) then += wrong_creases(&creases, moved.data, v);
+                    for (int a = 0; a < 3; a++) at[a] = stay[a];
+                    if (then >= best) continue;
+                    best = then, folds = wrong_then;
+                    for (int a = 0; a < 3; a++) pick[a] = move[a];
+                }
+            if (!pick[0] && !pick[1] && !pick[2]) continue;
             for (int a = 0; a < 3; a++) {
-                levels.data[3 * (int64_t)v + a] += by[a];
-                for (int j = 0; j < 3; j++) at[j] += by[a] * direction[3 * a + j];
+                levels.data[3 * (int64_t)v + a] += pick[a];
+                for (int j = 0; j < 3; j++) at[j] += pick[a] * direction[3 * a + j];
             }
             moves++;
             open_around(&wanted, v, open);

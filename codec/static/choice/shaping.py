@@ -161,11 +161,24 @@ class Shaper:
         )  # fmt: skip
         return chosen
 
-    def unfold(self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix) -> Levels | None:
-        """Levels, shape (n, 3), that turn fewer faces over, along `directions`, shape (n or 1, 9), or None."""
-        chosen = np.array(levels, np.int32, order="C")
-        given = np.array(positions), chosen, np.ascontiguousarray(directions)
-        return chosen if _kernels.unfold_levels(self._wanted, reach, *given, self._open) else None
+    def unfold(
+        self, positions: Positions, levels: Levels, directions: Matrix, reach: Matrix, flat: bool = False
+    ) -> Levels | None:
+        """Levels, shape (n, 3), that fold fewer edges over, or leave fewer faces `flat`, along `directions`, shape
+        (n or 1, 9); None where few enough are folded, and none flat."""
+        chosen, most = np.array(levels, np.int32, order="C"), self.most_folded - self.folded(self._original.positions)
+        given = np.array(positions), chosen, np.ascontiguousarray(directions), *self._flaps, most, flat, self._creases
+        wrong = np.empty(len(self._flaps[0]), np.uint8)
+        return chosen if _kernels.unfold_levels(self._wanted, reach, *given, wrong, self._open) else None
+
+    def folded(self, positions: Positions) -> int:
+        """How many edges are folded by more than 90 degrees."""
+        return _kernels.count_folds(positions, self._flaps[0])
+
+    @cached_property
+    def most_folded(self) -> int:
+        """How many may be: one in 10,000 faces more than were."""
+        return self.folded(self._original.positions) - -len(self._original.faces) // 10_000
 
     def _aim(self, aim: Aim, share: int) -> tuple[float, float, int]:
         return aim.worth / (share * len(self._open)), float(aim.reach), aim.sweeps
