@@ -4,13 +4,14 @@
  * high end, and cut in two; each half keeps one end and the distances to it. */
 #include "codec/blocks/blocks.h"
 
-enum { LEAF = 8, DEPTH = 64 };
+enum { LEAF = 8, DEPTH = 64, ROW = 8 };
 
 typedef struct {
     const int32_t *offsets, *neighbors;
-    uint32_t *colors;
-    int32_t *distances[2]; /* to the low and to the high end of the segment that a vertex is in */
-    uint32_t *queue, *keys, *buckets;
+    int32_t *rows;      /* ROW neighbors of each vertex, or itself for want of more; -1 first where it has too many */
+    int32_t *distances; /* two for each vertex: to the low and to the high end of the segment that it is in */
+    uint16_t *open;     /* 1 for what a sweep has yet to find, 0 otherwise and between sweeps */
+    uint32_t *queue, *buckets;
 } Work;
 
 typedef struct {
@@ -18,66 +19,66 @@ typedef struct {
     int kept;
 } Segment;
 
-/* Breadth-first distances from `start` within a segment; `queue` gets its vertices in the order of discovery.
- *
- * The vertices of a segment share a color, which the sweep raises by one. Where it comes to an end before all are
- * found, it goes on, one step farther away, from the last vertex of the segment that is still missing. */
-static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t start, int32_t *distance) {
-    uint32_t *colors = work->colors, *queue = work->queue;
-    const int32_t *offsets = work->offsets, *neighbors = work->neighbors;
-    uint32_t color = colors[start];
-    colors[start] = color + 1;
+/* Append those of some vertices that are open to a queue, and close them. Returns where the queue ends then. */
+INLINE int64_t visit(const int32_t *vertices, int64_t count, uint16_t *open, uint32_t *queue, int64_t tail) {
+    for (int64_t k = 0; k < count; k++) {
+        /* Without a branch, which the processor could not predict: what is not new is overwritten. */
+        int32_t w = vertices[k];
+        queue[tail] = (uint32_t)w;
+        tail += open[w];
+        open[w] = 0;
+    }
+    return tail;
+}
+
+/* Breadth-first distances from `start` within a segment, to its end `side`; `queue` gets its vertices in the order of
+ * discovery. Where the sweep comes to an end before all are found, it goes on, one step farther away, from the last
+ * vertex of the segment that is still missing. */
+static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t start, int side) {
+    const int32_t *offsets = work->offsets, *neighbors = work->neighbors, *rows = work->rows;
+    uint16_t *open = work->open;
+    uint32_t *queue = work->queue;
+    int32_t *distances = work->distances + side, level = 0;
+    for (int64_t i = 0; i < size; i++) open[segment[i]] = 1;
+    open[start] = 0;
     queue[0] = start;
-    int64_t head = 0, tail = 1, missing = size;
-    for (int32_t level = 0;; level++) {
-        int64_t end = tail;
-        while (head < end) {
-            uint32_t v = queue[head++];
-            distance[v] = level;
-            const int32_t *last = neighbors + offsets[v + 1];
-            for (const int32_t *next = neighbors + offsets[v]; next < last; next++) {
-                /* Without a branch, which the processor could not predict: what is not new is overwritten. */
-                uint32_t w = (uint32_t)*next, seen = colors[w];
-                uint64_t fresh = seen == color;
-                colors[w] = seen + (uint32_t)fresh;
-                queue[tail] = w;
-                tail += (int64_t)fresh;
-            }
-        }
-        if (tail == end) {
-            if (tail == size) return;
+    int64_t tail = 1, end = 1, missing = size;
+    for (int64_t head = 0; head < size; head++) {
+        if (head == tail) {
             do missing--;
-            while (colors[segment[missing]] != color);
-            queue[tail++] = segment[missing];
-            colors[segment[missing]]++;
+            while (open[segment[missing]] == 0);
+            tail = visit((const int32_t *)segment + missing, 1, open, queue, tail);
         }
+        level += head == end;
+        end = head == end ? tail : end;
+        uint32_t v = queue[head];
+        const int32_t *row = rows + (int64_t)ROW * v;
+        distances[2 * (int64_t)v] = level;
+        if (tail == size) continue;
+        if (row[0] >= 0) tail = visit(row, ROW, open, queue, tail);
+        else tail = visit(neighbors + offsets[v], offsets[v + 1] - offsets[v], open, queue, tail);
     }
 }
 
+/* Distance to the low end minus that to the high end, and `most` that both may be. */
+INLINE uint32_t key_of(const int32_t *distances, uint32_t v, uint32_t most) {
+    return (uint32_t)(distances[2 * (int64_t)v] - distances[2 * (int64_t)v + 1]) + most;
+}
+
 /* Sort a segment by distance to its low end minus distance to its high end, ties by place in `queue`: a counting sort,
- * in one pass unless there are far more values than vertices. */
-static void sort_segment(Work *work, uint32_t *segment, int64_t size) {
-    const int32_t *low = work->distances[0], *high = work->distances[1];
-    uint32_t *source = work->queue, *target = segment, *keys = work->keys, *buckets = work->buckets;
-    int32_t least = INT32_MAX, most = INT32_MIN;
-    for (int64_t i = 0; i < size; i++) {
-        uint32_t v = source[i];
-        int32_t difference = low[v] - high[v];
-        least = difference < least ? difference : least;
-        most = difference > most ? difference : most;
-        keys[v] = (uint32_t)difference;
-    }
-    uint32_t span = (uint32_t)(most - least), bits = 1;
-    while (span >> bits > 0 && (size << 2) >> bits > 0) bits++;
+ * in one pass unless there are far more values than vertices. No vertex is farther than `most` from both ends. */
+static void sort_segment(Work *work, uint32_t *segment, int64_t size, uint32_t most) {
+    const int32_t *distances = work->distances;
+    uint32_t *source = work->queue, *target = segment, *buckets = work->buckets;
+    uint32_t span = 2 * most, bits = 1;
+    while (span >> bits > 0 && (size << 1) >> bits > 0) bits++;
     uint32_t mask = (1u << bits) - 1;
     for (uint32_t shift = 0;;) {
         for (int64_t k = 0; k < (int64_t)mask + 2; k++) buckets[k] = 0;
-        for (int64_t i = 0; i < size; i++) buckets[(((keys[source[i]] - (uint32_t)least) >> shift) & mask) + 1]++;
+        for (int64_t i = 0; i < size; i++) buckets[(key_of(distances, source[i], most) >> shift & mask) + 1]++;
         for (int64_t k = 0; k < (int64_t)mask; k++) buckets[k + 1] += buckets[k];
-        for (int64_t i = 0; i < size; i++) {
-            uint32_t v = source[i];
-            target[buckets[((keys[v] - (uint32_t)least) >> shift) & mask]++] = v;
-        }
+        for (int64_t i = 0; i < size; i++)
+            target[buckets[key_of(distances, source[i], most) >> shift & mask]++] = source[i];
         uint32_t *swapped = source;
         source = target;
         target = swapped;
@@ -88,17 +89,25 @@ static void sort_segment(Work *work, uint32_t *segment, int64_t size) {
         for (int64_t i = 0; i < size; i++) segment[i] = source[i];
 }
 
+static void fill_rows(const Work *work, int64_t size) {
+    for (int64_t v = 0; v < size; v++) {
+        int32_t *row = work->rows + ROW * v, first = work->offsets[v], count = work->offsets[v + 1] - first;
+        for (int k = 0; k < ROW; k++) row[k] = k < count ? work->neighbors[first + k] : (int32_t)v;
+        if (count > ROW) row[0] = -1;
+    }
+}
+
 static bool open_work(Work *work, ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch) {
     int64_t size = offsets.size - 1;
     if (size < 0 || bounds.size < 2 || order.size < size || scratch.size < bisection_scratch(size)) return false;
     if (neighbors.size < offsets.data[size]) return false;
     uint32_t *room = scratch.data;
-    *work = (Work){.offsets = offsets.data, .neighbors = neighbors.data, .colors = room};
-    work->distances[0] = (int32_t *)(room + size);
-    work->distances[1] = (int32_t *)(room + 2 * size);
-    work->queue = room + 3 * size;
-    work->keys = room + 4 * size + 1;
-    work->buckets = room + 5 * size + 1;
+    *work = (Work){.offsets = offsets.data, .neighbors = neighbors.data, .rows = (int32_t *)room};
+    work->distances = (int32_t *)(room + ROW * size);
+    work->open = (uint16_t *)(room + 10 * size);
+    work->queue = room + 11 * size;
+    work->buckets = room + 12 * size + 1;
+    fill_rows(work, size);
     return true;
 }
 
@@ -107,14 +116,14 @@ static Segment begin(Work *work, uint32_t *segments, int64_t size, Ints bounds) 
     int64_t parts = bounds.size - 1;
     for (int64_t v = 0; v < size; v++) {
         segments[v] = (uint32_t)v;
-        work->colors[v] = 0;
+        work->open[v] = 0;
     }
     for (int64_t p = 0; p < parts; p++) bounds.data[p] = 0;
     bounds.data[parts] = (int32_t)size;
     /* The low end of the whole is the vertex that a sweep from vertex 0 reaches last. */
     if (size > LEAF) {
-        sweep(work, segments, size, 0, work->distances[1]);
-        sweep(work, segments, size, work->queue[size - 1], work->distances[0]);
+        sweep(work, segments, size, 0, 1);
+        sweep(work, segments, size, work->queue[size - 1], 0);
     }
     return (Segment){0, size, 0, parts, 0};
 }
@@ -125,47 +134,43 @@ static Segment upper(Segment s, int64_t cut) {
     return (Segment){cut, s.last, s.part + s.parts / 2, s.parts - s.parts / 2, 1};
 }
 
-/* Cut a segment of several parts in two, of `color` and of the one after the next; returns where. */
-static int64_t cut_segment(Work *work, uint32_t *segments, Segment s, uint32_t color) {
+/* Cut a segment of several parts in two; returns where. */
+static int64_t cut_segment(Work *work, uint32_t *segments, Segment s) {
     uint32_t *segment = segments + s.first;
     int64_t count = s.last - s.first;
     if (count > LEAF) {
-        const int32_t *distance = work->distances[s.kept];
+        const int32_t *distances = work->distances;
         uint32_t far = segment[0];
         for (int64_t i = 0; i < count; i++)
-            if (distance[segment[i]] > distance[far]) far = segment[i];
-        sweep(work, segment, count, far, work->distances[1 - s.kept]);
-        sort_segment(work, segment, count);
+            far = distances[2 * (int64_t)segment[i] + s.kept] > distances[2 * (int64_t)far + s.kept] ? segment[i] : far;
+        sweep(work, segment, count, far, 1 - s.kept);
+        uint32_t last = work->queue[count - 1];
+        sort_segment(work, segment, count, (uint32_t)largest(distances[2 * (int64_t)far + s.kept],
+            distances[2 * (int64_t)last + 1 - s.kept]));
     }
-    int64_t cut = s.first + count * (s.parts / 2) / s.parts;
-    for (int64_t i = s.first; i < cut; i++) work->colors[segments[i]] = color;
-    for (int64_t i = cut; i < s.last; i++) work->colors[segments[i]] = color + 2;
-    return cut;
+    return s.first + count * (s.parts / 2) / s.parts;
 }
 
-/* Cut a segment into its parts, with colors from `color` on. */
-static void cut_on(Work *work, uint32_t *segments, Segment whole, uint32_t color, Ints bounds) {
+/* Cut a segment into its parts. */
+static void cut_on(Work *work, uint32_t *segments, Segment whole, Ints bounds) {
     Segment stack[DEPTH];
     stack[0] = whole;
     for (int depth = 1; depth > 0;) {
         Segment s = stack[--depth];
         if (s.parts == 1) continue;
-        int64_t cut = cut_segment(work, segments, s, color);
+        int64_t cut = cut_segment(work, segments, s);
         bounds.data[s.part + s.parts / 2] = (int32_t)cut;
         stack[depth++] = upper(s, cut);
         stack[depth++] = lower(s, cut);
-        color += 4;
     }
 }
-
-enum { FIRST_COLOR = 6 };
 
 /* Cut a graph into `bounds.size - 1` parts: part p is `order[bounds[p]:bounds[p + 1]]`. */
 bool bisect(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch) {
     Work work;
     if (!open_work(&work, offsets, neighbors, order, bounds, scratch)) return false;
     uint32_t *segments = (uint32_t *)order.data;
-    cut_on(&work, segments, begin(&work, segments, offsets.size - 1, bounds), FIRST_COLOR, bounds);
+    cut_on(&work, segments, begin(&work, segments, offsets.size - 1, bounds), bounds);
     return true;
 }
 
