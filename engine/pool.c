@@ -1,19 +1,21 @@
-/* Memory of the C library: pieces of chunks of a huge page each, once a decoder asks for so much that this pays. */
+/* Memory of the C library: pieces of regions of huge pages, once a decoder asks for so much that this pays. */
 #include "engine/pool.h"
 
 #if __STDC_HOSTED__
 #include <stdlib.h>
+#include <string.h>
 #endif
 
 #ifdef BSMDEC_POOL
 #include <sys/mman.h>
 
-enum { CHUNK = 1 << 21, UNIT = CHUNK / 64, ENOUGH = 1 << 19 };
+enum { PAGE = 1 << 21, UNIT = 1 << 15, UNITS = 1 << 11, ENOUGH = 1 << 19 };
 
-struct Chunk {
-    Chunk *next;
+/* Much more than most decoders take: pages of it that are never written take no memory. */
+struct Region {
+    Region *next;
     char *memory;
-    uint64_t used; /* bit k: unit k is taken */
+    uint8_t used[UNITS];
 };
 
 static void lock(Pool *pool) {
@@ -22,91 +24,85 @@ static void lock(Pool *pool) {
 
 static void unlock(Pool *pool) { __atomic_clear(&pool->locked, __ATOMIC_RELEASE); }
 
-static uint64_t mask_of(size_t units) { return units < 64 ? (UINT64_C(1) << units) - 1 : UINT64_MAX; }
-
-/* NULL where a chunk has no such room left. */
-static void *take_units(Chunk *chunk, size_t units) {
-    uint64_t mask = mask_of(units);
-    for (size_t at = 0; at + units <= 64; at++)
-        if ((chunk->used & mask << at) == 0) {
-            chunk->used |= mask << at;
-            return chunk->memory + at * UNIT;
-        }
+/* The first that are free: they were written before, most likely. NULL where fewer are free in a row. */
+static void *take_units(Region *region, size_t units) {
+    for (size_t at = 0, run = 0; at < UNITS; at++) {
+        run = region->used[at] ? 0 : run + 1;
+        if (run < units) continue;
+        size_t first = at + 1 - units;
+        memset(region->used + first, 1, units);
+        return region->memory + first * UNIT;
+    }
     return NULL;
 }
 
-/* Whole chunks from the system: malloc would keep the parts between aligned ones. Without huge pages, small ones do. */
-static void *take_huge(size_t size) {
-    char *memory = mmap(NULL, size + CHUNK, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+/* Whole pages from the system: malloc would keep the parts between aligned ones. Without huge pages, small ones do. */
+static void *take_pages(size_t size) {
+    size = (size + PAGE - 1) / PAGE * PAGE;
+    char *memory = mmap(NULL, size + PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) return NULL;
-    size_t before = -(uintptr_t)memory % CHUNK;
+    size_t before = -(uintptr_t)memory % PAGE;
     if (before > 0) munmap(memory, before);
-    if (before < CHUNK) munmap(memory + before + size, CHUNK - before);
+    if (before < PAGE) munmap(memory + before + size, PAGE - before);
     madvise(memory + before, size, MADV_HUGEPAGE);
     return memory + before;
 }
 
-static void give_huge(void *memory, size_t size) { munmap(memory, (size + CHUNK - 1) / CHUNK * CHUNK); }
+static void give_pages(void *memory, size_t size) { munmap(memory, (size + PAGE - 1) / PAGE * PAGE); }
 
-static Chunk *add_chunk(Pool *pool) {
-    Chunk *chunk = malloc(sizeof *chunk);
-    char *memory = chunk != NULL ? take_huge(CHUNK) : NULL;
-    if (memory == NULL) {
-        free(chunk);
+static Region *add_region(Pool *pool) {
+    Region *region = calloc(1, sizeof *region);
+    if (region == NULL) return NULL;
+    region->memory = take_pages((size_t)UNITS * UNIT);
+    if (region->memory == NULL) {
+        free(region);
         return NULL;
     }
-    *chunk = (Chunk){pool->chunks, memory, 0};
-    return pool->chunks = chunk;
+    region->next = pool->regions;
+    return pool->regions = region;
 }
 
-static void *take_of_chunks(Pool *pool, size_t units) {
-    for (Chunk *chunk = pool->chunks; chunk != NULL; chunk = chunk->next) {
-        void *memory = take_units(chunk, units);
+static void *take_of_regions(Pool *pool, size_t units) {
+    for (Region *region = pool->regions; region != NULL; region = region->next) {
+        void *memory = take_units(region, units);
         if (memory != NULL) return memory;
     }
-    Chunk *chunk = add_chunk(pool);
-    return chunk != NULL ? take_units(chunk, units) : NULL;
+    Region *region = add_region(pool);
+    return region != NULL ? take_units(region, units) : NULL;
 }
 
-/* Whether memory was of a chunk. One empty chunk stays for what comes next. */
-static bool give_to_chunks(Pool *pool, char *memory, size_t units) {
-    Chunk **link = &pool->chunks;
-    while (*link != NULL && (memory < (*link)->memory || memory >= (*link)->memory + CHUNK)) link = &(*link)->next;
-    if (*link == NULL) return false;
-    Chunk *chunk = *link;
-    chunk->used &= ~(mask_of(units) << (memory - chunk->memory) / UNIT);
-    bool others = false;
-    for (const Chunk *other = pool->chunks; other != NULL; other = other->next)
-        others |= other != chunk && other->used == 0;
-    if (chunk->used != 0 || !others) return true;
-    *link = chunk->next;
-    give_huge(chunk->memory, CHUNK);
-    free(chunk);
+/* Whether memory was of a region. */
+static bool give_to_regions(const Pool *pool, const char *memory, size_t units) {
+    const size_t whole = (size_t)UNITS * UNIT;
+    Region *region = pool->regions;
+    while (region != NULL && (memory < region->memory || memory >= region->memory + whole)) region = region->next;
+    if (region == NULL) return false;
+    memset(region->used + (memory - region->memory) / UNIT, 0, units);
     return true;
 }
 
 static void *take(void *host, size_t size) {
     Pool *pool = host;
     if (pool == NULL || size < UNIT || size > SIZE_MAX / 2) return malloc(size);
-    if (size > CHUNK) return take_huge((size + CHUNK - 1) / CHUNK * CHUNK);
+    if (size > (size_t)UNITS * UNIT) return take_pages(size);
     lock(pool);
     bool enough = pool->taken >= ENOUGH;
     pool->taken += enough ? 0 : size;
-    void *memory = enough ? take_of_chunks(pool, (size + UNIT - 1) / UNIT) : NULL;
+    void *memory = enough ? take_of_regions(pool, (size + UNIT - 1) / UNIT) : NULL;
     unlock(pool);
     return memory != NULL ? memory : malloc(size);
 }
 
 static void give(void *host, void *memory, size_t size) {
     Pool *pool = host;
-    if (pool != NULL && size >= UNIT && size <= CHUNK) {
+    if (pool != NULL && size >= UNIT && size <= (size_t)UNITS * UNIT) {
         lock(pool);
-        bool given = give_to_chunks(pool, memory, (size + UNIT - 1) / UNIT);
+        bool given = give_to_regions(pool, memory, (size + UNIT - 1) / UNIT);
         unlock(pool);
         if (given) return;
     }
-    if (pool != NULL && size > CHUNK)
-        give_huge(memory, size);
+    if (pool != NULL && size > (size_t)UNITS * UNIT)
+        give_pages(memory, size);
     else
         free(memory);
 }
@@ -118,11 +114,11 @@ bsmdec_allocator with_pool(bsmdec_allocator host, Pool *pool) {
 
 bsmdec_allocator without_pool(bsmdec_allocator host) {
     Pool *pool = host.allocate == take ? host.host : NULL;
-    while (pool != NULL && pool->chunks != NULL) {
-        Chunk *chunk = pool->chunks;
-        pool->chunks = chunk->next;
-        give_huge(chunk->memory, CHUNK);
-        free(chunk);
+    while (pool != NULL && pool->regions != NULL) {
+        Region *region = pool->regions;
+        pool->regions = region->next;
+        give_pages(region->memory, (size_t)UNITS * UNIT);
+        free(region);
     }
     if (pool != NULL) host.host = NULL;
     return host;

@@ -16,10 +16,10 @@
 #define BSMDEC_POOL
 #endif
 
-typedef struct Chunk Chunk;
+typedef struct Region Region;
 typedef struct { /* all zero: empty */
-    Chunk *chunks;
-    size_t taken; /* bytes so far that could have been of chunks */
+    Region *regions;
+    size_t taken; /* bytes so far that could have been of regions */
     bool locked;  /* threads of the host take turns */
 } Pool;
 
