@@ -49,12 +49,14 @@ INLINE void learn_all(Learner *l, int terms, const int32_t *term, int32_t target
     for (int i = 0; i < terms; i++) all[i] = (int64_t)term[i] * 256;
     for (int i = 0; i < terms; i++) fade_and_add(l->square[i], all * term[i] >> down);
     fade_and_add(l->product, all * target >> down);
-    Terms left = terms_at(l->product) * ONE - RIDGE * (terms_at(l->weight) - terms_at(l->start));
-    for (int i = 0; i < terms; i++) left -= terms_at(l->square[i]) * l->weight[i];
-    for (int i = 0; i < terms; i++) {
+    Terms unmet = terms_at(l->product) * ONE - RIDGE * (terms_at(l->weight) - terms_at(l->start));
+    for (int i = 0; i < terms; i++) unmet -= terms_at(l->square[i]) * l->weight[i];
+    int64_t left[LEARNER_ROW];
+    *(UnalignedTerms *)left = unmet;
+    for (int i = 0; i < terms; i++) { /* one by one: the next waits for each */
         int64_t old = l->weight[i], better = old + left[i] / (l->square[i][i] + RIDGE);
         l->weight[i] = within(better, -MOST_WEIGHT, MOST_WEIGHT);
-        left -= terms_at(l->square[i]) * (l->weight[i] - old);
+        for (int j = i + 1; j < terms; j++) left[j] -= l->square[i][j] * (l->weight[i] - old);
     }
 }
 #else
