@@ -18,6 +18,7 @@ FILES = ("codec/geometry/graph.c", "codec/static/units.c")
 SHORT = "bitstream/fields/"  # its loops are short, and slower as vectors
 CHOICES = ("bitstream/isa.c", "codec/isa.c")
 INTERFACE, VECTORS = "engine/bsmdec.h", "codec/basis/vectors.h"
+OF_LEVELS = ("bitstream/fields/wide.h", VECTORS)  # headers that depend on the level of the processor
 LEVELS = {1: "", 3: "avx2,bmi,bmi2", 4: "avx2,bmi,bmi2,avx512f,avx512vl,avx512dq,avx512bw"}
 _HEAD = """#include "bsmdec.h"
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -158,7 +159,7 @@ def amalgamated() -> str:
     own = {path: _names(texts[path]) for path in files}
     shared = {name for text in headers.values() for name in re.findall(r"\w+", _bare(text))}
     count = Counter(name for names in own.values() for name in names)
-    pieces, per_isa = [_HEAD, *(_private(text) for text in headers.values())], [_private(headers[VECTORS])]
+    pieces, per_isa = [_HEAD, *map(_private, headers.values())], [_private(headers[path]) for path in OF_LEVELS]
     for path in files:
         suffix = re.sub(r"\W", "_", path[:-2])
         clashing = [name for name in own[path] if count[name] > 1 or name in shared]

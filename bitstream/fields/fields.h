@@ -189,7 +189,8 @@ enum { TERMS = 7, HINTS = 4, VALENCES = 6 };
 
 typedef struct { /* all in 1/16 */
     Learner *guess, *size;
-    int32_t term[TERMS], hint[HINTS]; /* filled by the kind; hint 0 is what to expect if there is nothing else */
+    /* Filled by the kind, 0 behind that; hint 0 is what to expect if there is nothing else. */
+    int32_t term[LEARNER_ROW], hint[LEARNER_ROW];
     int32_t shift, typical;           /* value less base; size of its error */
 } Forecast;
 
@@ -307,7 +308,7 @@ typedef struct {
 int64_t code_floats(Coder coder, Floats floats, ConstInts2 values, ConstLongs2 low, ConstLongs2 nearest,
     ConstLongs2 high, Longs2 chosen);
 
-/* Levels around a prediction. See layer.c. */
+/* Levels around a prediction. See layer.simd.c. */
 /* As Python keeps it; each n x 3 but the last. */
 typedef struct {
     Ints2 levels; /* at most 2^20 in magnitude */
@@ -316,6 +317,6 @@ typedef struct {
     Longs2 learners;
 } Levels;
 
-int64_t code_levels(Coder coder, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count);
+int64_t ISA(code_levels)(Coder coder, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count);
 
 #endif

@@ -1,10 +1,5 @@
 /* Positions on a grid, vertex after vertex, predicted from coded neighbors (specification, V 7 to V 10). */
-#include "bitstream/fields/fields.h"
-
-#if KERNEL_ISA == 4 || (defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__))
-#define LONG_TERMS
-#endif
-
+#include "bitstream/fields/wide.h"
 
 enum {
     AXES = 3,
@@ -31,42 +26,10 @@ typedef struct { /* what is known of a vertex before its axes */
     int axis[STEPS];
 } Place;
 
-#ifdef LONG_TERMS
-/* The same as `learn` and `take`, on rows as vectors: of `square`, both halves. */
-typedef __attribute__((vector_size(64))) int64_t Terms;
-typedef __attribute__((vector_size(64), __aligned__(8), may_alias)) int64_t UnalignedTerms;
-
-INLINE Terms terms_at(const int64_t *row) { return *(const UnalignedTerms *)row; }
-
-INLINE void fade_and_add(int64_t *row, Terms sample) {
-    Terms old = terms_at(row);
-    *(UnalignedTerms *)row = old + sample - (old >> LEARNER_MEMORY);
-}
-
-INLINE void learn_all(Learner *l, int terms, const int32_t *term, int32_t target, int32_t scale) {
-    int down = fineness(terms, term, target, scale);
-    Terms all = {0};
-    for (int i = 0; i < terms; i++) all[i] = (int64_t)term[i] * 256;
-    for (int i = 0; i < terms; i++) fade_and_add(l->square[i], all * term[i] >> down);
-    fade_and_add(l->product, all * target >> down);
-    Terms unmet = terms_at(l->product) * ONE - RIDGE * (terms_at(l->weight) - terms_at(l->start));
-    for (int i = 0; i < terms; i++) unmet -= terms_at(l->square[i]) * l->weight[i];
-    int64_t left[LEARNER_ROW];
-    *(UnalignedTerms *)left = unmet;
-    for (int i = 0; i < terms; i++) { /* one by one: the next waits for each */
-        int64_t old = l->weight[i], better = old + left[i] / (l->square[i][i] + RIDGE);
-        l->weight[i] = within(better, -MOST_WEIGHT, MOST_WEIGHT);
-        for (int j = i + 1; j < terms; j++) left[j] -= l->square[i][j] * (l->weight[i] - old);
-    }
-}
-#else
-#define learn_all learn
-#endif
-
 INLINE int32_t take_all(Forecast *f, int32_t error) {
     int32_t gap = error - f->shift;
-    learn_all(f->guess, TERMS, f->term, error, f->typical);
-    learn_all(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical);
+    learn_wide(f->guess, TERMS, f->term, error, f->typical);
+    learn_wide(f->size, HINTS, f->hint, gap_seen(f, gap), f->typical);
     return gap;
 }
 

@@ -42,7 +42,7 @@ LIMITS = {
     "product lines over 120 columns": 238,
     "all Python, lines": 73_712,
     "product modules": 200,
-    "product C files and headers": 73,
+    "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
     "numbers of a header": 36,
     "fields of EncodeOptions and Paper": 29,

@@ -1,5 +1,5 @@
 /* Levels that refine a mesh, vertex after vertex, predicted from coded neighbors (specification, V 11). */
-#include "bitstream/fields/fields.h"
+#include "bitstream/fields/wide.h"
 
 enum {
     AXES = 3,
@@ -135,7 +135,7 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     /* Where nothing happens, nothing is expected, and nothing learned. */
     bool quiet = near > 0 && typical == 0 && tip == 0;
     Learner *learner = (Learner *)l->learners.data + 4 * j + p->flaps;
-    int32_t term[OWN_TERMS] = {mean, flap - mean, tip - mean, early * FINE - mean, drift, ring - mean};
+    int32_t term[LEARNER_ROW] = {mean, flap - mean, tip - mean, early * FINE - mean, drift, ring - mean};
     int32_t guess = quiet ? 0 : foretell(learner, OWN_TERMS, term, FINE * MOST_LEVEL);
 
     int32_t center = whole(guess), off = guess - FINE * center;
@@ -163,7 +163,7 @@ static bool code_axis(RangeCoder *coder, const Mixer *mixer, Levels *l, int32_t 
     l->gaps.data[axes * v + j] = level * FINE - guess;
     l->means.data[axes * v + j] = mean_of((sum + level) * FINE, p->with_own);
     *own = size_of(level) + (*own >> 1);
-    if (!quiet) learn_in_turn(learner, OWN_TERMS, term, level * FINE, error_near + 4, v % OWN_TERMS);
+    if (!quiet) learn_wide_in_turn(learner, OWN_TERMS, term, level * FINE, error_near + 4, v % OWN_TERMS);
     return true;
 }
 
@@ -184,7 +184,7 @@ static bool code_vertex(void *work, int64_t v) {
     return true;
 }
 
-int64_t code_levels(Coder given, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count) {
+int64_t ISA(code_levels)(Coder given, Bank bank, Corners corners, Levels levels, int64_t first, int64_t count) {
     Work work = {.corners = corners, .levels = levels};
     int64_t n = corners.rank.size;
     if (!open_bank(&work.mixer, bank, SORTS * INPUTS * SPAN * NODES, SORTS * NODES, INPUTS) || !fits_corners(&corners)
