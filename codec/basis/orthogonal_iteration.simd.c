@@ -214,9 +214,9 @@ static void take_out_all(Panels *panels, int64_t n, int64_t j, float *v, float *
     }
 }
 
-/* Squared lengths of all columns. */
+/* Squared lengths of the columns of all panels but the first: those are on the diagonal of its X^T X. */
 static void measure(Panels *panels, float *lengths) {
-    for (int64_t b = 0; b < panel_count(panels); b++) {
+    for (int64_t b = 1; b < panel_count(panels); b++) {
         Panel panel = panel_at(panels, b);
         float *sums = lengths + panel.first;
         for (int64_t p = 0; p < panel.apart; p += WIDTH) store(sums + p, zeros());
@@ -277,6 +277,7 @@ static int64_t onorm(Panels *panels, int64_t n, int64_t c, int64_t *care, const 
         Panel panel = panel_at(panels, b);
         int64_t own = least(panel.apart, c - panel.first);
         gram(panel, rows, triangle);
+        for (int64_t j = 0; b == 0 && j < own; j++) lengths[j] = triangle[j * panel.apart + j];
         int64_t good = factorize_gram(triangle, panel.apart, own, lengths + panel.first);
         if ((*care -= own - good) < 0) return NEEDS_CARE;
         for (int64_t j = good; j < own; j++) clear_infinite(panel, rows, j);
