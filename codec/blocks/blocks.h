@@ -5,7 +5,7 @@
 #include "bitstream/kernel.h"
 
 /* Words of scratch that a graph of `size` vertices takes. */
-INLINE int64_t bisection_scratch(int64_t size) { return 16 * size + 5; }
+INLINE int64_t bisection_scratch(int64_t size) { return 17 * size + 5; }
 
 bool bisect(ConstInts offsets, ConstInts neighbors, Ints order, Ints bounds, Words scratch);
 void refine_partition(ConstInts offsets, ConstInts neighbors, Ints labels, int64_t passes, Longs sizes, Ints votes);

@@ -4,14 +4,14 @@
  * high end, and cut in two; each half keeps one end and the distances to it. */
 #include "codec/blocks/blocks.h"
 
-enum { LEAF = 8, DEPTH = 64, ROW = 8 };
+enum { LEAF = 8, DEPTH = 64, ROW = 8, USUAL = 6 };
 
 typedef struct {
     const int32_t *offsets, *neighbors;
     int32_t *rows;      /* ROW neighbors of each vertex, or itself for want of more; -1 first where it has too many */
     int32_t *distances; /* two for each vertex: to the low and to the high end of the segment that it is in */
     uint16_t *open;     /* 1 for what a sweep has yet to find, 0 otherwise and between sweeps */
-    uint32_t *queue, *buckets;
+    uint32_t *queue, *digits, *buckets;
 } Work;
 
 typedef struct {
@@ -55,8 +55,10 @@ static void sweep(Work *work, const uint32_t *segment, int64_t size, uint32_t st
         const int32_t *row = rows + (int64_t)ROW * v;
         distances[2 * (int64_t)v] = level;
         if (tail == size) continue;
-        if (row[0] >= 0) tail = visit(row, ROW, open, queue, tail);
-        else tail = visit(neighbors + offsets[v], offsets[v + 1] - offsets[v], open, queue, tail);
+        if (row[0] >= 0) {
+            tail = visit(row, USUAL, open, queue, tail);
+            if ((uint32_t)row[USUAL] != v) tail = visit(row + USUAL, ROW - USUAL, open, queue, tail);
+        } else tail = visit(neighbors + offsets[v], offsets[v + 1] - offsets[v], open, queue, tail);
     }
 }
 
@@ -69,16 +71,18 @@ INLINE uint32_t key_of(const int32_t *distances, uint32_t v, uint32_t most) {
  * in one pass unless there are far more values than vertices. No vertex is farther than `most` from both ends. */
 static void sort_segment(Work *work, uint32_t *segment, int64_t size, uint32_t most) {
     const int32_t *distances = work->distances;
-    uint32_t *source = work->queue, *target = segment, *buckets = work->buckets;
+    uint32_t *source = work->queue, *target = segment, *buckets = work->buckets, *digits = work->digits;
     uint32_t span = 2 * most, bits = 1;
     while (span >> bits > 0 && (size << 1) >> bits > 0) bits++;
     uint32_t mask = (1u << bits) - 1;
     for (uint32_t shift = 0;;) {
         for (int64_t k = 0; k < (int64_t)mask + 2; k++) buckets[k] = 0;
-        for (int64_t i = 0; i < size; i++) buckets[(key_of(distances, source[i], most) >> shift & mask) + 1]++;
+        for (int64_t i = 0; i < size; i++) {
+            digits[i] = key_of(distances, source[i], most) >> shift & mask;
+            buckets[digits[i] + 1]++;
+        }
         for (int64_t k = 0; k < (int64_t)mask; k++) buckets[k + 1] += buckets[k];
-        for (int64_t i = 0; i < size; i++)
-            target[buckets[key_of(distances, source[i], most) >> shift & mask]++] = source[i];
+        for (int64_t i = 0; i < size; i++) target[buckets[digits[i]]++] = source[i];
         uint32_t *swapped = source;
         source = target;
         target = swapped;
@@ -106,7 +110,8 @@ static bool open_work(Work *work, ConstInts offsets, ConstInts neighbors, Ints o
     work->distances = (int32_t *)(room + ROW * size);
     work->open = (uint16_t *)(room + 10 * size);
     work->queue = room + 11 * size;
-    work->buckets = room + 12 * size + 1;
+    work->digits = room + 12 * size + 1;
+    work->buckets = room + 13 * size + 1;
     fill_rows(work, size);
     return true;
 }
@@ -141,12 +146,15 @@ static int64_t cut_segment(Work *work, uint32_t *segments, Segment s) {
     if (count > LEAF) {
         const int32_t *distances = work->distances;
         uint32_t far = segment[0];
-        for (int64_t i = 0; i < count; i++)
-            far = distances[2 * (int64_t)segment[i] + s.kept] > distances[2 * (int64_t)far + s.kept] ? segment[i] : far;
+        int32_t most = -1;
+        for (int64_t i = 0; i < count; i++) {
+            int32_t own = distances[2 * (int64_t)segment[i] + s.kept];
+            far = own > most ? segment[i] : far;
+            most = own > most ? own : most;
+        }
         sweep(work, segment, count, far, 1 - s.kept);
         uint32_t last = work->queue[count - 1];
-        sort_segment(work, segment, count, (uint32_t)largest(distances[2 * (int64_t)far + s.kept],
-            distances[2 * (int64_t)last + 1 - s.kept]));
+        sort_segment(work, segment, count, (uint32_t)largest(most, distances[2 * (int64_t)last + 1 - s.kept]));
     }
     return s.first + count * (s.parts / 2) / s.parts;
 }

@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_210,
+    "product in all languages, lines": 62_238,
     "product Python, lines": 33_377,
-    "product C and C++, lines": 21_268,
+    "product C and C++, lines": 21_296,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 238,
-    "all Python, lines": 73_712,
+    "all Python, lines": 73_713,
     "product modules": 200,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
