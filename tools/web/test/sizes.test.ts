@@ -9,7 +9,7 @@ import { VIEWER, WEB } from "./shared";
 /** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, and for the page itself. */
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [19750, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
-    "static meshes": [68900, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
+    "static meshes": [69000, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
     "sequences": [71900, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
     "everything": [107200, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8500, ["three.js", "pool.js"]],
