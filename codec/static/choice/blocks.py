@@ -153,13 +153,15 @@ ALONE = 4.0  # about the step of blocks without a layer, over that of a layer
 FINEST_LAYER = 1e-6  # step of a layer, in BSM units
 UNSEEN_RATIO = 2.0
 """How much coarser levels in the plane are than those along the normal, where it is flat: for distances alone."""
-PULLED, NEAR = 0.11, 16.0
-"""Where a look is asked for, what a bit is worth, over the mean cost of an error of one step along the normal; and how
-far a vertex may be brought from its place, in steps of the layer."""
+PULLED, STEADY, NEAR = 0.085, 0.3, 16.0
+"""Where a look is asked for, what a bit is worth at a look of 1, over the mean cost of an error of one step along the
+normal, and the power of the look that it goes with; and how far a vertex may be brought from its place, in steps of the
+layer."""
 NOISE = 0.008
 """Errors that are looked at to learn where they are seen, over the look that is asked for and the mean edge."""
-ASLANT = 1.5
-"""The most that steps in the plane are, over those that would be right if errors counted alike seen or not."""
+ASLANT = 1.5, 2.2
+"""The most that steps in the plane are, over those that would be right if errors counted alike seen or not: where the
+farthest vertex is bound, and where all errors are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -340,14 +342,15 @@ class Refined:
     def _evened(self, step: float, seen: Sensitivity) -> tuple[Layer, Levels]:
         """Return levels that cost little where they are seen, and are no more exact elsewhere than the bounds ask."""
         base, bounds = self._base, self._bounds
-        kept = dict[float, tuple[Layer, Levels]]()
+        kept, worth = dict[float, tuple[Layer, Levels]](), PULLED * self._look**STEADY
 
         def settle(even: float) -> tuple[Layer, Levels]:
-            layer = Layer(single(step), min(max(ASLANT * even / step, 1.0), RATIO))
+            aslant = ASLANT[bounds.contract.visual < math.inf]
+            layer = Layer(single(step), min(max(aslant * even / step, 1.0), RATIO))
             steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
             reach = np.minimum(bounds.reaches, NEAR * layer.step)
             even = even if bounds.contract.visual < math.inf else math.inf  # a bound on the farthest is of a few
-            levels = seen.levels(base.offsets, base.frames, steps, known, PULLED, reach, even)
+            levels = seen.levels(base.offsets, base.frames, steps, known, worth, reach, even)
             return layer, base.within(bounds.reaches, layer, levels)
 
         def excess(even: float) -> float:

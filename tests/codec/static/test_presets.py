@@ -23,7 +23,7 @@ PROMISING = {name: options.promise for name, options in PRESETS.items() if optio
 ORDER = ("small", "balanced", "fine", "near-lossless")
 CREASED = {"assets/ADIS16480.STL", "hostile/c3d_teapot.obj"}
 """Edges near 40 degrees, or parts of few vertices that bind others, keep a bound at one step and not at the next. Which
-do is chance, within 3 % of bytes."""
+do is chance, within 3 % of bytes and 10 % of the look."""
 ROOMS, TOO_LARGE = ("assets", "hostile", "static"), "static/dragon_437645.ply"
 
 
@@ -85,4 +85,5 @@ def test_presets_keep_their_promises_and_finer_ones_are_no_smaller_and_look_no_w
     sizes, looks = zip(*found, strict=True)
     most = 1.03 if name in CREASED else 1.0
     assert all(coarser <= most * finer for coarser, finer in pairwise(sizes)), sizes
-    assert all(finer <= coarser * math.exp(SLACK) for coarser, finer in pairwise(looks)), looks
+    slack = 0.1 if name in CREASED else SLACK
+    assert all(finer <= coarser * math.exp(slack) for coarser, finer in pairwise(looks)), looks
