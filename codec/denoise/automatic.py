@@ -107,7 +107,7 @@ class AutomaticChoice:
     forecast: Forecast | None = None
 
     @property
-    def foreseen(self) -> bool:
+    def reliable(self) -> bool:
         """Whether the errors that are expected can be told."""
         if self.forecast is None:
             return True

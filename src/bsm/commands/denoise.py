@@ -233,7 +233,7 @@ def _found(choice: AutomaticChoice | None, goal: str, edge: float, unit: str = "
     line = f"noise      {noise.normal:.2f} edges ({length(noise.normal * edge, unit)})"
     if goal == "shape":
         line += f"; vertices about {choice.untreated:.2f} -> {choice.expected:.2f} edges off"
-    elif not choice.foreseen:
+    elif not choice.reliable:
         line += "; how far off normals are cannot be estimated here"
     elif choice.kind != "unsteady":
         least, most = round(choice.expected), round(choice.at_most)

@@ -171,23 +171,23 @@ class Costs:
         }
         self._ended: dict[
             str, tuple[float, float]
-        ] = {}  # of a kind, the seconds of those that ended, foreseen and true
+        ] = {}  # of a kind, the seconds of those that ended, reliable and true
         self.took = dict[int, float]()  # of what was done here
         self.done = 0.0
 
     def end(self, number: int, seconds: float | None) -> None:
         """Take note of what a job took, if that is known."""
-        foreseen, kind = self._open.pop(number), self._kinds[number]
+        reliable, kind = self._open.pop(number), self._kinds[number]
         before = self._ended.get(kind, (0.0, 0.0))
-        spent = self.took.pop(number, foreseen if seconds is None else seconds)
-        self._ended[kind] = before[0] + foreseen, before[1] + spent
+        spent = self.took.pop(number, reliable if seconds is None else seconds)
+        self._ended[kind] = before[0] + reliable, before[1] + spent
         self.done += spent
 
     def left(self, numbers: Collection[int] = ()) -> float:
         """What is left, of some jobs or of all."""
-        foreseen, spent = map(sum, zip((1e-3, 1e-3), *self._ended.values()))
-        rates = {kind: (true + spent / foreseen) / (expected + 1.0) for kind, (expected, true) in self._ended.items()}
-        usual = spent / foreseen
+        reliable, spent = map(sum, zip((1e-3, 1e-3), *self._ended.values()))
+        rates = {kind: (true + spent / reliable) / (expected + 1.0) for kind, (expected, true) in self._ended.items()}
+        usual = spent / reliable
         return sum(self._open[n] * rates.get(self._kinds[n], usual) for n in numbers or self._open)
 
 

@@ -51,10 +51,10 @@ def test_the_angle_that_it_expects_is_the_one_that_comes(shape) -> None:  # type
 
 def test_no_angle_is_told_where_noise_turns_faces_anywhere() -> None:
     clean, faces = sphere(20)
-    for stretched, foreseen in ((1.0, True), (12.0, False)):
+    for stretched, reliable in ((1.0, True), (12.0, False)):
         shape = clean * [stretched, 1.0, 1.0]
         _, choice = denoise_automatically(gaussian_isotropic(shape, faces, 0.2, seed=7), faces)
-        assert choice.steps and choice.foreseen == foreseen
+        assert choice.steps and choice.reliable == reliable
 
 
 @pytest.mark.slow
