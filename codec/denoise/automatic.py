@@ -87,7 +87,7 @@ HARMFUL = 0.95
 """Where the error that is expected of the result exceeds this multiple of what it changes, nothing is handed out:
 normals turned by less than their estimated error are no closer to the clean ones. Noise reads 0.15 to 0.7, the clean
 meshes that were taken for noisy 1.1 and 2.1."""
-MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be told
+MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be estimated
 DETAIL = 1.65
 """Error that may come over the expected one where detail is lost: twice on an armadillo of decimated rings, at most."""
 
@@ -108,7 +108,7 @@ class AutomaticChoice:
 
     @property
     def reliable(self) -> bool:
-        """Whether the errors that are expected can be told."""
+        """Whether the expected errors can be relied on."""
         if self.forecast is None:
             return True
         return self.forecast.drowned < MOST_DROWNED and self.expected < self.untreated

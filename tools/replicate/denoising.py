@@ -115,8 +115,8 @@ def ours(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float])
     """The angle behind ours, and the least and largest that are expected; none where nobody can tell, or nothing was
     filtered."""
     result, choice = denoise_automatically(noisy, faces)
-    told = choice.steps and choice.reliable
-    return {"ours": angle_of(result), "estimate": [choice.expected, choice.at_most] if told else None}
+    known = choice.steps and choice.reliable
+    return {"ours": angle_of(result), "estimate": [choice.expected, choice.at_most] if known else None}
 
 
 def best_fixed(noisy: Positions, faces: Faces, reference: Reference) -> float:

@@ -49,7 +49,7 @@ def test_the_angle_that_it_expects_is_the_one_that_comes(shape) -> None:  # type
         assert choice.expected / 1.3 < came < 1.3 * choice.at_most
 
 
-def test_no_angle_is_told_where_noise_turns_faces_anywhere() -> None:
+def test_no_angle_is_estimated_where_noise_turns_faces_anywhere() -> None:
     clean, faces = sphere(20)
     for stretched, reliable in ((1.0, True), (12.0, False)):
         shape = clean * [stretched, 1.0, 1.0]
