@@ -26,7 +26,7 @@ from bsm.codec.static.options import LARGE_BLOCKS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
 from bsm.codec.static.targets import SLACK, TRIES, Contract
 
-ATTRIBUTE_SHARE = {"texcoord": 0.7, "color": 0.2}  # of the look that is promised, what rounding these may take
+ATTRIBUTE_SHARE = {"texcoord": 0.33, "color": 0.2}  # of the look that is promised, what rounding these may take
 FINER = 2.0  # budgets of pictures up to which finer positions are tried for normals that decoders make: they save most
 
 
