@@ -112,8 +112,8 @@ def against_oracle(noisy: Positions, faces: Faces, angle_of: Callable[[Positions
 
 
 def ours(noisy: Positions, faces: Faces, angle_of: Callable[[Positions], float]) -> Row:
-    """The angle behind ours, and the least and largest that are expected; none where nobody can tell, or nothing was
-    filtered."""
+    """The angle behind ours, and the least and largest that are expected; none where they cannot be estimated, or
+    nothing was filtered."""
     result, choice = denoise_automatically(noisy, faces)
     known = choice.steps and choice.reliable
     return {"ours": angle_of(result), "estimate": [choice.expected, choice.at_most] if known else None}

@@ -101,7 +101,7 @@ class Search:
             if found is not None:
                 made.append(unfolded(found, bounds, way))
                 ways[id(made[-1])] = way
-                least = min(least, cost(made[-1]))
+                least = min(least, made[-1].draft.size * penalty(made[-1]))
         kept += made
         near = bounds.excess()
         for candidate in self._made_on(bounds, made or kept):
@@ -109,10 +109,10 @@ class Search:
                 over, look = near(candidate)
                 if over <= 0.0 and bounds.keeps(candidate.positions, look):
                     kept.append(unfolded(candidate, bounds, Gridded(self._prepared, bounds, 0.0)))
-                    least = min(least, cost(kept[-1]))
+                    least = min(least, kept[-1].draft.size * penalty(kept[-1]))
         if not kept:
             kept += self._last_resort(bounds)
-        best = min(kept, key=lambda candidate: self._size(candidate.draft) * cost(candidate) / candidate.draft.size)
+        best = min(kept, key=lambda candidate: self._size(candidate.draft) * penalty(candidate))
         near_best = {type(ways[id(other)]) for other in made if other.draft.size <= DEARER * best.draft.size}
         self._lost = frozenset({Refined, Plain} - near_best)
         return self._noted(best, ways.get(id(best), Gridded(self._prepared, bounds, 0.0)), contract)
@@ -206,9 +206,9 @@ class Search:
             yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
 
 
-def cost(candidate: Candidate) -> float:
-    """Bytes, more where too many edges are folded over."""
-    return candidate.draft.size * (DEARER if candidate.folded else 1.0)
+def penalty(candidate: Candidate) -> float:
+    """What its bytes are multiplied by before they are compared: more where too many edges are folded over."""
+    return DEARER if candidate.folded else 1.0
 
 
 def turned(candidate: Candidate, flat: bool = False) -> Candidate | None:
