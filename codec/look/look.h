@@ -9,7 +9,7 @@ int64_t likeness(ConstSingles2 first, ConstSingles2 second, ConstSingles wide, C
 int64_t shown_normals(ConstDoubles2 positions, ConstInts2 faces, ConstInts2 joined, ConstLongs starts,
     ConstInts around, double cosine, double half, int64_t most, Doubles2 crosses, Singles2 normals);
 int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
-    Doubles2 placed, Singles2 depth, Singles2 lengths, Singles2 farthest, Singles2 picture, Ints2 owner);
+    Doubles2 placed, Ints away, Singles2 depth, Singles2 lengths, Singles2 farthest, Singles2 picture, Ints2 owner);
 int64_t interpolate_shown(ConstInts2 owner, ConstDoubles2 ways, ConstDoubles2 values, Doubles2 found);
 
 #endif

@@ -93,7 +93,7 @@ class Canvas:
 
     def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix) -> Picture:
         """A picture of a mesh, lit alike on both sides of its faces; `owner`: which face each pixel shows, -1: none."""
-        room = np.empty(positions.shape), self._depth, self._lengths, self._tiles
+        room = np.empty(positions.shape), np.empty(len(faces), np.int32), self._depth, self._lengths, self._tiles
         _kernels.draw_shaded(positions, faces, normals, camera, *room, self.picture, self.owner)
         return self.picture
 

@@ -7,24 +7,26 @@
 #define BACKGROUND 1.0f
 #define TILE 8    /* pixels of the side of squares that faces may be hidden in */
 #define SAMPLE 4096 /* faces that tell which half is ahead */
-#define LANES 8   /* pixels of a row that are drawn at once */
+#define LANES 8   /* faces, or rows, that are prepared side by side */
 #define EACH_LANE _Pragma("GCC unroll 1") for (int k = 0; k < LANES; k++) /* as vectors */
 #define CAMERA 15 /* three rows of a rotation with an offset each, then the light in the mesh's own axes */
+#define WHOLE 6755399441055744.0 /* 1.5 * 2^52: a sum with it ends in the nearest whole number */
+
+INLINE double clamped(double x, double most) {
+    x = x > 0.0 ? x : 0.0;
+    return x < most ? x : most;
+}
 
 /* The first pixel whose center is at `x` or behind, in 0..size. */
-INLINE int64_t first_center(double x, int64_t size) {
-    double start = x - 0.5;
-    if (!(start > 0.0)) return 0;
-    if (start >= (double)size) return size;
-    int64_t pixel = (int64_t)start;
-    return pixel + ((double)pixel < start);
+INLINE double first_center(double x, double size) {
+    double start = clamped(x - 0.5, size), pixel = (start + WHOLE) - WHOLE;
+    return pixel + (pixel < start ? 1.0 : 0.0);
 }
 
 /* Behind the last pixel whose center is at `x` or before, in 0..size. */
-INLINE int64_t behind_center(double x, int64_t size) {
-    double end = x + 0.5;
-    if (!(end > 0.0)) return 0;
-    return end >= (double)size ? size : (int64_t)end;
+INLINE double behind_center(double x, double size) {
+    double end = clamped(x + 0.5, size), pixel = (end + WHOLE) - WHOLE;
+    return pixel - (pixel > end ? 1.0 : 0.0);
 }
 
 /* Depths are whole numbers, so that faces at one place are at one depth, whatever their corners. */
@@ -36,30 +38,25 @@ INLINE float shade_of(float facing, float length) {
 
 INLINE double within(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }
 
-typedef struct {
-    double x, y, slope;
-} Edge;
-
-/* From its upper end, so that faces on both sides of an edge cross each row at the same place. */
-INLINE Edge edge_between(const double *upper, const double *lower) {
-    double rise = lower[1] - upper[1];
-    Edge edge = {upper[0], upper[1], rise > 0.0 ? (lower[0] - upper[0]) / rise : 0.0};
-    return edge;
-}
-
-INLINE double crossing(Edge edge, double y) { return edge.x + (y - edge.y) * edge.slope; }
-
 INLINE double lower(double a, double b) { return a < b ? a : b; }
 INLINE double higher(double a, double b) { return a > b ? a : b; }
+
+typedef struct {
+    const double *placed;
+    const int32_t *faces;
+    const float *normals;
+    const double *light;
+} Model;
 
 typedef struct {
     const double *a, *b, *c;
     double area;
 } Face;
 
-INLINE Face face_at(const double *placed, const int32_t *corners) {
-    const double *a = placed + 3 * (int64_t)corners[0], *b = placed + 3 * (int64_t)corners[1],
-                 *c = placed + 3 * (int64_t)corners[2];
+INLINE Face face_at(Model model, int64_t number) {
+    const int32_t *corners = model.faces + 3 * number;
+    const double *a = model.placed + 3 * (int64_t)corners[0], *b = model.placed + 3 * (int64_t)corners[1],
+                 *c = model.placed + 3 * (int64_t)corners[2];
     return (Face){a, b, c, (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])};
 }
 
@@ -82,128 +79,188 @@ INLINE bool hidden(Face face, ConstSingles2 farthest) {
     return behind;
 }
 
-/* `LANES` pixels of a row from `x` on, as those of `draw_face` one by one; false, and nothing is drawn, where one of
- * them is as near as what is there. */
-INLINE bool draw_lanes(Face face, double inverse, const float *n, const double *light, int32_t number, double x,
-                       double y, float *restrict depths, float *restrict lengths, float *restrict facings,
-                       int32_t *restrict owners) {
+typedef struct {
+    Singles2 depth, lengths, picture;
+    Ints2 owner;
+} Canvas;
+
+INLINE void draw_pixel(Face face, double inverse, const double *n, const double *light, int32_t number, int64_t row,
+                       int64_t column, Canvas on) {
     const double *a = face.a, *b = face.b, *c = face.c;
+    double across = (double)column + 0.5 - a[0], down = (double)row + 0.5 - a[1];
     double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
-    double ax = a[0], az = a[2], bz = b[2] - a[2], cz = c[2] - a[2], down = y - a[1], s[LANES], r[LANES];
-    float z[LANES], facing[LANES], length[LANES];
-    int32_t any = 0, ties = 0;
-    EACH_LANE {
-        double across = (x + (double)k) - ax;
-        s[k] = within((across * cy - down * cx) * inverse);
-        r[k] = within((bx * down - by * across) * inverse);
-        z[k] = depth_of(az + s[k] * bz + r[k] * cz);
+    double s = within((across * cy - down * cx) * inverse), r = within((bx * down - by * across) * inverse);
+    int64_t pixel = row * on.picture.columns + column;
+    float z = depth_of(a[2] + s * (b[2] - a[2]) + r * (c[2] - a[2])), before = on.depth.data[pixel];
+    if (!(z >= before)) return;
+    double q = 1.0 - s - r;
+    double nx = q * n[0] + s * n[3] + r * n[6];
+    double ny = q * n[1] + s * n[4] + r * n[7];
+    double nz = q * n[2] + s * n[5] + r * n[8];
+    float facing = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
+    float length = (float)(nx * nx + ny * ny + nz * nz);
+    if (z == before) {
+        float facing_before = on.picture.data[pixel], length_before = on.lengths.data[pixel];
+        if (facing == facing_before && length == length_before) return; /* drawn again: skip */
+        if (!(shade_of(facing, length) > shade_of(facing_before, length_before))) return;
     }
-    EACH_LANE {
-        any |= z[k] > depths[k];
-        ties |= z[k] == depths[k];
-    }
-    if (ties) return false;
-    if (!any) return true;
-    EACH_LANE {
-        double q = 1.0 - s[k] - r[k];
-        double nx = q * (double)n[0] + s[k] * (double)n[3] + r[k] * (double)n[6];
-        double ny = q * (double)n[1] + s[k] * (double)n[4] + r[k] * (double)n[7];
-        double nz = q * (double)n[2] + s[k] * (double)n[5] + r[k] * (double)n[8];
-        facing[k] = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
-        length[k] = (float)(nx * nx + ny * ny + nz * nz);
-    }
-    EACH_LANE {
-        bool shown = z[k] > depths[k];
-        depths[k] = shown ? z[k] : depths[k];
-        facings[k] = shown ? facing[k] : facings[k];
-        lengths[k] = shown ? length[k] : lengths[k];
-        owners[k] = shown ? number : owners[k];
-    }
-    return true;
+    on.owner.data[pixel] = number;
+    on.depth.data[pixel] = z;
+    on.picture.data[pixel] = facing;
+    on.lengths.data[pixel] = length;
 }
 
-INLINE void draw_face(Face face, const float *normals, const double *light, int32_t number, Singles2 depth,
-                      Singles2 lengths, Singles2 picture, Ints2 owner) {
-    const double *a = face.a, *b = face.b, *c = face.c;
-    int64_t first = first_center(lower(lower(a[1], b[1]), c[1]), picture.rows);
-    int64_t end = behind_center(higher(higher(a[1], b[1]), c[1]), picture.rows);
-    if (first >= end) return;
-    if (first_center(lower(lower(a[0], b[0]), c[0]), picture.columns) >=
-        behind_center(higher(higher(a[0], b[0]), c[0]), picture.columns))
-        return;
-    /* Without branches, which nobody could foretell. */
-    const double *above = a[1] > b[1] ? b : a, *below = a[1] > b[1] ? a : b;
-    const double *bottom = below[1] > c[1] ? below : c, *rest = below[1] > c[1] ? c : below;
-    const double *top = above[1] > rest[1] ? rest : above, *middle = above[1] > rest[1] ? above : rest;
-    Edge whole = edge_between(top, bottom), upper = edge_between(top, middle), beneath = edge_between(middle, bottom);
-    double inverse = 1.0 / face.area, bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
-    double bz = b[2] - a[2], cz = c[2] - a[2];
-    const float *n = normals;
-    for (int64_t row = first; row < end; row++) {
-        double y = (double)row + 0.5;
-        double from = crossing(whole, y), to = y < middle[1] ? crossing(upper, y) : crossing(beneath, y);
-        int64_t column = first_center(from < to ? from : to, picture.columns);
-        int64_t stop = behind_center(from < to ? to : from, picture.columns);
-        int64_t alone = column; /* up to there pixels are drawn one by one */
-        while (column < stop) {
-            double x = (double)column + 0.5;
-            int64_t pixel = row * picture.columns + column;
-            if (stop - column >= LANES && column >= alone) {
-                alone = column + LANES;
-                if (draw_lanes(face, inverse, n, light, number, x, y, depth.data + pixel, lengths.data + pixel,
-                               picture.data + pixel, owner.data + pixel)) {
-                    column = alone;
-                    continue;
-                }
-            }
-            column++;
-            double s = within(((x - a[0]) * cy - (y - a[1]) * cx) * inverse);
-            double r = within((bx * (y - a[1]) - by * (x - a[0])) * inverse);
-            float z = depth_of(a[2] + s * bz + r * cz);
-            if (!(z >= depth.data[pixel])) continue;
-            double q = 1.0 - s - r;
-            double nx = q * (double)n[0] + s * (double)n[3] + r * (double)n[6];
-            double ny = q * (double)n[1] + s * (double)n[4] + r * (double)n[7];
-            double nz = q * (double)n[2] + s * (double)n[5] + r * (double)n[8];
-            float facing = (float)(nx * light[0] + ny * light[1] + nz * light[2]);
-            float length = (float)(nx * nx + ny * ny + nz * nz);
-            if (z == depth.data[pixel]) {
-                float facing_before = picture.data[pixel], length_before = lengths.data[pixel];
-                if (facing == facing_before && length == length_before) continue; /* drawn again: skip */
-                if (!(shade_of(facing, length) > shade_of(facing_before, length_before))) continue;
-            }
-            owner.data[pixel] = number;
-            depth.data[pixel] = z;
-            picture.data[pixel] = facing;
-            lengths.data[pixel] = length;
+/* Faces side by side: their edges from the upper ends, so that faces on both sides of one cross each row at the same
+ * place, and the rows and columns that they have pixels in. */
+typedef struct {
+    double inverse[LANES], top_x[LANES], top_y[LANES], middle_x[LANES], middle_y[LANES];
+    double whole[LANES], upper[LANES], beneath[LANES], first[LANES], end[LANES], left[LANES], right[LANES];
+} Group;
+
+INLINE double slope_of(double across, double rise) {
+    double slope = across / rise;
+    return rise > 0.0 ? slope : 0.0;
+}
+
+INLINE void prepare(Model model, const int32_t *numbers, Canvas on, Group *g) {
+    double corner[6][LANES], rows = (double)on.picture.rows, columns = (double)on.picture.columns;
+    for (int k = 0; k < LANES; k++)
+        for (int i = 0; i < 3; i++) {
+            const double *at = model.placed + 3 * (int64_t)model.faces[3 * (int64_t)numbers[k] + i];
+            corner[2 * i][k] = at[0];
+            corner[2 * i + 1][k] = at[1];
         }
+    EACH_LANE {
+        double ax = corner[0][k], ay = corner[1][k], bx = corner[2][k], by = corner[3][k], cx = corner[4][k],
+               cy = corner[5][k];
+        double above_x = ay > by ? bx : ax, above_y = ay > by ? by : ay;
+        double below_x = ay > by ? ax : bx, below_y = ay > by ? ay : by;
+        double bottom_x = below_y > cy ? below_x : cx, bottom_y = below_y > cy ? below_y : cy;
+        double rest_x = below_y > cy ? cx : below_x, rest_y = below_y > cy ? cy : below_y;
+        double top_x = above_y > rest_y ? rest_x : above_x, top_y = above_y > rest_y ? rest_y : above_y;
+        double middle_x = above_y > rest_y ? above_x : rest_x, middle_y = above_y > rest_y ? above_y : rest_y;
+        g->inverse[k] = 1.0 / ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax));
+        g->top_x[k] = top_x, g->top_y[k] = top_y, g->middle_x[k] = middle_x, g->middle_y[k] = middle_y;
+        g->whole[k] = slope_of(bottom_x - top_x, bottom_y - top_y);
+        g->upper[k] = slope_of(middle_x - top_x, middle_y - top_y);
+        g->beneath[k] = slope_of(bottom_x - middle_x, bottom_y - middle_y);
+        g->left[k] = first_center(lower(lower(ax, bx), cx), columns);
+        g->right[k] = behind_center(higher(higher(ax, bx), cx), columns);
+        g->first[k] = first_center(top_y, rows);
+        g->end[k] = behind_center(bottom_y, rows);
+    }
+}
+
+typedef struct {
+    double from, to;
+} Span;
+
+/* The pixels of a row at `y` that are inside face `k`. */
+INLINE Span crossed(const Group *g, int k, double y, double size) {
+    double one = g->top_x[k] + (y - g->top_y[k]) * g->whole[k];
+    double above = g->top_x[k] + (y - g->top_y[k]) * g->upper[k];
+    double below = g->middle_x[k] + (y - g->middle_y[k]) * g->beneath[k];
+    double other = y < g->middle_y[k] ? above : below;
+    return (Span){first_center(one < other ? one : other, size), behind_center(one < other ? other : one, size)};
+}
+
+INLINE double power_of_two(double x) {
+    union {
+        double number;
+        int64_t bits;
+    } power = {x + WHOLE};
+    power.bits = (int64_t)((uint64_t)(power.bits + 1023) << 52);
+    return power.number;
+}
+
+/* Which pixels each face of up to `rows` rows, and as many columns as `LANES` is, has inside: a byte for each row. */
+INLINE void cover(const Group *g, int rows, double size, uint64_t *inside) {
+    double found[2][LANES] = {{0.0}, {0.0}}, byte = 1.0;
+    for (int j = 0; j < rows; j++, byte = j == 4 ? 1.0 : byte * 256.0) {
+        double *sums = found[j / 4];
+        EACH_LANE {
+            double y = g->first[k] + (double)j + 0.5, left = g->left[k];
+            Span span = crossed(g, k, y, size);
+            double bits = power_of_two(clamped(span.to - left, LANES)) - power_of_two(clamped(span.from - left, LANES));
+            bits = bits > 0.0 ? bits : 0.0;
+            sums[k] += (y < g->end[k] ? bits : 0.0) * byte;
+        }
+    }
+    for (int k = 0; k < LANES; k++) inside[k] = (uint64_t)(int64_t)found[0][k] | (uint64_t)(int64_t)found[1][k] << 32;
+}
+
+INLINE void draw_rows(const Group *g, int at, Face face, const double *n, const double *light, int32_t number,
+                      Canvas on) {
+    int64_t end = (int64_t)g->end[at];
+    for (int64_t row = (int64_t)g->first[at]; row < end; row += LANES) {
+        double from[LANES], to[LANES];
+        EACH_LANE {
+            Span span = crossed(g, at, (double)row + (double)k + 0.5, (double)on.picture.columns);
+            from[k] = span.from;
+            to[k] = span.to;
+        }
+        for (int k = 0; k < LANES && row + k < end; k++)
+            for (int64_t column = (int64_t)from[k]; column < (int64_t)to[k]; column++)
+                draw_pixel(face, g->inverse[at], n, light, number, row + k, column, on);
+    }
+}
+
+INLINE void draw_group(Model model, const int32_t *numbers, int count, Canvas on) {
+    Group g;
+    uint64_t inside[LANES];
+    double most = 0.0;
+    bool small[LANES];
+    prepare(model, numbers, on, &g);
+    for (int k = 0; k < LANES; k++) {
+        double rows = g.end[k] - g.first[k], columns = g.right[k] - g.left[k];
+        small[k] = higher(rows, columns) <= LANES;
+        most = higher(most, small[k] ? rows : 0.0);
+    }
+    cover(&g, (int)most, (double)on.picture.columns, inside);
+    for (int k = 0; k < count; k++) {
+        if (!(g.first[k] < g.end[k]) || !(g.left[k] < g.right[k])) continue;
+        Face face = face_at(model, numbers[k]);
+        double n[9];
+        for (int i = 0; i < 9; i++) n[i] = (double)model.normals[9 * (int64_t)numbers[k] + i];
+        if (!small[k])
+            draw_rows(&g, k, face, n, model.light, numbers[k], on);
+        else
+            for (uint64_t left = inside[k]; left; left &= left - 1) {
+                int at = __builtin_ctzll(left);
+                draw_pixel(face, g.inverse[k], n, model.light, numbers[k], (int64_t)g.first[k] + at / LANES,
+                           (int64_t)g.left[k] + at % LANES, on);
+            }
     }
 }
 
 /* The farthest depth in each tile. */
 INLINE void find_farthest(Singles2 depth, Singles2 farthest) {
-    for (int64_t i = 0; i < farthest.rows * farthest.columns; i++) farthest.data[i] = __builtin_inff();
-    for (int64_t row = 0; row < depth.rows; row++) {
-        float *tiles = farthest.data + row / TILE * farthest.columns;
-        const float *depths = depth.data + row * depth.columns;
-        for (int64_t first = 0; first < depth.columns; first += TILE, tiles++)
-            for (int64_t i = first; i < least(first + TILE, depth.columns); i++)
-                *tiles = depths[i] < *tiles ? depths[i] : *tiles;
-    }
+    for (int64_t row = 0; row < farthest.rows; row++)
+        for (int64_t column = 0; column < farthest.columns; column++) {
+            int64_t rows = least(TILE, depth.rows - TILE * row), columns = least(TILE, depth.columns - TILE * column);
+            const float *depths = depth.data + TILE * (row * depth.columns + column);
+            float found[TILE], *whole = farthest.data + row * farthest.columns + column;
+            for (int k = 0; k < TILE; k++) found[k] = __builtin_inff();
+            for (int64_t y = 0; y < rows; y++, depths += depth.columns)
+                for (int k = 0; k < TILE && k < columns; k++) found[k] = depths[k] < found[k] ? depths[k] : found[k];
+            *whole = found[0];
+            for (int k = 1; k < TILE; k++) *whole = found[k] < *whole ? found[k] : *whole;
+        }
 }
 
 /* `camera` takes a position to column, row and depth (larger is nearer), four numbers each, and holds the light; of
- * what is at one depth the brightest is shown. `placed` is room for all positions, `depth` and `lengths` for pictures,
- * `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1.
+ * what is at one depth the brightest is shown. `placed` is room for all positions, `away` for all faces, `depth` and
+ * `lengths` for pictures, `farthest` for one number of each tile. `owner` gets the face that each pixel shows, or -1.
  *
  * Of a closed surface one half faces the camera, and hides the other: that half comes first, and most of the other one
  * need not be drawn. */
 KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingles2 normals, ConstDoubles camera,
-                           Doubles2 placed, Singles2 depth, Singles2 lengths, Singles2 farthest, Singles2 picture,
-                           Ints2 owner) {
+                           Doubles2 placed, Ints away, Singles2 depth, Singles2 lengths, Singles2 farthest,
+                           Singles2 picture, Ints2 owner) {
     int64_t pixels = picture.rows * picture.columns;
     if (positions.columns != 3 || placed.columns != 3 || placed.rows < positions.rows || faces.columns != 3 ||
-        normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA || faces.rows > INT32_MAX ||
+        away.size < faces.rows || normals.columns != 9 || normals.rows < faces.rows || camera.size != CAMERA ||
+        faces.rows > INT32_MAX ||
         owner.rows * owner.columns < pixels || depth.rows != picture.rows || depth.columns != picture.columns ||
         lengths.rows * lengths.columns < pixels || farthest.rows * TILE < picture.rows ||
         farthest.columns * TILE < picture.columns)
@@ -220,19 +277,33 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
         depth.data[i] = -__FLT_MAX__;
         owner.data[i] = -1;
     }
+    Model model = {placed.data, faces.data, normals.data, m + 12};
     double ahead = 0.0;
     for (int64_t f = 0; f < faces.rows; f += 1 + faces.rows / SAMPLE) {
-        Face face = face_at(placed.data, faces.data + 3 * f);
+        Face face = face_at(model, f);
         ahead += face.area * (face.a[2] + face.b[2] + face.c[2]);
     }
     ConstSingles2 behind = {farthest.data, farthest.rows, farthest.columns};
+    Canvas on = {depth, lengths, picture, owner};
+    int32_t numbers[LANES] = {0};
+    int64_t count = 0, others = 0;
     for (int pass = 0; pass < 2; pass++) {
+        int64_t total = pass ? others : faces.rows;
         if (pass) find_farthest(depth, farthest);
-        bool positive = (ahead > 0.0) != (pass > 0);
-        for (int64_t f = 0; f < faces.rows; f++) {
-            Face face = face_at(placed.data, faces.data + 3 * f);
-            if (!(positive ? face.area > 0.0 : face.area < 0.0) || (pass && hidden(face, behind))) continue;
-            draw_face(face, normals.data + 9 * f, m + 12, (int32_t)f, depth, lengths, picture, owner);
+        for (int64_t i = 0; i < total; i++) {
+            int32_t number = pass ? away.data[i] : (int32_t)i;
+            Face face = face_at(model, number);
+            numbers[count] = number;
+            if (pass) {
+                count += !hidden(face, behind);
+            } else {
+                away.data[others] = number;
+                count += ahead > 0.0 ? face.area > 0.0 : face.area < 0.0;
+                others += ahead > 0.0 ? face.area < 0.0 : face.area > 0.0;
+            }
+            if (count < LANES && !(count && i + 1 == total)) continue;
+            draw_group(model, numbers, (int)count, on);
+            count = 0;
         }
     }
     int64_t columns = picture.columns;
