@@ -202,7 +202,7 @@ class StepSearch:
         for looks in count(1):
             if measured.excess > 0.0 or (index := measured.doubtful) is None or not measured.most[index] > 1.0:
                 break
-            if index in small or len(decoded) == 1:
+            if index in small or len(decoded) == 1 or not measured.may_settle_small(index):
                 measured.drawn[index] = self._look(index, decoded)
             else:
                 small.add(index)
@@ -270,6 +270,11 @@ class Measured:
         """What the looks may be, shape (T,)."""
         return self._expected(DEVIATIONS)
 
+    def may_settle_small(self, index: int) -> bool:
+        """Whether a small picture of a frame, as it probably is, leaves no doubt that the bound is kept."""
+        expected, most = math.log(max(self.shares[index], LEAST)), math.log(max(self.most[index], LEAST))
+        return expected + DEVIATIONS * self.coarseness <= (most - expected) / DEVIATIONS
+
     @property
     def doubtful(self) -> int | None:
         """The frame that may be the worst of those not drawn; None if all are, or none needs to be."""
@@ -286,12 +291,13 @@ class Measured:
             ratios = np.log([known[index] for index in seen]) - np.log(self.errors[seen])
             steps = np.diff(seen)
             rate = float(np.mean(np.diff(ratios) ** 2 / steps)) if len(steps) else 1.0
-            frames = np.arange(len(shares))
+            frames, coarse = np.arange(len(shares)), [self.coarseness * (index not in self.drawn) for index in seen]
+            off = np.interp(frames, seen, coarse)
             since = frames - seen[np.maximum(np.searchsorted(seen, frames, side="right") - 1, 0)]
             until = seen[np.minimum(np.searchsorted(seen, frames), len(seen) - 1)] - frames
             inside = np.minimum(since, until) >= 0
             spans = np.where(inside, since * until / np.maximum(since + until, 1), np.maximum(since, until))
-            shares *= np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans + self.coarseness**2))
+            shares *= np.exp(np.interp(frames, seen, ratios) + deviations * np.sqrt(rate * spans + off**2))
         else:
             shares[:] = 0.0
         for index, share in self.drawn.items():
