@@ -43,7 +43,10 @@ NB_MODULE(_kernels, m) {
           "cosine"_a, "half"_a, "most"_a, "crosses"_a, "normals"_a, Unlocked());
     m.def("draw_shaded", checked<&draw_shaded>, "positions"_a, "faces"_a, "normals"_a, "camera"_a, "placed"_a,
           "away"_a, "depth"_a, "lengths"_a, "farthest"_a, "picture"_a, "owner"_a, Unlocked());
-    m.def("interpolate_shown", checked<&interpolate_shown>, "owner"_a, "ways"_a, "values"_a, "found"_a, Unlocked());
+    m.def("paint_colours", checked<&paint_colours>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "picture"_a,
+          "painted"_a, Unlocked());
+    m.def("paint_checker", checked<&paint_checker>, "owner"_a, "placed"_a, "faces"_a, "values"_a, "steepness"_a,
+          "dark"_a, "picture"_a, Unlocked());
     m.def("likeness", checked<&likeness>, "first"_a, "second"_a, "wide"_a, "narrow"_a, "visible"_a, "plain"_a,
           "scratch"_a, "sums"_a, "owner"_a, "blamed"_a, Unlocked());
     m.def("hash_columns", &hash_columns, "columns"_a, Unlocked());

@@ -15,7 +15,7 @@ from bsm.codec import _kernels as of_arrays
 from bsm.codec.decoding import decode, decode_sequence
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.codec.look.measure import LookMetric
+from bsm.codec.look.measure import AttributeLook, LookMetric
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import SequenceOptions
 from bsm.codec.signal.smooth import local_frames
@@ -31,9 +31,10 @@ from tools.vectors.meshes import tangled
 STAGES = (
     *("find_fronts", "chain_blocks", "reaches_all", "suspend", "smooth_all", "place_block", "back_into_unit"),
     *("show_frames", "draw_shaded", "likeness", "shown_normals", "collect_creases", "hang_creases", "settle_levels"),
+    *("paint_checker", "paint_colours"),
 )
 """Of the codec's kernels those that do whole stages; others are called by what has looked at its arrays."""
-NAMING, BEYOND = {"draw_shaded", "shown_normals", "collect_creases", "hang_creases", "settle_levels"}, 10**6
+NAMING, BEYOND = {"draw_shaded", "shown_normals", "collect_creases", "hang_creases", *STAGES[-3:]}, 10**6
 """Kernels that look at each index that they are given."""
 KERNELS = {
     **{name: kernel for name, kernel in vars(of_bytes).items() if callable(kernel)},
@@ -113,6 +114,9 @@ def test_every_kernel_defends_itself(refusals: dict[str, int]) -> None:
     frames, steps = local_frames(bare.positions, bare.faces), np.ones((size, 3))
     seen = Sensitivity(bare.positions, bare.faces, graph_of_faces(bare.faces, size), LookMetric(bare), 0.01)
     seen.levels(2.0 * bare.positions, frames, steps, lambda _: steps, 0.01, np.full(size, np.inf))
+    corners = bare.positions[bare.faces].reshape(-1, 9)
+    AttributeLook(bare, "color", corners)
+    AttributeLook(bare, "texcoord", np.ascontiguousarray(corners[:, :6]))
     names = {*KERNELS} - NOTHING_SHORT
     assert not names - set(refusals), "kernels that this test does not reach"
     assert not {name for name in names if not refusals[name]}, "kernels that refuse nothing"

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass
+from functools import partial
 from hashlib import blake2b
 from typing import Any
 
@@ -25,14 +26,13 @@ from bsm.codec.look.pictures import (
     SQUARE,
     TOWARDS,
     Canvas,
-    Checker,
     Normals,
     Picture,
     Shape,
     Size,
     cameras,
+    checker_steepness,
     difference,
-    in_colours,
 )
 from bsm.codec.threads import Result, ordered_map
 
@@ -49,7 +49,7 @@ _LARGEST = 1e150
 MOST_WORK, WORK_PER_FACE = 120_000_000, 10_000
 """Pixels to draw before an encoder no longer looks for still smaller streams: about half a second, and 50 us a face."""
 
-Paint = Callable[[Canvas, Positions, Faces, Matrix, Matrix], list[Picture]]
+Paint = Callable[[Canvas, Faces, Matrix], list[Picture]]
 Shading = Callable[[Positions], Normals]  # normals of corners, where vertices are known
 Version = tuple["Gallery", Positions, Normals, dict[int, Matrix]]
 """Pictures of an original; where a version has its vertices, its normals; and what is known of sides."""
@@ -363,8 +363,8 @@ class AttributeLook:
 
     def _painting(self, values: Matrix, positions: Positions, faces: Faces) -> Paint:
         if self._semantic == "color":
-            return in_colours
-        return Checker.on(values, self._metric._placed(positions), faces).over
+            return Canvas.in_colours
+        return partial(Canvas.checkered, steepness=checker_steepness(values, self._metric._placed(positions), faces))
 
     def _far(self, drawn: Sequence[list[Picture]], sides: Sequence[int]) -> float:
         pairs = (zip(self._pictures[side], pictures, strict=True) for side, pictures in zip(sides, drawn, strict=True))
@@ -379,7 +379,7 @@ class AttributeLook:
 
         def drawn(canvas: Canvas, side: int) -> list[Picture]:
             canvas.draw(placed, faces, normals, metric._cameras[side])
-            return paint(canvas, placed, faces, metric._cameras[side], values)
+            return paint(canvas, faces, values)
 
         return metric._each(drawn, sides)
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.codec import _kernels
-from bsm.codec.arrays import Faces, Indices, Mask, Matrix, Positions
+from bsm.codec.arrays import Faces, Indices, Matrix, Positions
 from bsm.codec.geometry.graph import Rows, vertex_faces
 from bsm.codec.geometry.mesh import box_around
 from bsm.codec.geometry.welding import weld
@@ -90,12 +90,28 @@ class Canvas:
         self.picture, self._depth, self._lengths = (np.empty((pixels, pixels), np.float32) for _ in "123")
         self.owner = np.empty((pixels, pixels), np.int32)
         self._tiles = np.empty((-(-pixels // _TILE),) * 2, np.float32)
+        self._placed = np.empty((0, 3))
 
     def draw(self, positions: Positions, faces: Faces, normals: Normals, camera: Matrix) -> Picture:
         """A picture of a mesh, lit alike on both sides of its faces; `owner`: which face each pixel shows, -1: none."""
-        room = np.empty(positions.shape), np.empty(len(faces), np.int32), self._depth, self._lengths, self._tiles
+        self._placed = np.empty(positions.shape)
+        room = self._placed, np.empty(len(faces), np.int32), self._depth, self._lengths, self._tiles
         _kernels.draw_shaded(positions, faces, normals, camera, *room, self.picture, self.owner)
         return self.picture
+
+    def in_colours(self, faces: Faces, colours: Matrix) -> list[Picture]:
+        """What was drawn last, in red, in green and in blue, given those of corners, shape (m, 9)."""
+        painted = np.empty((3, *self.picture.shape), np.float32)
+        _kernels.paint_colours(
+            self.owner, self._placed, faces, colours, self.picture, painted.reshape(-1, len(self.owner))
+        )
+        return list(painted)
+
+    def checkered(self, faces: Faces, places: Matrix, steepness: Matrix) -> list[Picture]:
+        """What was drawn last, under a checker at places of corners, shape (m, 6), and with its steepness on faces."""
+        picture = self.picture.copy()
+        _kernels.paint_checker(self.owner, self._placed, faces, places * CHECKS, steepness, DARK, picture)
+        return [picture]
 
 
 def axes(towards: tuple[int, int, int]) -> Matrix:
@@ -156,55 +172,16 @@ class Size:
         return cls(pixels, (EMPTY + covered) * pixels**2 + rows * pixels, float(areas.max()))
 
 
-@dataclass(frozen=True, eq=False)
-class Checker:
-    """A texture on faces: one over the part of a square that its edges take on each, shape (m,); 0: it is grey."""
-
-    steepness: Matrix
-
-    @classmethod
-    def on(cls, places: Matrix, positions: Positions, faces: Faces) -> Checker:
-        """Where corners are at places of it, shape (m, 6), and positions in a box of diagonal 1 fill a picture."""
-        first, second = places[:, 2:4] - places[:, :2], places[:, 4:] - places[:, :2]
-        texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * (CHECKS * TEXELS) ** 2
-        a, b, c = (positions[corner] for corner in faces.T)
-        shown = np.sqrt(np.square(np.cross(b - a, c - a)).sum(axis=1)) * LEAST_PIXELS**2
-        ratio = np.divide(texels, shown, out=np.zeros(len(faces)), where=shown > 0.0)
-        return cls(2.0 * np.floor(TEXELS * 0.5 ** np.rint(0.5 * np.log2(np.maximum(ratio, 1.0)))))
-
-    def over(self, canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, places: Matrix) -> list[Picture]:
-        """What a canvas shows in shades, and this texture at places of corners, shape (m, 6), on it."""
-        shown, owner, at = interpolated(canvas, placed, faces, camera, places * CHECKS)
-        squares = np.floor(at)
-        at -= squares
-        steep = np.minimum(np.minimum(at, 1.0 - at) * self.steepness[owner], 1.0) * (1.0 - 2.0 * np.mod(squares, 2.0))
-        picture = canvas.picture.copy()
-        picture[shown] *= 0.5 * (1.0 + DARK - (1.0 - DARK) * steep[0] * steep[1]).astype(np.float32)
-        return [picture]
-
-
-def in_colours(canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, colours: Matrix) -> list[Picture]:
-    """What a canvas shows in shades in red, in green and in blue, given those of corners, shape (m, 9)."""
-    shown, _, at = interpolated(canvas, placed, faces, camera, colours)
-    pictures = [canvas.picture.copy() for _ in at]
-    for picture, bright in zip(pictures, at, strict=True):
-        picture[shown] *= bright.astype(np.float32)
-    return pictures
-
-
-def interpolated(
-    canvas: Canvas, placed: Positions, faces: Faces, camera: Matrix, values: Matrix
-) -> tuple[Mask, Indices, Matrix]:
-    """Which pixels of a canvas show a face, which one, and there, a row for each of c, values of corners (m, 3 c)."""
-    shown = canvas.owner >= 0
-    screen = placed @ camera[:12].reshape(3, 4)[:2, :3].T + camera[[3, 7]]
-    a, b, c = (screen[corner].T for corner in faces.T)
-    (bx, by), (cx, cy) = b - a, c - a
-    with np.errstate(divide="ignore", invalid="ignore"):  # what has no area shows nowhere
-        ways = np.array([*a, *(np.array([cy, -cx, -by, bx]) / (bx * cy - by * cx))])
-    found = np.empty((values.shape[1] // 3, np.count_nonzero(shown)))
-    _kernels.interpolate_shown(canvas.owner, np.ascontiguousarray(ways.T), np.ascontiguousarray(values), found)
-    return shown, canvas.owner[shown], found
+def checker_steepness(places: Matrix, positions: Positions, faces: Faces) -> Matrix:
+    """One over the part of a checker's square that its edges take on each face, shape (m,), 0: it is grey there; where
+    corners are at places of it, shape (m, 6), and positions in a box of diagonal 1 fill a picture."""
+    first, second = places[:, 2:4] - places[:, :2], places[:, 4:] - places[:, :2]
+    texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) * (CHECKS * TEXELS) ** 2
+    a, b, c = (positions[corner] for corner in faces.T)
+    shown = np.sqrt(np.square(np.cross(b - a, c - a)).sum(axis=1)) * LEAST_PIXELS**2
+    ratio = np.divide(texels, shown, out=np.zeros(len(faces)), where=shown > 0.0)
+    steepness: Matrix = 2.0 * np.floor(TEXELS * 0.5 ** np.rint(0.5 * np.log2(np.maximum(ratio, 1.0))))
+    return steepness
 
 
 def difference(first: Picture, second: Picture, owner: Indices = _NOWHERE, blamed: Matrix = _NOBODY) -> Matrix:

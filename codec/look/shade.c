@@ -12,22 +12,20 @@
 #define CAMERA 15 /* three rows of a rotation with an offset each, then the light in the mesh's own axes */
 #define WHOLE 6755399441055744.0 /* 1.5 * 2^52: a sum with it ends in the nearest whole number */
 
+/* The whole number at `x` or below, of less than 2^51. */
+INLINE double floor_of(double x) {
+    double nearest = (x + WHOLE) - WHOLE;
+    return nearest - (nearest > x ? 1.0 : 0.0);
+}
+
 INLINE double clamped(double x, double most) {
     x = x > 0.0 ? x : 0.0;
     return x < most ? x : most;
 }
 
-/* The first pixel whose center is at `x` or behind, in 0..size. */
-INLINE double first_center(double x, double size) {
-    double start = clamped(x - 0.5, size), pixel = (start + WHOLE) - WHOLE;
-    return pixel + (pixel < start ? 1.0 : 0.0);
-}
-
-/* Behind the last pixel whose center is at `x` or before, in 0..size. */
-INLINE double behind_center(double x, double size) {
-    double end = clamped(x + 0.5, size), pixel = (end + WHOLE) - WHOLE;
-    return pixel - (pixel > end ? 1.0 : 0.0);
-}
+/* The first pixel whose center is at `x` or behind, and behind the last one at `x` or before, in 0..size. */
+INLINE double first_center(double x, double size) { return -floor_of(-clamped(x - 0.5, size)); }
+INLINE double behind_center(double x, double size) { return floor_of(clamped(x + 0.5, size)); }
 
 /* Depths are whole numbers, so that faces at one place are at one depth, whatever their corners. */
 INLINE float depth_of(double z) { return (float)__builtin_rint(z); }
@@ -318,24 +316,63 @@ KERNEL int64_t draw_shaded(ConstDoubles2 positions, ConstInts2 faces, ConstSingl
     return 0;
 }
 
-/* What corners have, three times as many as `found` has rows in `values`, at each pixel that shows a face. `ways` has
- * of a face where its first corner is, and what a pixel's way from there is of the ways to both others: column, row,
- * then two factors of either. */
-KERNEL int64_t interpolate_shown(ConstInts2 owner, ConstDoubles2 ways, ConstDoubles2 values, Doubles2 found) {
-    int64_t count = 0, each = found.rows;
-    if (ways.columns != 6 || values.rows != ways.rows || values.columns != 3 * each) return MISUSED;
-    for (int64_t row = 0; row < owner.rows; row++)
-        for (int64_t column = 0; column < owner.columns; column++) {
-            int64_t face = owner.data[row * owner.columns + column];
-            if (face < 0) continue;
-            if (face >= ways.rows || count >= found.columns) return MISUSED;
-            const double *way = ways.data + 6 * face, *first = values.data + 3 * each * face;
-            double x = (double)column + 0.5 - way[0], y = (double)row + 0.5 - way[1];
-            double s = within(x * way[2] + y * way[3]), r = within(x * way[4] + y * way[5]);
-            for (int64_t k = 0; k < each; k++)
-                found.data[k * found.columns + count] =
-                    first[k] + s * (first[each + k] - first[k]) + r * (first[2 * each + k] - first[k]);
-            count++;
+/* What corners of a face have, `values` of `each` numbers, at the middle of a pixel that it covers. */
+INLINE void values_at(Face face, const double *values, int64_t each, int64_t row, int64_t column, double *found) {
+    const double *a = face.a, *b = face.b, *c = face.c;
+    double across = (double)column + 0.5 - a[0], down = (double)row + 0.5 - a[1], inverse = 1.0 / face.area;
+    double s = within((across * (c[1] - a[1]) - down * (c[0] - a[0])) * inverse);
+    double r = within(((b[0] - a[0]) * down - (b[1] - a[1]) * across) * inverse);
+    for (int64_t k = 0; k < each; k++)
+        found[k] = values[k] + s * (values[each + k] - values[k]) + r * (values[2 * each + k] - values[k]);
+}
+
+INLINE bool is_corner(ConstInts2 faces, int64_t face, ConstDoubles2 placed) {
+    const int32_t *corners = faces.data + 3 * face;
+    bool is = face < faces.rows;
+    for (int i = 0; is && i < 3; i++) is = corners[i] >= 0 && corners[i] < placed.rows;
+    return is;
+}
+
+/* `picture` times the colour that corners have, three numbers of each in `values`: red, green, and blue below each
+ * other in `painted`. `owner` and `placed` are as `draw_shaded` leaves them. */
+KERNEL int64_t paint_colours(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
+                             ConstSingles2 picture, Singles2 painted) {
+    int64_t pixels = owner.rows * owner.columns;
+    if (placed.columns != 3 || faces.columns != 3 || values.columns != 9 || values.rows < faces.rows ||
+        picture.rows * picture.columns != pixels || painted.rows * painted.columns != 3 * pixels)
+        return MISUSED;
+    Model model = {placed.data, faces.data, 0, 0};
+    for (int64_t i = 0; i < pixels; i++) {
+        int64_t face = owner.data[i];
+        double found[3] = {1.0, 1.0, 1.0};
+        if (face >= 0 && !is_corner(faces, face, placed)) return MISUSED;
+        if (face >= 0)
+            values_at(face_at(model, face), values.data + 9 * face, 3, i / owner.columns, i % owner.columns, found);
+        for (int k = 0; k < 3; k++) painted.data[k * pixels + i] = picture.data[i] * (float)found[k];
+    }
+    return 0;
+}
+
+/* `picture` times a checkerboard of squares of side 1 at the places of corners, two numbers of each in `values`; dark
+ * ones are as bright as `dark`. Their sides are one over `steepness` wide on each face. */
+KERNEL int64_t paint_checker(ConstInts2 owner, ConstDoubles2 placed, ConstInts2 faces, ConstDoubles2 values,
+                             ConstDoubles steepness, double dark, Singles2 picture) {
+    int64_t pixels = owner.rows * owner.columns;
+    if (placed.columns != 3 || faces.columns != 3 || values.columns != 6 || values.rows < faces.rows ||
+        steepness.size < faces.rows || picture.rows * picture.columns != pixels)
+        return MISUSED;
+    Model model = {placed.data, faces.data, 0, 0};
+    for (int64_t i = 0; i < pixels; i++) {
+        int64_t face = owner.data[i];
+        double at[2], board = 1.0;
+        if (face < 0) continue;
+        if (!is_corner(faces, face, placed)) return MISUSED;
+        values_at(face_at(model, face), values.data + 6 * face, 2, i / owner.columns, i % owner.columns, at);
+        for (int k = 0; k < 2; k++) {
+            double square = floor_of(at[k]), inside = at[k] - square, odd = square - 2.0 * floor_of(0.5 * square);
+            board *= lower(lower(inside, 1.0 - inside) * steepness.data[face], 1.0) * (1.0 - 2.0 * odd);
         }
-    return count == found.columns ? 0 : MISUSED;
+        picture.data[i] *= (float)(0.5 * (1.0 + dark - (1.0 - dark) * board));
+    }
+    return 0;
 }
