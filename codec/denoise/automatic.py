@@ -12,8 +12,8 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.blocks.overlap import metis_partition
 from bsm.codec.choices import named
 from bsm.codec.denoise.learnt.cascade import joined
-from bsm.codec.denoise.noise.finding import Finding
-from bsm.codec.denoise.noise.outliers import Outliers, find_outliers
+from bsm.codec.denoise.noise.finding import Finding, find_grid, weld_seams
+from bsm.codec.denoise.noise.outliers import NO_OUTLIERS, Outliers, find_outliers
 from bsm.codec.denoise.noise.ripples import Ripples, find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.noise.synthesis import NoiseLevel
@@ -23,7 +23,6 @@ from bsm.codec.denoise.safety import Verdict, judge, keep_good, restraint
 from bsm.codec.denoise.surface import Floats, Mask, Topology, face_geometry
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.metrics import Reference
-from bsm.codec.geometry.welding import weld
 
 WHOLE = 8000
 PIECE = 2000
@@ -87,7 +86,6 @@ HARMFUL = 0.95
 """Where the error that is expected of the result exceeds this multiple of what it changes, nothing is handed out:
 normals turned by less than their estimated error are no closer to the clean ones. Noise reads 0.15 to 0.7, the clean
 meshes that were taken for noisy 1.1 and 2.1."""
-MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be estimated
 DETAIL = 1.65
 """Error that may come over the expected one where detail is lost: twice on an armadillo of decimated rings, at most."""
 
@@ -111,7 +109,7 @@ class AutomaticChoice:
         """Whether the expected errors can be relied on."""
         if self.forecast is None:
             return True
-        return self.forecast.drowned < MOST_DROWNED and self.expected < self.untreated
+        return self.forecast.known and self.expected < self.untreated
 
     @property
     def at_most(self) -> float:
@@ -146,7 +144,7 @@ def denoise_automatically(
     positions: Positions, faces: Faces, goal: str = "shading"
 ) -> tuple[Positions, AutomaticChoice]:
     given = np.array(positions, dtype=np.float64)
-    welded, faces, index = weld(given, faces)
+    welded, faces, index = weld_seams(given, faces)
     patient = Patient(faces, len(welded))
     calmed, outliers, ripples = calm(welded, patient)
     finding = find_noise(calmed, patient.probe)
@@ -158,7 +156,8 @@ def denoise_automatically(
 
 def calm(positions: Positions, patient: Patient) -> tuple[Positions, Outliers, Ripples]:
     """The positions, shape (n, 3), with outliers and ripples put back, and both."""
-    outliers = find_outliers(positions, patient.probe)
+    rounded = find_grid(positions) is not None and find_noise(positions, patient.probe).kind == "grid"
+    outliers = NO_OUTLIERS if rounded else find_outliers(positions, patient.probe)
     positions = outliers.put_back(positions)
     ripples = find_ripples(positions, patient.probe)
     return ripples.put_back(positions), outliers, ripples
@@ -176,7 +175,7 @@ def choose(
     most = MOST_MEMBERS if patient.topology.n <= LARGE else MOST_LARGE_MEMBERS
     if len(members) < patient.topology.n:
         positions, patient = positions[members], Patient(part, len(members))
-    patient.view = finding.view
+    patient.view, patient.grid = finding.view, finding.grid
     base, candidates, heralds = BASE, CANDIDATES, HERALDS
     if finding.view is not None:
         base, candidates, heralds = SEEN[0], SEEN, SEEN_HERALDS
@@ -233,7 +232,7 @@ def treat(
     what of the choice was done, and what to expect if vertices go but a part of the way, `strength`."""
     if not choice.steps:
         return noisy, choice
-    patient.view = finding.view
+    patient.view, patient.grid = finding.view, finding.grid
     patient.expect(max((step.recipe.keep for step in choice.steps if step.recipe.needs_coarse), default=0.0))
     treatments = patient.treatments(noisy)
     full, verdict = _judged(treatments.mean(choice.steps), noisy, finding, patient)

@@ -12,7 +12,7 @@ from bsm.bitstream.errors import HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, treat
 from bsm.codec.denoise.coarse import CoarseFilter
-from bsm.codec.denoise.noise.finding import Finding
+from bsm.codec.denoise.noise.finding import Finding, weld_seams
 from bsm.codec.denoise.noise.outliers import find_outliers
 from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
@@ -22,7 +22,6 @@ from bsm.codec.denoise.rehearsal import Progress, silent
 from bsm.codec.denoise.safety import judge, keep_good
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
-from bsm.codec.geometry.welding import weld
 from bsm.codec.threads import ordered_map
 
 Frames = npt.NDArray[np.float64]
@@ -57,7 +56,7 @@ class FrameDenoiser:
             raise MeshError(f"a frame must have shape (n, 3), not {first.shape}")
         self._shape = first.shape
         first = self._checked(first)
-        welded, faces, self._index = weld(first, faces)
+        welded, faces, self._index = weld_seams(first, faces)
         self._members = np.unique(self._index, return_index=True)[1]
         self._patient = Patient(faces, len(welded))
         self._options, self._goal, self._strength, self._force = options, goal, strength, force

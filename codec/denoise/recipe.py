@@ -12,6 +12,7 @@ from bsm.codec.arrays import Faces, Positions
 from bsm.codec.choices import named
 from bsm.codec.denoise.coarse import BLOCK_SIZE, KEEP, CoarseFilter
 from bsm.codec.denoise.learnt.cascade import Learnt, joined, learnt
+from bsm.codec.denoise.noise.finding import Grid
 from bsm.codec.denoise.noise.probe import Probe
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.normals import Guide, GuidedFilter, filtered_normals, fine_step, own_normals, patch_guidance
@@ -169,7 +170,8 @@ class Patient:
         self.topology = Topology(faces, n)
         self.probe = Probe(self.topology)
         self.view: View | None = None
-        self._last: Treatments | None = None
+        self.grid: Grid | None = None
+        self._last: tuple[Positions, Treatments] | None = None
         self._coarse: CoarseFilter | None = None
         self._keep = 0.0
 
@@ -189,11 +191,13 @@ class Patient:
         return mean_edge_length(positions, self.topology.faces)
 
     def treated(self, positions: Positions) -> Treatments:
+        if self.grid is not None:
+            positions = self.grid.parted(positions, self.probe)
         return Treatments(positions, lambda keep: self.smooth(positions, keep), self.topology, self.view)
 
     def treatments(self, positions: Positions) -> Treatments:
         """What `treated` makes of `positions`, shape (n, 3), kept until others are asked for; by any thread."""
         last = self._last
-        if last is None or last.noisy is not positions:
-            self._last = last = self.treated(positions)
-        return last
+        if last is None or last[0] is not positions:
+            self._last = last = positions, self.treated(positions)
+        return last[1]

@@ -40,6 +40,9 @@ has lost less still has such noise, which looks like shape."""
 LOST, LOST_MORE = (-0.04, 0.2), 3.5
 """What is lost of a guess's roughness (a logarithm, within bounds), and how much more has been lost of the mesh."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
+UNSURE, LEAST = ("correlated", "grid", "axis", "impulses"), 0.87
+"""Kinds whose rehearsal does not show whether anything is lost; and the least that comes there, of what is expected."""
+MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be estimated
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
 OF_MIRRORED = 0.78  # share of a rehearsed error that comes, of mirrored noise: it has the guess's own mistakes
 MIRRORED = ("impulses",)  # kinds of which too little is known to draw such noise anew: it is taken as it was found
@@ -91,13 +94,12 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Forecast:
-    """Angles to expect where there is noise, without and with the filter; whether they are sure; and the share of the
-    faces that are lower than the noise is high, whose normals it may turn anywhere."""
+    """Angles to expect where there is noise, without and with the filter; whether they are sure, and known at all."""
 
     untreated: float
     expected: float
     sure: bool
-    drowned: float
+    known: bool
 
 
 class Rehearsal:
@@ -139,8 +141,8 @@ class Rehearsal:
         return self._within(self._patient.treatments(self._given).mean(steps, share), self._given)
 
     def changed(self, steps: tuple[Step, ...], share: float) -> float:
-        """How far the result is from the mesh that is rehearsed for, in the unit of the errors."""
-        return self._goal(Reference(self._given, self._topology.faces), self.perform(steps, share))
+        """How far the mesh that is rehearsed for is from the result, in the unit of the errors."""
+        return self._goal(Reference(self.perform(steps, share), self._topology.faces), self._given)
 
     def weigh(self, winner: Outcome) -> tuple[float, float]:
         """The share of the learnt normals in the mean with the winner's, and the mean's error over the winner's."""
@@ -165,12 +167,14 @@ class Rehearsal:
         before = float(np.sqrt(np.clip(found / drawn, *NOISE_OVER))) if drawn > 0.0 else 1.0
         after = np.exp(LOST_MORE * lost) * (OF_MIRRORED if self._finding.kind in MIRRORED else 1.0)
         noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
-        sure = lost <= LOST_SURELY and self._finding.kind != "correlated" and not scanned
-        expected = float(after) * gain * winner.error / noisy
-        return Forecast(before * self.untreated / noisy, expected, sure, self._drowned)
+        sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not scanned
+        expected = float(after) * gain * winner.error / noisy * (1.0 if sure or scanned else LEAST)
+        known = self._finding.clear and self._drowned < MOST_DROWNED
+        return Forecast(before * self.untreated / noisy, expected, sure, known)
 
     @property
     def _drowned(self) -> float:
+        """The share of the faces that are lower than the noise is high, whose normals it may turn anywhere."""
         positions, faces = self.truth.positions, self._topology.faces
         sides = positions[faces] - positions[np.roll(faces, 1, axis=1)]
         longest = np.sqrt(np.square(sides).sum(axis=2).max(axis=1))

@@ -53,12 +53,13 @@ def judge(noisy: Positions, result: Positions, finding: Finding, probe: Probe) -
     removed = probe.levels(np.einsum("ij,ij->i", noisy - result, normals))
     found = probe.levels(np.einsum("ij,ij->i", probe.fine(noisy), normals))
     known = found if unsure else windows.means(finding.levels)
-    present = np.where(known > 0.0, np.maximum(found, 0.5 * known), 0.0)
+    # Rounding is known from its grid, and may hide from the finest frequencies where it has merged vertices.
+    present = np.where(known > 0.0, np.maximum(found, (0.5 if finding.grid is None else 1.0) * known), 0.0)
     ratio = removed / np.maximum(present, FAINT * finding.edge)
     # Where an axis hardly reaches, windows are put back one by one but do not count against the whole.
     judged = windows.valid & (known > max(0.0, REACHED * finding.level))
     movement = float(np.median(ratio[judged])) if judged.any() else 0.0
-    most = MOST_SEEN if finding.kind in ("view", "fused", "uneven fused") else MOST
+    most = MOST_SEEN if finding.kind in ("view", "fused", "uneven fused", "grid") else MOST
     if finding.kind in ("correlated", "view", "fused", "uneven fused"):
         most *= min(max(movement, 1.0), MOST_CORRELATED)
     bad = windows.valid & ~(ratio <= most)

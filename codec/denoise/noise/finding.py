@@ -6,15 +6,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
+from scipy import sparse
 
-from bsm.codec.arrays import Positions
+from bsm.codec.arrays import Faces, Indices, Positions
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
 from bsm.codec.denoise.surface import Floats
+from bsm.codec.geometry.welding import weld
 
 FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
 NEAR = 0.02  # distance from a multiple, in steps, that the precision of files explains
 SAME = 1e-6  # values closer together, as a share of the extent, are one value
+SPREADS = 3  # averagings that part vertices that rounding has merged
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,12 +40,38 @@ class Grid:
         half = np.where(self.steps > 0.0, 0.5 * self.steps, np.inf)
         return np.clip(moved, rounded - half, rounded + half)
 
+    def parted(self, rounded: Positions, probe: Probe) -> Positions:
+        """Rounded positions, shape (n, 3); neighbours at one position are drawn to their other neighbours."""
+        starts, members = probe.topology.neighbours
+        owners = np.repeat(np.arange(len(rounded)), np.diff(starts))
+        merged = np.unique(owners[(rounded[owners] == rounded[members]).all(axis=1)])
+        result, around = rounded.copy(), probe.average[merged]
+        for _ in range(SPREADS if len(merged) else 0):
+            result[merged] = self.within_cells(rounded[merged], around @ result)
+        return result
+
 
 def find_grid(positions: Positions) -> Grid | None:
     """The grid that the positions, shape (n, 3), were rounded to, in all coordinates."""
     steps = [_step(positions[:, axis]) for axis in range(3)]
     known = [step for step in steps if step is not None]
     return Grid(np.array(known)) if len(known) == 3 and sum(step > 0.0 for step in known) >= 2 else None
+
+
+def weld_seams(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
+    """What `weld` makes of positions, shape (n, 3); but vertices that rounding to a grid has merged along edges stay
+    apart, where nothing else is at their place."""
+    welded, joined, index = weld(positions, faces)
+    ends = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    ends = ends[(index[ends[:, 0]] == index[ends[:, 1]]) & (ends[:, 0] != ends[:, 1])]
+    if not len(ends) or find_grid(welded) is None:
+        return welded, joined, index
+    n = len(positions)
+    links = sparse.coo_matrix((np.ones(len(ends)), ends.T), (n, n))
+    parts = sparse.csgraph.connected_components(links, directed=False)[1]
+    apart = np.bincount(parts)[parts] == np.bincount(index)[index]
+    index = np.unique(np.where(apart, np.arange(n), n + index), return_inverse=True)[1].ravel().astype(np.int32)
+    return positions[np.unique(index, return_index=True)[1]], index[faces], index
 
 
 def _step(coordinate: Floats) -> float | None:
@@ -108,6 +137,7 @@ class Finding:
     grid: Grid | None = None
     whiteness: float = 1.0
     view: View | None = None
+    clear: bool = True  # whether what lies beside the noise has none
 
     @property
     def noisy(self) -> bool:

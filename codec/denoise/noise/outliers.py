@@ -57,6 +57,9 @@ class Outliers:
         return result
 
 
+NO_OUTLIERS = Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
+
+
 def find_outliers(positions: Positions, probe: Probe) -> Outliers:
     """Find vertices that lie far outside their neighbours, noise or not; then what stands out of calm surroundings."""
     back = put_strays_back(positions, probe)
@@ -131,7 +134,7 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
             off = amounts[amounts != 0.0]
             few = len(off) < max(FEWEST, FEWEST_SHARE * len(amounts))
             if few or abs(np.sign(off).mean()) >= ONE_SIDED or np.median(np.abs(off)) <= WORTH:
-                return Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
+                return NO_OUTLIERS
             if share == LESS_CLEAR[-1] and np.median(np.abs(off)) < STRONG:
                 break
             standard = np.abs(rest) / np.where(gain > 0.0, gain, np.inf)
@@ -154,7 +157,7 @@ def _peeled(positions: Positions, probe: Probe) -> Outliers:
     vertices = np.flatnonzero(amounts)
     if len(vertices) > MOST_SHARE * len(positions):
         # This many are no exceptions: the filters remove noise that is everywhere.
-        return Outliers(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
+        return NO_OUTLIERS
     # The first ones were measured beside neighbours that were off as well: all of them again, together.
     change = linalg.lsqr(operator[:, vertices], rest, iter_lim=REFINEMENTS)[0]
     amounts[vertices] += change

@@ -84,8 +84,8 @@ def _rounded(positions: Positions, evidence: Evidence) -> Finding | None:
     grid = find_grid(positions)
     if grid is None:
         return None
-    slanted = evidence.probe.counted & (np.abs(evidence.normals).max(axis=1) < ROUNDED_SLANT)
     expected = grid.levels(evidence.normals) / evidence.edge
+    slanted = evidence.probe.counted & (np.abs(evidence.normals).max(axis=1) < ROUNDED_SLANT) & (expected > 0.0)
     level = float(np.median(expected))
     if slanted.sum() < ROUNDED_SHARE * len(slanted) or not ROUNDED_LEVEL[0] < level < ROUNDED_LEVEL[1]:
         return None
@@ -208,7 +208,8 @@ def _here_and_there(positions: Positions, evidence: Evidence) -> Finding | None:
     inside[unsure] = nearby[unsure] > (0.5 * level) ** 2
     amount = np.where(inside, level * evidence.edge, 0.0)
     share = f"noise in {100.0 * inside.mean():.0f} % of the mesh"
-    return Finding("local", level * evidence.edge, amount, evidence.edge, share)
+    clear = bool(np.median(weak) < FAINTEST)
+    return Finding("local", level * evidence.edge, amount, evidence.edge, share, clear=clear)
 
 
 def _standardised(evidence: Evidence, chosen: Mask) -> Floats:
