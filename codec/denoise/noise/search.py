@@ -20,21 +20,23 @@ from bsm.codec.geometry.metrics import mean_edge_length
 FEWEST_WINDOWS, FEWEST_INNER = 5, 3  # fewest windows for an estimate, and fewest wholly inside a noisy part
 FAINTEST = 0.05  # levels below, in mean edges, are left alone: the finest detail of real surfaces is as strong
 MANY_WINDOWS = 20
-FAINTEST_OF_FEW = {"white": 0.085, "correlated": 0.1, "impulses": 0.14, "local": 0.14}
+FAINTEST_OF_FEW = {"white": 0.085, "correlated": 0.1, "impulses": 0.085, "local": 0.14}
 """With fewer windows their spread says less, and noise has to be this strong."""
 SURELY_CORRELATED, FAINTEST_CORRELATED = 0.75, 0.075
 """Below this ratio of the finest frequencies to the fine ones fainter noise is believed: detail as even as noise reads
 0.78 and more."""
 BROADEST_OF_FEW = 1.06
-"""And no stronger at lower frequencies: noise reads 0.9 to 1.03, fractal detail of made shapes 0.96 to 1.5."""
+"""And no stronger at lower frequencies than at both others: white noise reads 0.9 to 1.03, impulses 0.83 to 1.05,
+fractal detail of made shapes 0.96 to 1.5."""
 FAINT, SURE = 0.115, 0.15
 """Up to here it is still like the detail of the roughest surfaces; from here on it may be mixed with more shape."""
 EVEN_FAINT, EVEN, EVEN_CORRELATED = 0.1, 0.145, 0.18
 """Largest spread of the levels of windows (logarithms) beyond chance: for faint, ordinary, and correlated noise, which
-clean meshes have little of."""
-SURELY_WHITE = (0.925, 1.2)
+clean meshes have little of, as of impulses."""
+SURELY_WHITE = (0.925, 1.4)
 """Faint noise whose finest frequencies are in this ratio to the fine ones is judged like ordinary noise: noise of 0.08
-edges and more reads 0.93 to 1.03, impulses to 1.17, the rough clean meshes as even as noise 0.87 and less."""
+edges and more reads 0.93 to 1.03, impulses to 1.34, the rough clean meshes as even as noise 0.87 and less."""
+IMPULSIVE = 1.04  # from this ratio on faint noise may be impulses, whose levels spread more by chance
 WHITE = 0.82  # the finest frequencies carry as much white noise as the fine ones; below this ratio it is correlated
 HEAVY = 1.25  # tails beyond the normal distribution's from which noise counts as impulses
 LOCAL_LEVEL, LOCAL_STEP, LOCAL_SHARE = 0.12, 1.5, 0.1
@@ -157,7 +159,7 @@ def _everywhere(positions: Positions, evidence: Evidence) -> Finding | None:
         broad = _levels(evidence, evidence.probe.broad(positions / evidence.edge))
         share = float(np.quantile(broad[windows.valid] / levels, 0.25))
         least = FAINTEST_CORRELATED if whiteness < SURELY_CORRELATED else FAINTEST_OF_FEW[kind]
-        if level < least or (level < SURE and share > BROADEST_OF_FEW):
+        if level < least or (level < SURE and share > BROADEST_OF_FEW * max(whiteness, 1.0)):
             return None
     if spread(levels, windows) > _allowed(level, kind, whiteness):
         return None
@@ -174,7 +176,7 @@ def _allowed(level: float, kind: str, whiteness: float) -> float:
     if kind != "correlated" and level < FAINT and not SURELY_WHITE[0] < whiteness < SURELY_WHITE[1]:
         return EVEN_FAINT
     share = min(max((level - SURE) / SURE, 0.0), 1.0)
-    usual = EVEN_CORRELATED if kind == "correlated" else EVEN
+    usual = EVEN_CORRELATED if kind == "correlated" or whiteness > IMPULSIVE else EVEN
     return usual + share * (UNEVEN - usual)
 
 
@@ -228,7 +230,7 @@ def _colour(positions: Positions, evidence: Evidence, valid: Mask, chosen: Mask)
         return "correlated", ratio
     values = np.abs(_standardised(evidence, chosen))
     tail = float(np.quantile(values, 0.95)) / 1.96
-    heavy = tail > HEAVY and np.median(evidence.levels[valid]) > LOCAL_LEVEL
+    heavy = tail > HEAVY and (ratio > IMPULSIVE or np.median(evidence.levels[valid]) > LOCAL_LEVEL)
     return ("impulses" if heavy else "white"), ratio
 
 
