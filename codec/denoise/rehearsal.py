@@ -18,6 +18,7 @@ from bsm.codec.arrays import Positions
 from bsm.codec.denoise.learnt.cascade import joined
 from bsm.codec.denoise.noise.finding import Finding
 from bsm.codec.denoise.noise.probe import Probe
+from bsm.codec.denoise.noise.search import MANY_WINDOWS
 from bsm.codec.denoise.noise.synthesis import Synthesis, estimate_noise
 from bsm.codec.denoise.recipe import Patient, Recipe, Step, blend
 from bsm.codec.denoise.surface import face_geometry, pair_distances
@@ -41,7 +42,8 @@ LOST, LOST_MORE = (-0.04, 0.2), 3.5
 """What is lost of a guess's roughness (a logarithm, within bounds), and how much more has been lost of the mesh."""
 LOST_SURELY = 0.01  # up to here nothing is lost: the shape has no detail of the size of its noise
 UNSURE, LEAST = ("correlated", "grid", "axis", "impulses"), 0.87
-"""Kinds whose rehearsal does not show whether anything is lost; and the least that comes there, of what is expected."""
+"""Kinds whose rehearsal does not show whether anything is lost, as none does on few vertices; and the least that comes
+there, of what is expected."""
 MOST_DROWNED = 0.22  # share of faces lower than the noise is high, from which on angles cannot be estimated
 NOISE_OVER = (0.25, 4.0)  # bounds of the noise's energy over that of the rehearsal
 OF_MIRRORED = 0.78  # share of a rehearsed error that comes, of mirrored noise: it has the guess's own mistakes
@@ -167,7 +169,8 @@ class Rehearsal:
         before = float(np.sqrt(np.clip(found / drawn, *NOISE_OVER))) if drawn > 0.0 else 1.0
         after = np.exp(LOST_MORE * lost) * (OF_MIRRORED if self._finding.kind in MIRRORED else 1.0)
         noisy = float(self._touched[self._topology.faces].any(axis=1).mean()) or 1.0
-        sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not scanned
+        few = int(self._patient.probe.windows.valid.sum()) < MANY_WINDOWS
+        sure = lost <= LOST_SURELY and self._finding.kind not in UNSURE and not (scanned or few)
         expected = float(after) * gain * winner.error / noisy * (1.0 if sure or scanned else LEAST)
         known = self._finding.clear and self._drowned < MOST_DROWNED
         return Forecast(before * self.untreated / noisy, expected, sure, known)

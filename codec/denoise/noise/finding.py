@@ -6,12 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy import sparse
 
 from bsm.codec.arrays import Faces, Indices, Positions
 from bsm.codec.denoise.noise.probe import Probe, Windows
 from bsm.codec.denoise.noise.view import View
-from bsm.codec.denoise.surface import Floats
+from bsm.codec.denoise.surface import Floats, Topology
 from bsm.codec.geometry.welding import weld
 
 FEWEST_VALUES = 16  # with fewer different values of a coordinate, a grid looks like a few planes
@@ -59,18 +58,14 @@ def find_grid(positions: Positions) -> Grid | None:
 
 
 def weld_seams(positions: Positions, faces: Faces) -> tuple[Positions, Faces, Indices]:
-    """What `weld` makes of positions, shape (n, 3); but vertices that rounding to a grid has merged along edges stay
-    apart, where nothing else is at their place."""
+    """What `weld` makes of positions, shape (n, 3); but of those that lie on a grid only vertices of the boundary are
+    welded, as those of seams and soups are: others have been merged by rounding."""
     welded, joined, index = weld(positions, faces)
-    ends = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    ends = ends[(index[ends[:, 0]] == index[ends[:, 1]]) & (ends[:, 0] != ends[:, 1])]
-    if not len(ends) or find_grid(welded) is None:
-        return welded, joined, index
     n = len(positions)
-    links = sparse.coo_matrix((np.ones(len(ends)), ends.T), (n, n))
-    parts = sparse.csgraph.connected_components(links, directed=False)[1]
-    apart = np.bincount(parts)[parts] == np.bincount(index)[index]
-    index = np.unique(np.where(apart, np.arange(n), n + index), return_inverse=True)[1].ravel().astype(np.int32)
+    if len(welded) == n or find_grid(welded) is None:
+        return welded, joined, index
+    index = np.where(Topology(faces, n).boundary, n + index, np.arange(n))
+    index = np.unique(index, return_inverse=True)[1].ravel().astype(np.int32)
     return positions[np.unique(index, return_index=True)[1]], index[faces], index
 
 
