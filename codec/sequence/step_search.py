@@ -28,6 +28,7 @@ LOOKS = 0.5  # what a frame that is in doubt takes: what is seen of one settles 
 SMALL = 256  # pixels of the side of these
 COARSENESS = 0.03  # how far what is seen in them is off at least, in logarithms, scaled by what is seen in large ones
 MORE = 1  # frames that seem the worst, drawn large at every attempt
+PARTS = 3  # of a GOP, of which one frame each is drawn large before it is done with
 DEVIATIONS = 4.0
 """Standard deviations: an attempt is accepted once all frames that may exceed the bound within them are drawn."""
 KEPT = 1 << 27  # bytes of pictures of originals that are kept from attempt to attempt
@@ -110,7 +111,7 @@ class StepSearch:
         self._reach = promise.reach(scale)
         self._metrics: dict[tuple[int, int], LookMetric | None] = {}
         self._power = 0.0  # of what normals let expect, that pictures show; unknown before the first attempt
-        self._scales: dict[int, float] = {}  # logarithms of what large pictures show over what small ones do
+        self._scales: dict[int, float] = {}  # by frames: logarithms of what large pictures show over what small ones do
         self._room = KEPT
         self._knots: list[int] = []
         self._twins = np.arange(len(frames))  # the first frame that each is the same as, as in loops
@@ -175,41 +176,38 @@ class StepSearch:
         errors = np.array(list(wrong)).clip(1e-12)
         small = {index: self._look(index, decoded, SMALL) for index in self._knots} if len(pairs) > 1 else {}
         self._power = self._power or _power_of(errors[list(small)], np.array(list(small.values())))
-        errors **= self._power
-        drawn: dict[int, float] = {}
+        measured = Measured(farthest, errors**self._power, {}, small, self._scales)
         if not self._scales:
-            worst = max(small, key=small.__getitem__, default=0)
-            drawn[worst] = self._look(worst, decoded)
-            self._scales[worst] = math.log(drawn[worst] / small[worst]) if drawn[worst] and small.get(worst) else 0.0
-        usual = sum(self._scales.values()) / len(self._scales)
-        glimpsed = {index: share * math.exp(self._scales.get(index, usual)) for index, share in small.items()}
-        coarseness = max(COARSENESS, float(np.std([*self._scales.values()])))
-        measured = Measured(farthest, errors, drawn, glimpsed, coarseness)
+            self._draw(max(small, key=small.__getitem__, default=0), measured, decoded)
         for _ in range(MORE):
-            index = int(measured.shares.argmax())
-            if index in drawn:
-                break
-            drawn[index] = self._look(index, decoded)
-            if drawn[index] and small.get(index):
-                self._scales[index] = math.log(drawn[index] / small[index])
-        self._knots = sorted({*self._knots, *drawn})
+            self._draw(int(measured.shares.argmax()), measured, decoded)
+        self._knots = sorted({*self._knots, *measured.drawn})
         return measured
 
+    def _draw(self, index: int, measured: Measured, decoded: Positions) -> None:
+        """Look at a large picture of a frame."""
+        if index not in measured.drawn:
+            share = measured.drawn[index] = self._look(index, decoded)
+            if share and measured.small.get(index):
+                self._scales[index] = math.log(share / measured.small[index])
+
     def _draw_doubtful(self, measured: Measured, decoded: Positions) -> None:
-        """Draw frames that may be worse than the bound: small, and large where that leaves a doubt."""
-        small, usual = set(self._knots), sum(self._scales.values()) / max(len(self._scales), 1)
+        """Draw frames that may be worse than the bound: small, and large where that leaves a doubt; and of each part of
+        a GOP the worst, large, since what small ones hide may change."""
+        for part in np.array_split(np.array(self._knots, np.int64), PARTS):
+            if len(part) and measured.excess <= 0.0:
+                self._draw(int(part[measured.shares[part].argmax()]), measured, decoded)
         begin = time.perf_counter()
         for looks in count(1):
             if measured.excess > 0.0 or (index := measured.doubtful) is None or not measured.most[index] > 1.0:
                 break
-            if index in small or len(decoded) == 1 or not measured.may_settle_small(index):
-                measured.drawn[index] = self._look(index, decoded)
+            if index in measured.small or len(decoded) == 1 or not measured.may_settle_small(index):
+                self._draw(index, measured, decoded)
             else:
-                small.add(index)
-                measured.glimpsed[index] = self._look(index, decoded, SMALL) * math.exp(usual)
+                measured.small[index] = self._look(index, decoded, SMALL)
             now, left = time.perf_counter(), LOOKS * np.count_nonzero(measured.most > 1.0)
             self._drawn((now - self._begun) / (now - self._begun + left * (now - begin) / looks))
-        self._knots = sorted(small | set(measured.drawn))
+        self._knots = sorted({*measured.small, *measured.drawn})
 
     def _look(self, index: int, decoded: Positions, most_pixels: int = MOST_PIXELS) -> float:
         """Share of the bound; 0 for a frame of which nothing is seen. What comes again is looked at once."""
@@ -252,8 +250,14 @@ class Measured:
     farthest: float
     errors: Matrix
     drawn: dict[int, float]
-    glimpsed: dict[int, float] = field(default_factory=dict)
-    coarseness: float = COARSENESS
+    small: dict[int, float] = field(default_factory=dict)
+    scales: dict[int, float] = field(default_factory=dict)
+
+    @property
+    def coarseness(self) -> float:
+        """How far what is seen in small pictures is off, in logarithms: half of the variance from scale to scale."""
+        apart = np.diff([self.scales[index] for index in sorted(self.scales)])
+        return max(COARSENESS, math.sqrt(float(np.mean(apart**2)) / 2.0)) if len(apart) else COARSENESS
 
     @property
     def excess(self) -> float:
@@ -284,8 +288,11 @@ class Measured:
 
     def _expected(self, deviations: float) -> Matrix:
         """Return the expected looks plus a number of standard deviations."""
-        shares = self.errors.copy()
-        known = self.glimpsed | self.drawn
+        shares, scaled = self.errors.copy(), sorted(self.scales) or [0]
+        scales = np.exp(np.interp([*self.small], scaled, [self.scales.get(index, 0.0) for index in scaled]))
+        known = {
+            index: share * scale for (index, share), scale in zip(self.small.items(), scales, strict=True)
+        } | self.drawn
         seen = np.array(sorted(index for index, share in known.items() if share > 0.0), np.int64)
         if len(seen):
             ratios = np.log([known[index] for index in seen]) - np.log(self.errors[seen])
