@@ -212,7 +212,7 @@ def decoder_error(
     if status not in _REFUSALS:
         return MemoryError(message)
     error = _REFUSALS[status](message)
-    if beyond := _BEYOND.match(message):
+    if isinstance(error, LimitError) and (beyond := _BEYOND.match(message)):
         error = LimitError(f"{message}; {_cure_of(beyond[1], float(beyond[2]), *state[3:6])}")
     places = {"offset": offset, "frame": frame, "block": block}
     return error.located(**{name: place for name, place in places.items() if place >= 0})

@@ -40,7 +40,7 @@ LIMITS = {
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 237,
-    "all Python, lines": 73_768,
+    "all Python, lines": 73_785,
     "product modules": 200,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
