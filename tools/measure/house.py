@@ -34,9 +34,9 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_386,
+    "product in all languages, lines": 62_385,
     "product Python, lines": 33_411,
-    "product C and C++, lines": 21_410,
+    "product C and C++, lines": 21_409,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 237,

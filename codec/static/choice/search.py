@@ -240,7 +240,7 @@ def unfolded(found: Candidate, bounds: Bounds, way: Way) -> Candidate:
     flat = turned(best, flat=True)
     if flat is not None and flat.draft.size <= LITTLE * best.draft.size and shaper.folded(flat.positions) <= least:
         best = flat if bounds.keeps(flat.positions) else best
-    return replace(best, folded=least > most)
+    return replace(best, make=lambda: best.draft, folded=least > most)
 
 
 def first_size(way: Way) -> float:

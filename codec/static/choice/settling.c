@@ -7,18 +7,17 @@
 /* levels that are compared; classes of surroundings; sizes of what is coded */
 enum { TRIED = 5, AROUND = 10, SIZES = 16 };
 
-INLINE double size(double x) { return x < 0.0 ? -x : x; }
-
 INLINE int32_t nearest(double x) {
     double limit = 1073741823.0;
     x = x > -limit ? x < limit ? x : limit : -limit;
-    return (int32_t)(x < 0.0 ? x - 0.5 : x + 0.5);
+    return (int32_t)(x + __builtin_copysign(0.5, x));
 }
 
 /* Classes of the mean size of what is around: none, up to a quarter, and twice as much each. */
 INLINE int64_t class_of(double mean) {
-    int64_t found = 0;
-    for (double bound = 0.0; mean > bound && found < AROUND - 1; found++) bound = bound > 0.0 ? 2.0 * bound : 0.25;
+    static const double bounds[AROUND - 1] = {0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+    int found = 0;
+    for (int i = 0; i < AROUND - 1; i++) found += mean > bounds[i];
     return found;
 }
 
@@ -108,7 +107,7 @@ KERNEL int64_t settle_levels(ConstDoubles2 offsets, ConstDoubles2 normals, Const
             for (int32_t i = first; i < end; i++) {
                 double other = levels.data[(int64_t)members.data[i] * axes + a];
                 sum += other;
-                sizes += size(other);
+                sizes += __builtin_fabs(other);
             }
             int32_t center = nearest(pull * sum * share);
             int64_t row = (a * AROUND + class_of(sizes * share)) * SIZES;
