@@ -136,10 +136,10 @@ def latticed(origin: tuple[float, ...], step: float, places: Matrix, cells: int)
 
 
 NEAR_PLACE = 3.0  # how far shaping may bring a vertex from its place, in cells, where bounds are wide
-FINEST_BITS, PARTS_OF_OCTAVE, WIDER, MOST_TRIED, APART = 16, 128, 1.4, 8, 1.02
+FINEST_BITS, PARTS_OF_OCTAVE, WIDER, APART = 16, 128, 1.4, 1.02
 """Bits along the longest side of the finest grid on which a mesh may have been made; how many steps are compared
-between one and twice it; how much coarser ones may be than one that is about right; how many are tried; and how far
-apart, at least, those are that are coarser."""
+between one and twice it; how much coarser ones may be than one that is about right; and how far apart, at least, those
+are that are coarser."""
 MOST_PARTS = 256  # of models of few vertices: cells along the longest side
 
 
@@ -259,7 +259,7 @@ class Gridded:
             if tried[i] > APART * last:
                 made.append(i)
                 last = tried[i]
-        yield from (self.at(tried[i]) for i in made[:MOST_TRIED])
+        yield from (self.at(tried[i]) for i in made)
 
     def fitting(self) -> Iterator[Candidate]:
         """Grids that a model of few vertices fits better than all coarser ones, from its corner or from its zero."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, replace
-from itertools import takewhile
+from itertools import islice, takewhile
 from operator import attrgetter
 from typing import Protocol
 
@@ -24,6 +24,7 @@ DEARER = 1.08  # give up a way whose first step takes this many times the bytes 
 GUESSED = 1.4  # and a grid that is guessed to: of smooth surfaces it takes less than that
 LITTLE = 1.01  # and leave faces flat that rounding has made so, where giving them an area takes more than this
 FINER = 0.02, 0.05, 0.1, 0.16  # how much finer steps are where mending folds breaks bounds at one
+SMOOTH = 4  # grids that are tried of those that suit a model, and twice as many by the best effort
 SPENT = 3.5  # budgets of pictures after which only what is needed in any case is looked at
 
 
@@ -203,7 +204,8 @@ class Search:
             yield from takewhile(lambda _: not self._exhausted(SPENT), grid.fitting())
             yield from takewhile(lambda _: not self._exhausted(), wider)
         elif steps and self._measures.shaper.character.is_sharp:
-            yield from Gridded(prepared, bounds, 1.0).smooth(max(steps))
+            tries = SMOOTH * (2 if self._options.effort == "best" else 1)
+            yield from islice(Gridded(prepared, bounds, 1.0).smooth(max(steps)), tries)
 
 
 def penalty(candidate: Candidate) -> float:
