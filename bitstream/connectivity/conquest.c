@@ -240,7 +240,7 @@ static int32_t find_node(const Walk *walk, int32_t gate, int32_t *free) {
 }
 
 /* Add the triangle beyond the edge from f to n, the next node; all nodes have free edges (C 6.5 to C 6.7). */
-INLINE bool pass_gate(Walk *walk, int32_t f) {
+SHARED bool pass_gate(Walk *walk, int32_t f) {
     Polygons *front = &walk->front;
     Node *nodes = front->nodes;
     RangeCoder *coder = &walk->coder;

@@ -207,7 +207,7 @@ INLINE uint32_t mixed_probability(
 }
 
 /* Predict a decision from all contexts, code it, and learn from it (C 2.5, C 2.6). */
-SHARED int code_mixed_bit(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts, int64_t node,
+INLINE int code_decision(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts, int64_t node,
     int64_t selector, int bit) {
     int32_t stretched[MOST_INPUTS];
     uint32_t probability = mixed_probability(mixer, inputs, contexts, node, selector, stretched);
@@ -220,6 +220,12 @@ SHARED int code_mixed_bit(RangeCoder *coder, const Mixer *mixer, int inputs, con
         learn_slot(mixer->slots + contexts[i] + node, bit, mixer->limit);
     }
     return bit;
+}
+
+/* The same, copied to its calls unless a decoder is built alone. */
+SHARED int code_mixed_bit(RangeCoder *coder, const Mixer *mixer, int inputs, const int64_t *contexts, int64_t node,
+    int64_t selector, int bit) {
+    return code_decision(coder, mixer, inputs, contexts, node, selector, bit);
 }
 
 /* Integers as mixed decisions (specification, C 3). */

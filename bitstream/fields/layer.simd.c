@@ -86,8 +86,8 @@ static void survey(const Corners *corners, const Levels *l, int32_t v, Place *p)
     p->busy = r->neighbors > 0 ? mean_of((int64_t)(size[0] + size[1] + size[2]) * FINE, p->near) : 4 * FINE;
 }
 
-INLINE int decide_level(const Level *w, int node, int bit) {
-    return code_mixed_bit(w->coder, w->mixer, INPUTS, w->context, node, w->selector, bit);
+SHARED int decide_level(const Level *w, int node, int bit) {
+    return code_decision(w->coder, w->mixer, INPUTS, w->context, node, w->selector, bit);
 }
 
 /* How far a level is from the guess, less one: its class, of at least 2^k distances, then its place in the class. */
@@ -174,7 +174,7 @@ typedef struct {
     Levels levels;
 } Work;
 
-static bool code_vertex(void *work, int64_t v) {
+OFTEN static bool code_vertex(void *work, int64_t v) {
     Work *w = work;
     Place p;
     survey(&w->corners, &w->levels, (int32_t)v, &p);

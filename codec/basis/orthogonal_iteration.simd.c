@@ -84,7 +84,7 @@ INLINE void gram_rows(const float *left, int64_t left_apart, Panel y, int64_t sk
 }
 
 /* X^T X on and above the diagonal. */
-static void gram(Panel x, int64_t rows, float *product) {
+OFTEN static void gram(Panel x, int64_t rows, float *product) {
     for (int64_t i = 0; i < x.apart; i += WIDTH) gram_rows(x.data + i, x.apart, x, i, rows, product + i * x.apart);
 }
 
@@ -100,7 +100,7 @@ INLINE void reduce_row(const int vectors, float *panel, int64_t apart, int64_t j
 /* Overwrite the first c rows of G = X^T X by the upper triangular C with G = C^T C, but for its diagonal, where it has
  * the inverse; nothing below the diagonal is used. Returns how many columns there are before one of which little is
  * left of the squared length that it had. */
-static int64_t factorize_gram(float *product, int64_t apart, int64_t c, const float *lengths) {
+OFTEN static int64_t factorize_gram(float *product, int64_t apart, int64_t c, const float *lengths) {
     for (int64_t j = 0; j < c; j++) {
         float *row = product + j * apart;
         int64_t skip = j / WIDTH;
@@ -127,7 +127,7 @@ INLINE void invert_row(const int vectors, float *inverse, int64_t apart, int64_t
 }
 
 /* Inverse of the first `good` rows of what `factorize_gram` leaves, and behind them the identity. */
-static void invert_triangle(const float *triangle, int64_t apart, int64_t good, float *inverse) {
+OFTEN static void invert_triangle(const float *triangle, int64_t apart, int64_t good, float *inverse) {
     for (int64_t i = 0; i < apart * apart; i += WIDTH) store(inverse + i, zeros());
     for (int64_t j = good; j < apart; j++) inverse[j * apart + j] = 1.0f;
     for (int64_t j = good - 1; j >= 0; j--) {
@@ -160,7 +160,7 @@ INLINE void multiply_tile(const int vectors, int64_t column, const float *left, 
 }
 
 /* Overwrite X by X T, T upper triangular. */
-static void multiply(Panel x, int64_t rows, const float *t) {
+OFTEN static void multiply(Panel x, int64_t rows, const float *t) {
     float some[ROWS * LANES];
     for (int64_t r = 0; r < rows; r += ROWS) {
         float *from = x.data + r * x.apart;
@@ -179,7 +179,7 @@ INLINE void take_tile(const int vectors, int64_t column, const float *left, cons
 }
 
 /* Take out of Y what X, orthonormal and a whole panel, spans: Y - X X^T Y. */
-static void take_out(Panel x, Panel y, int64_t rows, float *shares) {
+OFTEN static void take_out(Panel x, Panel y, int64_t rows, float *shares) {
     for (int64_t i = 0; i < LANES; i += WIDTH) gram_rows(x.data + i, LANES, y, 0, rows, shares + i * y.apart);
     for (int64_t i = 0; i < LANES * y.apart; i += WIDTH) store(shares + i, scaled(load(shares + i), -1.0));
     for (int64_t r = 0; r < rows; r += ROWS)

@@ -53,7 +53,11 @@ typedef struct {
 } Vector;
 
 /* A loop over the registers of a tile, written out by the compiler; without it they would be memory. */
+#if defined(__clang__)
+#define EACH(i, size) _Pragma("clang loop unroll(full)") for (int i = 0; i < (size); i++)
+#else
 #define EACH(i, size) _Pragma("GCC unroll 16") for (int i = 0; i < (size); i++)
+#endif
 
 /* Parts are made as wholes, never lane by lane inside a structure, which would keep them in memory. */
 INLINE Part spread(Real value) {

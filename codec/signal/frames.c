@@ -46,7 +46,33 @@ int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames)
     return 0;
 }
 
+enum { SOME = 256 }; /* faces that are added in one call */
+
 static const double FLAT = 0x1p-12; /* bends that are flat; the ratio halves with every factor of 16 beyond */
+
+typedef double Four __attribute__((vector_size(32)));
+typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
+
+/* Add to each corner of some faces their normal and area, and their rim around the corner, and the rim's length. */
+KERNEL OFTEN static void add_bends(ConstDoubles2 positions, const int32_t *faces, int64_t count, double *sums) {
+    for (const int32_t *face = faces; face < faces + 3 * count; face += 3) {
+        const double *corner[3];
+        double across[3], rims[3][3], lengths[4];
+        cross_of(positions, face, across);
+        lengths[0] = dot(across, across);
+        for (int k = 0; k < 3; k++) corner[k] = positions.data + 3 * (int64_t)face[k];
+        for (int k = 0; k < 3; k++) {
+            for (int j = 0; j < 3; j++) rims[k][j] = corner[(k + 2) % 3][j] - corner[(k + 1) % 3][j];
+            lengths[1 + k] = dot(rims[k], rims[k]);
+        }
+        for (int k = 0; k < 4; k++) lengths[k] = __builtin_sqrt(lengths[k]);
+        for (int k = 0; k < 3; k++) {
+            UnalignedFour *sum = (UnalignedFour *)(sums + 8 * (int64_t)face[k]);
+            sum[0] += (Four){across[0], across[1], across[2], lengths[0]};
+            sum[1] += (Four){rims[k][0], rims[k][1], rims[k][2], lengths[1 + k]};
+        }
+    }
+}
 
 /* How long a step in the plane is at each vertex, `steps` (n): `ratio` times `step` where the surface is flat, and less
  * the more it is bent, and at borders, down to `step`; `scratch` is n x 8. Continuous, too. */
@@ -55,25 +81,14 @@ int64_t tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double step, do
     int64_t n = positions.rows;
     if (positions.columns != 3 || faces.columns != 3 || scratch.columns != 8 || scratch.rows != n || steps.size != n)
         return MISUSED;
-    double least = ratio < 1.0 ? ratio : 1.0;
+    double lowest = ratio < 1.0 ? ratio : 1.0;
     if (ratio <= 1.0) {
-        for (int64_t v = 0; v < n; v++) steps.data[v] = step * least;
+        for (int64_t v = 0; v < n; v++) steps.data[v] = step * lowest;
         return 0;
     }
     for (int64_t i = 0; i < 8 * n; i++) scratch.data[i] = 0.0;
-    for (int64_t f = 0; f < faces.rows; f++) {
-        const int32_t *face = faces.data + 3 * f;
-        double across[3];
-        cross_of(positions, face, across);
-        double area = __builtin_sqrt(dot(across, across));
-        for (int k = 0; k < 3; k++) {
-            double *sum = scratch.data + 8 * (int64_t)face[k], rim[3];
-            const double *from = positions.data + 3 * (int64_t)face[(k + 1) % 3];
-            const double *to = positions.data + 3 * (int64_t)face[(k + 2) % 3];
-            for (int j = 0; j < 3; j++) rim[j] = to[j] - from[j], sum[j] += across[j], sum[4 + j] += rim[j];
-            sum[3] += area, sum[7] += __builtin_sqrt(dot(rim, rim));
-        }
-    }
+    for (int64_t f = 0; f < faces.rows; f += SOME)
+        add_bends(positions, faces.data + 3 * f, least(SOME, faces.rows - f), scratch.data);
     /* The bend of each vertex, more at borders, where what is around does not close; then four times the sum over its
      * corners, half of it of the others', and four times their number. */
     for (int64_t v = 0; v < n; v++) {
@@ -95,7 +110,7 @@ int64_t tangent_steps(ConstDoubles2 positions, ConstInts2 faces, double step, do
         const double *at = scratch.data + 8 * v;
         double bend = at[2] > 0.0 ? at[1] / at[2] : 1.0;
         double share = ratio * __builtin_sqrt(__builtin_sqrt(FLAT / (FLAT + bend)));
-        steps.data[v] = step * (share > least ? share : least);
+        steps.data[v] = step * (share > lowest ? share : lowest);
     }
     return 0;
 }

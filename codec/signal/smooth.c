@@ -39,6 +39,17 @@ KERNEL void combine_powers(ConstDoubles2 positions, ConstDoubles terms, ConstDou
     }
 }
 
+/* K V, and its weight in what is smoothed, if it is to have one. */
+KERNEL OFTEN static void apply_once(ConstInts offsets, ConstInts neighbors, const double *values, double *result,
+    bool counts, double weight, double *smoothed) {
+    for (int64_t v = 0; v < offsets.size - 1; v++) {
+        Four moved = apply(offsets, neighbors, values, v);
+        *(UnalignedFour *)(result + 3 * v) = moved;
+        if (counts)
+            for (int d = 0; d < 3; d++) smoothed[3 * v + d] += weight * moved[d];
+    }
+}
+
 /* The same for one amount: `weights` of K^2 V and those after it. `scratch` has room for 6 n + 2 numbers. */
 KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 positions, ConstDoubles weights,
                           Doubles scratch, Doubles2 smoothed) {
@@ -50,13 +61,7 @@ KERNEL int64_t smooth_all(ConstInts offsets, ConstInts neighbors, ConstDoubles2 
     for (int64_t i = 0; i < 3 * n; i++) values[i] = smoothed.data[i] = positions.data[i];
     values[3 * n] = result[3 * n] = 0.0;
     for (int64_t k = 0; k <= weights.size; k++) {
-        double weight = k > 0 ? weights.data[k - 1] : 0.0;
-        for (int64_t v = 0; v < n; v++) {
-            Four moved = apply(offsets, neighbors, values, v);
-            *(UnalignedFour *)(result + 3 * v) = moved;
-            if (k > 0)
-                for (int d = 0; d < 3; d++) smoothed.data[3 * v + d] += weight * moved[d];
-        }
+        apply_once(offsets, neighbors, values, result, k > 0, k > 0 ? weights.data[k - 1] : 0.0, smoothed.data);
         double *other = values;
         values = result;
         result = other;

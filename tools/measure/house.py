@@ -34,9 +34,9 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_387,
+    "product in all languages, lines": 62_417,
     "product Python, lines": 33_413,
-    "product C and C++, lines": 21_409,
+    "product C and C++, lines": 21_439,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 237,

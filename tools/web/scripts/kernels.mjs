@@ -132,13 +132,23 @@ function checkTables(clang, objects, priors, target) {
     compare("priors", new Uint8Array(buffer, exports.PRIORS.value, priors.length), priors);
 }
 
-/** Sources of what takes most time where positions are on a grid. */
-const HOT = /fields\/(expectation|grid|corners)/;
+/** Sources of what takes most time, which are compiled for speed, and not for their size alone; vectors that they do not ask for make them slower. */
+const FAST = /basis\/cholesky|signal\/frames|codec\/blocks|conquest|fields\/(layer|corners|expectation|grid)|engine\/coding/;
+const SPEED = ["-O3", "-fno-vectorize", "-fno-slp-vectorize"];
 
-/** Every build: whether with vector instructions, what of the decoder it is without, and which sources are compiled for speed, and not for their size alone. */
+/** Sources that stay apart when the rest is optimized as one: what runs WebAssembly compiles smaller functions sooner. */
+const APART = /engine\/(structure|topology|layer|stages)/;
+
+/** How a source is compiled. */
+function optionsOf(source, fast) {
+    if (fast.test(source)) return SPEED;
+    return ["-Oz", ...(APART.test(source) ? [] : ["-flto"]), ...(LEAN.test(source) ? ["-DBSM_LEAN"] : [])];
+}
+
+/** Every build: whether with vector instructions, what of the decoder it is without, and which sources are compiled for speed. */
 export const KERNEL_BUILDS = {
-    "built/kernels.wasm": { vectors: true, fast: HOT },
-    "built/kernels-scalar.wasm": { vectors: false, fast: HOT },
+    "built/kernels.wasm": { vectors: true },
+    "built/kernels-scalar.wasm": { vectors: false },
     "built/small.wasm": { vectors: true, without: /engine\/(sequence|gop|parts|frames|attribute|attribute_set|declaration|zstd|split|whole)\.c/ },
     "built/moving.wasm": { vectors: true, without: /engine\/(grid|layer|attribute|attribute_set|declaration|zstd|split|whole)\.c/ },
     "built/quick.wasm": { vectors: true, exported: ["__heap_base", ...LIGHT], fast: /fields|conquest/ },
@@ -148,7 +158,7 @@ export const KERNEL_BUILDS = {
 const compiled = new Map();
 
 /** One of them. */
-export function compileKernels({ vectors, exported = PAGE, without, fast }) {
+export function compileKernels({ vectors, exported = PAGE, without, fast = FAST }) {
     const folder = mkdtempSync(join(tmpdir(), "bsm-kernels-"));
     try {
         const data = join(folder, "data.c");
@@ -158,9 +168,7 @@ export function compileKernels({ vectors, exported = PAGE, without, fast }) {
         const clang = (...args) => execFileSync("clang", args, { cwd: ROOT, env: { ...process.env, PATH: withoutPackages() } });
         const objects = [...SOURCES, data].map((source, i) => {
             const object = join(folder, `${i}.o`);
-            // Short loops of 64-bit products are slower as vectors.
-            const how = fast?.test(source) ? ["-O2", "-fno-vectorize", "-fno-slp-vectorize"] : LEAN.test(source) ? ["-Oz", "-flto", "-DBSM_LEAN"] : ["-Oz", "-flto"];
-            const options = [...FLAGS, ...how, ...(without && source.startsWith("engine") ? ["-DBSMDEC_TERSE"] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
+            const options = [...FLAGS, ...optionsOf(source, fast), ...(without && source.startsWith("engine") ? ["-DBSMDEC_TERSE"] : []), ...(vectors ? ["-msimd128"] : []), "-I", ".", "-c", source];
             const key = options.join(" ");
             if (source === data || !compiled.has(key)) {
                 clang(...options, "-o", object);
@@ -171,10 +179,9 @@ export function compileKernels({ vectors, exported = PAGE, without, fast }) {
         checkTables(clang, [objects[SOURCES.indexOf("tools/web/src/tables.c")], objects.at(-1)], priors, target);
         clang(TARGET, "-nostdlib", ...objects.filter((_, i) => !without?.test(SOURCES[i])), ...LINK, ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
-        const limits = fast ? ["--one-caller-inline-max-function-size=100"] : [];
         // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.
-        const passes = ["-Oz", "--converge", "--low-memory-unused", "--flatten", "--rereloop", "-Oz", "-Oz"];
-        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, ...passes, ...limits, ...features, "-o", target]);
+        const passes = ["-Oz", "--converge", "--low-memory-unused", "--flatten", "--rereloop", "-Oz", "-Oz", "--one-caller-inline-max-function-size=100"];
+        execFileSync(join(WEB, "node_modules/.bin/wasm-opt"), [target, ...passes, ...features, "-o", target]);
         return readFileSync(target);
     } finally {
         rmSync(folder, { recursive: true });
