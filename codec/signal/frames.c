@@ -46,12 +46,9 @@ int64_t local_frames(ConstDoubles2 positions, ConstInts2 faces, Doubles2 frames)
     return 0;
 }
 
-enum { SOME = 256 }; /* faces that are added in one call */
-
 static const double FLAT = 0x1p-12; /* bends that are flat; the ratio halves with every factor of 16 beyond */
 
-typedef double Four __attribute__((vector_size(32)));
-typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
+enum { SOME = 256 }; /* faces of a call: what runs WebAssembly compiles a function better from one to the next */
 
 /* Add to each corner of some faces their normal and area, and their rim around the corner, and the rim's length. */
 KERNEL OFTEN static void add_bends(ConstDoubles2 positions, const int32_t *faces, int64_t count, double *sums) {

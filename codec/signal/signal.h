@@ -4,6 +4,10 @@
 
 #include "codec/basis/basis.h"
 
+/* A position, and a number more. */
+typedef double Four __attribute__((vector_size(32)));
+typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
+
 void ISA(project)(ConstSingles2 subspace, ConstDoubles2 values, Doubles2 coefficients);
 void ISA(reconstruct)(ConstSingles2 subspace, ConstDoubles2 coefficients, Doubles2 values);
 void look_around(ConstInts offsets, ConstInts neighbors, ConstInts vertices, Bytes inside, ConstDoubles2 sums,

@@ -3,10 +3,6 @@
 
 #include "codec/geometry/geometry.h"
 
-/* A position, and the number behind it. */
-typedef double Four __attribute__((vector_size(32)));
-typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
-
 /* K V at one vertex. */
 INLINE Four apply(ConstInts offsets, ConstInts neighbors, const double *values, int64_t v) {
     int64_t first = offsets.data[v], last = offsets.data[v + 1];

@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_417,
+    "product in all languages, lines": 62_414,
     "product Python, lines": 33_413,
-    "product C and C++, lines": 21_439,
+    "product C and C++, lines": 21_436,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 237,
-    "all Python, lines": 73_787,
+    "all Python, lines": 73_788,
     "product modules": 200,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
