@@ -222,7 +222,7 @@ def ablation_note(rows: Sequence[Row]) -> str:
     idle = [line[0] for line in lines if line[-2] != "-" and float(line[-2]) < LITTLE and line[0] in little]
     vertices = [row["vertices"] for row in rows]
     return (
-        f"{len(rows)} meshes that nothing was tuned on, of {min(vertices):,} to {max(vertices):,} vertices. "
+        f"{len(rows)} fetched meshes, of {min(vertices):,} to {max(vertices):,} vertices. "
         f"{sum(map(in_blocks, rows))} of them are coded in blocks, the others on grids. Bytes without the tool are "
         "over those of the default, for the same promise, a look of 1: above 1 the tool saves so much. The encoder "
         "chooses among the ways that are left, so tools of blocks count nothing where a grid wins. The column "

@@ -203,12 +203,12 @@ def denoising_note(rows: Sequence[Row]) -> str:
     rows = [row for row in rows if row["group"] != "pairs"]
     worse = [entry["ours"] > entry["noisy"] for row in rows for entry in row["kinds"].values()]
     return (
-        f"{len(rows)} meshes that nothing was tuned on, of {min(row['vertices'] for row in rows):,} to "
-        f"{max(row['vertices'] for row in rows):,} vertices, with noise of {LEVEL} mean edges. Numbers are mean "
-        "angles to the clean normals by the automatic mode, over those of the best rival. Rivals are guided filtering, "
-        "bilateral normal filtering and the paper's scheme. They have fixed numbers of iterations, or an oracle stops "
-        "them. Sequences are over their frames one by one. Estimates count the factor between the angle that came "
-        "and the nearest of the range that bsm denoise prints. Without noise "
+        f"{len(rows)} fetched meshes, of {min(row['vertices'] for row in rows):,} to "
+        f"{max(row['vertices'] for row in rows):,} vertices, with noise of {LEVEL} mean edges. Some constants were "
+        "chosen on them. Numbers are mean angles to the clean normals by the automatic mode, over those of the best "
+        "rival. Rivals are guided filtering, bilateral normal filtering and the paper's scheme. They have fixed "
+        "numbers of iterations, or an oracle stops them. Sequences are over their frames one by one. Estimates count "
+        "the factor between the angle that came and the nearest of the range that bsm denoise prints. Without noise "
         f"{sum(row['untouched'] for row in rows)} of {len(rows)} come back bit for bit, and normals turn by at most "
         f"{max(row['turned'] for row in rows):.2f} degrees. {sum(worse)} of {len(worse)} noisy meshes become worse."
     )

@@ -40,7 +40,7 @@ def spread_over(sources: list[Source], count: int) -> list[Source]:
 
 
 def unseen(sources: list[Source], sizes: tuple[int, int]) -> list[Source]:
-    """Meshes that nothing was tuned on, by their numbers of vertices."""
+    """Fetched meshes, by their numbers of vertices."""
     return [source for source in sources if source.group == "unseen" and sizes[0] <= source.vertices <= sizes[1]]
 
 
