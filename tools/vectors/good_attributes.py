@@ -129,7 +129,7 @@ def on_layers(mesh: TriangleMesh, count: int) -> bytes:
     made = Spectral(encoder._input.prepared, BASE).base(BASE.first_step)
     levels = made.wanted(made.expected_steps(LAYER))[0]
     levels[count:], levels[:, 1:] = 0, 0  # of a layer that ends early, heights alone count
-    draft = made.refined(LAYER, levels)
+    draft = made.refined(LAYER, levels, made.moved(LAYER, levels, made.known_steps(LAYER, levels)))
     layer = Refinement(0, count, FieldEncoder(levels_field(made.prepared.mesh.faces, len(levels)), levels).chunk(count))
     body = (*(packet for packet in draft.body if not isinstance(packet, Refinement)), layer)
     return with_values(encoder, replace(draft, body=body), 1000)

@@ -16,7 +16,7 @@ from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
 from bsm.codec.signal.transform import MeasuredSpectrum, packed_range, project, smallest_step
-from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
+from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate, turned
 from bsm.codec.static.choice.settling import RATIO, Sensitivity
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import STIFFNESS, Adaptive, Packed, Scheme
@@ -198,29 +198,30 @@ class RefinementBase:
         directions = self.frames.reshape(-1, 3, 3) * steps[:, :, None]
         return np.rint(self.offsets / steps).astype(np.int32), directions
 
-    def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> Levels:
-        """Return these levels, but the nearest ones where a vertex is farther from its place than it may be."""
-        levels = levels.copy()
+    def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
+        """Return these levels, but the nearest ones where a vertex is farther from its place than it may be; and their
+        known steps."""
+        levels, known = levels.copy(), self.known_steps(layer, levels)
         for _ in range(3):  # heights that are mended change steps of others
-            known = self.known_steps(layer, levels)
             error = levels * known - self.offsets
             far = np.square(error).sum(axis=1) > reaches**2
             if not far.any():
                 break
             levels[far] = np.rint(self.offsets[far] / known[far])
-        return levels
+            known = self.known_steps(layer, levels)
+        return levels, known
 
-    def moved(self, layer: Layer, levels: Levels) -> Matrix:
-        """Where levels, shape (n, 3), bring the base, in BSM units, shape (n, 3)."""
+    def moved(self, layer: Layer, levels: Levels, known: Matrix) -> Matrix:
+        """Where levels bring the base by their known steps, all of shape (n, 3), in BSM units."""
         moved = raised(self.positions, self.frames, levels, layer.step)
-        slide(moved, self.frames, levels, self.known_steps(layer, levels)[:, 1])
+        slide(moved, self.frames, levels, known[:, 1])
         return moved
 
-    def refined(self, layer: Layer, levels: Levels) -> Draft:
-        """The stream with a layer of levels, shape (n, 3)."""
+    def refined(self, layer: Layer, levels: Levels, moved: Matrix) -> Draft:
+        """The stream with a layer of levels, shape (n, 3), and where these bring the base."""
         header = replace(self.draft.header, refinement=(layer.step, layer.ratio))
         body = (*self.draft.body, *encode_layer(self.prepared.mesh.faces, levels))
-        return Draft(header, body, self.prepared.units.back(self.moved(layer, levels)))
+        return Draft(header, body, self.prepared.units.back(moved))
 
 
 class Spectral:
@@ -287,7 +288,8 @@ class Plain:
             return Candidate(step, base.positions, lambda: base.draft)
         layer = Layer(single(max(float(reaches[out].min()), FINEST_LAYER)), 1.0)
         levels = np.where(out[:, None], np.rint(base.offsets / layer.step), 0.0).astype(np.int32)
-        return Candidate(step, base.moved(layer, levels), partial(base.refined, layer, levels))
+        moved = base.moved(layer, levels, base.known_steps(layer, levels))
+        return Candidate(step, moved, partial(base.refined, layer, levels, moved))
 
 
 class Refined:
@@ -318,40 +320,41 @@ class Refined:
     def _made(self, step: float) -> Candidate:
         base = self._base
         if self._sensitivity is not None:
-            layer, levels = self._evened(step, self._sensitivity)
-        elif self._bounds.contract.angle < ANY_ANGLE:
+            found = self._leveled(step, base, *self._evened(step, self._sensitivity))
+            return turned(found) or found
+        if self._bounds.contract.angle < ANY_ANGLE:
             layer = Layer(single(step), RATIO)
             levels = self._shaped(base, layer)
         else:
             layer = Layer(single(step), UNSEEN_RATIO)
             heights = base.wanted(base.expected_steps(layer))[0]
             levels = base.wanted(base.known_steps(layer, heights))[0]
-        return self._leveled(step, base, layer, levels)
+        return self._leveled(step, base, layer, levels, base.known_steps(layer, levels))
 
-    def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels) -> Candidate:
-        positions = base.moved(layer, levels)
+    def _leveled(self, step: float, base: RefinementBase, layer: Layer, levels: Levels, known: Matrix) -> Candidate:
+        positions = base.moved(layer, levels, known)
 
         def unfold(flat: bool) -> Candidate | None:
-            directions = base.wanted(base.known_steps(layer, levels))[1].reshape(-1, 9)
+            directions = base.wanted(known)[1].reshape(-1, 9)
             turned = self._bounds.measures.shaper.unfold(positions, levels, directions, self._bounds.reaches, flat)
-            return None if turned is None else self._leveled(step, base, layer, turned)
+            return None if turned is None else self._leveled(step, base, layer, turned, base.known_steps(layer, turned))
 
         evened = self._sensitivity is not None
-        return Candidate(step, positions, partial(base.refined, layer, levels), unfold, evened)
+        return Candidate(step, positions, partial(base.refined, layer, levels, positions), unfold, evened)
 
-    def _evened(self, step: float, seen: Sensitivity) -> tuple[Layer, Levels]:
+    def _evened(self, step: float, seen: Sensitivity) -> tuple[Layer, Levels, Matrix]:
         """Return levels that cost little where they are seen, and are no more exact elsewhere than the bounds ask."""
         base, bounds = self._base, self._bounds
-        kept, worth = dict[float, tuple[Layer, Levels]](), PULLED * self._look**STEADY
+        kept, worth = dict[float, tuple[Layer, Levels, Matrix]](), PULLED * self._look**STEADY
 
-        def settle(even: float) -> tuple[Layer, Levels]:
+        def settle(even: float) -> tuple[Layer, Levels, Matrix]:
             aslant = ASLANT[bounds.contract.visual < math.inf]
             layer = Layer(single(step), min(max(aslant * even / step, 1.0), RATIO))
             steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
             reach = np.minimum(bounds.reaches, NEAR * layer.step)
             even = even if bounds.contract.visual < math.inf else math.inf  # a bound on the farthest is of a few
             levels = seen.levels(base.offsets, base.frames, steps, known, worth, reach, even)
-            return layer, base.within(bounds.reaches, layer, levels)
+            return layer, *base.within(bounds.reaches, layer, levels)
 
         def excess(even: float) -> float:
             found = settle(even)

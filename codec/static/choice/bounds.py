@@ -87,6 +87,16 @@ class Candidate:
         return self.make()
 
 
+def turned(candidate: Candidate, flat: bool = False) -> Candidate | None:
+    """The candidate with few edges folded over or no face flat, None if it is so already; levels of blocks depend on
+    those of others, so what is mended may need it again."""
+    found = last = candidate.unfold(flat)
+    for _ in range(3):
+        last = last and last.unfold(flat)
+        found = last or found
+    return found
+
+
 class Bounds:
     """Measures decoded positions, in BSM units, shape (n, 3), by what a contract asks for."""
 

@@ -14,7 +14,7 @@ from typing import Protocol
 from bsm.bitstream.errors import LimitError, TargetError
 from bsm.codec.look.measure import LookMetric, Shading
 from bsm.codec.static.choice.blocks import Plain, Refined
-from bsm.codec.static.choice.bounds import NEARLY, Bounds, Candidate, Measures
+from bsm.codec.static.choice.bounds import NEARLY, Bounds, Candidate, Measures, turned
 from bsm.codec.static.choice.grids import Gridded, rounded
 from bsm.codec.static.options import RANGES, EncodeOptions
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft
@@ -211,16 +211,6 @@ class Search:
 def penalty(candidate: Candidate) -> float:
     """What its bytes are multiplied by before they are compared: more where too many edges are folded over."""
     return DEARER if candidate.folded else 1.0
-
-
-def turned(candidate: Candidate, flat: bool = False) -> Candidate | None:
-    """The candidate with few edges folded over or no face flat, None if it is so already; levels of blocks depend on
-    those of others, so what is mended may need it again."""
-    found = last = candidate.unfold(flat)
-    for _ in range(3):
-        last = last and last.unfold(flat)
-        found = last or found
-    return found
 
 
 def unfolded(found: Candidate, bounds: Bounds, way: Way) -> Candidate:
