@@ -157,6 +157,7 @@ PULLED, STEADY, NEAR = 0.085, 0.3, 16.0
 """Where a look is asked for, what a bit is worth at a look of 1, over the mean cost of an error of one step along the
 normal, and the power of the look that it goes with; and how far a vertex may be brought from its place, in steps of the
 layer."""
+FOLDED = 0.02  # edges folded over, for each face, of which more are not mended: that takes long, and blocks do not suit
 NOISE = 0.008
 """Errors that are looked at to learn where they are seen, over the look that is asked for and the mean edge."""
 ASLANT = 1.5, 2.2
@@ -199,8 +200,7 @@ class RefinementBase:
         return np.rint(self.offsets / steps).astype(np.int32), directions
 
     def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
-        """Return these levels, but the nearest ones where a vertex is farther from its place than it may be; and their
-        known steps."""
+        """These levels, but the nearest ones where a vertex is farther off than it may be; and their known steps."""
         levels, known = levels.copy(), self.known_steps(layer, levels)
         for _ in range(3):  # heights that are mended change steps of others
             error = levels * known - self.offsets
@@ -321,7 +321,9 @@ class Refined:
         base = self._base
         if self._sensitivity is not None:
             found = self._leveled(step, base, *self._evened(step, self._sensitivity))
-            return turned(found) or found
+            shaper, most = self._bounds.measures.shaper, FOLDED * len(self._prepared.mesh.faces)
+            few = shaper.folded(found.positions) - shaper.most_folded < most
+            return (few and turned(found)) or found
         if self._bounds.contract.angle < ANY_ANGLE:
             layer = Layer(single(step), RATIO)
             levels = self._shaped(base, layer)
@@ -336,14 +338,14 @@ class Refined:
 
         def unfold(flat: bool) -> Candidate | None:
             directions = base.wanted(known)[1].reshape(-1, 9)
-            turned = self._bounds.measures.shaper.unfold(positions, levels, directions, self._bounds.reaches, flat)
-            return None if turned is None else self._leveled(step, base, layer, turned, base.known_steps(layer, turned))
+            other = self._bounds.measures.shaper.unfold(positions, levels, directions, self._bounds.reaches, flat)
+            return None if other is None else self._leveled(step, base, layer, other, base.known_steps(layer, other))
 
         evened = self._sensitivity is not None
         return Candidate(step, positions, partial(base.refined, layer, levels, positions), unfold, evened)
 
     def _evened(self, step: float, seen: Sensitivity) -> tuple[Layer, Levels, Matrix]:
-        """Return levels that cost little where they are seen, and are no more exact elsewhere than the bounds ask."""
+        """Levels that cost little where seen, elsewhere only as exact as bounds ask; and their known steps."""
         base, bounds = self._base, self._bounds
         kept, worth = dict[float, tuple[Layer, Levels, Matrix]](), PULLED * self._look**STEADY
 
