@@ -252,24 +252,23 @@ def test_options_of_sequences_do_not_go_with_a_mesh(npz, tmp_path, capsys):
 @pytest.mark.long
 def test_live_pipes():
     positions, faces = bending(9)
-    encode = subprocess.Popen(
-        [sys.executable, "-m", "bsm", "encode", "-", "--format", "npy", "-o", "-", "--low-delay", "1"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-    )
-    decode = subprocess.Popen(
-        [sys.executable, "-m", "bsm", "decode", "-", "-o", "-"], stdin=encode.stdout, stdout=subprocess.PIPE
-    )
-    encode.stdin.write(arrays(faces))
-    for number, frame in enumerate(positions):
-        encode.stdin.write(arrays(frame))
-        encode.stdin.flush()
-        if number == 0:
-            assert read_npy(decode.stdout).shape == faces.shape
-        # Every frame comes out before the next one goes in.
-        assert read_npy(decode.stdout).shape == frame.shape
-    encode.stdin.close()
-    assert decode.stdout.read() == b"" and encode.wait() == 0 and decode.wait() == 0
+    encoding = [sys.executable, "-m", "bsm", "encode", "-", "--format", "npy", "-o", "-", "--low-delay", "1"]
+    decoding = [sys.executable, "-m", "bsm", "decode", "-", "-o", "-"]
+    pipe = subprocess.PIPE
+    with (
+        subprocess.Popen(encoding, stdin=pipe, stdout=pipe) as encode,
+        subprocess.Popen(decoding, stdin=encode.stdout, stdout=pipe) as decode,
+    ):
+        encode.stdin.write(arrays(faces))
+        for number, frame in enumerate(positions):
+            encode.stdin.write(arrays(frame))
+            encode.stdin.flush()
+            if number == 0:
+                assert read_npy(decode.stdout).shape == faces.shape
+            # Every frame comes out before the next one goes in.
+            assert read_npy(decode.stdout).shape == frame.shape
+        encode.stdin.close()
+        assert decode.stdout.read() == b"" and encode.wait() == 0 and decode.wait() == 0
 
 
 def arrays(*items):
