@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_419,
-    "product Python, lines": 33_418,
+    "product in all languages, lines": 62_423,
+    "product Python, lines": 33_422,
     "product C and C++, lines": 21_436,
     "product Rust, lines": 908,
     "product TypeScript, lines": 6_657,
     "product lines over 120 columns": 237,
-    "all Python, lines": 73_793,
+    "all Python, lines": 73_796,
     "product modules": 200,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
@@ -49,7 +49,7 @@ LIMITS = {
     "settings of --set": 12,
     "words of prose in spec/*.md": 22_770,
     "words of prose in the core": 10_250,
-    "tuned constants of the search": 80,
+    "tuned constants of the search": 78,
     "files that encoding a mesh walks through": 57,
 }
 

@@ -372,10 +372,9 @@ class Refined:
     @cached_property
     def _base(self) -> RefinementBase:
         """The blocks of all steps: those of about the right one."""
-        return self._spectral.base(
-            max(BASE * math.sqrt(self.first), smallest_step(self._prepared.size)),
-            self._bounds.measures.near.within(BLOCKS),
-        )
+        seen, least = self._sensitivity, smallest_step(self._prepared.size)
+        even = self.first if seen is None else seen.even_step(self._look)
+        return self._spectral.base(max(BASE * math.sqrt(even), least), self._bounds.measures.near.within(BLOCKS))
 
     def _shaped(self, base: RefinementBase, layer: Layer) -> Levels:
         """Levels that bend faces least: heights first, for the steps of others follow from these."""

@@ -23,7 +23,7 @@ from bsm.codec.static.targets import SLACK, SLACK_OF_LOOK, STEEPEST, TRIES, Cont
 DEARER = 1.08  # give up a way whose first step takes this many times the bytes of the best result
 GUESSED = 1.4  # and a grid that is guessed to: of smooth surfaces it takes less than that
 LITTLE = 1.01  # and leave faces flat that rounding has made so, where giving them an area takes more than this
-FINER = 0.02, 0.05, 0.1, 0.16  # how much finer steps are where mending folds breaks bounds at one
+FINER = tuple(0.02 * 2.0**k for k in range(4))  # how much finer steps are where mending folds breaks bounds at one
 SMOOTH = 6  # grids that are tried of those that suit a model, and twice as many by the best effort
 SPENT = 3.5  # budgets of pictures after which only what is needed in any case is looked at
 

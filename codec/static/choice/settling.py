@@ -32,6 +32,7 @@ LEAST = 0.1
 ASIDE, RATIO = 0.35, 10.0
 """What rounding along a tangent costs over what it costs along the normal, where steps are as of a layer of this
 ratio."""
+CROWD = 21_000  # vertices of a mesh on which chosen errors show as the costs say: of more they show less
 SWEEPS = 2  # more move few levels, and take no bytes off: over all axes, and over those along the surface
 SHADED = 0.5  # how unlike pixels count that a crease shades otherwise which is there in only one of two pictures
 WITHIN = 8.0  # degrees, on both sides of the angle that makes a crease, in which bends are watched
@@ -69,6 +70,10 @@ class Sensitivity:
 
     def first_step(self, distance: float) -> float:
         """The step that is about right, in BSM units."""
+        return self.even_step(distance) * math.pow(len(self._positions) / CROWD, 1.0 / 6.0)
+
+    def even_step(self, distance: float) -> float:
+        """The step that would be right if errors had nothing to do with each other, in BSM units."""
         unlike = DISSIMILAR * distance ** (1.0 / POWER)
         return math.sqrt(12.0 * unlike / (float(self.costs[0].sum()) * (1.0 + 2.0 * ASIDE)))
 
