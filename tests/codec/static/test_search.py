@@ -21,10 +21,9 @@ SOME = (
     "assets/monkey.glb", "assets/1002_tray_bottom.STL", "assets/featuretype.STL", "assets/Duck.glb",
     "assets/robot_forearm.obj", "assets/stirrer.obj", "static/c3d_spot.ply",
     "static/trim_star.ply", "static/twelve_dodecahedron.ply", "static/fandisk_6475.ply", "static/block.ply",
-    "static/fr_casting.ply", "static/gargoyle_10002.ply",
+    "static/fr_casting.ply", "static/gargoyle_10002.ply", "assets/robot_hand.obj", "static/cgal_elephant_with_holes.ply",
 )  # fmt: skip
-LUCKY = ("assets/robot_hand.obj", "static/cgal_elephant_with_holes.ply")
-BY_CHANCE = pytest.mark.xfail(strict=False, reason="from another step a file up to 2 % smaller is found")
+BY_CHANCE = 1.02  # grids are tried around a step that was found: around another one a smaller file may be
 
 
 @pytest.mark.parametrize("slope", [0.6, 1.0, 1.8])
@@ -85,7 +84,7 @@ def test_a_further_way_makes_no_file_larger(mesh: TriangleMesh, rough: float, mo
 
 @pytest.mark.real
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [*SOME, *(pytest.param(name, marks=BY_CHANCE) for name in LUCKY)])
+@pytest.mark.parametrize("name", SOME)
 def test_a_further_way_makes_no_real_file_larger(name: str, meshes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     whole, less = sizes(read_mesh(str(meshes / name)).mesh.bare, monkeypatch)
-    assert whole <= min(less)
+    assert whole <= BY_CHANCE * min(less)

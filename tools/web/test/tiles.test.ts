@@ -118,16 +118,16 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
             assert.equal(readFileSync(join(folder, content, "glb", "r.glb")).includes("EXT_bsm_compression"), content === "coded");
             const page = await opened();
             await page.goto(site.address);
-            const tileState = async (): Promise<{ loaded: string[]; faces: number }> => {
-                await page.waitForFunction("tileState().quiet > 5 && tileState().faces > 0", undefined, { timeout: PATIENCE });
+            const tileState = async (over: number): Promise<{ loaded: string[]; faces: number }> => {
+                await page.waitForFunction(`tileState().quiet > 5 && tileState().faces > ${over}`, undefined, { timeout: PATIENCE });
                 return (await page.evaluate("tileState()")) as { loaded: string[]; faces: number };
             };
-            const far = await tileState();
+            const far = await tileState(0);
             assert.equal(far.faces, coarsest);
             assert.deepEqual(far.loaded, ["glb/r.glb"]);
             await page.evaluate("from(2.5)");
-            const near = await tileState();
-            assert.ok(near.faces > 2 * coarsest && near.faces <= faces, `${near.faces} faces`);
+            const near = await tileState(2 * coarsest); // loads may begin frames after the camera moved
+            assert.ok(near.faces <= faces, `${near.faces} faces`);
             const { share, x, y } = silhouette(await page.locator("canvas").screenshot());
             assert.ok(share > 0.1 && Math.abs(x - 0.5) < 0.1 && Math.abs(y - 0.5) < 0.15, `${share} ${x} ${y}`);
             assert.deepEqual(complaints, []);
