@@ -21,7 +21,8 @@ SOME = (
     "assets/monkey.glb", "assets/1002_tray_bottom.STL", "assets/featuretype.STL", "assets/Duck.glb",
     "assets/robot_forearm.obj", "assets/stirrer.obj", "static/c3d_spot.ply",
     "static/trim_star.ply", "static/twelve_dodecahedron.ply", "static/fandisk_6475.ply", "static/block.ply",
-    "static/fr_casting.ply", "static/gargoyle_10002.ply", "assets/robot_hand.obj", "static/cgal_elephant_with_holes.ply",
+    "static/fr_casting.ply", "static/gargoyle_10002.ply", "assets/robot_hand.obj",
+    "static/cgal_elephant_with_holes.ply",
 )  # fmt: skip
 BY_CHANCE = 1.02  # grids are tried around a step that was found: around another one a smaller file may be
 
