@@ -7,6 +7,7 @@ import shutil
 import signal
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ from bsm.gltf.document import EXTENSION, read_document
 from bsm.tiles.cutting import Lattice
 from bsm.tiles.making import farthest_near, simplified, welded
 from tests.bsm.program import bsm as program
-from tests.shapes import curved, torus
+from tests.shapes import curved, patch, torus
 
 CELL = 2.0**-14
 
@@ -73,13 +74,46 @@ def contents(folder):
     return {path.name: path.read_bytes() for path in Path(folder).iterdir()}
 
 
+def test_a_flat_mesh_comes_back_at_its_finest(tmp_path):
+    across, along = np.divmod(np.arange(60 * 60), 60)
+    flat = TriangleMesh(np.stack([across, along, 0 * along], axis=1).astype(float), patch(60, 60).faces)
+    write_mesh(tmp_path / "flat.ply", flat)
+    tile(tmp_path / "flat.ply", tmp_path / "out", "--grid-cell", 1, "--triangles", 800)
+    program("untile", tmp_path / "out", "-o", tmp_path / "back.ply")
+    assert same(bsm.load(tmp_path / "back.ply"), flat)
+
+
+def test_a_grid_too_coarse_makes_tiles_that_are_read(mesh, tmp_path):
+    write_mesh(tmp_path / "mesh.ply", mesh)
+    tile(tmp_path / "mesh.ply", tmp_path / "out", "--grid-cell", 128)
+    assert program("verify", tmp_path / "out").returncode == 0
+
+
+def test_vertices_that_no_face_uses_say_nothing_of_the_grid(mesh, tmp_path):
+    far = 1e4 + np.random.default_rng(0).random((20_000, 3))
+    write_mesh(tmp_path / "mesh.ply", TriangleMesh(np.concatenate([mesh.positions, far]), mesh.faces))
+    tile(tmp_path / "mesh.ply", tmp_path / "out")
+    assert bsm.open_tiles(str(tmp_path / "out")).lattice.cell < 0.01
+
+
+def test_threads_may_share_tiles(folder):
+    for _ in range(20):
+        tiles = bsm.open_tiles(str(folder))
+        with ThreadPoolExecutor(8) as pool:
+            regions = [pool.submit(tiles.region, (-9, -9, -9), (9, 9, 9), 1e9) for _ in range(8)]
+        assert len({len(region.result().faces) for region in regions}) == 1
+
+
 @pytest.mark.parametrize("suffix", ["ply", "stl", "npz", "obj"])
 def test_untile_gives_the_mesh_back(mesh, suffix, tmp_path):
     output = made(mesh, tmp_path / "out", "--finest", suffix=suffix)
     assert program("untile", output, "-o", tmp_path / "back.ply").returncode == 0
     back = bsm.load(tmp_path / "back.ply")
     assert same(bsm.load(tmp_path / f"mesh.{suffix}"), back) and len(back.positions) == len(mesh.positions)
-    assert bsm.open_tiles(str(output)).manifest["levels"][-1]["tiles"] > 8
+    levels = bsm.open_tiles(str(output)).manifest["levels"]
+    assert levels[-1]["tiles"] > 8 and levels[0]["level"] > 0
+    assert program("untile", output, "-f", "-o", tmp_path / "back.ply", "--level", levels[-1]["level"]).returncode == 0
+    assert program("untile", output, "-f", "-o", tmp_path / "back.ply", "--level", 0).returncode == 2
     assert not (output / ".work").exists()
 
 

@@ -39,9 +39,9 @@ def run(args: argparse.Namespace, console: Console) -> None:
     refuse_to_overwrite(args.output, args.force)
     if args.content != CONTENTS[0] and Path(args.output).name != TILESET:
         raise OptionError(f"--content says how {TILESET} has its tiles; the output is {args.output}")
-    last = len(tiles.manifest["levels"]) - 1
-    if args.level is not None and not 0 <= args.level <= last:
-        raise OptionError(f"--level {args.level}: these tiles have the levels 0 to {last}")
+    levels = [level["level"] for level in tiles.manifest["levels"]]
+    if args.level is not None and not levels[0] <= args.level <= levels[-1]:
+        raise OptionError(f"--level {args.level}: these tiles have the levels {levels[0]} to {levels[-1]}")
     if Path(args.output).name == TILESET:
         if args.box or args.level is not None or args.error is not None:
             raise OptionError(f"{TILESET} is of all tiles: no --box, --level or --error")

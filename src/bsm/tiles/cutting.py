@@ -64,11 +64,11 @@ def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | Non
     """Return the requested lattice, or one by the look of a sample; its cells represent every position exactly."""
     require_sizes(np.array([raw.low, raw.high]), done="cut")
     lattice = Lattice(_cell_by_look(raw, threads) if cell is None else cell, origin or (0.0, 0.0, 0.0))
-    reach = (abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
-    farthest = max(reach) / lattice.cell
+    reach = max(abs(end - at) for ends in (raw.low, raw.high) for end, at in zip(ends, lattice.origin))
+    farthest = reach / lattice.cell
     exact = math.frexp(lattice.cell)[0] == 0.5 and not any(at % lattice.cell for at in lattice.origin)
     if not farthest < (_FARTHEST if exact else MOST_LARGEST // 2):
-        least = math.ceil(math.log2(2 * max(map(abs, (*raw.low, *raw.high))) / _FARTHEST))
+        least = math.ceil(math.log2(2 * max(reach, *map(abs, (*raw.low, *raw.high))) / _FARTHEST))
         better = 2.0 ** max(math.floor(math.log2(lattice.cell)), least)
         message = f"the mesh is {farthest:.3g} cells of {lattice.cell:g} from the origin of the grid, too far to tell "
         raise OptionError(f"{message}places exactly; a power of two does, such as --grid-cell {better!r}")
@@ -77,7 +77,8 @@ def chosen_lattice(raw: Raw, cell: float | None, origin: tuple[float, ...] | Non
 
 def _cell_by_look(raw: Raw, threads: int) -> float:
     """The largest power of two that keeps the default's promise around three vertices, in any order of the faces."""
-    some = raw.table("positions")[:: max(1, raw.rows["positions"] // _SAMPLE)].astype(np.float64)
+    firsts = raw.table("faces")[:: max(1, raw.rows["faces"] // _SAMPLE), 0]
+    some = raw.table("positions")[firsts].astype(np.float64)
     share = min(1.0, _SAMPLE / max(1, raw.rows["faces"]))
     middles = some[[len(some) // 4, len(some) // 2, len(some) * 3 // 4] if share < 1 else [0]]
     reach = [np.quantile(np.abs(some - middle).max(axis=1), share) for middle in middles]
@@ -180,7 +181,7 @@ def cut(raw: Raw, lattice: Lattice, most: int) -> Plan:
     vertices, triangles = raw.rows["positions"], raw.rows["faces"]
     # Above the first level that is cut there is one node a level, down to a mesh that is there at once.
     above = max(0, math.ceil(math.log(min(most, triangles) / COARSEST, 4)))
-    bits = int((high - low).max()).bit_length() + above
+    bits = max(1, int((high - low).max()).bit_length()) + above
     depth = min(DEPTH + above, bits)
     kinds = {what: kind for what, kind in raw.kinds.items() if what not in ("positions", "faces")}
     kinds |= {"places": ("<i4", 3), "cut": ("<u4", 3), "codes": ("<i8", 1), "outside": ("<i8", 5)}

@@ -204,9 +204,9 @@ class Tiles:
     def region(
         self, low: Sequence[float], high: Sequence[float], error: float = 0.0, *, level: int | None = None
     ) -> TriangleMesh:
-        """Join triangles that reach into a box into one mesh: of the coarsest tiles within `error`, or of a `level`.
+        """Join triangles whose own boxes meet a box into one mesh: of the coarsest tiles within `error`, or of a `level`.
 
-        Level 0 is the coarsest; where a level has no tile, the finest is used.
+        An error of 0 is the finest level. Level 0 is the coarsest; where a level has no tile, the finest is used.
         """
         ends = np.array([low, high], np.float64)
         if ends.shape != (2, 3) or not np.isfinite(ends).all():
@@ -248,7 +248,8 @@ class Tiles:
         inner = {name[:-1] for name in found}
         for name in sorted(found, key=lambda name: (len(name), name)):
             tile = found[name][1]
-            near = tile.error <= error if level is None else tile.level == level or name not in inner
+            leaf = name not in inner  # others may have an error of 0, too, as where all is flat
+            near = tile.error <= error and (leaf or error > 0.0) if level is None else tile.level == level or leaf
             if name[:-1] in taken:
                 taken.add(name)
             elif near:
@@ -276,7 +277,8 @@ class Tiles:
         if data[-FOOT:] != len(index).to_bytes(8, "little") + _END or sha256(index).hexdigest() != shard["sha256"]:
             raise CorruptError(f"{name}: the index at the end of this shard is not what the manifest says was written")
         tiles = parse_index(name, index, shard, self.root)
-        if twice := {tile.name for tile in tiles} & {tile.name for held in self._held.values() for tile in held}:
+        others = [held for file, held in [*self._held.items()] if file != shard["file"]]  # a thread may have been here
+        if twice := {tile.name for tile in tiles} & {tile.name for held in others for tile in held}:
             raise CorruptError(f"{name}: tile {min(twice)} is in another shard, too")
         return tiles
 
