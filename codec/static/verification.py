@@ -39,6 +39,11 @@ class Original:
             return np.arange(len(self.given.positions)) if whole else np.flatnonzero(self.joined.index >= 0)
         return self.joined.first[self.prepared.vertex_order]
 
+    @property
+    def loose(self) -> Positions:
+        """Positions of vertices that no face uses, where the stream has them, as it has all others."""
+        return np.zeros((0, 3)) if self.joined.splits is None else self.joined.splits.loose
+
     def matched(self, faces: Faces, vertices: int) -> Order:
         """Return the coded vertex of each of the decoder's, -1 for loose ones, whose faces are `faces`."""
         coded = self.prepared.mesh.faces
@@ -90,17 +95,16 @@ def verify(
     except BsmError as error:
         raise VerificationError(f"the decoder refuses the encoded stream: {error}") from error
     matched = original.matched(decoded.faces, len(decoded.positions))
-    require_positions(decoded.positions, draft.decoded, matched, original.given.positions)
+    require_positions(decoded.positions, draft.decoded, matched, original.loose)
     require(decoded.metadata == dict(metadata), "the decoded metadata differ")
     require_attributes(decoded.attributes, carried, decoded.faces, original)
 
 
-def require_positions(decoded: Positions, expected: Positions, matched: Order, given: Positions) -> None:
-    """Require positions of the closed loop, shape (n, 3), bit for bit; loose vertices are as they were given."""
-    loose = matched < 0
-    wanted = expected[matched]
-    if loose.any():
-        wanted[loose] = given[loose]
+def require_positions(decoded: Positions, expected: Positions, matched: Order, loose: Positions) -> None:
+    """Require positions of the closed loop, shape (n, 3), bit for bit, and those of vertices that no face uses."""
+    wanted, unused = expected[matched], matched < 0
+    require(int(unused.sum()) == len(loose), "the decoded vertices that no face uses differ")
+    wanted[unused] = loose
     require(bool((decoded == wanted).all()), "the decoded positions differ")
 
 

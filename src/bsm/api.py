@@ -600,13 +600,16 @@ def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) 
     """
     import numpy as np
 
-    from bsm.comparison import compare_meshes, pair
+    from bsm.comparison import compare_meshes, order_of_used, pair
 
-    first, second = (as_mesh(_opened(mesh)).without_isolated_vertices()[0] for mesh in (original, decoded))
-    numbers = None if order is None else np.asarray(order)
-    if numbers is not None and (numbers.ndim != 1 or numbers.dtype.kind not in "iu"):
+    whole = [as_mesh(_opened(mesh)) for mesh in (original, decoded)]
+    first, second = (mesh.without_isolated_vertices()[0] for mesh in whole)
+    if order is None:
+        return compare_meshes(first, second, pair(first, second))
+    numbers = np.asarray(order, None if np.ndim(order) == 1 else object)
+    if numbers.ndim != 1 or numbers.dtype.kind not in "iu":
         raise ArgumentError(f"order must be a list of whole numbers, not {order!r}")
-    return compare_meshes(first, second, pair(first, second, None if numbers is None else numbers.astype(np.int64)))
+    return compare_meshes(first, second, pair(first, second, order_of_used(numbers.astype(np.int64), *whole)))
 
 
 def look(original: Any, other: Any, *, threads: int | None = None) -> Look:

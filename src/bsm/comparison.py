@@ -52,6 +52,17 @@ def reorder(mesh: TriangleMesh, order: Order) -> TriangleMesh:
     return replace(mesh, positions=mesh.positions[before], faces=faces, attributes=attributes)
 
 
+def order_of_used(order: Order, original: TriangleMesh, decoded: TriangleMesh) -> Order:
+    """The order of the vertices that faces use, made of one of all vertices."""
+    if len(order) != len(decoded.positions):
+        raise MeshError(f"the permutation has {len(order)} vertices, the mesh has {len(decoded.positions)}")
+    before, after = (mesh.without_isolated_vertices()[1] for mesh in (original, decoded))
+    rows = np.searchsorted(before, order[after]).clip(max=len(before) - 1)
+    if len(np.unique(order)) < len(order) or not np.array_equal(before[rows], order[after]):
+        raise MeshError("the permutation does not name vertices of the original that faces use, each once")
+    return rows
+
+
 def in_order_of(original: TriangleMesh, other: TriangleMesh, order: Order | None = None) -> Positions:
     """The positions of `other`, numbered as in `original`; neither may have vertices that no face uses."""
     if len(original.positions) > len(other.positions):

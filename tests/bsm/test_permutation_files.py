@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import bsm
 from bsm.bitstream.errors import FormatError, MeshError
 from bsm.codec.decoding import decode
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -94,3 +95,15 @@ def test_vertices_that_were_made_one_are_compared_with_that_one():
     decoded = decode(encoder.encode())
     for order in (None, encoder.vertex_order):
         assert np.abs(in_order_of(soup, decoded, order) - soup.positions).max() < 1e-3
+
+
+def test_an_order_counts_vertices_that_no_face_uses(tmp_path):
+    apart, near = np.full((2, 3), 9.0), np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0.2], [0, 1, 0]])
+    mesh = TriangleMesh(np.concatenate([apart, near]), [[2, 3, 4], [5, 6, 7]])
+    for keep in (False, True):
+        encoder = Encoder(mesh, EncodeOptions(grid=10, keep_order=keep))
+        decoded, order = decode(encoder.encode()), encoder.vertex_order
+        assert bsm.compare(mesh, decoded, order=order).max_error_relative < 1e-3
+    for wrong in (order * 0, order + 1, order[1:]):
+        with pytest.raises(MeshError, match="permutation"):
+            bsm.compare(mesh, decoded, order=wrong)

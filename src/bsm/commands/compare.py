@@ -19,7 +19,7 @@ from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import folded_edges, mnd, rms_over_edge, surface_distance
 from bsm.codec.sequence.targets import Runs, compare_runs
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
-from bsm.comparison import compare_meshes, in_order_of, pair, read_permutation
+from bsm.comparison import Pair, compare_meshes, in_order_of, order_of_used, pair, read_permutation
 from bsm.console import Console, Progress, as_json, finite, print_json, printable
 from bsm.files.mesh import format_of_name, read_mesh, save_written, written_mesh
 from bsm.files.motion.folder import names_many
@@ -62,7 +62,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
     if _compare_sequences(args, console):
         return
     with console.progress("reading") as progress:
-        original, decoded = (_load(path, args, console) for path in (args.original, args.decoded))
+        whole = [_load(path, args, console) for path in (args.original, args.decoded)]
+        original, decoded = (mesh.without_isolated_vertices()[0] for mesh in whole)
         seen: Look | None = None
         more: dict[str, Any] = {}
         if args.look or args.picture:
@@ -82,7 +83,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
                 write_output(args.picture, png(side_by_side(*looker.pictures(decoded))), overwrite=args.force)
         progress.stage("comparing")
         try:
-            compared = _compared(original, decoded, args, console)
+            order = order_of_used(read_permutation(args.permutation), *whole) if args.permutation else None
+            compared = _compared(original, decoded, pair(original, decoded, order), args, console)
         except MeshError:
             if seen is None:
                 raise
@@ -94,14 +96,14 @@ def run(args: argparse.Namespace, console: Console) -> None:
         print_json({**compared, **shown, **({"attributes": attributes} if attributes else {})})
         return
     lines = [f"{sentence(compared, unit_of(original.metadata))}\n"] if compared else []
-    lines += [f"{name:<19}{'-inf' if value is None else f'{value:.6g}'}\n" for name, value in compared.items()]
+    lines += [f"{name:<18} {'-inf' if value is None else f'{value:.6g}'}\n" for name, value in compared.items()]
     if seen:
         parts = f"1 - SSIM {seen.dissimilarity:.4g}, {100 * seen.visible:.3g} % of pixels differ visibly, "
         parts += f"striking {seen.striking:.2g}"
         lines.append(f"{'look':<19}{seen.distance:.4g} ({parts})\n")
         lines.append(f"{'look in facets':<19}1 - SSIM {more['flat']:.4g}\n")
         lines += [
-            f"{name:<19}{value:.4g}\n"
+            f"{name:<18} {value:.4g}\n"
             for name in ATTRIBUTE_LOOKS.values()
             if (value := more.get(name.split()[-1])) is not None
         ]
@@ -112,9 +114,8 @@ def run(args: argparse.Namespace, console: Console) -> None:
 
 
 def _compared(
-    original: TriangleMesh, decoded: TriangleMesh, args: argparse.Namespace, console: Console
+    original: TriangleMesh, decoded: TriangleMesh, paired: Pair, args: argparse.Namespace, console: Console
 ) -> dict[str, Any]:
-    paired = pair(original, decoded, read_permutation(args.permutation) if args.permutation else None)
     if paired.joined:
         console.note("vertices at one position are merged for this comparison")
     if args.map:
@@ -155,14 +156,14 @@ def _errors(compared: dict[str, Any], unit: str) -> str:
 
 
 def _load(path: str, args: argparse.Namespace, console: Console) -> TriangleMesh:
-    """A mesh file or a stream, without the vertices that no face uses."""
+    """A mesh file or a stream."""
     with about(path):
         if is_stream(path):
             return decode_whole(read_chunks(path), limits_of(args.limits))
         source = read_mesh(path, reader=args.reader)
     for note in source.notes:
         console.note(f"{path}: {note}")
-    return source.mesh.without_isolated_vertices()[0]
+    return source.mesh
 
 
 def _compare_sequences(args: argparse.Namespace, console: Console) -> bool:
@@ -231,9 +232,10 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
     order = read_permutation(args.permutation) if args.permutation else None
     runs = []
     for (first, faces), (second, others) in zip(original, decoded, strict=True):
-        mesh, kept = TriangleMesh(first[0], faces).without_isolated_vertices()
-        other, other_kept = TriangleMesh(second[0], others).without_isolated_vertices()
-        rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), order))
+        whole = TriangleMesh(first[0], faces), TriangleMesh(second[0], others)
+        (mesh, kept), (other, other_kept) = (side.without_isolated_vertices() for side in whole)
+        of_used = None if order is None else order_of_used(order, *whole)
+        rows = numbers_of(in_order_of(mesh, numbered(other.faces, len(other_kept)), of_used))
         runs.append((first[:, kept], second[:, other_kept[rows]], mesh.faces))
     result = asdict(compare_runs(runs))
     if args.look:
@@ -257,7 +259,7 @@ def _compared_sequences(args: argparse.Namespace, original: Pieces, decoded: Pie
         numbers = {name: finite(value) for name, value in result.items()}
         return as_json({**numbers, "frames": of_frames, "loops": list(repeats)})
     worst = max(range(len(of_frames)), key=lambda number: of_frames[number]["max_error_relative"])
-    lines = [f"{name:<19}{value:.6g}" for name, value in result.items()]
+    lines = [f"{name:<18} {value:.6g}" for name, value in result.items()]
     lines.append(f"worst frame        {worst} ({of_frames[worst]['max_error_relative']:.6g})")
     return "\n".join([*lines, *repeats])
 

@@ -204,7 +204,7 @@ class Tiles:
     def region(
         self, low: Sequence[float], high: Sequence[float], error: float = 0.0, *, level: int | None = None
     ) -> TriangleMesh:
-        """Join triangles whose own boxes meet a box into one mesh: of the coarsest tiles within `error`, or of a `level`.
+        """Join triangles whose own boxes meet a box: of the coarsest tiles within `error`, or of a `level`.
 
         An error of 0 is the finest level. Level 0 is the coarsest; where a level has no tile, the finest is used.
         """

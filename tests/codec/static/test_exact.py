@@ -40,6 +40,12 @@ def test_floats_come_back(scale: float, offset: float) -> None:
     assert_exact(mesh.positions * scale + offset, mesh.faces)
 
 
+def test_vertices_that_no_face_uses_are_kept_in_single_precision() -> None:
+    mesh = TriangleMesh([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0.1, 0.2, 0.3]], [[0, 1, 2]])
+    kept = decode(encode(mesh, replace(LOSSLESS, keep_order=True)))
+    assert np.array_equal(bits(kept.positions), bits(mesh.positions))
+
+
 def test_zeros_keep_their_sign_and_are_different_vertices() -> None:
     mesh = patch(9, 8)
     positions = mesh.positions.copy()
