@@ -222,7 +222,7 @@ class Encoder:
         else:
             least = self._judged(self._input.dressed(self._input.search(promise, near).smallest(promise)))
             other = none.best(anything, most)
-            advice = "no preset reaches it" if other is None else f"--preset none gives {none.seen(other)} in it"
+            advice = "no preset reaches it" if other is None else f"without a preset these may have {none.seen(other)}"
             error = TargetError(
                 f"{asked} reached with {promise}: that takes {target.worded(target.reached(least))}; {advice}"
             )
@@ -269,7 +269,8 @@ class Encoder:
 
     @cached_property
     def _reference(self) -> Reference:
-        return Reference(self._input.prepared.positions, self.mesh.faces)
+        given, place = self._input.given, self._input.joined.first[self._input.prepared.coding_order]
+        return Reference(self._input.prepared.units.into(given.positions[place]), self.mesh.faces)
 
 
 def encode(mesh: TriangleMesh, options: EncodeOptions | None = None) -> bytes:

@@ -234,8 +234,8 @@ class EncodeOptions:
 
     @property
     def looks_as_it_comes(self) -> bool:
-        """Whether a bound or a target alone is asked for, and no look."""
-        return not self.is_grid and not self.sets_coding and (self.promise is None or self.promise.look == math.inf)
+        """Whether what is asked for is no grid, and no look."""
+        return not self.is_grid and (self.promise is None or self.promise.look == math.inf)
 
     @property
     def grade(self) -> Grade:

@@ -36,10 +36,19 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     from bsm.codec.static.targets import Target
 
     base: EncodeOptions = EncodeOptions() if preset is None else _named("preset", PRESETS, preset)
+    asked = [name for name, value in keywords.items() if value is not None]
+    bounds = [name for name in asked if name in (*BOUNDS, *TARGETS, "contract", "target")]
+    grids, coding = ([name for name in names if name in asked] for names in (("grid", "grid_cell"), CODING))
+    if base.is_grid and (excluded := [*bounds, *grids, *coding]):
+        raise OptionError(f"the preset {preset} says what every position is; it excludes {' and '.join(excluded)}")
+    fixed = [*grids, *coding]
+    excluded = [name for name in bounds if name in (*BOUNDS, "contract")]
+    if grids and preset is not None and base.contract is not None:
+        excluded.insert(0, f"the preset {preset}")
+    if fixed and excluded:
+        excludes = " and ".join(excluded)
+        raise OptionError(f"{fixed[0]} says what is written, whatever comes of it; it excludes {excludes}")
     given = _fields("a mesh", EncodeOptions, _with_bounds(base, preset is not None, keywords), TARGETS, Target)
-    others = ("target", "contract", "grid_cell", *CODING)
-    if base.is_grid and any(given.get(name) is not None for name in others):
-        base = EncodeOptions()  # a preset that is a grid has nothing that could be changed
     return changed(base, **given)
 
 
@@ -56,7 +65,8 @@ def _with_bounds(base: EncodeOptions, named: bool, keywords: Mapping[str, Any]) 
     contract = base.contract or Contract(WIDEST)
     if farthest is not None:
         number, absolute = parse_length("max_error", farthest)
-        # What a preset says of parts holds for the whole, too.
+        if named and not absolute:
+            number = min(number, contract.farthest)
         contract = replace(contract, farthest=number, absolute=absolute)
     if look is not None:
         look = _checked("look", look, float)
@@ -79,6 +89,8 @@ def sequence_options(
     quick = bool(quick) or _named("effort", {"quick": True, "normal": False, "best": False}, effort)
     if quick and (bounds or given.get("target") is not None):
         raise OptionError("quick does not search for a step; it excludes bounds and targets")
+    if preset is not None and (given.get("target") is not None or given.get("step") is not None):
+        raise OptionError(f"a target or a step of a sequence replaces the preset {preset}: give one of both")
     if bounds:
         if given.get("target") is not None or given.get("step") is not None:
             raise OptionError(f"{' and '.join(bounds)} of a sequence cannot be combined with a target or a step")

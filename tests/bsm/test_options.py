@@ -31,7 +31,10 @@ def test_presets_of_sequences(preset):
     assert sequence_options(preset=preset).promise == PROMISES[preset]
     low_delay = sequence_options(preset=preset, low_delay=1)
     assert low_delay.step == SEQUENCE_STEPS[preset] and low_delay.promise is None
-    assert sequence_options(preset=preset, kg=1).promise is None
+    for other in ({"kg": 1}, {"step": 0.01}):
+        assert sequence_options(**other).promise is None
+        with pytest.raises(OptionError, match=f"replaces the preset {preset}"):
+            sequence_options(preset=preset, **other)
 
 
 def test_bounds_of_sequences():
@@ -127,8 +130,8 @@ def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
     assert encode_options(look=2).contract == replace(BALANCED, look=2.0)
     assert encode_options(look=2, max_error=0.02).contract == replace(BALANCED, farthest=0.02, look=2.0)
     assert encode_options(preset="fine", look=2).contract == fine
-    assert encode_options(preset="fine", look=0.3, max_error="5%").contract == replace(fine, farthest=0.05, look=0.3)
-    assert encode_options(preset="grid14", look=0.3).contract == replace(BALANCED, look=0.3)
+    assert encode_options(preset="fine", look=0.3, max_error="5%").contract == replace(fine, look=0.3)
+    assert encode_options(preset="near-lossless", max_error="0.2%") == PRESETS["near-lossless"]
     for look in (0, -1.0, float("nan")):
         with pytest.raises(OptionError, match="1 looks the same"):
             encode_options(look=look)
@@ -138,9 +141,26 @@ def test_what_is_asked_for_holds_together_with_a_preset_that_is_named():
         encode_options(look="good")
 
 
-def test_a_preset_that_is_a_grid_gives_way_to_a_target():
-    options = encode_options(preset="grid14", theta=3)
-    assert (options.grid, options.target) == (None, Target("theta_deg", 3.0))
+@pytest.mark.parametrize(
+    "more", [{"theta": 3}, {"look": 2}, {"max_error": 0.01}, {"size": 99}, {"grid": 9}, {"keep": 0.1}]
+)
+@pytest.mark.parametrize("preset", ["grid14", "lossless"])
+def test_a_preset_that_is_a_grid_excludes_what_would_change_it(preset, more):
+    with pytest.raises(OptionError, match=f"the preset {preset} says .* excludes {next(iter(more))}"):
+        encode_options(preset=preset, **more)
+
+
+@pytest.mark.parametrize("fixed", [{"grid": 4}, {"grid_cell": 0.1}, {"step": 0.1}, {"coefficients": 5}, {"bits": 12}])
+def test_what_is_fixed_excludes_bounds(fixed):
+    for bound in ({"look": 2}, {"max_error": "1%"}, {"contract": Contract(0.1)}):
+        with pytest.raises(OptionError, match="whatever comes of it; it excludes"):
+            encode_options(**fixed, **bound)
+    assert encode_options(**fixed).promise is None and encode_options(preset="none", **fixed).promise is None
+
+
+def test_a_grid_excludes_a_preset_that_promises_a_look():
+    with pytest.raises(OptionError, match=r"grid says .* excludes the preset fine"):
+        encode_options(preset="fine", grid=4)
 
 
 def test_quick_is_another_name_of_an_effort() -> None:

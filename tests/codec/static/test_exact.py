@@ -108,3 +108,11 @@ def test_real_meshes_come_back_below_draco(meshes, name) -> None:
     assert_exact(mesh.positions, mesh.faces)
     if "nicolo" in name:
         assert len(encode(mesh, LOSSLESS)) < 0.6 * 182_842  # Draco's, positions as they are, level 10
+
+
+@pytest.mark.parametrize("keep", [False, True])
+def test_what_rounding_to_single_precision_moves_is_told(keep: bool) -> None:
+    mesh = TriangleMesh(torus(12, 9).positions + 4e6, torus(12, 9).faces)
+    found = Encoder(mesh, replace(LOSSLESS, keep_order=keep)).result().comparison
+    moved = np.linalg.norm(mesh.positions - mesh.positions.astype(np.float32), axis=1).max()
+    assert moved > 0.1 and found.max_error_relative == pytest.approx(moved / mesh.diagonal, rel=0.1)
