@@ -145,7 +145,7 @@ class StepSearch:
                 return measured.excess
             evened, more = True, _evening(measured.shares) ** AGAIN
             weights = weights * more
-            expected = math.log(max(measured.farthest, float((measured.shares * more**-YIELD).max())))
+            expected = math.log(max(measured.farthest, float((measured.shares * more**-YIELD).max(initial=1e-9))))
             return max(expected, LEAST) if measured.excess > 0.0 else expected
 
         secant(excess, first, finest, slack)
@@ -328,7 +328,7 @@ def _power_of(errors: Matrix, shares: Matrix) -> float:
 
 def _evening(shares: Matrix) -> Matrix:
     """Weights of frames, shape (T,), with which all of them would look about alike."""
-    logarithms = np.log(np.maximum(shares, 1e-3 * shares.max()))
+    logarithms = np.log(np.maximum(shares, 1e-3 * shares.max() or 1.0))  # of faces without area nothing is seen
     reach = int(4.0 * SMOOTHNESS)
     bell = np.exp(-0.5 * (np.arange(-reach, reach + 1) / SMOOTHNESS) ** 2)
     padded = np.pad(EVENING / SLOPE * (logarithms - logarithms.mean()), reach, mode="edge")

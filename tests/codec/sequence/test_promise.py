@@ -176,3 +176,10 @@ def test_errors_of_normals_are_angles() -> None:
     assert shading_error(positions[0], positions[0], faces) == pytest.approx(0.0, abs=1e-7)
     assert 0.3 * angle < shading_error(positions[0], turned, faces) < angle
     assert shading_error(np.zeros_like(turned), turned, faces) == 0.0  # no area is no error
+
+
+@pytest.mark.parametrize("width", [0.0, 1.0])
+def test_faces_without_area_are_encoded(width: float) -> None:
+    frames = np.stack([np.linspace(0, width, 6)[:, None] * [k, 0, 0] for k in range(1, 5)])
+    _, original, decoded, _ = kept(frames, np.array([[0, 1, 2], [3, 4, 5]], np.int32), Promise(0.01, 1.0))
+    assert np.abs(original - decoded).max() <= 0.01
