@@ -194,4 +194,4 @@ def filter_frames(coarse: CoarseFilter, frames: Frames, keep: float) -> Frames:
 def denoise(mesh: TriangleMesh, options: DenoiseOptions | None = None, **ways: Any) -> TriangleMesh:
     """Remove noise from a mesh; `ways` are keywords of `FrameDenoiser`."""
     (positions,) = FrameDenoiser(mesh.positions, mesh.faces, options, **ways)([mesh.positions])
-    return mesh.moved(positions)[0]
+    return mesh if np.array_equal(positions, mesh.positions) else mesh.moved(positions)[0]

@@ -548,7 +548,13 @@ def denoise(
     Returns
     -------
     TriangleMesh
-        The same faces, attributes and metadata; also the same positions if there is no noise to remove.
+        The same faces, metadata, and attributes but normals, which fit no longer; the mesh itself if there is no noise
+        to remove.
+
+    Warns
+    -----
+    BsmWarning
+        Of normals that are left out.
 
     Raises
     ------
@@ -566,7 +572,11 @@ def denoise(
 
     chosen = _chosen(options, DenoiseOptions, keywords, keywords_to.denoise_options)
     with watched("denoising", progress) as heard:
-        return denoise_mesh(as_mesh(mesh), chosen, goal=goal, strength=strength, force=force, progress=heard.stage)
+        given = as_mesh(mesh)
+        clean = denoise_mesh(given, chosen, goal=goal, strength=strength, force=force, progress=heard.stage)
+    if stale := [attribute.name for attribute in given.attributes if attribute not in clean.attributes]:
+        warn([f"left out, for they fit no longer: {', '.join(stale)}"])
+    return clean
 
 
 def compare(original: Any, decoded: Any, *, order: npt.ArrayLike | None = None) -> MeshComparison:

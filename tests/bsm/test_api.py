@@ -191,3 +191,13 @@ def test_denoise():
     with pytest.raises(bsm.HarmError):
         bsm.denoise(clean, keep=0.05)
     assert not same(bsm.denoise(clean, keep=0.05, force=True), clean)
+
+
+def test_denoise_warns_of_normals_that_it_leaves_out():
+    clean = torus(48, 32, bumps=0.0)
+    normals = bsm.Attribute("normal", np.tile([0.0, 0.0, 1.0], (len(clean.positions), 1)), semantic="normal")
+    dressed = bsm.TriangleMesh(clean.positions, clean.faces, [normals])
+    assert bsm.denoise(dressed) is dressed
+    with pytest.warns(bsm.BsmWarning, match="normal"):
+        moved = bsm.denoise(dressed, keep=0.05, force=True)
+    assert not moved.attributes

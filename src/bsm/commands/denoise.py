@@ -153,7 +153,7 @@ def _denoise_mesh(args: DenoiseJob, console: Console, options: DenoiseOptions | 
     copy = ", and the file is copied" if same else ""
     console.note(f"moved      {who}, {how}" if touched else f"moved      no vertex{copy}")
     seconds = time.perf_counter() - begin
-    moved, stale = mesh.moved(positions) if not same else (mesh, ())
+    moved, stale = mesh.moved(positions) if touched else (mesh, ())
     more: dict[str, Any] = {"moved": {"vertices": touched, "mean": mean, "farthest": farthest}}
     if args.look:
         seen = look(mesh, moved)
