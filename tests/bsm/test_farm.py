@@ -352,6 +352,12 @@ def test_what_no_report_says_is_refused_in_one_sentence(claim, tmp_path, capsys)
     assert "not a report of bsm" in errors and not (tmp_path / "a.bsm").exists()
 
 
+def test_a_report_holds_bounds_that_are_infinite(sources, tmp_path):
+    more = {"contract": bsm.Contract(0.01), "report": tmp_path / "r.json", "resume": True}
+    first, again = (bsm.encode_many(sources[:1], tmp_path, **more) for _ in range(2))
+    assert "error" not in first[0] and "resumed" in again[0]
+
+
 def test_what_was_written_and_not_yet_reported_is_known_again(sources, tmp_path):
     """A run that is killed between an output and its line in the report."""
     output, report = tmp_path / "out", tmp_path / "r.json"

@@ -28,7 +28,8 @@ _SHARE = 0.02  # of all time that goes into writing them, at most
 def options_of(task: Task) -> Facts:
     """What outputs depend on beside their inputs."""
     given = {name: value for name, value in asdict(task).items() if name not in _OF_ONE_RUN}
-    options: Facts = json.loads(json.dumps({"version": __version__, **given}, default=str, sort_keys=True))
+    text = json.dumps({"version": __version__, **given}, default=str, sort_keys=True)
+    options: Facts = json.loads(text, parse_constant=str)  # JSON has no infinity
     return options
 
 
