@@ -3,6 +3,8 @@
 import errno
 import os
 import stat
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -105,3 +107,24 @@ def test_a_full_disk_leaves_nothing_behind(tmp_path, monkeypatch):
     with pytest.raises(OSError, match="No space left"), open_output(tmp_path / "a") as file:
         file.write(b"whole")
     assert contents(tmp_path) == {}
+
+
+def test_threads_do_not_read_the_mask_while_another_does(tmp_path, monkeypatch):
+    before, umask = os.umask(0o027), os.umask
+
+    def slow(mask):
+        found = umask(mask)
+        time.sleep(0.01)
+        return found
+
+    def write(name):
+        with open_output(tmp_path / name) as file:
+            file.write(b"")
+
+    monkeypatch.setattr(os, "umask", slow)
+    try:
+        with ThreadPoolExecutor(4) as pool:
+            list(pool.map(write, "abcd"))
+    finally:
+        umask(before)
+    assert {stat.S_IMODE(path.stat().st_mode) for path in tmp_path.iterdir()} == {0o640}

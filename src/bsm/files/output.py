@@ -34,6 +34,7 @@ except ImportError:  # not a POSIX system
     fcntl = None  # type: ignore[assignment]
 
 _TEMPORARY = ".part"
+_UMASK = threading.Lock()  # the process has one mask, which can only be read by setting it
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 # What the shell has opened: `>(...)`, or `> file`.
 _DESCRIPTOR = re.compile(r"/dev/fd/(\d+)|/proc/(?:self|thread-self)/fd/(\d+)")
@@ -218,8 +219,9 @@ def _permissions(target: Path) -> int:
     """Permissions of the file that is replaced, or those that any new file gets (a temporary file is private)."""
     if target.exists():
         return target.stat().st_mode & 0o777
-    mask = os.umask(0)
-    os.umask(mask)
+    with _UMASK:
+        mask = os.umask(0)
+        os.umask(mask)
     return 0o666 & ~mask
 
 
