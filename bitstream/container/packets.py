@@ -5,6 +5,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from bsm.bitstream.container.header import Declaration as Declaration
 from bsm.bitstream.container.header import Header as Header
 from bsm.bitstream.container.header import entries_of, record_of
@@ -21,10 +23,19 @@ class Metadata:
     entries: Mapping[str, MetadataValue] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for name, value in self.entries.items():
+        plain = {k: value.item() if isinstance(value, np.generic) else value for k, value in self.entries.items()}
+        for name, value in plain.items():
             if type(name) is not str or type(value) not in (str, int, float, bytes):
                 raise OptionError(f"metadata {name!r}: {value!r} must map a str to a str, int, float or bytes")
-        object.__setattr__(self, "entries", dict(sorted(self.entries.items())))
+        object.__setattr__(self, "entries", dict(sorted(plain.items())))
+
+    def require_readable(self) -> None:
+        """Raise `OptionError` for what a stream holds, but bsmdec does not give back."""
+        for name, value in self.entries.items():
+            if "\0" in name:
+                raise OptionError(f"metadata {name!r}: there is a NUL in the name; leave it out")
+            if isinstance(value, int) and not -(1 << 63) <= value < 1 << 63:
+                raise OptionError(f"metadata {name!r}: {value} does not fit into 64 bits; store it as a text")
 
 
 @dataclass(frozen=True)

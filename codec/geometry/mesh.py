@@ -83,7 +83,8 @@ class TriangleMesh:
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "faces", faces)
         object.__setattr__(self, "attributes", tuple(self.attributes))
-        object.__setattr__(self, "metadata", MappingProxyType(dict(self.metadata)))
+        plain = {k: value.item() if isinstance(value, np.generic) else value for k, value in self.metadata.items()}
+        object.__setattr__(self, "metadata", MappingProxyType(plain))
         names = [attribute.name for attribute in self.attributes]
         if len(set(names)) < len(names):
             raise MeshError(f"two attributes have the same name, of {', '.join(names)}")

@@ -125,6 +125,7 @@ class SequenceEncoder:
         self._metadata = metadata
         if self.options.frame_rate:
             self._metadata = {**metadata, "frame_rate": float(self.options.frame_rate)}
+        packets.Metadata(self._metadata).require_readable()
 
     def chunks(self, frames: Iterable[Frame], progress: Progress | None = None) -> Iterator[bytes]:
         """The stream, stream frame by stream frame; each GOP is given as soon as its frames are there.
@@ -422,7 +423,7 @@ def frames_of(positions: npt.ArrayLike) -> Positions:
     """Positions of frames, shape (T, n, 3), checked."""
     try:
         frames = np.asarray(positions, np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise MeshError(f"the positions of a sequence are not an array of numbers: {error}") from error
     if frames.ndim != 3 or frames.shape[2] != 3 or len(frames) == 0:
         raise MeshError(f"the positions of a sequence must have shape (T, n, 3), T > 0, not {frames.shape}")

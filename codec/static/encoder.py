@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bsm.bitstream.container import packets
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.errors import OptionError, TargetError, public
 from bsm.bitstream.limits import NAMED_LIMITS
@@ -79,6 +80,7 @@ class Encoder:
         self.options = options or EncodeOptions()
         if not (self.options.target or self.options.promise or self.options.is_grid or self.options.sets_coding):
             raise OptionError("nothing to reach: give a bound or a target, or a preset other than none")
+        packets.Metadata(mesh.metadata).require_readable()
         mesh.require_sizes(*(SIZES if self.options.promise is None else PROMISED_SIZES))
         self._input = Input(mesh, self.options)
         promise, unit = self.options.promise, mesh.metadata.get("unit")

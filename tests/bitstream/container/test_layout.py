@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -63,6 +64,10 @@ def test_metadata_round_trip(entries):
 def test_metadata_that_cannot_be_stored(entries):
     with pytest.raises(OptionError):
         write(Metadata(entries))
+
+
+def test_metadata_of_numpy():
+    assert Metadata({"a": np.float64(2), "b": np.int64(3)}) == Metadata({"a": 2.0, "b": 3})
 
 
 def test_metadata_of_too_many_entries():
