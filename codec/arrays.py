@@ -1,7 +1,11 @@
 """Names for the kinds of arrays; functions that take them document the shapes."""
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
+
+from bsm.bitstream.errors import MeshError
 
 Matrix = npt.NDArray[np.float64]  # real numbers, of any shape
 Basis = npt.NDArray[np.float32]  # columns of a dictionary, and what its solver works on: single precision, shape (n, c)
@@ -12,6 +16,14 @@ Order = npt.NDArray[np.int64]  # the same in the width that numpy's own index ar
 Levels = npt.NDArray[np.int32]  # quantized coefficients, in steps
 Integers = npt.NDArray[np.signedinteger]  # whole numbers of any width
 Mask = npt.NDArray[np.bool_]  # what holds for which vertex
+
+
+def as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> npt.NDArray[Any]:
+    """A copy of what a user gives, as an array; `MeshError` where it is none."""
+    try:
+        return np.array(values, dtype=kind)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise MeshError(f"{name} is not an array of numbers: {error}") from error
 
 
 def sum_in_order(rows: Matrix) -> Matrix:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, MeshError, public
-from bsm.codec.arrays import Faces, Indices, Matrix, Order
+from bsm.codec.arrays import Faces, Indices, Matrix, Order, as_array
 
 Domain = Literal["vertex", "corner", "face"]
 Semantic = Literal["generic", "color", "normal", "texcoord"]
@@ -73,13 +73,19 @@ class Attribute:
         what = f"the attribute {self.name!r}"
         if not all(isinstance(text, str) for text in (self.name, self.domain, self.semantic)):
             raise ArgumentError(f"{what}: name, domain and meaning must be texts")
-        if not self.name or len(self.name.encode()) > MOST_NAME_BYTES:
+        encoded = self.name.encode(errors="ignore")
+        if encoded.decode() != self.name or b"\0" in encoded:
+            raise MeshError(f"the name of an attribute must have no NUL, and no half of a character: {self.name!r}")
+        if not 1 <= len(encoded) <= MOST_NAME_BYTES:
             raise MeshError(f"the name of an attribute must have 1 to {MOST_NAME_BYTES} bytes: {self.name!r}")
         if self.domain not in get_args(Domain) or self.semantic not in get_args(Semantic):
             raise MeshError(f"{what} is of no domain or meaning that is known: {self.domain!r}, {self.semantic!r}")
-        values = _stored(np.array(self.values), what)
+        values = _stored(as_array(self.values, what), what)
         if self.domain == "corner":
-            indices = np.arange(len(values)).reshape(-1, 3) if self.indices is None else np.array(self.indices)
+            if self.indices is None and len(values) % 3:
+                raise MeshError(f"{what} has {len(values)} values, and not three for each face; or give indices")
+            numbers = np.arange(len(values)).reshape(-1, 3) if self.indices is None else self.indices
+            indices = as_array(numbers, f"the indices of {what}")
             if indices.ndim != 2 or indices.shape[1] != 3 or indices.dtype.kind not in "iu":
                 raise MeshError(f"the indices of {what} must be integers of shape (m, 3)")
             if indices.size and not (indices.min() >= 0 and indices.max() < len(values)):
@@ -117,6 +123,7 @@ class Attribute:
 
 
 def _stored(values: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
+    values = values.astype(values.dtype.newbyteorder("="), copy=False)
     if values.ndim == 1:
         values = values[:, None]
     if values.ndim != 2 or not 1 <= values.shape[1] <= MOST_COMPONENTS:

@@ -9,10 +9,9 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, MeshError, public
-from bsm.codec.arrays import Faces, Matrix, Order, Positions
+from bsm.codec.arrays import Faces, Matrix, Order, Positions, as_array
 from bsm.codec.geometry.attributes import Attribute
 
 Metadata = Mapping[str, str | int | float | bytes]  # whatever an author wants to say of a mesh
@@ -60,8 +59,8 @@ class TriangleMesh:
             raise ArgumentError("the attributes of a mesh must be a list of Attribute")
         if not isinstance(self.metadata, Mapping):
             raise ArgumentError(f"metadata must be a mapping from names, not {type(self.metadata).__name__}")
-        positions = _as_array(self.positions, "positions", np.float64)
-        faces = _as_array(self.faces, "faces")
+        positions = as_array(self.positions, "positions", np.float64)
+        faces = as_array(self.faces, "faces")
         if positions.ndim != 2 or positions.shape[1] != 3:
             raise MeshError(f"positions must have shape (n, 3), not {positions.shape}")
         if not np.isfinite(positions).all():
@@ -129,13 +128,6 @@ class TriangleMesh:
         every_face = np.arange(len(self.faces))
         attributes = tuple(attribute.taken(kept, every_face) for attribute in self.attributes)
         return (replace(self, positions=self.positions[kept], faces=renumber[self.faces], attributes=attributes), kept)
-
-
-def _as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> npt.NDArray[Any]:
-    try:
-        return np.array(values, dtype=kind)
-    except (TypeError, ValueError) as error:
-        raise MeshError(f"{name} is not an array of numbers: {error}") from error
 
 
 LARGEST = 1e100

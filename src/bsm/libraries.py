@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from bsm.bitstream.errors import ArgumentError, BsmWarning, MeshError
 from bsm.bitstream.limits import DEFAULT_LIMITS
+from bsm.codec.arrays import as_array
 from bsm.codec.geometry.attributes import Domain, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.files.formats.metadata import without_materials
@@ -114,7 +115,7 @@ def _mesh_of_arrays(
     try:
         table = np.asarray(faces)
     except ValueError:  # lists of different lengths
-        rows = [np.asarray(face).reshape(-1) for face in faces]
+        rows = [as_array(face, f"face {number}").reshape(-1) for number, face in enumerate(faces)]
         return _mesh_of_polygons(positions, np.array([len(row) for row in rows]), np.concatenate(rows), *more)
     if table.ndim == 1 and table.size and table.dtype.kind in "iu":
         return _mesh_of_polygons(positions, *_split(table.astype(np.int64)), *more)
@@ -138,10 +139,7 @@ def _mesh_of_cells(points: Any, cells: dict[str, npt.NDArray[Any]], columns: Seq
 def _mesh_of_polygons(
     positions: Any, sizes: Ints, corners: Array, columns: Sequence[Column] = (), metadata: Metadata = _NOTHING
 ) -> TriangleMesh:
-    try:
-        points = np.asarray(positions, np.float64)
-    except (TypeError, ValueError) as error:
-        raise MeshError(f"positions is not an array of numbers: {error}") from error
+    points = as_array(positions, "positions", np.float64)
     if points.ndim != 2 or points.shape[1] != 3:
         raise MeshError(f"positions must have shape (n, 3), not {points.shape}")
     if corners.dtype.kind not in "iu":

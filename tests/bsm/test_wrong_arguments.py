@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import ArgumentError, BsmError, OptionError
+from bsm.bitstream.errors import ArgumentError, BsmError, MeshError, OptionError
 from bsm.bitstream.limits import Limits
 from bsm.codec.decoding import Decoder, SequenceDecoder
 from bsm.codec.geometry.attributes import Attribute
@@ -129,3 +129,27 @@ def test_limits_that_bound_nothing_are_refused(value):
 def test_threads_are_a_number_above_0(threads, error):
     with pytest.raises(error, match="threads"):
         bsm.decode(stream(), threads=threads)
+
+
+@pytest.mark.parametrize("metadata", [{"a\0b": "cut"}, {"a": 1 << 63}, {"a": -(1 << 63) - 1}])
+def test_metadata_that_would_not_come_back_are_refused(metadata):
+    positions, faces = arrays()
+    for call, given in ((bsm.encode, (positions, faces)), (bsm.encode_frames, [(positions, faces)])):
+        with pytest.raises(OptionError, match="metadata 'a"):
+            call(given, metadata=metadata)
+    kept = {"a": "b\0c", "b": (1 << 63) - 1, "c": np.float64(2), "d": np.int64(3)}
+    assert bsm.decode(bsm.encode((positions, faces), grid=8, metadata=kept)).metadata == kept
+    mesh = bsm.TriangleMesh(positions, faces, metadata=kept)
+    assert [type(value) for value in mesh.metadata.values()] == [str, int, float, int]
+
+
+@pytest.mark.parametrize("faces", [[[[0, 1], [2]], [0, 1, 2, 3]], [[0, 1, 2], [10**400] * 4], [[0, 1, "a"]]])
+def test_faces_that_are_no_numbers(faces):
+    with pytest.raises(MeshError):
+        bsm.encode((arrays()[0], faces))
+
+
+def test_numbers_too_large_for_any_float():
+    for call in (bsm.encode, lambda mesh: bsm.encode_sequence([mesh[0]], mesh[1])):
+        with pytest.raises(MeshError, match="not an array of numbers"):
+            call(([[10**400, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))

@@ -22,6 +22,9 @@ FACES = [[0, 1, 2], [0, 2, 3]]
         ([0.5, 1], "float64"),
         (np.zeros(2, np.float16), "float32"),
         (np.zeros((2, 4), np.uint8), "uint8"),
+        (np.zeros(2, ">i8"), "int32"),
+        (np.zeros(2, ">f2"), "float32"),
+        (np.zeros(2, ">f8"), "float64"),
     ],
 )
 def test_is_stored_in_the_narrowest_kind(values, stored):
@@ -37,6 +40,11 @@ def test_is_stored_in_the_narrowest_kind(values, stored):
     [
         {"name": ""},
         {"name": "x" * 256},
+        {"name": "a\0b"},
+        {"name": "\ud800"},
+        {"values": [[1, 2], [3]]},
+        {"domain": "corner", "values": [1, 2, 3, 4]},
+        {"domain": "corner", "values": [1, 2, 3], "indices": [[0, 1], [2]]},
         {"values": np.zeros((2, 5))},
         {"values": np.zeros((2, 2, 2))},
         {"values": [np.nan]},
