@@ -15,7 +15,7 @@ def named(kind: str, choices: Mapping[str, Choice], name: str) -> Choice:
     """The choice called `name`."""
     try:
         return choices[name]
-    except KeyError:
+    except (KeyError, TypeError):
         raise OptionError(f"there is no {kind} {name!r}; choose one of {', '.join(choices)}") from None
 
 

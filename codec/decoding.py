@@ -329,7 +329,11 @@ class SequenceDecoder(StreamDecoder):
     def __init__(
         self, limits: Limits = DEFAULT_LIMITS, threads: int | None = None, *, tolerant: bool = False, start: int = 0
     ) -> None:
-        super().__init__(limits, threads, tolerant=tolerant, start=start)
+        if isinstance(start, bool) or not isinstance(start, Integral):
+            raise ArgumentError(f"start must be a whole number, not {start!r}")
+        if not 0 <= start < 1 << 63:
+            raise OptionError(f"start must be the index of a frame, from 0 on, not {start}")
+        super().__init__(limits, threads, tolerant=tolerant, start=int(start))
         self._faces: Faces = np.zeros((0, 3), np.int32)
         self._known: dict[int, tuple[Attribute, bool]] = {}
 

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from bsm.bitstream.errors import HarmError, MeshError, OptionError
+from bsm.bitstream.errors import ArgumentError, HarmError, MeshError, OptionError
 from bsm.codec.arrays import Faces, Positions
+from bsm.codec.choices import named
 from bsm.codec.denoise.automatic import CHOSEN, AutomaticChoice, calm, choose, treat
 from bsm.codec.denoise.coarse import CoarseFilter
 from bsm.codec.denoise.noise.finding import Finding, weld_seams
@@ -18,7 +19,7 @@ from bsm.codec.denoise.noise.ripples import find_ripples
 from bsm.codec.denoise.noise.search import find_noise
 from bsm.codec.denoise.normals import fine_step
 from bsm.codec.denoise.recipe import DenoiseOptions, Patient, hand_over
-from bsm.codec.denoise.rehearsal import Progress, silent
+from bsm.codec.denoise.rehearsal import GOALS, Progress, silent
 from bsm.codec.denoise.safety import judge, keep_good
 from bsm.codec.denoise.temporal import FEWEST_FRAMES, TemporalFilter
 from bsm.codec.geometry.mesh import TriangleMesh, require_sizes
@@ -49,6 +50,9 @@ class FrameDenoiser:
         force: bool = False,
         progress: Progress = silent,
     ) -> None:
+        named("goal", GOALS, goal)
+        if not isinstance(strength, (int, float, np.number)):
+            raise ArgumentError(f"the strength must be a number, not {strength!r}")
         if not 0.0 <= strength <= 1.0:
             raise OptionError(f"the strength must be from 0 to 1, not {strength}")
         first = np.ascontiguousarray(first, dtype=np.float64)

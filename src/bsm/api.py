@@ -174,9 +174,9 @@ def encode_many(
     if isinstance(jobs, bool) or not isinstance(jobs, int):
         raise ArgumentError(f"jobs must be a whole number, not {jobs!r}")
     check_mapping("metadata", {} if metadata is None else metadata)
-    names = [_name(source) for source in sources]
-    run = Run(jobs=jobs, dask=dask, report=None if report is None else _name(report), resume=resume)
-    folder = None if target is None else _name(target).rstrip("/") + "/"
+    names = [named(source) for source in sources]
+    run = Run(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)
+    folder = None if target is None else named(target).rstrip("/") + "/"
     planned = plan(names, folder, lambda _: ".bsm")
     options: dict[str, Any] = {**keywords}
     threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
@@ -499,7 +499,7 @@ def save(
     >>> "texcoord" in bsm.save(mesh, "again.stl")  # what STL cannot hold
     True
     """
-    _name(path)
+    named(path)
     suffix = Path(path).suffix.lower()
     kind = format_of_name(path)
     if suffix == ".bsm":
@@ -653,12 +653,6 @@ def look(original: Any, other: Any, *, threads: int | None = None) -> Look:
 
     first, second = (as_mesh(_opened(mesh)) for mesh in (original, other))
     return look_at(first, second, threads=threads)
-
-
-def _name(path: str | os.PathLike[str]) -> str:
-    if not isinstance(path, (str, os.PathLike)):
-        raise ArgumentError(f"a path is expected, not {type(path).__name__}")
-    return named(path)
 
 
 def _opened(mesh: Any) -> Any:

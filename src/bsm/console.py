@@ -15,6 +15,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import Any
 
+from bsm.bitstream.errors import ArgumentError
 from bsm.codec.progress import PARTS
 
 _PATIENCE, _SECOND = 0.5, 1.0
@@ -79,6 +80,8 @@ class Progress:
         seconds: float = 0.0,
     ) -> None:
         self._parts = [(what, 0.0, 1.0)]  # what goes on, and which share of the time it is, from the whole inwards
+        if heard is not None and not callable(heard):
+            raise ArgumentError(f"progress must be a function, not {heard!r}")
         self._shown, self._lines, self._heard, self._expected = shown, lines, heard, seconds
         self._begun = self._reported_at = time.monotonic()
         self._share, self._when, self._seen = 0.0, 0.0, 0.0  # as reported, and after how many seconds; as shown

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import bsm
-from bsm.bitstream.errors import CorruptError, FormatError, OptionError, TruncatedError, UnsupportedError
+from bsm.bitstream.errors import ArgumentError, CorruptError, FormatError, OptionError, TruncatedError, UnsupportedError
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.metrics import distances_to_surface
@@ -170,7 +170,7 @@ def test_one_tile_that_has_a_coarser_one_above_it(tmp_path):
 
 
 def test_a_region_in_python(mesh, folder):
-    tiles = bsm.open_tiles(str(folder))
+    tiles = bsm.open_tiles(folder)
     low, high = (-10.0, -10.0, -10.0), (10.0, 10.0, 10.0)
     assert same(tiles.region(low, high), mesh)
     coarse = tiles.region(low, high, error=1e9)
@@ -181,6 +181,11 @@ def test_a_region_in_python(mesh, folder):
     assert (corners.max(axis=1) >= 0).all()
     with pytest.raises(OptionError, match="no part of the mesh"):
         tiles.region((8, 8, 8), high)
+    for wrong in (("abc", "def"), ((0, 0, 0), (1, 1)), (low, high, "a"), (low, high, None)):
+        with pytest.raises(ArgumentError):
+            tiles.region(*wrong)
+    with pytest.raises(ArgumentError):
+        tiles.region(low, high, level="finest")
 
 
 def test_untile_of_a_box_and_of_a_level(folder, tmp_path):

@@ -76,11 +76,17 @@ CALLS = {
     "compare order": lambda wrong: bsm.compare(torus(5, 5), torus(5, 5), order=wrong),
     "denoise": lambda wrong: bsm.denoise(wrong),
     "denoise goal": lambda wrong: bsm.denoise(wrong, goal=wrong),
+    "denoise strength": lambda wrong: bsm.denoise(torus(5, 5), strength=wrong),
+    "denoise mesh for goal": lambda wrong: bsm.denoise(torus(5, 5), goal=wrong),
+    "progress": lambda wrong: bsm.encode(torus(5, 5), grid=8, progress=wrong) if wrong is not print else None,
+    "encode_many progress": lambda wrong: bsm.encode_many(["missing.obj"], progress=wrong),
+    "open_tiles": lambda wrong: bsm.open_tiles(wrong),
     "Decoder limits": lambda wrong: Decoder(wrong),
     "Decoder threads": lambda wrong: Decoder(threads=wrong),
     "Decoder layers": lambda wrong: Decoder(layers=wrong),
     "SequenceDecoder limits": lambda wrong: SequenceDecoder(wrong),
     "SequenceDecoder threads": lambda wrong: SequenceDecoder(threads=wrong),
+    "SequenceDecoder start": lambda wrong: SequenceDecoder(start=wrong),
     "receive_data": lambda wrong: Decoder().receive_data(wrong),
     "encode_many": lambda wrong: bsm.encode_many(wrong),
     "encode_many into": lambda wrong: bsm.encode_many(["missing.obj"], wrong),
@@ -153,3 +159,14 @@ def test_numbers_too_large_for_any_float():
     for call in (bsm.encode, lambda mesh: bsm.encode_sequence([mesh[0]], mesh[1])):
         with pytest.raises(MeshError, match="not an array of numbers"):
             call(([[10**400, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
+
+
+@pytest.mark.parametrize("start", [-1, 1 << 70])
+def test_frames_are_counted_from_0(start):
+    with pytest.raises(OptionError, match="start"):
+        SequenceDecoder(start=start)
+
+
+def test_there_are_so_many_goals_of_denoising():
+    with pytest.raises(OptionError, match="no goal 'typo'; choose one of shading"):
+        bsm.denoise(torus(5, 5), goal="typo")

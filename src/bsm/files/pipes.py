@@ -229,6 +229,8 @@ _MAX_BYTES = 1 << 32
 
 def named(path: str | os.PathLike[str]) -> str:
     """A path as a text; `ArgumentError` for what no file can be called."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise errors.ArgumentError(f"a path is expected, not {type(path).__name__}")
     name = without_scheme_of_files(os.fsdecode(path))
     if "\0" in name:
         raise errors.ArgumentError(f"no file can be called {name!r}: there is a NUL in it")

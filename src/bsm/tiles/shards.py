@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -11,6 +12,7 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from hashlib import sha256
 from pathlib import Path
+from types import NoneType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -23,7 +25,7 @@ from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.geometry.welding import split_by_attributes
 from bsm.files.output import open_output, write_output
-from bsm.files.pipes import about, inside, is_url, place_of, read_range
+from bsm.files.pipes import about, inside, is_url, named, place_of, read_range
 from bsm.files.stream import decode_whole
 from bsm.jobs.task import Facts
 from bsm.tiles.cutting import Lattice, Plan, Root
@@ -130,12 +132,12 @@ def is_tiles(path: str) -> bool:
     return path.endswith("/") if is_url(path) else Path(path, MANIFEST).is_file()
 
 
-def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
+def open_tiles(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> Tiles:
     """Open a folder of tiles that `bsm tile` wrote. Only its manifest is read.
 
     Parameters
     ----------
-    path : str
+    path : path
         A folder, or a URL of one.
     limits : Limits
         Of each tile.
@@ -156,8 +158,9 @@ def open_tiles(path: str, limits: Limits = DEFAULT_LIMITS) -> Tiles:
     >>> import bsm
     >>> part = bsm.open_tiles("scan").region((0, 0, 0), (1, 1, 1), error=0.01)
     """
-    found = read_manifest(path, limits)
-    return Tiles(path, found.given, found.lattice, found.root, limits, found.kinds)
+    name = named(path)
+    found = read_manifest(name, limits)
+    return Tiles(name, found.given, found.lattice, found.root, limits, found.kinds)
 
 
 @public
@@ -208,9 +211,14 @@ class Tiles:
 
         An error of 0 is the finest level. Level 0 is the coarsest; where a level has no tile, the finest is used.
         """
-        ends = np.array([low, high], np.float64)
+        try:
+            ends = np.array([low, high], np.float64)
+        except (TypeError, ValueError, OverflowError):
+            ends = np.empty(0)
         if ends.shape != (2, 3) or not np.isfinite(ends).all():
             raise ArgumentError("a box has a low and a high corner of three numbers each")
+        if not isinstance(error, (int, float, np.number)) or not isinstance(level, (int, np.integer, NoneType)):
+            raise ArgumentError(f"error must be a number, and level a whole one, not {error!r} and {level!r}")
         box = (ends - np.array(self.lattice.origin)) / self.lattice.cell
         tables, triangles, first = [], [], 0
         for shard, tile in self.chosen(error, box, level):
