@@ -128,7 +128,7 @@ def encode(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
     is what a decoder that knew the idea would give. ArgumentError: a function gives another shape, or what is not
     finite; OptionError: it does not give the same for the same site.
     """
-    idea, options = idea or Idea(), EncodeOptions(step=step, **keywords)
+    idea, options = idea or Idea(), changed(EncodeOptions(), **{"step": step, **keywords})
     prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, idea, options)
     draft = _draft(prepared, idea, options)
     stream = b"".join(draft.frames)
@@ -143,7 +143,7 @@ def blocks(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
     """The arrays of all blocks, in the order of coding, as `encode` with the same arguments meets them."""
     idea = idea or Idea()
     options = changed(EncodeOptions(), **{"step": step, **keywords, "threads": 1})
-    prepared = _prepared(as_mesh(mesh).bare, idea, options)
+    prepared = _prepared(join(as_mesh(mesh).bare, keep=False).mesh, idea, options)
     found: list[BlockArrays] = []
 
     def recorded(site: Site, width: int) -> npt.ArrayLike:
