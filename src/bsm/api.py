@@ -173,6 +173,8 @@ def encode_many(
         raise ArgumentError(f"sources must be a list of paths, not {sources!r}")
     if isinstance(jobs, bool) or not isinstance(jobs, int):
         raise ArgumentError(f"jobs must be a whole number, not {jobs!r}")
+    if jobs < 0:
+        raise OptionError(f"jobs must be 0 or above, not {jobs}")
     check_mapping("metadata", {} if metadata is None else metadata)
     names = [named(source) for source in sources]
     run = Run(jobs=jobs, dask=dask, report=None if report is None else named(report), resume=resume)

@@ -131,6 +131,11 @@ def test_limits_that_bound_nothing_are_refused(value):
             Limits(**{field.name: value})
 
 
+def test_jobs_are_a_number_from_0_on():
+    with pytest.raises(OptionError, match="jobs"):
+        bsm.encode_many(["missing.obj"], jobs=-3)
+
+
 @pytest.mark.parametrize(("threads", "error"), [(0, OptionError), (-1, OptionError), ("2", ArgumentError)])
 def test_threads_are_a_number_above_0(threads, error):
     with pytest.raises(error, match="threads"):

@@ -14,6 +14,7 @@ import numpy as np
 
 from bsm.bitstream.errors import DependencyError, OptionError, how_to_install
 from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.commands.flags import within
 from bsm.console import Console, print_json
 from bsm.files.mesh import read_mesh
 from bsm.files.output import write_output
@@ -38,8 +39,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     which += "single lines such as svd,oi-r2 (default: all)"
     add("--codecs", metavar="LIST", default=",".join(GROUPS), help=which)
     blocks = "number of blocks for the codecs of the paper (default: blocks of 500 vertices)"
-    add("--blocks", type=int, metavar="K", help=blocks)
-    add("--repeat", type=int, default=1, metavar="N", help="repeat each measurement; the fastest counts (default 1)")
+    add("--blocks", type=within(1), metavar="K", help=blocks)
+    add(
+        "--repeat",
+        type=within(1),
+        default=1,
+        metavar="N",
+        help="repeat each measurement; the fastest counts (default 1)",
+    )
     add("--csv", action="store_true", help="also write the tables as FOLDER/*.csv")
     add("--latex", action="store_true", help="also write the tables as FOLDER/*.tex (booktabs)")
     add("--pdf", action="store_true", help="also write the pictures as PDF")

@@ -8,7 +8,7 @@ import numpy as np
 
 from bsm.bitstream.errors import DependencyError
 from bsm.codec.geometry.mesh import TriangleMesh
-from bsm.commands.flags import add_preset_flags, options_of
+from bsm.commands.flags import add_preset_flags, options_of, within
 from bsm.console import Console, print_json
 from bsm.files.output import refuse_to_overwrite, write_output
 from bsm.options import encode_options
@@ -18,7 +18,13 @@ from bsm.pictures import bounds_of, colors_of, png, render, with_titles
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("-o", "--output", metavar="FOLDER", default=".", help="folder for the results (default: the current one)")
-    add("--vertices", type=int, default=20_000, metavar="N", help="number of vertices of the sample (default 20000)")
+    add(
+        "--vertices",
+        type=within(1),
+        default=20_000,
+        metavar="N",
+        help="number of vertices of the sample (default 20000)",
+    )
     add("--json", action="store_true", help="print the result as JSON")
     add_preset_flags(parser)
 

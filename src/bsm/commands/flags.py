@@ -1,6 +1,7 @@
 """Options that several commands take: inputs and outputs, limits, readers."""
 
 import argparse
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
@@ -37,6 +38,20 @@ class HelpAll(argparse.Action):
         for setting in SETTINGS:
             print(f"  {f'{setting.field}={setting.metavar}':{width}}  {setting.help}")
         parser.exit()
+
+
+def within(least: int, most: float = math.inf) -> Callable[[str], int]:
+    """A type of options that are whole numbers in a closed range."""
+
+    def whole_number(text: str) -> int:
+        number = int(text)
+        if number < least:
+            raise argparse.ArgumentTypeError(f"{number} is less than {least}")
+        if number > most:
+            raise argparse.ArgumentTypeError(f"{number} is more than {most}")
+        return number
+
+    return whole_number
 
 
 def thresholds(text: str) -> tuple[float, float]:
@@ -243,7 +258,7 @@ def add_inputs(parser: argparse.ArgumentParser, about_them: str, output: str | N
     if output:
         add("-o", "--output", metavar="OUT", help=output)
     at_once = "work on N inputs at a time; 0: one per core (default 1)"
-    add("-j", "--jobs", type=int, default=1, metavar="N", help=at_once)
+    add("-j", "--jobs", type=within(0), default=1, metavar="N", help=at_once)
     add("--json", action="store_true", help="print the result as JSON")
     many = parser.add_argument_group("many inputs")
     many.add_argument("--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler")

@@ -9,7 +9,7 @@ from threading import Thread
 
 from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
-from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of
+from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of, within
 from bsm.console import Console, Progress
 from bsm.files.mesh import read_mesh
 from bsm.files.output import write_output
@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_reader_flag(parser)
     add_limits_flag(parser)
     add("--save", metavar="PAGE.html", help="write a page that contains the streams and needs no server")
-    add("--port", type=int, default=0, metavar="N", help="port of the server (default: a free one)")
+    add("--port", type=within(0, 65535), default=0, metavar="N", help="port of the server (default: a free one)")
     add("--no-open", action="store_true", help="print the address; do not open a browser")
 
 
