@@ -136,3 +136,15 @@ def test_a_manifest_stays_until_the_input_was_read(source, tmp_path, option):
         assert (output / "manifest.json").read_text() == text
     assert tile(source, tmp_path / "new", "--work", output).returncode == 2
     assert not (tmp_path / "new" / "manifest.json").exists()
+
+
+@pytest.mark.parametrize("words", [("--grid-cell", "0"), ("--grid-cell", "nan"), ("--grid-cell", "1e-30")])
+def test_what_is_refused_leaves_nothing_behind(source, tmp_path, words):
+    assert tile(source, tmp_path / "out", *words).returncode == 2
+    (tmp_path / "empty.ply").touch()
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / "thesis.txt").touch()
+    for output in ("out", "own"):
+        refused = tile(tmp_path / "empty.ply", tmp_path / output, "--work", tmp_path / "work")
+        assert refused.returncode == 3 and "empty" in refused.stderr
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["empty.ply", source.name, "own", "thesis.txt"]

@@ -546,8 +546,7 @@ def test_inputs_that_are_no_meshes(mesh, tmp_path, harm, message, code):
     source.write_bytes(harmed)
     done = program("tile", source, "-o", tmp_path / "out", text=True)
     assert done.returncode == code and message in done.stderr
-    with pytest.raises(TruncatedError, match="complete so far: nothing; with"):
-        bsm.open_tiles(str(tmp_path / "out"))
+    assert not (tmp_path / "out").exists()
     source.write_bytes(data)
     tile(source, tmp_path / "out")
 

@@ -2,6 +2,7 @@
 
 import argparse
 import errno
+import math
 import os
 import sys
 import time
@@ -9,13 +10,13 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from bsm.bitstream.errors import FormatError, OptionError, counted
+from bsm.bitstream.errors import BsmError, FormatError, OptionError, counted
 from bsm.codec.threads import available_threads
-from bsm.commands.flags import asked, point
+from bsm.commands.flags import asked, point, within
 from bsm.console import Console, print_json
 from bsm.exits import report_error
 from bsm.files.output import by_its_own_name, refuse_to_overwrite
-from bsm.files.pipes import about, inside, is_url, name_in, size_of, state_of
+from bsm.files.pipes import about, inside, is_url, name_in, remove, size_of, state_of
 from bsm.jobs.run import Run, run_many
 from bsm.jobs.task import Job, Outcome, came_to
 from bsm.tiles.cutting import Plan, chosen_lattice, cut, load_plan
@@ -24,7 +25,7 @@ from bsm.tiles.making import TileJob, tile_one
 from bsm.tiles.manifest import MANIFEST
 from bsm.tiles.reading import read_big
 from bsm.tiles.shards import Unfinished, is_unfinished, open_tiles, write_shards
-from bsm.tiles.work import NOTE, held, refuse_others, remove_made
+from bsm.tiles.work import NOTE, held, refuse_others, remove_made, there
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,7 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--grid-origin", type=point, metavar="X,Y,Z", help="a point of the grid (default 0,0,0)")
     add("--finest", action="store_true", help="write only the finest level")
     add("--work", metavar="FOLDER", help="folder for temporary files, several times the input (default: OUTPUT/.work)")
-    add("-j", "--jobs", type=int, default=1, metavar="N", help="work on N tiles at a time; 0: one per core (default 1)")
+    at_once = "work on N tiles at a time; 0: one per core (default 1)"
+    add("-j", "--jobs", type=within(0), default=1, metavar="N", help=at_once)
     cluster = "run on the Dask cluster of this scheduler; its machines must share the folders"
     add("--dask", metavar="ADDRESS", help=cluster)
     add("--resume", action="store_true", help="continue a stopped run from the files in --work")
@@ -51,6 +53,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     if args.triangles < 64:
         raise OptionError(f"--triangles {args.triangles}: tiles have 64 triangles or more")
+    if args.grid_cell is not None and not 0.0 < args.grid_cell < math.inf:
+        raise OptionError(f"--grid-cell {args.grid_cell:g}: the cell of a grid is above 0, and finite")
+    if not all(map(math.isfinite, args.grid_origin or ())):
+        raise OptionError(f"--grid-origin {args.grid_origin}: a point of the grid is finite")
     if args.content != CONTENTS[0] and not args.tileset:
         raise OptionError("--content needs --tileset")
     packer(args.content, 1.0)
@@ -60,10 +66,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
     work = Path(os.path.abspath(args.work or beside))
     with ExitStack() as folders:
         for folder in [] if is_url(args.output) else [Path(args.output)]:
-            folder.mkdir(parents=True, exist_ok=True)
+            folders.enter_context(there(folder))
             folders.enter_context(held(folder, args.force or args.resume))
         if args.work or is_url(args.output):
-            work.mkdir(parents=True, exist_ok=True)
+            folders.enter_context(there(work))
             folders.enter_context(held(work, args.force or args.resume))
         folders.enter_context(console.progress(seconds=TileJob().seconds_of(args.input)))
         return _run(args, console, work)
@@ -82,7 +88,12 @@ def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
     if unfinished is not False:
         state.write()
     with about(args.input), by_its_own_name(work):
-        plan = _planned(args, work, console)
+        try:
+            plan = _planned(args, work, console)
+        except BsmError:
+            if unfinished is None:
+                remove(inside(args.output, MANIFEST))
+            raise
     asked_for = asked(TileJob, args, input="", output="", most=args.triangles, cell=plan.lattice.cell, force=False)
     names = [name for name in plan.nodes() if name in plan.leaves or not args.finest]
     numbers = {name: number for number, name in enumerate(names)}
@@ -140,14 +151,17 @@ def _planned(args: argparse.Namespace, work: Path, console: Console) -> Plan:
     remove_made(work)
     work.mkdir(parents=True, exist_ok=True)
     note.write_text(asked_for)
-    raw = read_big(args.input, args.format, work, console)
-    if raw.left_out:
-        console.note(
-            f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colours, normals"
-        )
-    with console.progress("cutting", until=0.3):
-        plan = cut(
-            raw, chosen_lattice(raw, args.grid_cell, args.grid_origin, args.jobs or available_threads()), args.triangles
-        )
+    try:
+        raw = read_big(args.input, args.format, work, console)
+        if raw.left_out:
+            console.note(
+                f"{args.input}: left out: {', '.join(raw.left_out)}; tiles have faces, positions, colours, normals"
+            )
+        with console.progress("cutting", until=0.3):
+            threads = args.jobs or available_threads()
+            plan = cut(raw, chosen_lattice(raw, args.grid_cell, args.grid_origin, threads), args.triangles)
+    except BsmError:  # no run could go on with what is refused
+        remove_made(work)
+        raise
     plan.save(work / "plan.json")
     return plan

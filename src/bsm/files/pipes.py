@@ -178,6 +178,16 @@ def state_of_remote(url: str) -> RemoteState | None:
     return RemoteState(about.get("size"), version)
 
 
+def remove(name: str) -> None:
+    """Remove a file, or what a URL names."""
+    if not is_url(name):
+        os.unlink(name)
+        return
+    with _errors_of(name):
+        files, path = _system(name)
+        files.rm_file(path)
+
+
 class _Reader:
     """A file whose errors while reading name it."""
 

@@ -23,6 +23,19 @@ _MADE = re.compile(
 
 
 @contextmanager
+def there(folder: Path) -> Iterator[None]:
+    """Make a folder, and remove it again where it is new and stays empty."""
+    new = not folder.exists()
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        yield
+    finally:
+        if new:
+            with suppress(OSError):
+                folder.rmdir()
+
+
+@contextmanager
 def held(folder: Path, take_over: bool) -> Iterator[None]:
     """Hold a folder; `OSError` with the process and host of whoever holds it, or left it unless `take_over`."""
     path = folder / LOCK
