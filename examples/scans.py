@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+from collections import Counter
 from pathlib import Path
 
 import bsm
@@ -23,8 +24,12 @@ def main() -> None:
     parser.add_argument("--preset", default="fine", help="how well meshes are kept (default: fine)")
     args = parser.parse_args()
     rows = []
-    for path in sorted(path for path in args.scans.rglob("*") if path.suffix.lower() in FORMATS):
+    paths = sorted(path for path in args.scans.rglob("*") if path.suffix.lower() in FORMATS)
+    often = Counter(path.with_suffix("") for path in paths)
+    for path in paths:
         target = args.out / path.relative_to(args.scans).with_suffix(".bsm")
+        if often[path.with_suffix("")] > 1:  # a.obj and a.ply, which would both become a.bsm
+            target = target.with_name(f"{path.name}.bsm")
         target.parent.mkdir(parents=True, exist_ok=True)
         rows.append(row(path, target, args.preset))
         print(*rows[-1].values(), sep="  ")
@@ -36,17 +41,18 @@ def main() -> None:
 
 def row(path: Path, target: Path, preset: str) -> dict[str, object]:
     """What came of one scan."""
-    made: dict[str, object] = {"file": path.name, "bytes": path.stat().st_size, "stream": "", "moved": "", "status": ""}
-    if target.exists():
-        return made | {"stream": target.stat().st_size, "status": "was there"}
+    made: dict[str, object] = {"file": path.name, "bytes": "", "stream": "", "moved": "", "status": ""}
     try:
+        made["bytes"] = path.stat().st_size
+        if target.exists():
+            return made | {"stream": target.stat().st_size, "status": "was there"}
         scan = bsm.load(path)
         clean = bsm.denoise(scan)
         bsm.save(clean, target, preset=preset)
-    except bsm.BsmError as error:
+        moved = bsm.compare(scan, clean).max_error_relative
+        return made | {"stream": target.stat().st_size, "moved": f"{100 * moved:.3f} %"}
+    except (bsm.BsmError, OSError) as error:
         return made | {"status": str(error)}
-    moved = bsm.compare(scan, clean).max_error_relative
-    return made | {"stream": target.stat().st_size, "moved": f"{100 * moved:.3f} %"}
 
 
 if __name__ == "__main__":

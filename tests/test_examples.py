@@ -72,6 +72,18 @@ def test_a_folder_of_scans(tmp_path):
     assert "was there" in script("scans.py", tmp_path / "in", tmp_path / "out").stdout
 
 
+def test_scans_of_one_name_and_links_to_nothing(tmp_path):
+    (tmp_path / "in").mkdir()
+    bsm.save(knot(300), tmp_path / "in/a.ply")
+    bsm.save(knot(400), tmp_path / "in/a.obj")
+    (tmp_path / "in/b.ply").symlink_to("nothing")
+    done = script("scans.py", tmp_path / "in", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["a.obj.bsm", "a.ply.bsm", "report.csv"]
+    rows = (tmp_path / "out/report.csv").read_text().splitlines()
+    assert "was there" not in done.stdout and "No such file" in rows[3]
+
+
 def test_a_corpus_behind_urls(capsys, monkeypatch):
     fsspec = pytest.importorskip("fsspec")
     pytest.importorskip("distributed")
