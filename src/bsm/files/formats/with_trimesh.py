@@ -34,6 +34,7 @@ PER_TRIANGLE, PER_PART = 150, 2000  # bytes that parts take while they are joine
 _NO_NAMES = re.compile(r"geometry_\d+|GLTF(_\d+)?")
 _KNOWN_TO_TRIMESH = re.compile(r"POSITION|NORMAL|TEXCOORD_0|COLOR_0|_.*")
 _READ_BY_TRIMESH = ("EXT_texture_webp", "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization")
+_COMPRESSED = "EXT_bsm_compression"  # of scenes that `bsm glb` wrote
 _PADDING = re.compile(rb"(?<=IEND\xaeB`\x82)\0{1,3}\Z|(?<=\xff\xd9)\0{1,3}\Z")
 """What GLB files have behind a PNG or JPEG."""
 _OF_TRIMESH = ("units", "from_gltf_primitive", "gltf_extensions", "file_path", "file_name", "node", "processed")
@@ -58,6 +59,10 @@ def read_with_trimesh(data: bytes, path: str | None, kind: str, limits: Limits) 
         tree, up = {}, re.search(rb"<up_axis>\s*([XYZ])_UP", data) if kind == "dae" else None
         if kind in ("glb", "gltf"):
             tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")] if kind == "glb" else data)
+            if _COMPRESSED in tree.get("extensionsRequired", []):
+                raise FormatError(
+                    f"its geometry is compressed already, by {_COMPRESSED}; start from the scene before that"
+                )
         absent, unread = _absent_images(tree, path), _unread(tree)
         with np.errstate(all="ignore"):  # what is not finite is refused later
             expected = placed_triangles(data, limits) if kind == "3mf" else None
