@@ -429,6 +429,14 @@ def test_what_is_neither_stream_nor_mesh_is_refused(tmp_path, capsys):
     assert not (tmp_path / "page.html").exists()
 
 
+@pytest.mark.parametrize("end", [0, -20])
+def test_no_page_is_saved_of_a_stream_that_ends_early(end, tmp_path):
+    stream = tmp_path / "cut.bsm"
+    stream.write_bytes((VECTORS / "good-chain.bsm").read_bytes()[:end])
+    assert main(["view", str(stream), "--save", str(tmp_path / "page.html")]) == 12
+    assert not (tmp_path / "page.html").exists()
+
+
 def test_original_of_a_sequence_is_refused(tmp_path, capsys):
     stream, mesh = str(VECTORS / "good-sequence-one.bsm"), str(tmp_path / "ball.ply")
     bsm.save(torus(), mesh)

@@ -11,6 +11,7 @@ from bsm.bitstream.container.wire import MAGIC
 from bsm.bitstream.errors import FormatError, OptionError
 from bsm.commands.flags import add_limits_flag, add_reader_flag, limits_of, within
 from bsm.console import Console, Progress
+from bsm.files.inspection import inspect_stream
 from bsm.files.mesh import read_mesh
 from bsm.files.output import write_output
 from bsm.files.pipes import about, read_chunks, size_of
@@ -66,7 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def _opened(
     name: str, path: str, args: argparse.Namespace, console: Console, progress: Progress
 ) -> Content | Growing | Tiled:
-    """An input; a damaged stream is for the page to tell, unless it is to be compared."""
+    """An input; a damaged stream is for the page to tell, unless it is to be compared, or the page to be kept."""
     if is_tiles(path):
         manifest = open_tiles(path, limits_of(args.limits)).manifest
         shards = {shard["file"]: Ranged(path, shard["file"], shard["size"]) for shard in manifest["shards"]}
@@ -76,6 +77,8 @@ def _opened(
     data = b"".join(read_chunks(path))
     with about(path):
         if data.startswith(MAGIC[: len(data)]):
+            if args.save:
+                inspect_stream(iter([data]), limits_of(args.limits))
             if args.original is None:
                 return alone(name, data)
             with about(args.original):
