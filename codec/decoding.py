@@ -275,9 +275,13 @@ class Decoder(StreamDecoder):
         assert self._sizes is not None
         vertices, faces = self._sizes
         engine = self._open
-        found = (self._attribute(index) for index in range(engine.attribute_count()))
-        attributes = tuple(attribute for attribute, _ in filter(None, found))
-        return TriangleMesh(engine.positions(vertices), engine.faces(faces), attributes, self.metadata)
+        return TriangleMesh(engine.positions(vertices), engine.faces(faces), self.attributes, self.metadata)
+
+    @property
+    def attributes(self) -> tuple[Attribute, ...]:
+        """Attributes that are whole; those that are computed from positions are when these are."""
+        found = (self._attribute(index) for index in range(self._open.attribute_count()))
+        return tuple(attribute for attribute, _ in filter(None, found))
 
     def _event(self, kind: int, index: int, count: int, vertices: int, faces: int) -> Event | None:
         if kind == LOSS:

@@ -124,6 +124,16 @@ def test_a_part_of_a_stream_has_metadata_and_says_which_values_it_has_not(tmp_pa
     assert {a.name for a in read_mesh(tmp_path / "b.npz").mesh.attributes} == {"texcoord", "height", "label"}
 
 
+def test_an_undamaged_stream_has_computed_normals_where_damage_is_tolerated(tmp_path, capsys):
+    mesh = torus(20, 12)
+    normals = bsm.Attribute("normal", mesh.positions, semantic="normal")
+    made = bsm.TriangleMesh(mesh.positions, mesh.faces, [normals])
+    bsm.save(made, tmp_path / "a.bsm", grid=12, attributes={"normal": "recompute"})
+    assert "left out" not in notes(capsys, "decode", tmp_path / "a.bsm", "-o", tmp_path / "a.npz", "--tolerant")
+    (found,), (expected,) = (bsm.load(tmp_path / name).attributes for name in ("a.npz", "a.bsm"))
+    assert np.array_equal(found.values, expected.values)
+
+
 def test_what_lies_beside_is_not_overwritten_unasked(tmp_path, capsys):
     bsm.save(painted(), tmp_path / "a.bsm", grid=12)
     (tmp_path / "a.0.png").write_bytes(b"mine")

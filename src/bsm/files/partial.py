@@ -1,6 +1,6 @@
 """Streams decoded in part: their first blocks, or what damage has left of them."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -69,7 +69,8 @@ def _decode_until(decoder: Decoder, chunks: Iterator[bytes], enough: Callable[[A
             part.take(event)
             if enough(event):
                 break
-    return replace(part.mesh(), metadata=decoder.metadata)
+        whole = decoder.attributes if part.is_whole else ()
+    return replace(part.mesh(whole), metadata=decoder.metadata)
 
 
 class _Part:
@@ -79,6 +80,7 @@ class _Part:
         self._faces: npt.NDArray[np.int32] = np.empty((0, 3), np.int32)
         self._positions, self._known = np.empty((0, 3)), np.empty(0, np.bool_)
         self._values: dict[str, list[AttributeEvent]] = {}
+        self.is_whole = False
 
     def take(self, event: Any) -> None:
         match event:
@@ -89,17 +91,18 @@ class _Part:
                 self._known[event.vertices] = True
             case AttributeEvent(name):
                 self._values.setdefault(name, []).append(event)
+            case EndEvent(losses):
+                self.is_whole = not (len(losses.missing) or len(losses.degraded))
 
-    def mesh(self) -> TriangleMesh:
-        """The faces whose vertices are known, with the attributes that have come as a whole."""
+    def mesh(self, whole: Sequence[Attribute] = ()) -> TriangleMesh:
+        """The faces whose vertices are known, with attributes that are `whole`, or else those that events tell of."""
         complete = np.flatnonzero(self._known[self._faces].all(axis=1))
         if len(complete) == 0:
             raise MeshError("no face is complete in the blocks that are there")
         every_vertex = np.arange(len(self._positions))
-        attributes = [
-            found.taken(every_vertex, complete) for found in map(self._attribute, self._values.values()) if found
-        ]
-        return TriangleMesh(self._positions, self._faces[complete], tuple(attributes)).without_isolated_vertices()[0]
+        attributes = whole or [found for found in map(self._attribute, self._values.values()) if found]
+        taken = tuple(attribute.taken(every_vertex, complete) for attribute in attributes)
+        return TriangleMesh(self._positions, self._faces[complete], taken).without_isolated_vertices()[0]
 
     def _attribute(self, events: list[AttributeEvent]) -> Attribute | None:
         """The attribute that events tell of, None if values of it are missing."""
