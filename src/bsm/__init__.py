@@ -19,7 +19,8 @@ or the name of a file. Functions that take bytes also take any buffer, the name 
 ...     [len(event.vertices) for event in decoder.events([data]) if isinstance(event, bsm.BlockEvent)]
 [4]
 
-Every error is a `BsmError`. Only the names listed here are stable; `bsm.codec` and `bsm.bitstream` are internal.
+Every error is a `BsmError`, but for an `OSError` where a file cannot be read or written. Only the names listed here are
+stable; `bsm.codec` and `bsm.bitstream` are internal.
 """
 
 from __future__ import annotations

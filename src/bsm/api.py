@@ -414,8 +414,8 @@ def decode_sequence(
     Raises
     ------
     BsmError
-        As in `decode`. Also `UnsupportedError` for the stream of a single mesh, and `MeshError` if the faces change;
-        `decode_frames` accepts both.
+        As in `decode`. Also `FormatError` for the stream of a single mesh, and `MeshError` if the faces change, which
+        `decode_frames` accepts.
 
     Examples
     --------
@@ -514,7 +514,11 @@ def save(
         raise OptionError(f"{path}: {next(iter(keywords))} is an option of .bsm files only")
     else:
         written = written_mesh(as_mesh(mesh), kind, path)
-    return save_written(path, written, overwrite=overwrite)
+    try:
+        return save_written(path, written, overwrite=overwrite)
+    except FileExistsError as error:
+        error.strerror = "the file exists already; overwrite=True replaces it"
+        raise
 
 
 def denoise(

@@ -129,7 +129,7 @@ def test_what_cannot_be_saved(mesh, tmp_path):
     with pytest.raises(bsm.ArgumentError, match="a path is expected, not TriangleMesh"):
         bsm.save(tmp_path / "a.ply", mesh)
     bsm.save(mesh, tmp_path / "a.ply")
-    with pytest.raises(FileExistsError):
+    with pytest.raises(FileExistsError, match="overwrite=True"):
         bsm.save(mesh, tmp_path / "a.ply", overwrite=False)
     with pytest.raises(FileNotFoundError) as caught:
         bsm.save(mesh, tmp_path / "no" / "a.ply")
