@@ -158,7 +158,7 @@ class FrameDenoiser:
         if options.hand_over != "none":
             coarse = CoarseFilter(topology.faces, topology.n, options.keep, options.block_size)
 
-        def finish(task: tuple[int, Positions, Positions, Positions]) -> Pair:
+        def finish(task: tuple[int | None, Positions, Positions, Positions]) -> Pair:
             number, given, noisy, smooth = task
             result = step(start(noisy, smooth, topology), topology.faces, **iterations)
             if self._force:
@@ -168,13 +168,14 @@ class FrameDenoiser:
                 raise HarmError(f"{verdict.reason}; nothing is written unless it is forced", frame=number)
             return given, keep_good(noisy, result, verdict.good)
 
-        def tasks() -> Iterator[tuple[int, Positions, Positions, Positions]]:
+        def tasks() -> Iterator[tuple[int | None, Positions, Positions, Positions]]:
             count = 0
             while group := list(islice(frames, GROUP)):
                 noisy = np.stack([frame[self._members] for frame in group])
                 smooth = noisy if coarse is None else filter_frames(coarse, noisy, options.keep)
                 for given, welded, filtered in zip(group, noisy, smooth, strict=True):
-                    yield count, given, welded, filtered
+                    alone = count == 0 and len(group) == 1  # a mesh has no frames
+                    yield None if alone else count, given, welded, filtered
                     count += 1
 
         yield from ordered_map(finish, tasks(), None)

@@ -181,7 +181,7 @@ class Target:
         if self.kind not in self.KINDS:
             raise OptionError(f"a target must be one of {', '.join(self.KINDS)}, not {self.kind!r}")
         if not math.isfinite(self.value) or (self.kind != "nmsve_db" and self.value <= 0):
-            raise OptionError(f"{self.kind} cannot be {self.value:g}")
+            raise OptionError(f"{self.worded(self.value)} cannot be a target")
 
     def reached(self, outcome: Outcome) -> float:
         """The outcome's value of what the target is about."""

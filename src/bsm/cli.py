@@ -162,7 +162,8 @@ class Parser(argparse.ArgumentParser):
     def _inputs(self) -> str:
         inputs = [action for action in self._actions if not action.option_strings and action.nargs != argparse.PARSER]
         names = "".join(f" {action.metavar}{'...' if action.nargs in ('+', '*') else ''}" for action in inputs)
-        return f"{names} [options]" if inputs else " COMMAND ..."
+        commands = any(action.nargs == argparse.PARSER for action in self._actions)
+        return " COMMAND ..." if commands else f"{names} [options]"
 
     def parse_command(self, words: Sequence[str]) -> argparse.Namespace:
         # argparse forgets a "--" between the two passes that mixed words take it.

@@ -104,7 +104,7 @@ def test_harm_has_an_exit_code_of_its_own_and_writes_nothing_unless_forced(tmp_p
     arguments = ("denoise", tmp_path / "clean.npz", "-o", tmp_path / "out.npz", "--keep", "0.05", *FEW)
     ran = bsm(*arguments)
     assert ran.returncode == 11
-    assert "force" in ran.stderr
+    assert "force" in ran.stderr and "frame" not in ran.stderr
     assert not (tmp_path / "out.npz").exists()
     assert bsm(*arguments, "--force").returncode == 0
     assert (read_mesh(tmp_path / "out.npz").mesh.positions != CLEAN.positions).any()

@@ -81,6 +81,10 @@ def test_of_two_runs_at_a_time_the_first_is_whole(source, tmp_path):
         assert bsm("verify", output).returncode == 0
 
 
+def test_nothing_is_said_of_earlier_tiles_where_none_are_asked_for(source, tmp_path):
+    assert "were there" not in tile(source, tmp_path / "out").stderr
+
+
 def test_a_run_that_died_is_taken_over_when_asked(source, tmp_path):
     (tmp_path / "out").mkdir()
     with holding(tmp_path / "out") as other:

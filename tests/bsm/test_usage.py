@@ -47,6 +47,23 @@ def test_wrong_words(words, message, capsys):
     assert usage.startswith("usage: bsm") and "--help" in usage
 
 
+def test_targets_go_by_the_name_of_their_flag(tmp_path, capsys):
+    write_mesh(tmp_path / "a.ply", torus(5, 5))
+    assert main(["encode", str(tmp_path / "a.ply"), "--theta", "0"]) == 2
+    assert "a mean angle of 0 degrees cannot be a target" in capsys.readouterr().err
+
+
+def test_a_pipe_needs_a_format(capsys):
+    assert main(["denoise", "-", "-o", "-"]) == 2
+    assert "--format" in capsys.readouterr().err
+
+
+def test_commands_without_inputs_have_options_alone(capsys):
+    with pytest.raises(SystemExit):
+        main(["demo", "--help"])
+    assert capsys.readouterr().out.startswith("usage: bsm demo [options]\n")
+
+
 def test_no_words_are_wrong_usage(capsys):
     assert main([]) == 2
     assert "COMMAND" in capsys.readouterr().err

@@ -110,7 +110,7 @@ def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
             state.update(time.perf_counter())
 
     state.tiles.update(len(name) - 1 for name in names)
-    many = asked(Run, args, report=str(work / "tiles.json"), resume=True)
+    many = asked(Run, args, report=str(work / "tiles.json"))
     try:
         with console.progress(until=0.5 if args.tileset else 0.96):
             done = run_many(many, asked_for, console, tile_one, list(map(job_of, names)), ended)

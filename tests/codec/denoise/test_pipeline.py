@@ -39,8 +39,10 @@ def test_every_frame_of_a_sequence_is_denoised(options: DenoiseOptions | None) -
 def test_options_that_do_harm_are_refused_unless_forced(size: int) -> None:
     positions, faces = sphere(size)
     options = DenoiseOptions(keep=0.05)
-    with pytest.raises(HarmError, match="frame 0"):
+    with pytest.raises(HarmError, match=r"unless it is forced$"):
         denoise(TriangleMesh(positions, faces), options)
+    with pytest.raises(HarmError, match="frame 0"):
+        list(FrameDenoiser(positions, faces, options)([positions, positions]))
     forced = denoise(TriangleMesh(positions, faces), options, force=True)
     assert (forced.positions != positions).any()
 
