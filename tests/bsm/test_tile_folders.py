@@ -81,7 +81,7 @@ def test_of_two_runs_at_a_time_the_first_is_whole(source, tmp_path):
         assert bsm("verify", output).returncode == 0
 
 
-def test_nothing_is_said_of_earlier_tiles_where_none_are_asked_for(source, tmp_path):
+def test_earlier_tiles_are_not_counted_without_resume(source, tmp_path):
     assert "were there" not in tile(source, tmp_path / "out").stderr
 
 

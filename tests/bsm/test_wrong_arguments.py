@@ -172,6 +172,6 @@ def test_frames_are_counted_from_0(start):
         SequenceDecoder(start=start)
 
 
-def test_there_are_so_many_goals_of_denoising():
+def test_an_unknown_goal_of_denoising_is_refused():
     with pytest.raises(OptionError, match="no goal 'typo'; choose one of shading"):
         bsm.denoise(torus(5, 5), goal="typo")

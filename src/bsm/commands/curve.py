@@ -40,13 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--codecs", metavar="LIST", default=",".join(GROUPS), help=which)
     blocks = "number of blocks for the codecs of the paper (default: blocks of 500 vertices)"
     add("--blocks", type=within(1), metavar="K", help=blocks)
-    add(
-        "--repeat",
-        type=within(1),
-        default=1,
-        metavar="N",
-        help="repeat each measurement; the fastest counts (default 1)",
-    )
+    times = "repeat each measurement; the fastest counts (default 1)"
+    add("--repeat", type=within(1), default=1, metavar="N", help=times)
     add("--csv", action="store_true", help="also write the tables as FOLDER/*.csv")
     add("--latex", action="store_true", help="also write the tables as FOLDER/*.tex (booktabs)")
     add("--pdf", action="store_true", help="also write the pictures as PDF")

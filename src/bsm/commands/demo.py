@@ -18,13 +18,8 @@ from bsm.pictures import bounds_of, colors_of, png, render, with_titles
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("-o", "--output", metavar="FOLDER", default=".", help="folder for the results (default: the current one)")
-    add(
-        "--vertices",
-        type=within(1),
-        default=20_000,
-        metavar="N",
-        help="number of vertices of the sample (default 20000)",
-    )
+    size = "number of vertices of the sample (default 20000)"
+    add("--vertices", type=within(1), default=20_000, metavar="N", help=size)
     add("--json", action="store_true", help="print the result as JSON")
     add_preset_flags(parser)
 

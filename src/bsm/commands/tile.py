@@ -6,7 +6,7 @@ import math
 import os
 import sys
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Any
 
@@ -92,7 +92,8 @@ def _run(args: argparse.Namespace, console: Console, work: Path) -> int:
             plan = _planned(args, work, console)
         except BsmError:
             if unfinished is None:
-                remove(inside(args.output, MANIFEST))
+                with suppress(OSError):
+                    remove(inside(args.output, MANIFEST))
             raise
     asked_for = asked(TileJob, args, input="", output="", most=args.triangles, cell=plan.lattice.cell, force=False)
     names = [name for name in plan.nodes() if name in plan.leaves or not args.finest]
