@@ -217,10 +217,7 @@ EXACTLY(bsmdec_status, bsmdec_next, (bsmdec *decoder, bsmdec_event *event), (dec
         *event = event_of(decoder, BSMDEC_ERROR, 0, 0);
         return decoder->context.error.status;
     }
-    if (event->type == BSMDEC_LOSS) {
-        decoder->loss = decoder->losses[0];
-        memmove(decoder->losses, decoder->losses + 1, (size_t)--decoder->loss_count * sizeof *decoder->losses);
-    }
+    if (event->type == BSMDEC_LOSS) decoder->loss = take_loss(decoder);
     return BSMDEC_OK;
 }
 

@@ -51,6 +51,16 @@ bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count
     return emit_event(decoder, BSMDEC_LOSS, index, count);
 }
 
+bsmdec_error take_loss(bsmdec *decoder) {
+    bsmdec_error loss = decoder->losses[decoder->next_loss++];
+    if (decoder->next_loss == decoder->loss_count) {
+        host_give(&decoder->context, decoder->losses, (size_t)decoder->loss_room * sizeof loss);
+        decoder->losses = NULL;
+        decoder->next_loss = decoder->loss_count = decoder->loss_room = 0;
+    }
+    return loss;
+}
+
 bool tolerate_error(bsmdec *decoder, int64_t block, bool anywhere) {
     Context *context = &decoder->context;
     if (!decoder->tolerant || !anywhere || context->starved || fine(context)) return false;

@@ -128,8 +128,8 @@ struct bsmdec {
     Split split;
     char misuse[128];     /* why the last call was refused */
     bsmdec_error loss;
-    bsmdec_error *losses; /* of the LOSS events that wait, by index */
-    int64_t loss_count, loss_room;
+    bsmdec_error *losses; /* of LOSS events; those from `next_loss` on wait */
+    int64_t next_loss, loss_count, loss_room;
     Pool pool; /* of memory, where the caller brings none */
 };
 
@@ -146,6 +146,8 @@ bsmdec_event event_of(const bsmdec *decoder, bsmdec_event_type type, int64_t ind
 bool emit_event(bsmdec *decoder, bsmdec_event_type type, int64_t index, int64_t count);
 /* Report an error as a loss: of `count` frames of a sequence from `index` on, or of a block. */
 bool emit_loss(bsmdec *decoder, bsmdec_error error, int64_t index, int64_t count);
+/* The loss of the first LOSS event that waits. */
+bsmdec_error take_loss(bsmdec *decoder);
 /* Build the graph of the faces, or the blocks with their chains and assembly, unless that was done. */
 bool graph_of(bsmdec *decoder);
 bool build(bsmdec *decoder);
