@@ -342,7 +342,10 @@ static int64_t find_end(Reader *reader) {
     int64_t available = waiting(reader).size;
     bool ended = reader->grammar.last == END_FRAME;
     while (!ended && (damage->from_next || damage->place < available)) {
-        if (damage->place % STRIDE == 1 && !pay(reader, PLACE_WORK * STRIDE, STRIDE)) return -1;
+        if (damage->place % STRIDE == 1 && damage->place > damage->paid) {
+            if (!pay(reader, PLACE_WORK * STRIDE, STRIDE)) return -1;
+            damage->paid = damage->place;
+        }
         int64_t step = step_from(reader, damage->place, damage->sure);
         if (reader->refused || step == MORE_FIRST) return -1;
         if (step == GO_ON) return damage->place;

@@ -12,6 +12,7 @@ typedef struct {
     bsmdec_error why;
     FrameType type;
     int64_t place, by_length; /* where the frame ends by its tag, -1 if that is not there, or was tried */
+    int64_t paid;             /* the last place where a stretch of them was paid for; a place may be looked at again */
     bool from_next;           /* the place behind the first byte was not tried */
 } Damage;
 

@@ -89,6 +89,10 @@ class Parallel(Structure):
             worker.join()
 
 
+class Limits(Structure):
+    _fields_ = [("size", c_size_t), ("bounds", c_double * 22), ("later", c_double)]
+
+
 class Options(Structure):
     _fields_ = [
         *(("size", c_size_t), ("limits", c_void_p), ("allocator", c_void_p)),

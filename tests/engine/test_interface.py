@@ -19,6 +19,7 @@ from tests.engine.decoding import (
     HEADER,
     Entry,
     Event,
+    Limits,
     Options,
     Shape,
     compiled,
@@ -128,10 +129,6 @@ def test_options_have_a_size(library: ctypes.CDLL, size: int, later: int, opens:
     assert event.type == (HEADER if opens else ERROR)
     assert (b"options.size" in library.bsmdec_last_error(decoder).contents.message) is not opens
     library.bsmdec_close(decoder)
-
-
-class Limits(ctypes.Structure):
-    _fields_ = [("size", ctypes.c_size_t), ("bounds", ctypes.c_double * 22), ("later", ctypes.c_double)]
 
 
 def test_limits_have_a_size_and_are_numbers(library: ctypes.CDLL) -> None:
