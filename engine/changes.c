@@ -1,6 +1,7 @@
 /* Which vertices have moved since the caller last asked, which are final, and what a damaged stream has lost. */
 #include "codec/blocks/blocks.h"
 #include "codec/signal/signal.h"
+#include "engine/arithmetic.h"
 #include "engine/decoder.h"
 
 /* Nanoseconds to look at an edge while rings are found, to find rings at all, and to report a vertex. */
@@ -261,7 +262,7 @@ static bool can_answer(bsmdec *decoder, const void *answer) {
     return decoder->mesh.announced || (REFUSE(decoder, "vertices are known after CONNECTIVITY"), false);
 }
 
-bsmdec_status bsmdec_read_changes(bsmdec *decoder, bsmdec_changes *changes) {
+EXACTLY(bsmdec_status, bsmdec_read_changes, (bsmdec *decoder, bsmdec_changes *changes), (decoder, changes)) {
     if (!can_answer(decoder, changes)) return BSMDEC_MISUSED;
     if (failed(&decoder->context)) return decoder->context.error.status;
     const Mesh *mesh = &decoder->mesh;
@@ -318,7 +319,7 @@ static int64_t list_states(const Numbering *numbering, ConstBytes states, int st
     return count;
 }
 
-bsmdec_status bsmdec_read_losses(bsmdec *decoder, bsmdec_losses *losses) {
+EXACTLY(bsmdec_status, bsmdec_read_losses, (bsmdec *decoder, bsmdec_losses *losses), (decoder, losses)) {
     if (!can_answer(decoder, losses)) return BSMDEC_MISUSED;
     const Mesh *mesh = &decoder->mesh;
     Context *context = &decoder->context;

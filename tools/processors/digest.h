@@ -59,6 +59,14 @@ static uint64_t add_split(uint64_t digest, bsmdec *decoder, int64_t faces) {
     return digest;
 }
 
+static uint64_t add_changes(uint64_t digest, bsmdec *decoder) {
+    bsmdec_changes changes = {0};
+    digest = add_number(digest, bsmdec_read_changes(decoder, &changes));
+    size_t count = (size_t)changes.count;
+    digest = add(add(digest, changes.vertices, count, 4), changes.positions, 3 * count, 8);
+    return add(digest, changes.final, count, 1);
+}
+
 /* An event, and all that can be asked for behind it: partial positions behind events 1, 2, 4, 8, ... */
 static uint64_t digest_of(bsmdec *decoder, const bsmdec_event *event, size_t number) {
     uint64_t digest = 0xcbf29ce484222325;
@@ -72,6 +80,7 @@ static uint64_t digest_of(bsmdec *decoder, const bsmdec_event *event, size_t num
     if (rests || (number & (number - 1)) == 0) {
         ADD_ARRAY(digest, 3 * event->vertices, 8, bsmdec_positions(decoder, array, length));
         ADD_ARRAY(digest, 3 * event->vertices, 4, bsmdec_positions_single(decoder, array, length));
+        if (event->type == BSMDEC_BLOCK || event->type == BSMDEC_REFINEMENT) digest = add_changes(digest, decoder);
     }
     if (rests || event->type == BSMDEC_ATTRIBUTE) digest = add_attributes(digest, decoder);
     if (rests) digest = add_split(digest, decoder, event->faces);
