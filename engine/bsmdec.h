@@ -149,7 +149,8 @@ typedef struct {
     const bsmdec_limits *limits;       /* NULL: those of bsmdec_default_limits */
     const bsmdec_allocator *allocator; /* NULL: malloc and free */
     int tolerant;                      /* 1: report damage as BSMDEC_LOSS and go on (specification, F 8) */
-    int64_t start;                     /* sequences: first frame to report; earlier GOPs are skipped if possible */
+    int64_t start;                     /* sequences: first frame to report, 0 if negative; earlier GOPs are skipped if
+                                        * possible */
     const bsmdec_field *fields;        /* bsmdec_decode only: what a vertex holds; NULL: everything, as floats */
     size_t field_count;                /* elements of `fields` */
     size_t stride;                     /* bytes from one vertex to the next; 0: as few as the fields need, aligned */

@@ -100,7 +100,7 @@ EXACTLY(bsmdec *, bsmdec_open, (const bsmdec_options *given), (given)) {
             "this build of bsmdec does not round as IEEE 754: compile it without fast or fused arithmetic");
     decoder->tolerant = options.tolerant != 0;
     decoder->base_alone = options.layers == 1;
-    decoder->sequence.start = options.start;
+    decoder->sequence.start = options.start > 0 ? options.start : 0;
     decoder->sequence.waiting = arena_of(context);
     decoder->scratch = decoder->shown = decoder->split.arena = arena_of(context);
     decoder->changes.memory = decoder->changes.answer = arena_of(context);
@@ -159,7 +159,7 @@ static bool accept_packet(bsmdec *decoder, const Packet *packet) {
     if (decoder->share.helps && !is_for_helpers(packet)) return true;
     Mark mark = mark_of(&decoder->scratch);
     bool in_sequence = decoder->sequence.active || (packet->type == HEADER_FRAME && packet->header->gop_frames > 0);
-    decoder->has_checksum = packet->has_positions && decoder->sequence.start == 0;
+    decoder->has_checksum = packet->has_positions && (!in_sequence || decoder->sequence.start == 0);
     decoder->expected_sum = packet->positions;
     bool done = in_sequence ? accept_in_sequence(decoder, packet) : accept_section(decoder, packet);
     release_to(&decoder->scratch, mark);

@@ -151,6 +151,14 @@ def test_limits_have_a_size_and_are_numbers(library: ctypes.CDLL) -> None:
         library.bsmdec_close(decoder)
 
 
+@pytest.mark.parametrize(
+    ("name", "start"), [("end-positions", 0), ("end-positions", 5), ("sequence-end-positions", -1)]
+)
+def test_positions_are_checked_from_whatever_start(library: ctypes.CDLL, name: str, start: int) -> None:
+    found = decode(library, (VECTORS / f"bad-{name}.bsm").read_bytes(), start=start)
+    assert "the checksum of decoded positions is wrong" in found.message
+
+
 def test_the_example_writes_what_python_decodes(tmp_path: Path) -> None:
     made = compiled()
     program, example = tmp_path / "obj", ROOT / "engine/examples/obj.c"
