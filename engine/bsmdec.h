@@ -221,7 +221,8 @@ BSMDEC_API bsmdec_status bsmdec_next(bsmdec *decoder, bsmdec_event *event);
  *
  * Each fills an array that you own of exactly `count` elements, or of exactly `size` bytes. It returns BSMDEC_MISUSED
  * and writes nothing if the count is wrong or the data is not available; bsmdec_last_misuse says which. Another status
- * is the decoder's error: there was no memory for the call, and the decoder does not go on.
+ * is the decoder's error: there was no memory for the call, and the decoder does not go on; or, of positions, an
+ * earlier error, after which they are not available.
  */
 
 /* Vertices of all faces: 3 for each face, counted from 0. Available from CONNECTIVITY on. */

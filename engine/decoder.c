@@ -236,22 +236,26 @@ const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose) {
     return coded < 0 ? numbering->loose.data + 3 * (*loose)++ : decoder->positions.data + 3 * coded;
 }
 
-bool has_places(bsmdec *decoder) {
-    if (decoder->has_positions || (!decoder->ended && look_at_positions(decoder))) return true;
+bsmdec_status find_places(bsmdec *decoder) {
+    if (decoder->has_positions || (!decoder->ended && look_at_positions(decoder))) return BSMDEC_OK;
+    if (failed(&decoder->context)) return decoder->context.error.status;
     return REFUSE(decoder,
-               decoder->sequence.active ? "positions are known after FRAME"
-                                        : "positions are known after the first BLOCK"),
-           false;
+        decoder->sequence.active ? "positions are known after FRAME" : "positions are known after the first BLOCK");
 }
 
-static bool can_show(bsmdec *decoder, const void *to, size_t count) {
-    return decoder != NULL && has_places(decoder) && fits(decoder, to, count, 3 * decoder->mesh.numbering.size);
+/* Whether positions may be written to an array of a caller. */
+static bsmdec_status show_in(bsmdec *decoder, const void *to, size_t count) {
+    if (decoder == NULL) return BSMDEC_MISUSED;
+    bsmdec_status status = find_places(decoder);
+    if (status != BSMDEC_OK) return status;
+    return fits(decoder, to, count, 3 * decoder->mesh.numbering.size) ? BSMDEC_OK : BSMDEC_MISUSED;
 }
 
 EXACTLY(bsmdec_status, bsmdec_positions,
     (bsmdec *decoder, double *coordinates, size_t count),
     (decoder, coordinates, count)) {
-    if (!can_show(decoder, coordinates, count)) return BSMDEC_MISUSED;
+    bsmdec_status status = show_in(decoder, coordinates, count);
+    if (status != BSMDEC_OK) return status;
     int64_t loose = 0;
     for (size_t v = 0; v < count / 3; v++)
         memcpy(coordinates + 3 * v, place_of(decoder, (int64_t)v, &loose), 3 * sizeof(double));
@@ -261,7 +265,8 @@ EXACTLY(bsmdec_status, bsmdec_positions,
 EXACTLY(bsmdec_status, bsmdec_positions_single,
     (bsmdec *decoder, float *coordinates, size_t count),
     (decoder, coordinates, count)) {
-    if (!can_show(decoder, coordinates, count)) return BSMDEC_MISUSED;
+    bsmdec_status status = show_in(decoder, coordinates, count);
+    if (status != BSMDEC_OK) return status;
     int64_t loose = 0;
     for (size_t v = 0; v < count / 3; v++) {
         const double *place = place_of(decoder, (int64_t)v, &loose);

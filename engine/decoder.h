@@ -17,8 +17,8 @@ INLINE bsmdec_status refuse_tersely(const bsmdec *decoder) { return (void)decode
 bool copy_options(const bsmdec_options *given, bsmdec_options *options);
 /* Whether an array of a caller is there and has as many elements, or bytes, as it must. */
 bool fits(bsmdec *decoder, const void *array, size_t count, int64_t expected);
-/* Whether positions are available; if not, why is noted. */
-bool has_places(bsmdec *decoder);
+/* Whether positions are available: BSMDEC_OK, the error of a decoder that has failed, or why is noted. */
+bsmdec_status find_places(bsmdec *decoder);
 /* Where vertex v of the user is; `loose` counts those in no face. */
 const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose);
 /* An attribute of which values may have come; NULL, and the reason is noted, if there is none. */

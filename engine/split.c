@@ -221,7 +221,8 @@ EXACTLY(bsmdec_status, bsmdec_split_values,
     bsmdec_attribute shape = {.domain = BSMDEC_VERTEX, .kind = BSMDEC_FLOAT64, .components = 3};
     if (attribute != BSMDEC_POSITION && bsmdec_attribute_at(decoder, attribute, &shape) != BSMDEC_OK)
         return BSMDEC_MISUSED;
-    if (attribute == BSMDEC_POSITION && !has_places(decoder)) return BSMDEC_MISUSED;
+    bsmdec_status status = attribute == BSMDEC_POSITION ? find_places(decoder) : BSMDEC_OK;
+    if (status != BSMDEC_OK) return status;
     if (shape.domain == BSMDEC_FACE) return REFUSE(decoder, "attribute # is of faces, not of vertices", attribute);
     if (shape.domain == BSMDEC_CORNER && !decoder->split.by[attribute])
         return REFUSE(decoder, "attribute # was not given to bsmdec_split", attribute);

@@ -13,7 +13,7 @@ import numpy.typing as npt
 import pytest
 
 import bsm
-from tests.engine.decoding import KINDS, SEMANTICS, Entry, Failure, Options
+from tests.engine.decoding import BLOCK, CONNECTIVITY, KINDS, SEMANTICS, Entry, Event, Failure, Limits, Options
 from tests.streams import frames_in, moving_events_of
 from tools.amalgamate import ROOT
 
@@ -230,6 +230,24 @@ def test_a_host_without_memory_gets_an_error_wherever_that_is(decoder: ctypes.CD
         decoder.bsmdec_release(mesh)
         assert not allocator.held
     assert statuses == {0, NO_MEMORY}
+
+
+def test_positions_without_memory_are_an_error(decoder: ctypes.CDLL) -> None:
+    stream, allocator, event = (VECTORS / "good-keys.bsm").read_bytes(), Allocator(10_000), Event()
+    own = decoder.bsmdec_open(byref(Options(allocator=ctypes.addressof(allocator))))
+    decoder.bsmdec_push(own, stream, len(stream))
+    while decoder.bsmdec_next(own, byref(event)) == 0 and event.type != BLOCK:
+        pass
+    positions, vertices = np.zeros((event.vertices, 3)), c_int64()
+    assert decoder.bsmdec_split(own, None, -1, byref(vertices)) == 0
+    allocator.left = 0
+    for _ in range(2):
+        assert decoder.bsmdec_positions(own, positions.ctypes.data, positions.size) == NO_MEMORY
+    room = (positions.ctypes.data, positions.nbytes)
+    assert decoder.bsmdec_split_values(own, POSITION, FLOAT64, 3, 24, *room) == NO_MEMORY
+    assert decoder.bsmdec_last_error(own).contents.status == NO_MEMORY
+    decoder.bsmdec_close(own)
+    assert not allocator.held
 
 
 @pytest.mark.parametrize("name", ["good-sequence-moving", "good-sequence-moving-runs", "good-sequence-runs-many"])
