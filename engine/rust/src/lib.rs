@@ -625,7 +625,7 @@ pub fn decode_with(stream: &[u8], options: &Options) -> Result<Mesh, Error> {
     let mut decoder = Decoder::new(options)?;
     decoder.push(stream)?;
     decoder.finish();
-    while !matches!(decoder.next()?, Event::End { .. } | Event::Frame { .. }) {}
+    while !matches!(decoder.next()?, Event::EndOfStream | Event::Frame { .. }) {}
     let count = decoder.attribute_count();
     let attributes = (0..count).filter_map(|index| decoder.attribute(index).transpose()).collect::<Result<_, _>>()?;
     Ok(Mesh { positions: decoder.positions()?, faces: decoder.faces()?, attributes, metadata: decoder.metadata() })

@@ -77,6 +77,15 @@ fn wrong_orders_of_calls_are_errors() {
 }
 
 #[test]
+fn bytes_behind_the_end_are_refused() {
+    let mut stream = fs::read(folder().join("good-keys.bsm")).unwrap();
+    stream.extend(b"more");
+    let error = bsmdec::decode(&stream).unwrap_err();
+    assert_eq!((error.status, error.message.as_str()), (Status::Corrupt, "bytes behind END"));
+    assert!(bsmdec::decode_with(&stream, &Options::new().tolerant(true)).is_ok());
+}
+
+#[test]
 fn limits_metadata_and_damage_are_reported() {
     let stream = fs::read(folder().join("good-metadata.bsm")).unwrap();
     let mut limits = Limits::default();
