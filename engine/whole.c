@@ -122,20 +122,26 @@ static bool write_fields(Whole *whole) {
     return true;
 }
 
-/* Decode up to a mesh, a frame or an end, and bring the buffers up to it. */
+/* Bring the buffers up to the mesh, or to the current frame. */
+static bool fill_buffers(Whole *whole, int64_t faces) {
+    bool made = whole->given.decoder->split.is_made || (split_by_fields(whole) && make_buffers(whole, faces));
+    return made && write_fields(whole);
+}
+
+/* Decode up to a frame, or to the end of the stream, and bring the buffers up to it. */
 static bool decode_next(Whole *whole) {
     bsmdec_mesh *given = &whole->given;
     bsmdec *decoder = given->decoder;
     bsmdec_event event = {0};
-    while (event.type != BSMDEC_FRAME && event.type != BSMDEC_END && event.type != BSMDEC_END_OF_STREAM) {
+    while (event.type != BSMDEC_FRAME && event.type != BSMDEC_END_OF_STREAM) {
         if (bsmdec_next(decoder, &event) != BSMDEC_OK) return false;
         given->losses += event.type == BSMDEC_LOSS;
+        bool fills = event.type == BSMDEC_FRAME || (event.type == BSMDEC_END && !decoder->sequence.active);
+        if (fills && !fill_buffers(whole, event.faces)) return false;
     }
     given->frame = event.type == BSMDEC_FRAME ? event.index : -1;
     given->frames = event.frames;
-    if (event.type == BSMDEC_END_OF_STREAM || (event.type == BSMDEC_END && decoder->sequence.active)) return true;
-    if (!decoder->split.is_made && (!split_by_fields(whole) || !make_buffers(whole, event.faces))) return false;
-    return write_fields(whole);
+    return true;
 }
 
 /* The status for the caller. A refused call is an error of the options. After an error there is no mesh. */
@@ -167,15 +173,12 @@ EXACTLY(bsmdec_status, bsmdec_decode,
         .buffers = arena_of(context)};
     *mesh = &whole->given;
     bsmdec_options options = {.size = sizeof options};
-    bsmdec_event event = {0};
     bool known = copy_options(given, &options);
     whole->finds_fields = options.fields == NULL;
     whole->index_size = options.index_size;
     bool done = known && fine(context) && bsmdec_push(decoder, bytes, size) == BSMDEC_OK
         && bsmdec_finish(decoder) == BSMDEC_OK && (whole->finds_fields || copy_fields(whole, &options))
         && decode_next(whole);
-    while (done && !decoder->sequence.active && event.type != BSMDEC_END_OF_STREAM)
-        done = bsmdec_next(decoder, &event) == BSMDEC_OK;
     return status_of(whole, done);
 }
 

@@ -209,6 +209,18 @@ def test_wrong_options_are_named(
         assert not found.vertex_data and not found.vertices and found.decoder
 
 
+@pytest.mark.parametrize(("name", "losses"), [("good-chain", 1), ("good-sequence-runs", 0)])
+def test_bytes_behind_the_end_are_an_error_or_a_loss_of_meshes(decoder: ctypes.CDLL, name: str, losses: int) -> None:
+    stream = (VECTORS / f"{name}.bsm").read_bytes() + b"more"
+    for options in (Options(), Options(tolerant=True)):
+        mesh = POINTER(Mesh)()
+        status = decoder.bsmdec_decode(stream, len(stream), byref(options), byref(mesh))
+        while status == 0 and mesh.contents.frame >= 0:
+            status = decoder.bsmdec_advance(mesh)
+        assert (status, mesh.contents.losses) == ((0, losses) if options.tolerant else (CORRUPT, 0))
+        decoder.bsmdec_release(mesh)
+
+
 def test_streams_that_are_none_give_an_error_to_release(decoder: ctypes.CDLL) -> None:
     whole = (VECTORS / "good-chain.bsm").read_bytes()
     for stream, status in ((b"", 12), (b"no stream", 3), (whole[:-1], 12), (whole + b"more", CORRUPT)):
