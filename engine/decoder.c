@@ -146,7 +146,7 @@ EXACTLY(bsmdec_status, bsmdec_push, (bsmdec *decoder, const void *bytes, size_t 
 bsmdec_status bsmdec_finish(bsmdec *decoder) {
     if (decoder == NULL) return BSMDEC_MISUSED;
     decoder->reader.finished = true;
-    return BSMDEC_OK;
+    return decoder->context.error.status == BSMDEC_MISUSED ? BSMDEC_MISUSED : BSMDEC_OK; /* by wrong options */
 }
 
 /* What comes before the blocks of the first mesh, and these: all that a helper needs. */

@@ -161,7 +161,8 @@ EXACTLY(bsmdec_status, bsmdec_decode,
     bsmdec *decoder = bsmdec_open(given);
     if (decoder == NULL) return BSMDEC_NO_MEMORY;
     Context *context = &decoder->context;
-    bool fits_heap = context->heap + (double)sizeof(Whole) <= context->limits.heap;
+    /* Wrong options, such as this limit, are to be reported. */
+    bool fits_heap = failed(context) || context->heap + (double)sizeof(Whole) <= context->limits.heap;
     Whole *whole = fits_heap ? context->host.allocate(context->host.host, sizeof *whole) : NULL;
     if (whole == NULL) {
         bsmdec_close(decoder);

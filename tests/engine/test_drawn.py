@@ -209,6 +209,15 @@ def test_wrong_options_are_named(
         assert not found.vertex_data and not found.vertices and found.decoder
 
 
+def test_wrong_limits_are_named(decoder: ctypes.CDLL) -> None:
+    limits, stream = Limits(), (VECTORS / "good-chain.bsm").read_bytes()
+    for heap in (-1.0, float("nan")):
+        decoder.bsmdec_default_limits(byref(limits), ctypes.sizeof(limits))
+        limits.bounds[21] = heap
+        with drawn(decoder, stream, Options(ctypes.addressof(limits)), expected=MISUSED) as found:
+            assert found.error.contents.message == b"field 22 of the limits is negative or not a number"
+
+
 @pytest.mark.parametrize(("name", "losses"), [("good-chain", 1), ("good-sequence-runs", 0)])
 def test_bytes_behind_the_end_are_an_error_or_a_loss_of_meshes(decoder: ctypes.CDLL, name: str, losses: int) -> None:
     stream = (VECTORS / f"{name}.bsm").read_bytes() + b"more"

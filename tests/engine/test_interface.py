@@ -145,7 +145,7 @@ def test_limits_have_a_size_and_are_numbers(library: ctypes.CDLL) -> None:
         assert library.bsmdec_default_limits(byref(limits), larger) == 0
         limits.bounds[place] = bound
         decoder = library.bsmdec_open(byref(Options(ctypes.addressof(limits), None, False, 0)))
-        assert library.bsmdec_push(decoder, b"\x89", 1) == expected
+        assert library.bsmdec_push(decoder, b"\x89", 1) == library.bsmdec_finish(decoder) == expected
         message = f"field {place + 1} of the limits is negative or not a number" if expected else ""
         assert library.bsmdec_last_error(decoder).contents.message.decode() == message
         library.bsmdec_close(decoder)
