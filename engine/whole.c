@@ -8,7 +8,7 @@ typedef struct {
     Arena fixed, buffers; /* fields and their attributes; vertices and indices */
     bsmdec_field *fields;
     int *attributes;
-    size_t index_size;
+    size_t stride, index_size;
     bool finds_fields;
 } Whole;
 
@@ -54,12 +54,17 @@ static bool find_fields(Whole *whole) {
         whole->given.stride += packed_size(&whole->fields[count++]);
     }
     whole->given.field_count = count;
+    if (whole->stride > 0 && whole->given.stride > whole->stride)
+        return FAIL(&decoder->context, MISUSED, "a vertex has # bytes, more than the stride",
+            (int64_t)whole->given.stride);
+    if (whole->stride > 0) whole->given.stride = whole->stride;
     return true;
 }
 
 /* Fields as the caller wants them. */
 static bool copy_fields(Whole *whole, const bsmdec_options *options) {
     bsmdec *decoder = whole->given.decoder;
+    const size_t most = options->stride > 0 ? options->stride : PTRDIFF_MAX; /* no array is larger */
     size_t stride = options->stride, widest = 1;
     if (!TAKE(&whole->fixed, (int64_t)options->field_count, whole->fields)
         || !TAKE(&whole->fixed, (int64_t)options->field_count, whole->attributes))
@@ -70,7 +75,7 @@ static bool copy_fields(Whole *whole, const bsmdec_options *options) {
             return FAIL(&decoder->context, MISUSED, "field #: kind # or # components cannot be", (int64_t)i,
                 field->kind, field->components);
         size_t end = field->offset + packed_size(field);
-        if (end < field->offset || (options->stride > 0 && end > options->stride))
+        if (end < field->offset || end > most)
             return FAIL(&decoder->context, MISUSED, "field # ends at byte # of a vertex, behind the stride", (int64_t)i,
                 (int64_t)end);
         if (end > stride) stride = end;
@@ -176,6 +181,7 @@ EXACTLY(bsmdec_status, bsmdec_decode,
     bsmdec_options options = {.size = sizeof options};
     bool known = copy_options(given, &options);
     whole->finds_fields = options.fields == NULL;
+    whole->stride = options.stride;
     whole->index_size = options.index_size;
     bool done = known && fine(context) && bsmdec_push(decoder, bytes, size) == BSMDEC_OK
         && bsmdec_finish(decoder) == BSMDEC_OK && (whole->finds_fields || copy_fields(whole, &options))

@@ -190,6 +190,12 @@ def test_floats_become_integers_of_normals_and_colors(decoder: ctypes.CDLL) -> N
         ({"stride": 16}, [(POSITION, None, FLOAT32, 3, 8)], "field 0 ends at byte 20 of a vertex, behind the stride"),
         ({"stride": 14}, [(POSITION, None, FLOAT32, 3, 0)], "array or stride is not a multiple of 4 bytes"),
         ({}, [(POSITION, None, FLOAT32, 3, 2**64 - 4)], "field 0 ends at byte 8 of a vertex, behind the stride"),
+        (
+            {},
+            [(POSITION, None, FLOAT64, 3, 0), (NORMAL, None, INT8, 1, 2**64 - 2)],
+            "field 1 ends at byte -1 of a vertex, behind the stride",
+        ),
+        ({"stride": 8}, [], "a vertex has 12 bytes, more than the stride"),
         ({"index_size": 3}, [], "indices have 2 or 4 bytes, not 3"),
         (
             {"size": 9},
@@ -216,6 +222,14 @@ def test_wrong_limits_are_named(decoder: ctypes.CDLL) -> None:
         limits.bounds[21] = heap
         with drawn(decoder, stream, Options(ctypes.addressof(limits)), expected=MISUSED) as found:
             assert found.error.contents.message == b"field 22 of the limits is negative or not a number"
+
+
+def test_a_stride_holds_without_fields(decoder: ctypes.CDLL) -> None:
+    options, stream = Options(), (VECTORS / "good-attribute-uv-plain.bsm").read_bytes()
+    options.stride = 64
+    with drawn(decoder, stream) as packed, drawn(decoder, stream, options) as found:
+        assert (packed.stride, found.stride, found.vertex_bytes) == (20, 64, 64 * packed.vertices)
+        assert all(np.array_equal(found.vertex(k), packed.vertex(k)) for k in range(2))
 
 
 @pytest.mark.parametrize(("name", "losses"), [("good-chain", 1), ("good-sequence-runs", 0)])
