@@ -329,6 +329,13 @@ bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute) {
         d->name, given.domain, d->semantic, d->kind, d->components, given.rows, corners, d->moves};
 }
 
+bool find_shape(const bsmdec *decoder, int index, bsmdec_attribute *shape) {
+    const Attribute *found = decoder->mesh.announced ? decoder->mesh.attributes.list[index] : NULL;
+    if (found == NULL || found->values == NULL || !found->whole) return false;
+    *shape = shape_of(decoder, found);
+    return true;
+}
+
 bsmdec_status bsmdec_attribute_at(bsmdec *decoder, int index, bsmdec_attribute *attribute) {
     const Attribute *found = attribute_of(decoder, index);
     if (found == NULL) return BSMDEC_MISUSED;

@@ -24,5 +24,7 @@ const double *place_of(const bsmdec *decoder, int64_t v, int64_t *loose);
 /* An attribute of which values may have come; NULL, and the reason is noted, if there is none. */
 const Attribute *started_attribute(bsmdec *decoder, int index);
 bsmdec_attribute shape_of(const bsmdec *decoder, const Attribute *attribute);
+/* Describe one of the attributes if it is available; nothing is noted. */
+bool find_shape(const bsmdec *decoder, int index, bsmdec_attribute *shape);
 
 #endif

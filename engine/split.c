@@ -80,13 +80,9 @@ static bool split_corners(bsmdec *decoder, Arena *scratch) {
 }
 
 /* Take note that an attribute splits vertices, if it is one of corners. */
-static bool note_attribute(bsmdec *decoder, int index, Split *split) {
-    bsmdec_attribute shape;
-    if (bsmdec_attribute_at(decoder, index, &shape) != BSMDEC_OK) return false;
-    if (shape.domain == BSMDEC_FACE) return REFUSE(decoder, "attribute # is of faces, not of vertices", index), false;
-    split->by[index] = shape.domain == BSMDEC_CORNER;
+static void note_attribute(const bsmdec_attribute *shape, int index, Split *split) {
+    split->by[index] = shape->domain == BSMDEC_CORNER;
     split->is_needed |= split->by[index];
-    return true;
 }
 
 EXACTLY(bsmdec_status, bsmdec_split,
@@ -96,10 +92,15 @@ EXACTLY(bsmdec_status, bsmdec_split,
     if (vertices == NULL || (attributes == NULL && count > 0)) return REFUSE(decoder, "attributes or vertices is NULL");
     if (!decoder->mesh.announced) return REFUSE(decoder, "faces are known after CONNECTIVITY");
     Split split = {.arena = arena_of(&decoder->context), .vertices = decoder->mesh.numbering.size, .is_made = true};
-    for (int k = 0; k < count; k++)
-        if (!note_attribute(decoder, attributes[k], &split)) return BSMDEC_MISUSED;
+    bsmdec_attribute shape;
+    for (int k = 0; k < count; k++) {
+        if (bsmdec_attribute_at(decoder, attributes[k], &shape) != BSMDEC_OK) return BSMDEC_MISUSED;
+        if (shape.domain == BSMDEC_FACE)
+            return REFUSE(decoder, "attribute # is of faces, not of vertices", attributes[k]);
+        note_attribute(&shape, attributes[k], &split);
+    }
     for (int k = 0; count < 0 && k < bsmdec_attribute_count(decoder); k++)
-        if (!note_attribute(decoder, k, &split)) continue; /* not there, or of faces */
+        if (find_shape(decoder, k, &shape)) note_attribute(&shape, k, &split);
     forget_split(decoder);
     decoder->split = split;
     Arena scratch = arena_of(&decoder->context);

@@ -31,7 +31,7 @@ static int attribute_for(bsmdec *decoder, const bsmdec_field *field) {
     bsmdec_attribute shape;
     if (field->semantic == BSMDEC_POSITION) return BSMDEC_POSITION;
     for (int k = 0; k < bsmdec_attribute_count(decoder); k++)
-        if (bsmdec_attribute_at(decoder, k, &shape) == BSMDEC_OK && suits(field, &shape)) return k;
+        if (find_shape(decoder, k, &shape) && suits(field, &shape)) return k;
     return BSMDEC_ABSENT;
 }
 
@@ -47,7 +47,7 @@ static bool find_fields(Whole *whole) {
     whole->given.stride = packed_size(&whole->fields[0]);
     for (int k = 0; k + 1 < (int)all; k++) {
         bsmdec_attribute shape;
-        if (bsmdec_attribute_at(decoder, k, &shape) != BSMDEC_OK || shape.domain == BSMDEC_FACE) continue;
+        if (!find_shape(decoder, k, &shape) || shape.domain == BSMDEC_FACE) continue;
         whole->fields[count] =
             (bsmdec_field){shape.semantic, shape.name, BSMDEC_FLOAT32, shape.components, whole->given.stride};
         whole->attributes[count] = k;

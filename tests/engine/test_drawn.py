@@ -232,6 +232,17 @@ def test_a_stride_holds_without_fields(decoder: ctypes.CDLL) -> None:
         assert all(np.array_equal(found.vertex(k), packed.vertex(k)) for k in range(2))
 
 
+def test_what_all_leaves_out_is_no_misuse(decoder: ctypes.CDLL) -> None:
+    stream, event, vertices = (VECTORS / "good-attribute-uv-plain.bsm").read_bytes(), Event(), c_int64()
+    own = decoder.bsmdec_open(None)
+    decoder.bsmdec_push(own, stream, len(stream))
+    while decoder.bsmdec_next(own, byref(event)) == 0 and event.type != CONNECTIVITY:
+        pass
+    assert decoder.bsmdec_split(own, None, -1, byref(vertices)) == 0 and vertices.value == event.vertices
+    assert decoder.bsmdec_last_misuse(own) == b""
+    decoder.bsmdec_close(own)
+
+
 @pytest.mark.parametrize(("name", "losses"), [("good-chain", 1), ("good-sequence-runs", 0)])
 def test_bytes_behind_the_end_are_an_error_or_a_loss_of_meshes(decoder: ctypes.CDLL, name: str, losses: int) -> None:
     stream = (VECTORS / f"{name}.bsm").read_bytes() + b"more"
