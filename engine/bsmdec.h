@@ -156,7 +156,8 @@ typedef struct {
     size_t stride;                     /* bytes from one vertex to the next; 0: as few as the fields need, aligned */
     size_t index_size;                 /* bytes of an index: 2, 4, or 0 for 2 if that suffices */
     const bsmdec_parallel *parallel;   /* NULL: one thread */
-    int64_t layers;                    /* meshes: 1 ends behind the blocks, without refinement and coded attributes */
+    int64_t layers;                    /* meshes with refinement: 1 ends behind the blocks, without it and coded
+                                        * attributes */
 } bsmdec_options;
 
 /* A decoder. */
