@@ -142,7 +142,7 @@ typedef struct {
     int64_t threads;
 } bsmdec_parallel;
 
-/* How to decode: `bsmdec_options options = {sizeof options};`, then set what you need. 0 and NULL are the defaults. The
+/* How to decode: `bsmdec_options options = BSMDEC_OPTIONS;`, then set what you need. 0 and NULL are the defaults. The
  * library copies what `limits`, `allocator` and `parallel` point to. */
 typedef struct {
     size_t size;                       /* sizeof(bsmdec_options) */
@@ -159,6 +159,7 @@ typedef struct {
     int64_t layers;                    /* meshes with refinement: 1 ends behind the blocks, without it and coded
                                         * attributes */
 } bsmdec_options;
+#define BSMDEC_OPTIONS {sizeof(bsmdec_options), NULL, NULL, 0, 0, NULL, 0, 0, 0, NULL, 0}
 
 /* A decoder. */
 typedef struct bsmdec bsmdec;

@@ -30,7 +30,7 @@ static void write_obj(const bsmdec_mesh *mesh) {
 
 int main(int count, char **arguments) {
     const bsmdec_field position = {BSMDEC_POSITION, NULL, BSMDEC_FLOAT64, 3, 0};
-    bsmdec_options options = {sizeof options};
+    bsmdec_options options = BSMDEC_OPTIONS;
     bsmdec_mesh *mesh;
     size_t size = 0;
     char *bytes = count == 2 ? read_file(arguments[1], &size) : NULL;

@@ -17,6 +17,7 @@ from tests.engine.decoding import (
     END_OF_STREAM,
     ERROR,
     HEADER,
+    WARNINGS,
     Entry,
     Event,
     Limits,
@@ -159,11 +160,17 @@ def test_positions_are_checked_from_whatever_start(library: ctypes.CDLL, name: s
     assert "the checksum of decoded positions is wrong" in found.message
 
 
+@pytest.mark.parametrize("compiler", [("cc", "-xc", "-std=c99"), ("c++", "-xc++", "-std=c++11")])
+def test_the_header_and_default_options_give_no_warning(tmp_path: Path, compiler: tuple[str, ...]) -> None:
+    (tmp_path / "options.c").write_text('#include "bsmdec.h"\nbsmdec_options options = BSMDEC_OPTIONS;\n')
+    subprocess.run([*compiler, *WARNINGS, "-fsyntax-only", f"-I{compiled()}", "options.c"], check=True, cwd=tmp_path)
+
+
 def test_the_example_writes_what_python_decodes(tmp_path: Path) -> None:
     made = compiled()
     program, example = tmp_path / "obj", ROOT / "engine/examples/obj.c"
     subprocess.run(
-        ["cc", "-w", f"-I{made}", example, made / "bsmdec.so", f"-Wl,-rpath,{made}", "-o", program], check=True
+        ["cc", *WARNINGS, f"-I{made}", example, made / "bsmdec.so", f"-Wl,-rpath,{made}", "-o", program], check=True
     )
     written = subprocess.run([program, VECTORS / "good-chain.bsm"], check=True, capture_output=True, text=True).stdout
     (tmp_path / "mesh.obj").write_text(written)
