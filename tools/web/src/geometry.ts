@@ -76,7 +76,6 @@ export class BSMGeometry extends BufferGeometry {
     accept(picture: Picture): void {
         switch (picture.type) {
             case "header":
-                this.restart();
                 this.header = picture.header;
                 return;
             case "metadata":
@@ -126,19 +125,6 @@ export class BSMGeometry extends BufferGeometry {
         const spread = new Float32Array(width * parted.length);
         parted.forEach((vertex, i) => spread.set(numbers.subarray(width * vertex, width * vertex + width), width * i));
         return spread;
-    }
-
-    /** A decoder that knows more begins again. */
-    private restart(): void {
-        if (this.header) this.dispose();
-        for (const name of Object.keys(this.attributes)) this.deleteAttribute(name);
-        this.setIndex(null);
-        this.clearGroups();
-        this.metadata.clear();
-        [this.carried.length, this.frames.length] = [0, 0];
-        this.coming = this.worn = this.colour = undefined;
-        [this.refinedVertices, this.blocks, this.drawn, this.shown] = [0, 0, 0, -1];
-        [this.points, this.normals, this.origin, this.refined] = [new Float32Array(0), new Float32Array(0), new Int32Array(0), new Uint8Array(0)];
     }
 
     private begin({ vertices, corners, loose }: BegunPicture): void {

@@ -220,6 +220,7 @@ class PooledStream implements StreamDecoding {
     need: Need = { build: "whole", vertices: 0 };
     private readonly pieces: (Uint8Array | null)[] = [];
     private known = false;
+    private told = 0;
     private kernels?: WebAssembly.Module;
     private say?: (message: Message, moved: Transferable[]) => void;
 
@@ -260,7 +261,7 @@ class PooledStream implements StreamDecoding {
         const { tolerant, drawing, worthwhile, limits = {} } = this.wishes;
         if (!this.kernels) return;
         this.say = say;
-        say({ task: this.task, start: { kernels: this.kernels, limits, tolerant, drawing, worthwhile, helpers } }, helpers);
+        say({ task: this.task, start: { kernels: this.kernels, limits, tolerant, drawing, told: this.told, worthwhile, helpers } }, helpers);
         for (const data of this.pieces) say({ task: this.task, data }, []);
     }
 
@@ -270,6 +271,7 @@ class PooledStream implements StreamDecoding {
         if ("picture" in report) listener.onPicture?.(report.picture);
         else if ("event" in report) listener.onEvent?.(report.event);
         else if ("taken" in report) listener.onTaken?.(report.taken);
+        else if ("told" in report) this.told = report.told;
         else if ("problem" in report) {
             // Lesser builds do not know everything, nor what to say of it.
             if (this.need.build !== "whole") this.restart();
@@ -292,7 +294,7 @@ class PooledStream implements StreamDecoding {
         }
     }
 
-    /** Begin again with the decoder of everything. */
+    /** Begin again with the decoder of everything, which tells what has not been told yet. */
     private restart(): void {
         this.say?.({ task: this.task, stop: true }, []);
         this.say = undefined;

@@ -5,7 +5,7 @@ import { BsmError, type Described } from "./errors";
 import type { Share, SharedBlock } from "./share";
 import { Kernels } from "./kernels";
 import type { Limits } from "./limits";
-import { END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./signals";
+import { END_OF_STREAM, NEED_BLOCK, NEED_DATA, type Signal } from "./signals";
 
 /** What a thread reports of a stream; frames come in single precision, as they are drawn. */
 export type DrawnEvent = Exclude<Event, FrameEvent> | FrameEvent<Float32Array>;
@@ -17,6 +17,8 @@ export interface Start {
     tolerant?: boolean;
     /** Report pictures, not events: only the whole one, or each that can be drawn. */
     drawing?: "whole" | "growing";
+    /** Events that another decoder has told of this stream, which are not to be told again. */
+    told?: number;
     /** Threads that help this one, and vertices from which on that is worthwhile. */
     helpers?: MessagePort[];
     worthwhile?: number;
@@ -27,12 +29,13 @@ export interface Start {
 export type Order = { task: number } & ({ start: Start } | { data: Uint8Array | null } | { stop: true });
 export type Message = Order | { help: MessagePort };
 
-/** A report on a task: an event or a picture, a block, the end of blocks, what is wrong, bytes taken, or the end. */
+/** A report on a task: an event or a picture, a block, the end of blocks, events before what is wrong, what that is, bytes taken, or the end. */
 export type Report =
     | { event: DrawnEvent }
     | { picture: Picture }
     | { shared: SharedBlock }
     | { through: true }
+    | { told: number }
     | { problem: Described }
     | { fault: string }
     | { taken: number }
@@ -109,7 +112,7 @@ export function serveWith(open: Open): void {
 export interface Decoding {
     receiveData(data: Uint8Array): void;
     receiveEof(): void;
-    nextEvent(): Event | typeof NEED_DATA | typeof NEED_BLOCK | typeof END_OF_STREAM;
+    nextEvent(): Event | Signal | typeof NEED_BLOCK;
     release(): void;
 }
 
@@ -117,13 +120,17 @@ export interface Decoding {
 export class Reporter {
     private readonly drawing?: Drawing;
     private taken = 0;
+    /** Events that were told; below 0 are those that another decoder has told. */
+    private told: number;
 
     constructor(
         private readonly decoder: Decoding,
-        { drawing, limits }: Start,
-        private readonly say: Say,
+        private readonly start: Start,
+        private readonly out: Say,
     ) {
-        if (drawing) this.drawing = new Drawing(drawing === "growing", limits, (picture, moved) => say({ picture }, moved));
+        const { drawing, limits, told = 0 } = start;
+        this.told = -told;
+        if (drawing) this.drawing = new Drawing(drawing === "growing", limits, (picture, moved) => this.say({ picture }, moved));
     }
 
     take(data: Uint8Array | null): void {
@@ -132,8 +139,18 @@ export class Reporter {
         this.taken += data?.length ?? 0;
     }
 
-    /** Report everything that is known now; return what the decoder waits for then. */
-    report(): typeof NEED_DATA | typeof NEED_BLOCK | typeof END_OF_STREAM {
+    /** Report everything that is known now, be it that an error follows; return what the decoder waits for then. */
+    report(): Signal | typeof NEED_BLOCK {
+        try {
+            return this.pass();
+        } catch (error) {
+            this.drawing?.flush();
+            this.out({ told: this.told });
+            throw error;
+        }
+    }
+
+    private pass(): Signal | typeof NEED_BLOCK {
         for (;;) {
             const event = this.decoder.nextEvent();
             if (typeof event === "string") {
@@ -150,6 +167,13 @@ export class Reporter {
                 const positions = Float32Array.from(event.positions);
                 this.say({ event: { ...event, positions } }, [positions.buffer]);
             } else this.say({ event });
+            if (this.told < 0) this.drawing?.flush();
+            // Not every decoder tells blocks where the whole mesh alone is drawn.
+            if (event.type !== "block" || this.start.drawing !== "whole") this.told++;
         }
+    }
+
+    private say(report: Report, moved?: Transferable[]): void {
+        if (this.told >= 0) this.out(report, moved);
     }
 }

@@ -8,10 +8,17 @@ import { chromium, type Browser, type Page } from "playwright-core";
 import { serveSite, POLICY, type Site } from "./server";
 import { decode } from "../src/index";
 import { sceneOf } from "./scene";
-import { BUILDS, CHROMIUM, compile, FLAGS, PATIENCE, VECTORS, WEB } from "./shared";
+import { BUILDS, CHROMIUM, compile, eventsOf, FLAGS, PATIENCE, VECTORS, WEB } from "./shared";
 
 const STREAM = "good-labels";
 const KEYS = "good-keys";
+
+/** A stream with a wrong bit near its end. */
+function broken(name: string): Uint8Array {
+    const data = Uint8Array.from(readFileSync(join(VECTORS, `${name}.bsm`)));
+    data[Math.floor(0.9 * data.length)] ^= 4;
+    return data;
+}
 
 describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}`, timeout: 5 * PATIENCE }, () => {
     let browser: Browser;
@@ -134,6 +141,62 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.ok(outcome.slice(9, 12).every((text) => /no-such-file.bsm: 404/.test(String(text))), `${outcome}`);
         assert.deepEqual(outcome.slice(12), [true, true, true]);
         assert.deepEqual([seen.after, seen.cut, seen.stray, seen.more], [true, "TruncatedError", "FormatError", 0]);
+    });
+
+    for (const name of ["good-sequence-low-delay", "good-keys", "good-light-chunks"]) {
+        test(`tells once what comes before damage of ${name}`, async () => {
+            const damaged = broken(name);
+            site.extra.set("/damaged.bsm", damaged);
+            const told: string[] = [];
+            const kernels = await compile(BUILDS[0]);
+            assert.throws(() => { for (const { type } of eventsOf(kernels, damaged, damaged.length)) told.push(type); }, { name: "CorruptError" });
+            const seen = await found(`
+                const data = new Uint8Array(await (await fetch("/damaged.bsm")).arrayBuffer());
+                const decoded = (wishes) => new Promise((keep) => {
+                    const heard = [];
+                    let [corners, drawn] = [0, 0];
+                    const onPicture = (picture) => {
+                        heard.push(picture.type);
+                        if (picture.type === "begun") ({ corners } = picture);
+                        if (picture.type === "grown") drawn += picture.index.length;
+                    };
+                    const onError = ({ name, problem }) => keep({ heard, name, said: problem !== "", most: drawn <= corners });
+                    const stream = new Pool().open({ onEvent: ({ type }) => heard.push(type), onPicture, onError }, wishes);
+                    for (let at = 0; at < data.length; at += 50) stream.receiveData(data.slice(at, at + 50));
+                    stream.receiveEof();
+                });
+                return { events: await decoded({}), pictures: await decoded({ drawing: "growing" }), whole: await decoded({ drawing: "whole" }) };`);
+            const { events, pictures, whole } = seen as Record<string, { heard: string[] }>;
+            assert.deepEqual(events, { heard: told, name: "CorruptError", said: true, most: true });
+            assert.deepEqual({ ...pictures, heard: [] }, { ...events, heard: [] });
+            for (const { heard } of [pictures, whole]) assert.deepEqual(heard.filter((type) => type === "header" || type === "frame"), told.filter((type) => type === "header" || type === "frame"));
+            assert.equal(pictures.heard.filter((type) => type === "begun").length, 1);
+            assert.ok(pictures.heard.includes("grown"));
+        });
+    }
+
+    test("keeps the frames before damage, and says then what is wrong", async () => {
+        site.extra.set("/damaged.bsm", broken("good-sequence-low-delay"));
+        const seen = await found(`
+            await import("/bsm/player.js");
+            const sequence = await new BSMLoader().loadSequence("/damaged.bsm");
+            const shown = [];
+            sequence.addEventListener("frame", ({ index }) => shown.push(index));
+            for (const type of ["loop", "ended"]) sequence.addEventListener(type, () => shown.push(type));
+            const failed = new Promise((keep) => sequence.addEventListener("error", ({ error }) => keep(error.name)));
+            sequence.loop = false;
+            const error = await failed;
+            for (let k = 0; k < 3 * sequence.length; k++) sequence.update(1 / sequence.rate);
+            const player = Object.assign(document.createElement("bsm-player"), { src: "/damaged.bsm" });
+            let loaded = 0;
+            player.addEventListener("loadeddata", () => loaded++);
+            const wrong = new Promise((keep) => player.addEventListener("error", keep));
+            document.body.append(player);
+            await wrong;
+            const frames = player.sequence.length;
+            player.remove();
+            return { shown, error, length: sequence.length, frames, loaded, groups: player.scene.children.length };`, {});
+        assert.deepEqual(seen, { shown: [1, 2, 3, 4, 5, "ended"], error: "CorruptError", length: 6, frames: 6, loaded: 1, groups: 2 });
     });
 
     test("stops on request", async () => {

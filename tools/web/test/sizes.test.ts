@@ -8,10 +8,10 @@ import { VIEWER, WEB } from "./shared";
 
 /** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, and for the page itself. */
 const LOADS: Record<string, [most: number, files: string[]]> = {
-    "light grids": [19800, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
-    "static meshes": [78100, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
-    "sequences": [77200, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
-    "everything": [114100, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
+    "light grids": [19900, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
+    "static meshes": [78200, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
+    "sequences": [77300, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
+    "everything": [114200, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8500, ["three.js", "pool.js"]],
 };
 
@@ -23,7 +23,7 @@ for (const [what, [most, files]] of Object.entries(LOADS)) {
     });
 }
 
-test("the page of tiles is at most 269000 bytes as `bsm view` sends it", () => {
+test("the page of tiles is at most 269500 bytes as `bsm view` sends it", () => {
     const sizes = ["viewer.js", "small.wasm"].map((name) => gzipSync(readFileSync(join(VIEWER, name)), { level: 9 }).length);
-    assert.ok(sizes[0] + sizes[1] <= 269_000, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
+    assert.ok(sizes[0] + sizes[1] <= 269_500, `viewer.js ${sizes[0]}, small.wasm ${sizes[1]}`);
 });
