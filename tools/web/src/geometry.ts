@@ -157,6 +157,7 @@ export class BSMGeometry extends BufferGeometry {
             if (attribute) (attribute as BufferAttribute).needsUpdate = true;
         }
         this.setDrawRange(0, this.drawn);
+        [this.boundingBox, this.boundingSphere] = [null, null]; // those of what was there before
         this.blocks = blocks;
         this.progress.onBlock?.(this);
     }

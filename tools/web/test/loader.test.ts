@@ -76,11 +76,13 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         const seen = await found(`
             const seen = { blocks: 0, frames: 0, bytes: 0 };
             const take = (name, progress) => new Promise((keep, fail) => new BSMLoader().load("/stream/" + name + ".bsm", keep, (event) => (seen.bytes = event.loaded), fail, progress));
-            const grown = { begun: [], drawn: [], early: 0 };
+            const grown = { begun: [], drawn: [], radii: [], early: 0 };
             const look = (geometry) => {
                 const corners = geometry.index.array.subarray(0, geometry.drawRange.count);
                 grown.drawn.push(corners.length);
                 grown.early += corners.filter((vertex) => geometry.origin[vertex] < 0).length;
+                if (!geometry.boundingSphere) geometry.computeBoundingSphere(); // as three.js does to draw
+                grown.radii.push(geometry.boundingSphere.radius);
             };
             const whole = await take("${STREAM}", { onBlock: () => seen.blocks++ });
             const sequence = await take("good-sequence-learnt", { onFrame: () => seen.frames++ });
@@ -94,10 +96,11 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                 positions: [...parted.getAttribute("position").array].every((x, i) => Math.abs(x - mesh.positions[i]) < 1e-5),
                 normals: Array.from({ length: n.length / 3 }, (_, i) => Math.hypot(n[3 * i], n[3 * i + 1], n[3 * i + 2])).every((length) => Math.abs(length - 1) < 1e-4),
             };`);
-        const { begun, drawn, early } = seen.grown as { begun: number[]; drawn: number[]; early: number };
+        const { begun, drawn, radii, early } = seen.grown as { begun: number[]; drawn: number[]; radii: number[]; early: number };
         assert.equal(begun.length, 1);
         assert.ok(drawn[0] === 0 && drawn.every((count, i) => i === 0 || count >= drawn[i - 1]), `${drawn}`);
         assert.equal(drawn.at(-1), begun.at(-1));
+        assert.ok(radii[0] === 0 && radii[1] > 0, `${radii}`);
         assert.equal(early, 0);
         assert.ok(Number(seen.blocks) > 0 && Number(seen.bytes) > 0 && Number(seen.kept) > 1);
         assert.equal(seen.frames, seen.kept);
