@@ -203,8 +203,8 @@ export class Pool {
         this.hands.push(...this.hands.splice(0).filter((hand) => !worked.includes(hand)), ...worked);
         const at = this.waiting.indexOf(stream);
         if (at >= 0) this.waiting.splice(at, 1);
-        const next = this.waiting.shift();
-        if (next) this.place(next);
+        const isRoom = (): boolean => this.hands.length < this.limit || this.hands.some(({ streams }) => streams.size === 0);
+        for (let next; isRoom() && (next = this.waiting.shift()); ) this.place(next);
     }
 }
 

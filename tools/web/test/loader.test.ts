@@ -202,6 +202,26 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual(seen, { shown: [1, 2, 3, 4, 5, "ended"], error: "CorruptError", length: 6, frames: 6, loaded: 1, groups: 2 });
     });
 
+    test("has all threads decode again behind a stream that took several", async () => {
+        const seen = await found(`
+            const data = await bytesOf("${KEYS}");
+            let [busy, most] = [0, 0];
+            const pool = new Pool(undefined, 3);
+            const decoded = (worthwhile) => new Promise((keep, fail) => {
+                const stream = pool.open({ onEvent: ({ type }) => type === "header" && (most = Math.max(most, ++busy)), onEnd: () => keep(busy--), onError: fail }, { worthwhile });
+                stream.receiveData(data.slice(0, 100));
+                setTimeout(() => (stream.receiveData(data.slice(100)), stream.receiveEof()), 500);
+            });
+            Object.defineProperty(navigator, "hardwareConcurrency", { value: 4 });
+            await pool.preload("small");
+            const large = decoded(0);
+            await new Promise((go) => setTimeout(go, 100));
+            const alone = workers;
+            await Promise.all([large, decoded(), decoded(), decoded(), decoded()]);
+            return { alone, most };`);
+        assert.deepEqual(seen, { alone: 3, most: 3 });
+    });
+
     test("stops on request", async () => {
         const seen = await found(`
             const problem = (load) => load.then(() => "none", ({ name, message }) => name + " " + message);
