@@ -50,6 +50,8 @@ interface Hand {
  */
 export class Pool {
     private readonly hands: Hand[] = [];
+    /** All that were opened and are not over, and those of them that wait for a thread. */
+    private readonly streams = new Set<PooledStream>();
     private readonly waiting: PooledStream[] = [];
     private task = 0;
     private alone = false;
@@ -78,16 +80,19 @@ export class Pool {
 
     /** Begin with a stream. */
     open(listener: Listener, wishes: StreamWishes = {}): StreamDecoding {
-        return new PooledStream(listener, wishes, {
+        const stream = new PooledStream(listener, wishes, {
             begin: (stream, need) => void this.begin(stream, need),
             end: (stream) => this.end(stream),
         });
+        this.streams.add(stream);
+        return stream;
     }
 
     /** Stop all threads; streams that are not whole fail. */
     dispose(): void {
-        for (const hand of this.hands.splice(0)) this.lose(hand, new Error("the decoder's threads were stopped"));
-        for (const stream of this.waiting.splice(0)) stream.fail(new Error("the decoder's threads were stopped"));
+        for (const { worker } of this.hands.splice(0)) worker.terminate();
+        this.waiting.length = 0;
+        for (const stream of [...this.streams]) stream.fail(new Error("the decoder's threads were stopped"));
     }
 
     private async begin(stream: PooledStream, need: Need): Promise<void> {
@@ -178,7 +183,7 @@ export class Pool {
         hand.streams.clear();
         if (this.hands.includes(hand)) this.hands.splice(this.hands.indexOf(hand), 1);
         for (const other of this.hands) for (const stream of streams) other.streams.delete(stream);
-        if (hand.ready || !error.message.includes("does not run")) return streams.forEach((stream) => stream.fail(error));
+        if (hand.ready) return streams.forEach((stream) => stream.fail(error));
         this.settle();
         for (const stream of [...streams, ...this.waiting.splice(0)]) void this.stay(stream);
     }
@@ -198,6 +203,7 @@ export class Pool {
     }
 
     private end(stream: PooledStream): void {
+        if (stream.closed) this.streams.delete(stream);
         // Those that worked last come last, so that it is the others that make room for another build.
         const worked = this.hands.filter((hand) => hand.streams.delete(stream));
         this.hands.push(...this.hands.splice(0).filter((hand) => !worked.includes(hand)), ...worked);

@@ -222,6 +222,22 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual(seen, { alone: 3, most: 3 });
     });
 
+    test("stops all streams with the threads, those without any too", async () => {
+        const seen = await found(`
+            const data = await bytesOf("${STREAM}");
+            const problem = (load) => load.then(() => "none", ({ message }) => message);
+            const loader = new BSMLoader().setDecoderPath("/bsm/");
+            const loads = [loader.loadAsync("/stream/${STREAM}.bsm"), loader.parseAsync(data)].map(problem);
+            loader.dispose();
+            const stopped = await Promise.all(loads);
+            await new Promise((go) => setTimeout(go, 300));
+            const before = workers;
+            return { stopped, before, again: (await loader.parseAsync(data)).index.count > 0 };`);
+        const { stopped, ...others } = seen as { stopped: string[] };
+        for (const text of stopped) assert.match(text, /the decoder's threads were stopped$/);
+        assert.deepEqual(others, { before: 0, again: true });
+    });
+
     test("stops on request", async () => {
         const seen = await found(`
             const problem = (load) => load.then(() => "none", ({ name, message }) => name + " " + message);
