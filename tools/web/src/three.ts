@@ -1,5 +1,6 @@
 /** BSM streams in three.js: a loader that is used as DRACOLoader is, and one of whole scenes. */
 import { BufferGeometry, Group, Loader, Mesh, type LoadingManager, type MeshStandardMaterial } from "three";
+import { BsmError, errorLike } from "./errors";
 import { BSMGeometry, type Progress } from "./geometry";
 import type { Limits } from "./index";
 import { imagesOf, materialsOf, turnOf } from "./materials";
@@ -201,13 +202,11 @@ export class BSMSceneLoader extends Loader<Group> {
     }
 }
 
-/** The same error, which says of which address it is. */
+/** An error of the same kind that says of which address it is; what others made is its cause, and stays as it was. */
 function naming(url: string, error: unknown): Error {
-    const given = error instanceof Error ? error : new Error(`${error}`);
-    const message = `${url}: ${given.message}`;
-    if (given instanceof DOMException) return new DOMException(message, given.name); // its own cannot be changed
-    given.message = message;
-    return given;
+    if (error instanceof BsmError) return errorLike({ ...error.described, problem: `${url}: ${error.problem}` });
+    const message = `${url}: ${error instanceof Error ? error.message : error}`;
+    return error instanceof DOMException ? new DOMException(message, error.name) : new Error(message, { cause: error });
 }
 
 /** A whole geometry as a group of meshes: materials, textures, names of parts, and y up, as its metadata say. */

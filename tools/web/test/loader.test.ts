@@ -435,6 +435,21 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual([seen.stopped, seen.other], ["AbortError", "loaded"]);
     });
 
+    test("names each address once, and leaves the reason of who stops as it is", async () => {
+        const seen = await found(`
+            const loader = new BSMLoader();
+            const stop = new AbortController();
+            const reason = new TypeError("enough");
+            const loads = ["a", "b"].map((name) => loader.loadAsync("/stream/" + name + ".bsm", undefined, { signal: stop.signal }).catch(({ message, cause }) => [message, cause === reason]));
+            stop.abort(reason);
+            const stopped = await Promise.all(loads);
+            const { error, place } = await loader.loadAsync("/stream/bad-sequence-long.bsm").catch((error) => ({ error: error.name + " " + error.message, place: error.place }));
+            return { stopped, reason: reason.message, error, offset: place.offset > 0 };`);
+        assert.deepEqual(seen.stopped, [["/stream/a.bsm: enough", true], ["/stream/b.bsm: enough", true]]);
+        assert.match(String(seen.error), /^CorruptError .stream.bad-sequence-long.bsm: [^/]*$/);
+        assert.deepEqual([seen.reason, seen.offset], ["enough", true]);
+    });
+
     test("is a plug-in of GLTFLoader", async () => {
         await serveScenes();
         const seen = await found(`
