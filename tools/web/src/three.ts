@@ -18,6 +18,7 @@ let shared: Pool | undefined;
  */
 export class BSMLoader extends Loader<BSMGeometry> {
     private own?: Pool;
+    private threads?: number;
     private limits: Partial<Limits> = {};
     private aborting = new AbortController();
 
@@ -32,9 +33,9 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return this;
     }
 
-    /** Use at most this many threads. */
+    /** Use at most this many threads; without a decoder's path, so do all loaders that share them, from the next load on. */
     setWorkerLimit(limit: number): this {
-        this.pool.setLimit(limit);
+        this.threads = limit;
         return this;
     }
 
@@ -125,7 +126,9 @@ export class BSMLoader extends Loader<BSMGeometry> {
     }
 
     private get pool(): Pool {
-        return this.own ?? (shared ??= new Pool());
+        const pool = this.own ?? (shared ??= new Pool());
+        if (this.threads !== undefined) pool.setLimit(this.threads);
+        return pool;
     }
 
     private open(keep: (geometry: BSMGeometry) => void, fail: (error: unknown) => void, progress?: Progress): StreamDecoding {

@@ -435,6 +435,17 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual([seen.stopped, seen.other], ["AbortError", "loaded"]);
     });
 
+    test("limits the threads of the path that is set later, and no others", async () => {
+        const seen = await found(`
+            const load = (loader) => Promise.all(["${STREAM}", "good-grid", "${KEYS}"].map((name) => loader.loadAsync("/stream/" + name + ".bsm")));
+            await load(new BSMLoader().setWorkerLimit(1).setDecoderPath("/bsm/"));
+            const own = workers;
+            await load(new BSMLoader());
+            return { own, shared: workers - own };`);
+        assert.equal(seen.own, 1);
+        assert.ok(Number(seen.shared) > 1, `${seen.shared}`);
+    });
+
     test("names each address once, and leaves the reason of who stops as it is", async () => {
         const seen = await found(`
             const loader = new BSMLoader();
