@@ -93,8 +93,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
     }
 
     parseAsync(data: ArrayBuffer | Uint8Array, progress?: Progress): Promise<BSMGeometry> {
-        return new Promise((keep, fail) => {
-            const stream = this.open(keep, fail, progress);
+        return this.decoded(progress, async (stream) => {
             stream.receiveData(new Uint8Array(data instanceof Uint8Array ? data : new Uint8Array(data)));
             stream.receiveEof();
         });
@@ -151,19 +150,28 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return stream;
     }
 
-    private fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
+    private async fetched(url: string, onProgress?: (event: ProgressEvent) => void, progress?: Progress): Promise<BSMGeometry> {
+        try {
+            return await this.decoded(progress, (stream, signal) => this.pass(url, stream, onProgress, signal));
+        } catch (error) {
+            throw naming(url, error);
+        }
+    }
+
+    /** The geometry of a stream that is given its bytes, until somebody or an error stops it. */
+    private decoded(progress: Progress | undefined, give: (stream: StreamDecoding, signal?: AbortSignal) => Promise<void>): Promise<BSMGeometry> {
         const over = new AbortController();
+        const stoppers = [over, this.aborting, this.manager.abortController as AbortController | undefined, progress];
+        const signals = stoppers.flatMap((stopper) => stopper?.signal ?? []);
         const found = new Promise<BSMGeometry>((keep, fail) => {
-            const failed = (error: unknown): void => fail(naming(url, error));
-            const stream = this.open(keep, failed, progress);
+            for (const signal of signals) signal.throwIfAborted();
+            const stream = this.open(keep, fail, progress);
             const stop = (error: unknown): void => {
                 stream.close();
-                failed(error);
+                fail(error);
             };
-            const stoppers = [this.aborting, this.manager.abortController as AbortController | undefined, progress];
-            const signals = stoppers.flatMap((stopper) => stopper?.signal ?? []);
             for (const signal of signals) signal.addEventListener("abort", () => stop(signal.reason), { signal: over.signal });
-            this.pass(url, stream, onProgress, AbortSignal.any?.(signals)).catch(stop);
+            give(stream, AbortSignal.any?.(signals)).catch(stop);
         });
         return found.finally(() => over.abort());
     }
@@ -202,6 +210,12 @@ export class BSMSceneLoader extends Loader<Group> {
     override load(url: string, onLoad: (group: Group) => void, onProgress?: (event: ProgressEvent) => void, onError: (error: unknown) => void = console.error): void {
         this.geometries.setPath(this.path).setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
         this.geometries.loadScene(url, onProgress).then(onLoad).catch(onError);
+    }
+
+    /** Stop the loads that have begun: they fail. */
+    override abort(): this {
+        this.geometries.abort();
+        return this;
     }
 }
 

@@ -42,7 +42,7 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         for (const name of Object.keys(site.headers)) delete site.headers[name];
         Object.assign(site.headers, headers);
         site.extra.set("/script.js", `import { decode, loadKernels, Pool, startTeam } from "bsm";
-            import { BSMLoader, BSMGeometry, BSMSequence, sceneOf } from "bsm/three";
+            import { BSMLoader, BSMSceneLoader } from "bsm/three";
             let workers = 0;
             window.Worker = class extends Worker {
                 constructor(...given) {
@@ -240,14 +240,21 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
 
     test("stops on request", async () => {
         const seen = await found(`
+            const data = await bytesOf("${STREAM}");
             const problem = (load) => load.then(() => "none", ({ name, message }) => name + " " + message);
             const loader = new BSMLoader();
             const loads = ["${STREAM}", "no-such-file"].map((name) => problem(loader.loadAsync("/stream/" + name + ".bsm")));
+            const parses = [problem(loader.parseAsync(data))];
             loader.abort();
+            parses.push(problem(loader.parseAsync(data, { signal: AbortSignal.abort() })));
+            const scenes = new BSMSceneLoader();
+            loads.push(problem(scenes.loadAsync("/stream/${STREAM}.bsm")));
+            scenes.abort();
             const parse = loader.loadAsync("/stream/${STREAM}.bsm");
-            return { stopped: await Promise.all(loads), faces: (await parse).index.count > 0 };`);
+            return { stopped: await Promise.all(loads), parses: await Promise.all(parses), faces: (await parse).index.count > 0 };`);
         assert.ok(seen.faces);
         for (const text of seen.stopped as string[]) assert.match(text, /^AbortError \/stream\/.*.bsm: /);
+        for (const text of seen.parses as string[]) assert.match(text, /^AbortError /);
     });
 
     test("is used as other loaders are", async () => {
