@@ -74,7 +74,7 @@ export const here: Source = {
 
 /** The files in a folder, as those of `built`. */
 export function placeOf(path: string): Source {
-    const base = new URL(path.endsWith("/") ? path : `${path}/`, globalThis.location?.href);
+    const base = new URL(path.endsWith("/") ? path : `${path}/`, globalThis.document?.baseURI ?? globalThis.location?.href);
     return {
         worker: (build) => started(() => new Worker(new URL(SCRIPTS[buildOf(build)], base), { type: "module", name: "BSM" })),
         kernels: once((build) => compiled(new URL(hasVectors() ? FILES[build] : FILES.scalar, base))),

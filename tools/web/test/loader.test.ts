@@ -272,6 +272,14 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual(seen, { urls: [STREAM], loaded: true, same: true });
     });
 
+    test("finds a relative path from the base of the page", async () => {
+        const seen = await found(`
+            document.head.append(Object.assign(document.createElement("base"), { href: "/bsm/page.html" }));
+            const geometry = await new BSMLoader().setDecoderPath("./").loadAsync("/stream/${STREAM}.bsm");
+            return { faces: geometry.index.count > 0 };`);
+        assert.deepEqual(seen, { faces: true });
+    });
+
     test("plays a sequence", async () => {
         const seen = await found(`
             const sequence = await new BSMLoader().loadSequence("/stream/good-sequence-learnt.bsm");
