@@ -38,7 +38,7 @@ export class Playback {
 
     /** Go on to the time `now`, in milliseconds; `there` frames have come, and if `all`, no more will. */
     step(now: number, there: number, all: boolean): void {
-        const passed = ((now - this.before) / 1000) * this.rate;
+        const passed = (Math.max(0, now - this.before) / 1000) * this.rate;
         this.before = now;
         if (there === 0) return;
         if (this.waiting) this.waiting = !all && there - this.at < RESERVE * this.rate;

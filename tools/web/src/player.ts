@@ -51,8 +51,10 @@ export class BSMPlayer extends Base {
         this.toggleAttribute("loop", loop);
     }
 
+    /** 1 where the attribute says nothing that it can be. */
     get rate(): number {
-        return Number(this.getAttribute("rate") ?? 1);
+        const rate = Number(this.getAttribute("rate") ?? 1);
+        return rate >= 0 && rate < Infinity ? rate : 1;
     }
 
     set rate(rate: number) {

@@ -24,7 +24,7 @@ const SECOND = 1000;
 export class BSMSequence extends EventDispatcher<SequenceEvents> {
     /** Whether all frames are there. */
     complete = false;
-    /** How many times faster than it was encoded to be. */
+    /** How many times faster than it was encoded to be; below 0 it holds still. */
     speed = 1;
     private readonly playback: Playback;
     private now = 0;
@@ -93,7 +93,7 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
     update(seconds: number): void {
         const { playback, geometry } = this;
         const [before, wasPlaying] = [playback.frame, playback.playing];
-        this.now += seconds * this.speed * SECOND;
+        this.now += seconds * this.speed * SECOND || 0; // a speed that is no number stops nothing for good
         playback.step(this.now, geometry.frames.length, this.complete);
         if (playback.waiting && !this.wasWaiting) this.dispatchEvent({ type: "waiting" });
         this.wasWaiting = playback.waiting;

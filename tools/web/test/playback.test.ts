@@ -12,6 +12,14 @@ function shown(rate: number): number[] {
     });
 }
 
+test("time that runs backwards holds still", () => {
+    const playback = new Playback(30, true);
+    for (const now of [0, 100, 50, -1000]) playback.step(now, 1000, true);
+    assert.equal(playback.frame, 3);
+    playback.step(-900, 1000, true);
+    assert.equal(playback.frame, 6);
+});
+
 for (const rate of [60, 30, 20, 120]) {
     test(`a clock that trembles skips none of ${rate} frames a second`, () => {
         assert.deepEqual(shown(rate), Array.from({ length: 120 }, (_, k) => Math.floor((rate * k) / 60 + 0.01)));
