@@ -64,6 +64,7 @@ export class GLTFBSMExtension implements GLTFLoaderPlugin {
                         geometry.accept(picture);
                         if (picture.type !== "frame" || picture.index > 0 || !shape) return;
                         this.sequences.set(stream, (sequence = new BSMSequence(geometry)));
+                        sequence.addEventListener("dispose", () => decoding.close());
                         resolve(shape);
                     },
                     onEnd: () => {

@@ -1,5 +1,5 @@
 /** `<bsm-player src="horse.bsm">`: a mesh, a scene or a sequence on a page of plain HTML, drawn by three.js. */
-import { Box3, DirectionalLight, type Group, HemisphereLight, PerspectiveCamera, Scene, Sphere, WebGLRenderer } from "three";
+import { Box3, DirectionalLight, type Group, HemisphereLight, type Material, Mesh, PerspectiveCamera, Scene, Sphere, Texture, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { BSMGeometry } from "./geometry";
 import { BSMLoader, BSMSequence, sceneOf } from "./three";
@@ -32,8 +32,8 @@ export class BSMPlayer extends Base {
     private watch?: ResizeObserver;
     /** What is loading, or wrong. */
     private readonly note = globalThis.document?.createElement("p");
-    /** Counts requests: late parts of an earlier stream are not shown. */
-    private asked = 0;
+    /** Stops the load; what has been stopped is not shown. */
+    private loading = new AbortController();
 
     get src(): string {
         return this.getAttribute("src") ?? "";
@@ -110,12 +110,12 @@ export class BSMPlayer extends Base {
     }
 
     disconnectedCallback(): void {
-        this.asked++;
         this.empty();
         this.watch?.disconnect();
         this.controls?.dispose();
         this.renderer?.setAnimationLoop(null);
         this.renderer?.dispose();
+        this.renderer?.forceContextLoss(); // a page may have few contexts, and forgets none by itself
         this.renderer = undefined;
     }
 
@@ -126,9 +126,9 @@ export class BSMPlayer extends Base {
 
     private open(): void {
         if (!this.renderer || !this.src) return;
-        const number = ++this.asked;
         this.empty();
-        const mine = (): boolean => number === this.asked;
+        const { signal } = (this.loading = new AbortController());
+        const mine = (): boolean => !signal.aborted;
         const failed = (error: unknown): void => {
             if (!mine()) return;
             this.note.textContent = error instanceof Error ? error.message : `${error}`;
@@ -151,9 +151,9 @@ export class BSMPlayer extends Base {
         };
         const onError = (error: unknown): void => {
             if (moving) moving.complete = true;
-            failed(error);
+            void Promise.resolve(first).then(() => failed(error));
         };
-        this.loader.load(this.src, onLoad, onProgress, onError, { onFrame });
+        this.loader.load(this.src, onLoad, onProgress, onError, { onFrame, signal });
     }
 
     private async show(geometry: BSMGeometry, mine: () => boolean, sequence?: BSMSequence): Promise<void> {
@@ -190,8 +190,17 @@ export class BSMPlayer extends Base {
     }
 
     private empty(): void {
+        this.loading.abort();
         this.content?.removeFromParent();
         this.sequence?.dispose();
+        this.content?.traverse((mesh) => {
+            if (!(mesh instanceof Mesh)) return;
+            mesh.geometry.dispose();
+            for (const material of [mesh.material].flat() as Material[]) {
+                for (const texture of Object.values(material)) if (texture instanceof Texture) texture.dispose();
+                material.dispose();
+            }
+        });
         [this.content, this.sequence] = [undefined, undefined];
     }
 

@@ -16,6 +16,8 @@ export interface SequenceEvents {
     waiting: object;
     /** The rest of the stream cannot be decoded; the frames before it are available. */
     error: { error: unknown };
+    /** Nobody wants it any more: its load stops. */
+    dispose: object;
 }
 
 const SECOND = 1000;
@@ -111,12 +113,15 @@ export class BSMSequence extends EventDispatcher<SequenceEvents> {
 
     /** No more frames will come. */
     fail(error: unknown): void {
+        if (this.complete) return;
         this.complete = true;
         this.dispatchEvent({ type: "error", error });
     }
 
     dispose(): void {
         this.playback.playing = false;
+        this.complete = true;
+        this.dispatchEvent({ type: "dispose" });
         this.geometry.frames.length = 0;
         this.geometry.dispose();
     }

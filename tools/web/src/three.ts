@@ -108,9 +108,15 @@ export class BSMLoader extends Loader<BSMGeometry> {
     /** A sequence that can be played as soon as its first frame is there. */
     loadSequence(url: string, onProgress?: (event: ProgressEvent) => void, signal?: AbortSignal): Promise<BSMSequence> {
         let sequence: BSMSequence | undefined;
+        const stop = new AbortController();
+        const pass = (): void => stop.abort(signal?.reason);
+        if (signal?.aborted) pass();
+        signal?.addEventListener("abort", pass, { signal: stop.signal });
         return new Promise((keep, fail) => {
             const onFrame = (index: number, geometry: BSMGeometry): void => {
-                if (index === 0 && !sequence) keep((sequence = new BSMSequence(geometry)));
+                if (index > 0) return;
+                keep((sequence = new BSMSequence(geometry)));
+                sequence.addEventListener("dispose", () => stop.abort());
             };
             const onLoad = (): void => {
                 if (sequence) sequence.complete = true;
@@ -120,7 +126,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
                 if (sequence) sequence.fail(error);
                 else fail(error);
             };
-            this.load(url, onLoad, onProgress, onError, { onFrame, signal });
+            this.load(url, onLoad, onProgress, onError, { onFrame, signal: stop.signal });
         });
     }
 

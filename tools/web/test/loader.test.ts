@@ -439,6 +439,69 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual([seen.duration, seen.meshes], [0, 3]);
     });
 
+    test("is an element that stops its load, and gives back what it drew, where another takes its place", async () => {
+        const asked: string[] = [];
+        const route = "**/slow-*.bsm";
+        // What never ends is over only where the page stops it.
+        page.on("requestfailed", (request) => asked.push(request.url().replace(/.*slow-/, "")));
+        await page.route(route, () => {});
+        const seen = await found(`
+            await import("/bsm/player.js");
+            const { WebGLRenderer } = await import("three");
+            const player = document.createElement("bsm-player");
+            const occurred = (type) => new Promise((keep) => player.addEventListener(type, keep, { once: true }));
+            document.body.append(player);
+            const first = occurred("load");
+            player.src = "/stream/good-attribute-textured.bsm";
+            await first;
+            const [{ geometry, material }] = player.scene.children.at(-1).children;
+            const disposed = [];
+            for (const [name, one] of Object.entries({ geometry, material, map: material.map })) one.addEventListener("dispose", () => disposed.push(name));
+            player.src = "/slow-a.bsm";
+            player.src = "/slow-b.bsm";
+            player.rate = -1;
+            const rates = [player.rate];
+            for (const rate of ["fast", "0.5"]) rates.push((player.setAttribute("rate", rate), player.rate));
+            player.remove();
+            await new Promise((go) => setTimeout(go, 300));
+            const own = document.createElement("canvas").getContext("webgl2");
+            for (let k = 0; k < 20; k++) {
+                document.body.append(player);
+                player.remove();
+            }
+            await new Promise((go) => setTimeout(go, 300));
+            return { disposed: disposed.sort(), rates, lost: own.isContextLost() };`, {});
+        await page.unroute(route);
+        assert.deepEqual(seen, { disposed: ["geometry", "map", "material"], rates: [1, 1, 0.5], lost: false });
+        assert.deepEqual(asked.slice(0, 2), ["a.bsm", "b.bsm"]);
+    });
+
+    test("stops the load of a sequence that is disposed of", async () => {
+        const seen = await found(`
+            const data = await bytesOf("good-sequence-low-delay-long");
+            const { fetch } = window;
+            let stopped = false;
+            window.fetch = async (url, options) => String(url).endsWith("/slow") ? new Response(new ReadableStream({
+                async start(out) {
+                    options.signal.addEventListener("abort", () => {
+                        stopped = true;
+                        out.error(options.signal.reason);
+                    });
+                    for (let at = 0; at < data.length && !stopped; at += 50) {
+                        out.enqueue(data.slice(at, at + 50));
+                        await new Promise((go) => setTimeout(go, 30));
+                    }
+                },
+            })) : fetch(url, options);
+            const heard = [];
+            const sequence = await new BSMLoader().loadSequence("/slow");
+            sequence.addEventListener("error", () => heard.push("error"));
+            sequence.dispose();
+            await new Promise((go) => setTimeout(go, 300));
+            return { stopped, frames: sequence.geometry.frames.length, heard };`);
+        assert.deepEqual(seen, { stopped: true, frames: 0, heard: [] });
+    });
+
     test("stops one load, and no other, at a signal of its own", async () => {
         const seen = await found(`
             const loader = new BSMLoader();
