@@ -169,8 +169,8 @@ export class View {
         this.part("invite").hidden = true;
         this.part("arrival").hidden = content.tiles !== undefined;
         this.list();
-        this.headline();
         this.restart();
+        this.headline();
     }
 
     /** Show tiles of a folder, as far as they are worth it. */
@@ -270,8 +270,9 @@ export class View {
         if (matchMedia("(min-width: 45rem)").matches) this.part("more").setAttribute("open", "");
     }
 
-    private key({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
+    private key({ key: typed, target, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
         if (ctrlKey || metaKey || altKey || (target as HTMLElement).matches("select, [type=number]")) return;
+        const key = typed.toLowerCase();
         const pick = (name: string, value: string): void => this.root.querySelector<HTMLInputElement>(`[name=${name}][value="${value}"]:not(:disabled)`)?.click();
         const next = <Value>(values: Value[], now: Value): Value => values[(values.indexOf(now) + 1) % values.length];
         if (DIGITS.includes(key)) pick("layer", String(DIGITS.indexOf(key)));
