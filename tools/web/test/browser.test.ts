@@ -1,9 +1,10 @@
 /** The page in headless Chromium: streams in pieces, draws what it should, says what is wrong with a damaged stream. */
 import assert from "node:assert/strict";
-import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import test, { after, before, describe } from "node:test";
+import { fileURLToPath } from "node:url";
 import { chromium, type BrowserContext, type Page } from "playwright-core";
 import { readNpz } from "./npz";
 import { base64, CHROMIUM, contentOf, FLAGS, PATIENCE, rowsOf, savedPage, silhouette, VECTORS, viewerScript } from "./shared";
@@ -188,6 +189,11 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         await page.waitForFunction(() => document.body.innerText.includes("Distance from the original"));
         assert.match(await page.locator("[data-part=scale]").innerText(), /0\u00a0%[^]*0.5\u00a0%[^]*1\u00a0%\n0.02/);
         const half = await redOf();
+        const tagAt = (place: number): Promise<unknown> => page.waitForFunction((place) => document.querySelector<HTMLElement>("[data-part=right]")!.style.left === `${place}px`, place);
+        await tagAt(400 + 14);
+        await page.setViewportSize({ width: 600, height: 500 });
+        await tagAt(300 + 14);
+        await page.setViewportSize({ width: 800, height: 500 });
         await page.getByRole("slider", { name: "Wipe" }).fill("0");
         const most = await redOf();
         assert.ok(half > 0.02 && most > 1.5 * half, `${half} ${most}`);
@@ -233,6 +239,23 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
         assert.equal(await page.locator("[data-part=claim]").textContent(), "");
         assert.equal(await page.locator("[data-part=figures]").textContent(), `${whole.length} bytes`);
         assert.deepEqual(complaints, []);
+    });
+
+    test("has no controls for tiles that do nothing there", async () => {
+        const fresh = await context.newPage();
+        const url = savedPage(folder, { sequence: readFileSync(SEQUENCES[0]), tiled: whole });
+        const path = fileURLToPath(url);
+        writeFileSync(path, readFileSync(path, "utf8").replace('"name":"tiled"', '"name":"tiled","tiles":"http://bsm.test"'));
+        const manifest = { cell: 1, origin: [0, 0, 0], levels: [], shards: [] };
+        await fresh.route("http://bsm.test/*", (route) => route.fulfill({ json: manifest, headers: { "Access-Control-Allow-Origin": "*" } }));
+        await fresh.goto(url);
+        await fresh.waitForSelector("body[data-state=complete]");
+        await fresh.getByRole("combobox", { name: "Color" }).selectOption("blocks");
+        await fresh.getByText("Order in which blocks arrive").waitFor();
+        await fresh.getByRole("combobox", { name: "Stream" }).selectOption("tiled");
+        await fresh.waitForSelector("body[data-state=complete][data-tiles='0']");
+        for (const part of ["sequence", "scale", "colors"]) assert.ok(await fresh.locator(`[data-part=${part}]`).isHidden(), part);
+        await fresh.close();
     });
 
     test("opens a stream that is dropped on it, and says that a saved page does not encode", async () => {

@@ -97,6 +97,14 @@ describe("tiles", { skip: !given || (!existsSync(CHROMIUM) && `no Chromium at ${
         assert.deepEqual(kernels, ["small.wasm"], "no more of the decoder than tiles need");
         const { share } = silhouette(far);
         assert.ok(share > 0.05 && share < 0.9, `share ${share}`);
+        await page.keyboard.press("h"); // nothing lies before the mesh
+        const shots = [];
+        for (let k = 0; k < 3; k++) {
+            await page.keyboard.press("f");
+            await page.waitForTimeout(500);
+            shots.push(await page.locator("canvas").screenshot());
+        }
+        assert.notDeepEqual(shots[0], shots[1], "edges are drawn");
         const before = Number(await page.locator("body").getAttribute("data-faces"));
         await page.locator("canvas").focus();
         for (let k = 0; k < 12; k++) await page.keyboard.press("+");

@@ -25,7 +25,6 @@ class Drawn {
     readonly clay = new MeshPhongMaterial({ color: CLAY, specular: 0x2c2c2c, shininess: 16, side: DoubleSide });
     clothes: MeshStandardMaterial[] = [];
     mesh?: Mesh<BufferGeometry, Material | Material[]>;
-    edges?: Mesh;
 
     put(geometry: BufferGeometry): void {
         this.clear();
@@ -38,7 +37,7 @@ class Drawn {
         this.holder.clear();
         this.mesh?.geometry.dispose();
         for (const material of this.clothes) material.dispose();
-        [this.clothes, this.mesh, this.edges] = [[], undefined, undefined];
+        [this.clothes, this.mesh] = [[], undefined];
     }
 
     get materials(): (MeshPhongMaterial | MeshStandardMaterial)[] {
@@ -58,7 +57,6 @@ export class Stage {
     private readonly controls: OrbitControls;
     private readonly lights = new Group();
     private readonly wires = new MeshBasicMaterial({ wireframe: true, color: 0x101418, transparent: true, opacity: 0.35 });
-    private readonly watch = new ResizeObserver(() => this.fit());
     /** What turns the axis that a mesh calls up to the top. */
     private readonly turned = new Group();
     private readonly drawn = [new Drawn(), new Drawn(), new Drawn()];
@@ -90,7 +88,6 @@ export class Stage {
         this.scene.add(this.camera, new HemisphereLight(WHITE, 0x8d8478, 0.7), this.turned);
         this.turned.add(this.tiles, ...this.drawn.map(({ holder }) => holder));
         canvas.addEventListener("keydown", (event) => this.turn(event));
-        this.watch.observe(canvas.parentElement!);
     }
 
     /** Show a geometry as the mesh of a number. */
@@ -150,7 +147,11 @@ export class Stage {
         const { clay } = this.drawn[0];
         const fresh = new Set(geometries);
         for (const mesh of [...this.tiles.children] as Mesh[]) if (!fresh.delete(mesh.geometry)) this.tiles.remove(mesh);
-        for (const geometry of fresh) this.tiles.add(new Mesh(geometry, clay));
+        for (const geometry of fresh) {
+            const mesh = new Mesh(geometry, clay);
+            this.tiles.add(mesh);
+            this.edge(mesh);
+        }
         this.whiten(clay, geometries.some((geometry) => geometry.hasAttribute("color")));
         this.redraw();
     }
@@ -184,11 +185,9 @@ export class Stage {
                 material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
                 material.needsUpdate = true;
             }
-            if (shown.edges) shown.holder.remove(shown.edges);
-            shown.edges = undefined;
-            if (shading === "wire" && shown.mesh) shown.holder.add((shown.edges = new Mesh(shown.mesh.geometry, this.wires)));
-            if (shown.edges) shown.edges.frustumCulled = false;
+            if (shown.mesh) this.edge(shown.mesh);
         }
+        for (const mesh of this.tiles.children as Mesh[]) this.edge(mesh);
         this.redraw();
     }
 
@@ -277,10 +276,10 @@ export class Stage {
 
     /** Give back what the machine's graphics hold. */
     dispose(): void {
-        this.watch.disconnect();
         this.controls.dispose();
         this.clear();
         this.renderer.dispose();
+        this.renderer.forceContextLoss(); // a page may have few contexts, and forgets none by itself
     }
 
     private draw(): void {
@@ -303,6 +302,15 @@ export class Stage {
     private render(index: number): void {
         this.drawn.forEach((shown, number) => (shown.holder.visible = number === index));
         this.renderer.render(this.scene, this.camera);
+    }
+
+    /** Give a mesh its edges if they are wished for, or take them away. */
+    private edge(mesh: Mesh<BufferGeometry, Material | Material[]>): void {
+        mesh.clear();
+        if (this.shading !== "wire") return;
+        const edges = new Mesh(mesh.geometry, this.wires);
+        edges.frustumCulled = mesh.frustumCulled;
+        mesh.add(edges);
     }
 
     /** Let vertices have colors, or not. */

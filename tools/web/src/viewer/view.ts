@@ -117,6 +117,7 @@ export class View {
     private looked?: string;
     private choose: (index: number) => void = () => this.restart();
     private working?: AbortController;
+    private readonly watch = new ResizeObserver(() => this.place());
 
     constructor(
         private readonly root: HTMLElement,
@@ -137,6 +138,7 @@ export class View {
             throw error;
         }
         this.listen();
+        this.watch.observe(root);
         const go = (now: number): void => {
             if (this.closed) return;
             this.step(now);
@@ -167,7 +169,7 @@ export class View {
         this.stage.clear();
         this.part("name").textContent = content.name;
         this.part("invite").hidden = true;
-        this.part("arrival").hidden = content.tiles !== undefined;
+        this.part("arrival").hidden = this.part("colors").hidden = content.tiles !== undefined;
         this.list();
         this.restart();
         this.headline();
@@ -212,6 +214,7 @@ export class View {
     /** Stop, and give back what it holds. */
     close(): void {
         this.closed = true;
+        this.watch.disconnect();
         this.working?.abort();
         this.decoding?.close();
         this.tiles?.close();
@@ -368,9 +371,16 @@ export class View {
         stage.mode = chosen === 0 ? "one" : mode;
         stage.sides = [0, chosen];
         stage.wipe = Number(wipe.value) / Number(wipe.max);
-        stage.fit();
         wipe.hidden = stage.mode !== "wipe";
         if (stage.mode === "split") this.part("more").removeAttribute("open");
+        this.place();
+        this.stale = true;
+    }
+
+    /** Fit the picture to the page, and put the labels below its sides. */
+    private place(): void {
+        const { stage } = this;
+        stage.fit();
         const [left, right] = this.captions[0];
         const [width, seam, split] = [this.root.clientWidth, stage.seam, stage.mode === "split"];
         for (const [part, text, at, shift] of [["left", left, split ? seam / 2 : seam - 14, "-100%"], ["right", right, split ? (seam + width) / 2 : seam + 14, "0%"]] as const) {
@@ -378,7 +388,6 @@ export class View {
             this.part(part).style.left = `${at}px`;
             this.part(part).style.setProperty("--shift", split ? "-50%" : shift);
         }
-        this.stale = true;
     }
 
     /** What stands below each side of a saved picture, and its colors. */
@@ -517,6 +526,8 @@ export class View {
     /** Go on for one picture. */
     private step(now: number): void {
         this.stage.step();
+        this.playOn(now);
+        if (this.stale) this.recolor();
         if (this.tiles) return this.walk(this.tiles);
         if (Number(this.cut.value) < this.fed) this.restart();
         const allowed = this.allowed();
@@ -528,8 +539,6 @@ export class View {
             this.ended = true;
             this.decoding?.receiveEof();
         }
-        this.playOn(now);
-        if (this.stale) this.recolor();
         this.report();
     }
 
@@ -647,7 +656,7 @@ export class View {
     /** Color what is there. */
     private recolor(): void {
         const { content, geometries, offs, stage } = this;
-        const scheme = this.scheme.value as Scheme;
+        const scheme = content.tiles === undefined ? (this.scheme.value as Scheme) : "plain";
         this.stale = false;
         const { diagonal = 1 } = content.facts;
         const top = diagonal * topOf(offs[content.main] ?? [0], diagonal);
