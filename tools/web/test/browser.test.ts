@@ -31,6 +31,15 @@ function colorsIn(png: Buffer): { red: number; green: number; redHeight: number;
     return { red: counts[0] / all, green: counts[1] / all, redHeight: heights[0] / counts[0], greenHeight: heights[1] / counts[1] };
 }
 
+/** Drop a file on a page. */
+function drop(page: Page, name: string, bytes: Uint8Array): Promise<void> {
+    return page.evaluate(([name, data]) => {
+        const transfer = new DataTransfer();
+        transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name));
+        document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    }, [name, base64(bytes)] as const);
+}
+
 describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium at ${CHROMIUM}` }, () => {
     const folder = mkdtempSync(join(tmpdir(), "bsm-browser-"));
     let context: BrowserContext;
@@ -259,17 +268,46 @@ describe("the page in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromium a
     });
 
     test("opens a stream that is dropped on it, and says that a saved page does not encode", async () => {
-        const drop = (name: string, bytes: Uint8Array): Promise<void> => page.evaluate(([name, data]) => {
-            const transfer = new DataTransfer();
-            transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name));
-            document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-        }, [name, base64(bytes)] as const);
-        await drop("other.bsm", readFileSync(join(VECTORS, "good-grid.bsm")));
+        await drop(page, "other.bsm", readFileSync(join(VECTORS, "good-grid.bsm")));
         await page.waitForFunction(() => document.querySelector("h1")!.textContent === "other.bsm");
         await state("complete");
-        await drop("ball.ply", new Uint8Array(10));
+        await drop(page, "ball.ply", new Uint8Array(10));
         await page.waitForFunction(() => document.querySelector("[role=alert]")!.textContent!.includes("bsm view ball.ply"));
         assert.deepEqual(complaints, []);
+    });
+
+    test("names what is dropped, and goes back to what it offers", async () => {
+        await page.goto(savedPage(folder, { whole, grid: readFileSync(join(VECTORS, "good-grid.bsm")) }));
+        await state("complete");
+        const streams = page.getByRole("combobox", { name: "Stream" });
+        assert.ok(await page.locator("h1").isHidden());
+        await drop(page, "other.bsm", readFileSync(join(VECTORS, "good-light.bsm")));
+        await page.getByRole("heading", { name: "other.bsm" }).waitFor();
+        assert.equal(await streams.inputValue(), "");
+        await streams.selectOption("whole");
+        await page.locator("h1").waitFor({ state: "hidden" });
+        await page.waitForFunction((length) => document.querySelector("[data-part=bytes]")!.textContent!.includes(`of ${length} bytes`), whole.length);
+    });
+
+    test("takes no bytes of a stream that still comes into what is dropped", async () => {
+        const fresh = await context.newPage();
+        const grid = readFileSync(join(VECTORS, "good-grid.bsm"));
+        await fresh.addInitScript(() => {
+            window.fetch = async () => new Response(new ReadableStream({ start: (out) => void Object.assign(window, { send: (bytes: number[]) => out.enqueue(Uint8Array.from(bytes)) }) }));
+        });
+        const send = (bytes: Uint8Array): Promise<void> => fresh.evaluate((bytes) => (window as unknown as { send: (bytes: number[]) => void }).send(bytes), [...bytes]);
+        const taken = (length: number): Promise<unknown> => fresh.waitForFunction((length) => document.querySelector("[data-part=bytes]")!.textContent!.includes(`of ${length} bytes`), length);
+        await fresh.goto(savedPage(folder, { live: whole }, { layers: [{ title: "BSM", detail: "", size: 0, url: "http://bsm.test/live" }], live: true }));
+        await fresh.waitForFunction(() => "send" in window);
+        await send(whole.subarray(0, 100));
+        await taken(100);
+        await drop(fresh, "other.bsm", grid);
+        await fresh.waitForSelector("body[data-state=complete]");
+        await send(whole.subarray(100));
+        await fresh.waitForTimeout(300);
+        await taken(grid.length);
+        assert.equal(await fresh.locator("[role=alert]").textContent(), "");
+        await fresh.close();
     });
 
     test("is a widget of notebooks", async () => {

@@ -117,6 +117,7 @@ export class View {
     private looked?: string;
     private choose: (index: number) => void = () => this.restart();
     private working?: AbortController;
+    private turns = 0;
     private readonly watch = new ResizeObserver(() => this.place());
 
     constructor(
@@ -158,8 +159,17 @@ export class View {
         if (names.length === 0) this.root.dataset.state = "empty";
     }
 
-    /** Show another stream, whose bytes will come. */
-    open(content: Content): void {
+    /** Begin to show something else; returns whether nothing else has been begun since. */
+    turn(): () => boolean {
+        const turn = ++this.turns;
+        return () => turn === this.turns;
+    }
+
+    /** Show another stream, whose bytes will come; `index` if it is one of those that are offered. */
+    open(content: Content, index = -1): void {
+        const streams = this.control<HTMLSelectElement>("stream");
+        streams.selectedIndex = index;
+        this.part("name").hidden = index >= 0 && streams.length > 1;
         this.content = content;
         [this.stream, this.length, this.whole] = [new Uint8Array(0), 0, false];
         this.cut.max = this.cut.value = "0";
@@ -176,8 +186,8 @@ export class View {
     }
 
     /** Show tiles of a folder, as far as they are worth it. */
-    async openTiles(content: Content): Promise<void> {
-        this.open(content);
+    async openTiles(content: Content, index: number): Promise<void> {
+        this.open(content, index);
         this.over = true;
         const tiles = await TileSet.open(content.tiles!, this.pool, () => (this.looked = ""));
         if (this.closed || this.content !== content || this.tiles) return tiles.close();
@@ -431,6 +441,7 @@ export class View {
         try {
             if (/\.bsm$/i.test(file.name)) {
                 const bytes = new Uint8Array(await file.arrayBuffer());
+                this.turn();
                 this.open({ name: file.name, main: 0, facts: {}, layers: [{ title: "BSM", detail: "", size: file.size }] });
                 this.receive(bytes);
                 return this.finish();
@@ -448,6 +459,7 @@ export class View {
             const content = await this.encode(file, preset, report, working.signal);
             const bytes = await bytesOf(content.layers[content.main]);
             if (this.working !== working || this.closed) return;
+            this.turn();
             this.open(content);
             this.receive(bytes);
             this.finish();

@@ -47,23 +47,23 @@ async function fillPage(list: HTMLElement): Promise<void> {
     const contents = JSON.parse(list.textContent!) as Content[];
     const pool = new Pool(inlined);
     const view = new View(document.body, pool, LICENSES, served ? encode : undefined);
-    let turns = 0;
     const open = async (index: number): Promise<void> => {
-        const turn = ++turns;
+        const mine = view.turn();
         const content = contents[index];
         try {
             await pool.preload().catch(() => {}); // so that decoding alone is timed; who decodes says what is wrong
-            if (content.tiles !== undefined) return await view.openTiles(content);
+            if (!mine()) return;
+            if (content.tiles !== undefined) return await view.openTiles(content, index);
             const { url } = content.layers[content.main];
             const pieces = url === undefined ? [await bytesOf(content.layers[content.main])] : piecesOf(await fetched(url));
-            if (turn === turns) view.open(content);
+            if (mine()) view.open(content, index);
             for await (const piece of pieces) {
-                if (turn !== turns) return;
+                if (!mine()) return;
                 view.receive(piece);
             }
-            if (turn === turns) view.finish();
+            if (mine()) view.finish();
         } catch (error) {
-            if (turn === turns) view.fail(`${content.name} could not be fetched. ${error instanceof Error ? error.message : error}`);
+            if (mine()) view.fail(`${content.name} could not be fetched. ${error instanceof Error ? error.message : error}`);
         }
     };
     view.offer(contents.map(({ name }) => name), open);
