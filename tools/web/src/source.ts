@@ -11,12 +11,12 @@ export interface Source {
     local(build: Build): Promise<{ openDesk(start: Start, say: Say): StreamWorker }>;
 }
 
-/** What is written out here is what bundlers look for. */
+/** What is written out here is what bundlers look for; webpack would make one file of all threads of one name. */
 const WORKERS: Record<Build, () => Worker> = {
     whole: () => new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: "BSM" }),
-    small: () => new Worker(new URL("./small-worker.js", import.meta.url), { type: "module", name: "BSM" }),
-    quick: () => new Worker(new URL("./quick-worker.js", import.meta.url), { type: "module", name: "BSM" }),
-    moving: () => new Worker(new URL("./moving-worker.js", import.meta.url), { type: "module", name: "BSM" }),
+    small: () => new Worker(new URL("./small-worker.js", import.meta.url), { type: "module", name: "BSM-small" }),
+    quick: () => new Worker(new URL("./quick-worker.js", import.meta.url), { type: "module", name: "BSM-quick" }),
+    moving: () => new Worker(new URL("./moving-worker.js", import.meta.url), { type: "module", name: "BSM-moving" }),
 };
 const KERNELS: Record<Build | "scalar", () => URL> = {
     whole: () => new URL("./kernels.wasm", import.meta.url),

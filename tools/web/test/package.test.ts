@@ -48,6 +48,12 @@ const drawn = await new Promise((keep, fail) => {
 console.log(JSON.stringify([positions.length > 0, faces.length === drawn, problem.message.includes("the checksum of a frame")]));
 `;
 
+test("threads have names of their own, by which webpack makes files of them", () => {
+    const names = [...readFileSync(join(WEB, "built/pool.js"), "utf8").matchAll(/"\.\/[a-z-]*worker\.js",import\.meta\.url\),\{type:"module",name:"([^"]*)"/g)].map(([, name]) => name);
+    assert.equal(new Set(names).size, 4);
+    assert.equal(names.length, 4);
+});
+
 describe("the package", () => {
     const folder = mkdtempSync(join(tmpdir(), "bsm-package-"));
     const run = (program: string, ...args: string[]): string => execFileSync(program, args, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] });
