@@ -8,7 +8,7 @@ export * from "./pool";
 
 const MOST_HELPERS = 3;
 
-/** Kernels for a `Decoder` of one's own, compiled once. */
+/** Kernels for a `Decoder` of one's own, compiled once; those of `quick` are for that of `bsm-decoder/quick` alone. */
 export async function loadKernels(build: Build = "whole"): Promise<Kernels> {
     return new Kernels(await here.kernels(build));
 }
