@@ -34,13 +34,13 @@ CORE = re.compile(r"core[^/]*\.md$")
 """Of spec/: what a decoder of plain static meshes must read."""
 
 LIMITS = {
-    "product in all languages, lines": 62_423,
-    "product Python, lines": 33_422,
-    "product C and C++, lines": 21_436,
+    "product in all languages, lines": 62_728,
+    "product Python, lines": 33_594,
+    "product C and C++, lines": 21_480,
     "product Rust, lines": 908,
-    "product TypeScript, lines": 6_657,
+    "product TypeScript, lines": 6_746,
     "product lines over 120 columns": 237,
-    "all Python, lines": 73_796,
+    "all Python, lines": 74_379,
     "product modules": 200,
     "product C files and headers": 74,
     "docstring lines of the product, percent": 12,
@@ -50,7 +50,7 @@ LIMITS = {
     "words of prose in spec/*.md": 22_770,
     "words of prose in the core": 10_250,
     "tuned constants of the search": 78,
-    "files that encoding a mesh walks through": 57,
+    "files that encoding a mesh walks through": 58,
 }
 
 

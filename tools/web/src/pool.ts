@@ -226,7 +226,7 @@ class PooledStream implements StreamDecoding {
     need: Need = { build: "whole", vertices: 0 };
     private readonly pieces: (Uint8Array | null)[] = [];
     private known = false;
-    private told = 0;
+    private reported = 0;
     private kernels?: WebAssembly.Module;
     private say?: (message: Message, moved: Transferable[]) => void;
 
@@ -265,9 +265,10 @@ class PooledStream implements StreamDecoding {
     /** Have a thread decode the stream. */
     work(say: (message: Message, moved: Transferable[]) => void, helpers: MessagePort[]): void {
         const { tolerant, drawing, worthwhile, limits = {} } = this.wishes;
-        if (!this.kernels) return;
+        const { kernels, reported } = this;
+        if (!kernels) return;
         this.say = say;
-        say({ task: this.task, start: { kernels: this.kernels, limits, tolerant, drawing, told: this.told, worthwhile, helpers } }, helpers);
+        say({ task: this.task, start: { kernels, limits, tolerant, drawing, reported, worthwhile, helpers } }, helpers);
         for (const data of this.pieces) say({ task: this.task, data }, []);
     }
 
@@ -277,7 +278,7 @@ class PooledStream implements StreamDecoding {
         if ("picture" in report) listener.onPicture?.(report.picture);
         else if ("event" in report) listener.onEvent?.(report.event);
         else if ("taken" in report) listener.onTaken?.(report.taken);
-        else if ("told" in report) this.told = report.told;
+        else if ("reported" in report) this.reported = report.reported;
         else if ("problem" in report) {
             // Lesser builds do not know everything, nor what to say of it.
             if (this.need.build !== "whole") this.restart();
@@ -300,7 +301,7 @@ class PooledStream implements StreamDecoding {
         }
     }
 
-    /** Begin again with the decoder of everything, which tells what has not been told yet. */
+    /** Begin again with the decoder of everything, which reports what has not been reported yet. */
     private restart(): void {
         this.say?.({ task: this.task, stop: true }, []);
         this.say = undefined;

@@ -33,7 +33,7 @@ export class BSMLoader extends Loader<BSMGeometry> {
         return this;
     }
 
-    /** Use at most this many threads; without a decoder's path, so do all loaders that share them, from the next load on. */
+    /** Use at most this many threads; without a decoder's path, so do all loaders that share them. */
     setWorkerLimit(limit: number): this {
         this.threads = limit;
         return this;

@@ -17,8 +17,8 @@ export interface Start {
     tolerant?: boolean;
     /** Report pictures, not events: only the whole one, or each that can be drawn. */
     drawing?: "whole" | "growing";
-    /** Events that another decoder has told of this stream, which are not to be told again. */
-    told?: number;
+    /** Events that another decoder has reported of this stream, which are not to be reported again. */
+    reported?: number;
     /** Threads that help this one, and vertices from which on that is worthwhile. */
     helpers?: MessagePort[];
     worthwhile?: number;
@@ -29,13 +29,13 @@ export interface Start {
 export type Order = { task: number } & ({ start: Start } | { data: Uint8Array | null } | { stop: true });
 export type Message = Order | { help: MessagePort };
 
-/** A report on a task: an event or a picture, a block, the end of blocks, events before what is wrong, what that is, bytes taken, or the end. */
+/** Of a task: an event or a picture, a block, the end of blocks, events before what is wrong, that, bytes taken, or the end. */
 export type Report =
     | { event: DrawnEvent }
     | { picture: Picture }
     | { shared: SharedBlock }
     | { through: true }
-    | { told: number }
+    | { reported: number }
     | { problem: Described }
     | { fault: string }
     | { taken: number }
@@ -120,16 +120,16 @@ export interface Decoding {
 export class Reporter {
     private readonly drawing?: Drawing;
     private taken = 0;
-    /** Events that were told; below 0 are those that another decoder has told. */
-    private told: number;
+    /** Events that were reported; below 0 are those that another decoder has reported. */
+    private reported: number;
 
     constructor(
         private readonly decoder: Decoding,
         private readonly start: Start,
         private readonly out: Say,
     ) {
-        const { drawing, limits, told = 0 } = start;
-        this.told = -told;
+        const { drawing, limits, reported = 0 } = start;
+        this.reported = -reported;
         if (drawing) this.drawing = new Drawing(drawing === "growing", limits, (picture, moved) => this.say({ picture }, moved));
     }
 
@@ -145,7 +145,7 @@ export class Reporter {
             return this.pass();
         } catch (error) {
             this.drawing?.flush();
-            this.out({ told: this.told });
+            this.out({ reported: this.reported });
             throw error;
         }
     }
@@ -167,13 +167,13 @@ export class Reporter {
                 const positions = Float32Array.from(event.positions);
                 this.say({ event: { ...event, positions } }, [positions.buffer]);
             } else this.say({ event });
-            if (this.told < 0) this.drawing?.flush();
+            if (this.reported < 0) this.drawing?.flush();
             // Not every decoder tells blocks where the whole mesh alone is drawn.
-            if (event.type !== "block" || this.start.drawing !== "whole") this.told++;
+            if (event.type !== "block" || this.start.drawing !== "whole") this.reported++;
         }
     }
 
     private say(report: Report, moved?: Transferable[]): void {
-        if (this.told >= 0) this.out(report, moved);
+        if (this.reported >= 0) this.out(report, moved);
     }
 }

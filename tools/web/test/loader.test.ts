@@ -150,9 +150,9 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         test(`tells once what comes before damage of ${name}`, async () => {
             const damaged = broken(name);
             site.extra.set("/damaged.bsm", damaged);
-            const told: string[] = [];
+            const expected: string[] = [];
             const kernels = await compile(BUILDS[0]);
-            assert.throws(() => { for (const { type } of eventsOf(kernels, damaged, damaged.length)) told.push(type); }, { name: "CorruptError" });
+            assert.throws(() => { for (const { type } of eventsOf(kernels, damaged, damaged.length)) expected.push(type); }, { name: "CorruptError" });
             const seen = await found(`
                 const data = new Uint8Array(await (await fetch("/damaged.bsm")).arrayBuffer());
                 const decoded = (wishes) => new Promise((keep) => {
@@ -163,16 +163,16 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
                         if (picture.type === "begun") ({ corners } = picture);
                         if (picture.type === "grown") drawn += picture.index.length;
                     };
-                    const onError = ({ name, problem }) => keep({ heard, name, said: problem !== "", most: drawn <= corners });
+                    const onError = ({ name, problem }) => keep({ heard, name, worded: problem !== "", most: drawn <= corners });
                     const stream = new Pool().open({ onEvent: ({ type }) => heard.push(type), onPicture, onError }, wishes);
                     for (let at = 0; at < data.length; at += 50) stream.receiveData(data.slice(at, at + 50));
                     stream.receiveEof();
                 });
                 return { events: await decoded({}), pictures: await decoded({ drawing: "growing" }), whole: await decoded({ drawing: "whole" }) };`);
             const { events, pictures, whole } = seen as Record<string, { heard: string[] }>;
-            assert.deepEqual(events, { heard: told, name: "CorruptError", said: true, most: true });
+            assert.deepEqual(events, { heard: expected, name: "CorruptError", worded: true, most: true });
             assert.deepEqual({ ...pictures, heard: [] }, { ...events, heard: [] });
-            for (const { heard } of [pictures, whole]) assert.deepEqual(heard.filter((type) => type === "header" || type === "frame"), told.filter((type) => type === "header" || type === "frame"));
+            for (const { heard } of [pictures, whole]) assert.deepEqual(heard.filter((type) => type === "header" || type === "frame"), expected.filter((type) => type === "header" || type === "frame"));
             assert.equal(pictures.heard.filter((type) => type === "begun").length, 1);
             assert.ok(pictures.heard.includes("grown"));
         });
