@@ -388,17 +388,24 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         const stream = readFileSync(join(VECTORS, "good-sequence-learnt.bsm"));
         const { positions, faces } = decode(await compile(BUILDS[0]), stream);
         site.extra.set("/moving.glb", sceneOf(stream, positions.length / 3, faces.length, true));
+        const name = "good-sequence-low-delay";
+        const whole = decode(await compile(BUILDS[0]), readFileSync(join(VECTORS, `${name}.bsm`)));
+        site.extra.set("/damaged.glb", sceneOf(broken(name), whole.positions.length / 3, whole.faces.length, true));
         const seen = await found(`
             const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
             const { GLTFBSMExtension } = await import("/bsm/gltf.js");
-            const gltf = await new GLTFLoader().register((parser) => new GLTFBSMExtension(parser)).loadAsync("/moving.glb");
+            const load = (url) => new GLTFLoader().register((parser) => new GLTFBSMExtension(parser)).loadAsync(url);
+            const gltf = await load("/moving.glb");
             const [sequence] = gltf.userData.sequences;
+            const [damaged] = (await load("/damaged.glb")).userData.sequences;
+            while (!damaged.complete) await new Promise((go) => setTimeout(go, 5));
             const [mesh] = gltf.scene.children;
             while (!sequence.complete) await new Promise((go) => setTimeout(go, 5));
             const own = await new BSMLoader().loadAsync("/stream/good-sequence-learnt.bsm");
             const same = own.frames.map((frame, index) => (sequence.seek(index), [...mesh.geometry.getAttribute("position").array].join() === [...frame.positions].join()));
-            return { same: same.every(Boolean), frames: same.length, sequences: gltf.userData.sequences.length };`);
+            return { same: same.every(Boolean), frames: same.length, sequences: gltf.userData.sequences.length, before: damaged.length };`);
         assert.equal(seen.same, true);
+        assert.equal(seen.before, 6);
         assert.ok(Number(seen.frames) > 1 && seen.sequences === 1);
     });
 
