@@ -6,6 +6,7 @@ import argparse
 import difflib
 import importlib
 import os
+import re
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NoReturn
@@ -151,6 +152,7 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__(**{"formatter_class": Formatter, **keywords})
+        self._negative_number_matcher = re.compile(r"-[\d.][\d.,e+-]*$")  # points and boxes begin with numbers, too
 
     def format_usage(self) -> str:
         return f"usage: {self.prog}{self._inputs()}\n"

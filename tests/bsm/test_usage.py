@@ -82,6 +82,12 @@ def test_options_between_inputs(tmp_path, capsys):
     assert capsys.readouterr().err == "bsm: -a: No such file or directory\n"
 
 
+def test_points_may_begin_with_a_minus(tmp_path):
+    write_mesh(tmp_path / "a.ply", torus())
+    words = ["encode", str(tmp_path / "a.ply"), "--grid-cell", "0.01", "--grid-origin", "-1,-.5,-1e-3"]
+    assert main(words) == 0
+
+
 def test_compare_says_which_file_is_wrong(tmp_path, capsys):
     (tmp_path / "a.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
     (tmp_path / "b.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
