@@ -9,7 +9,7 @@ import { VIEWER, WEB } from "./shared";
 /** Bytes in brotli, at most, of the files that a page fetches to decode streams of a kind, and for the page itself. */
 const LOADS: Record<string, [most: number, files: string[]]> = {
     "light grids": [19900, ["quick-worker.js", "quick.js", "errors.js", "quick.wasm"]],
-    "static meshes": [78200, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
+    "static meshes": [78300, ["small-worker.js", "small.js", "errors.js", "small.wasm"]],
     "sequences": [77300, ["moving-worker.js", "moving.js", "errors.js", "moving.wasm"]],
     "everything": [114200, ["worker.js", "bsm.js", "errors.js", "kernels.wasm"]],
     "the page": [8600, ["three.js", "pool.js"]],
