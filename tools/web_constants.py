@@ -1,6 +1,6 @@
 """Constants of the format for the decoder in TypeScript, from those that Python has.
 
-python -m tools.web_constants --write    tools/web/src/constants.ts
+python -m tools.web_constants --write    web/src/constants.ts
 python -m tools.web_constants            fail if that is not what Python has
 """
 
@@ -15,7 +15,7 @@ from bsm.bitstream.container.header import Field, Header, Paper, defaults_of, fi
 from bsm.bitstream.container.wire import MAGIC, MAX_VARINT_BYTES, SHORT, VERSION, FrameType
 from bsm.bitstream.limits import Limits
 
-TARGET = Path(__file__).parent / "web/src/constants.ts"
+TARGET = Path(__file__).parents[1] / "web/src/constants.ts"
 
 _TYPES: dict[tuple[Any, Any], str] = {(tuple, int): "ints", (tuple, float): "floats"}
 _PLAIN: dict[Any, str] = {int: "int", float: "float", str: "string", bytes: "binary"}

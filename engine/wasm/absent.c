@@ -1,4 +1,4 @@
-/* Stubs for what a smaller build lacks (tools/web/scripts/kernels.mjs); the linker prefers the real functions. */
+/* Stubs for what a smaller build lacks (web/scripts/kernels.mjs); the linker prefers the real functions. */
 #include "engine/ahead.h"
 #include "engine/sequence.h"
 #include "engine/zstd.h"

@@ -1,4 +1,4 @@
-"""Meshes and sequences in Blender, by its module `bpy`: what the extension in tools/blender does, for scripts as well.
+"""Meshes and sequences in Blender, by its module `bpy`, as the extension in plugins/blender does it.
 
 import bsm.blender
 moving = bsm.blender.import_file("samba.bsm")[0]

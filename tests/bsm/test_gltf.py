@@ -20,7 +20,7 @@ from bsm.gltf.compress import ImageRule, compress, count_primitives, drawn, smal
 from bsm.gltf.document import EXTENSION, glb, read_document
 from tests.shapes import torus
 
-WEB = Path(__file__).parents[2] / "tools/web"
+WEB = Path(__file__).parents[2] / "web"
 CODE = functools.partial(bsm.encode, grid=13)
 """Quick, where the look is not what is tested."""
 
@@ -316,7 +316,7 @@ for (const file of files) {
 
 
 @pytest.mark.skipif(
-    shutil.which("node") is None or not (WEB / "node_modules/gltf-validator").is_dir(), reason="npm ci in tools/web"
+    shutil.which("node") is None or not (WEB / "node_modules/gltf-validator").is_dir(), reason="npm ci in web"
 )
 def test_the_validator_finds_no_error(tmp_path):
     mesh = torus(40, 24)

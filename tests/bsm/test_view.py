@@ -32,12 +32,12 @@ from tests.shapes import curved, torus
 from tests.streams import moving_events_of
 
 needs_packages = pytest.mark.skipif(
-    shutil.which("node") is None or not (Path(__file__).parents[2] / "tools/web/node_modules").is_dir(),
-    reason="no packages: npm ci in tools/web, with node",
+    shutil.which("node") is None or not (Path(__file__).parents[2] / "web/node_modules").is_dir(),
+    reason="no packages: npm ci in web, with node",
 )
 ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "spec" / "vectors" / "1.0"
-WEB = ROOT / "tools" / "web"
+WEB = ROOT / "web"
 SLOT = re.compile(r'<script type="application/json" id="bsm-streams">(.*?)</script>', re.DOTALL)
 
 

@@ -99,7 +99,7 @@ def test_the_plug_in_tells_paraview_what_it_needs(stream, monkeypatch):
     for name in ("paraview", "paraview.util"):
         monkeypatch.setitem(sys.modules, name, types.ModuleType(name))
     monkeypatch.setitem(sys.modules, "paraview.util.vtkAlgorithm", library)
-    spec = importlib.util.spec_from_file_location("bsm_paraview", ROOT / "tools" / "paraview" / "bsm_paraview.py")
+    spec = importlib.util.spec_from_file_location("bsm_paraview", ROOT / "plugins" / "paraview" / "bsm_paraview.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     assert times["reader"]["extensions"] == "bsm" and times["stringvector"]["name"] == "FileName"

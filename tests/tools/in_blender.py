@@ -143,7 +143,7 @@ def extension():
     fresh()
     import importlib.util
 
-    where = Path(bsm.__file__).parents[2] / "tools" / "blender" / "extension" / "__init__.py"
+    where = Path(bsm.__file__).parents[2] / "plugins" / "blender" / "extension" / "__init__.py"
     spec = importlib.util.spec_from_file_location("bsm_extension", where)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

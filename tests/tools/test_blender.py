@@ -17,9 +17,9 @@ import bsm
 from bsm.cli import main as cli
 from bsm.codec.geometry.attributes import Attribute
 from bsm.codec.geometry.mesh import TriangleMesh
+from plugins.blender.__main__ import main
 from tests.motion import animators_own, bending
 from tests.shapes import torus
-from tools.blender.__main__ import main
 
 ROOT = Path(__file__).parents[2]
 

@@ -5,7 +5,7 @@
     python -m tools.attack charges [THING...]  time by what was charged: many small and few large of everything
 
 A decoder may take 64 MiB and 1 s, 1 KiB and 40 microseconds for each vertex, 64 bytes and 20 microseconds for each
-byte; with `--limits service` 1 GiB and 10 s; a browser what tools/web/README.md says. A second charged may take 1.25,
+byte; with `--limits service` 1 GiB and 10 s; a browser what web/README.md says. A second charged may take 1.25,
 four times as long in browsers; where the machine takes longer for dictionaries, which are what charges are set by, it
 may take as much longer for all else. The exit code is 1 if anything takes more.
 """

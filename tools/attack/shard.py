@@ -33,7 +33,7 @@ from tools.attack.tally import Outcome, Tally
 from tools.attack.targets import LIMITS
 from tools.web_constants import limits_there
 
-WEB = Path(__file__).parents[2] / "tools" / "web"
+WEB = Path(__file__).parents[2] / "web"
 SECONDS = 3.0
 """Of processor time that one input may take under `LIMITS`."""
 FRESH = 3

@@ -34,7 +34,7 @@ MOST_SECONDS = 600
 MOST_ADDRESSES = 12 << 30
 """Of one process: what asks for more fails, and the machine lives on."""
 SEQUENCE_BYTES = Limits().sequence_bytes
-WEB = Path(__file__).parents[2] / "tools" / "web" / "scripts" / "measure.mjs"
+WEB = Path(__file__).parents[2] / "web" / "scripts" / "measure.mjs"
 BROWSER = 4.0
 """How much longer a browser may take."""
 

@@ -25,7 +25,7 @@ from bsm.evaluation.sample import knot
 ROOT = Path(__file__).parents[2]
 PRODUCT = ("src", "codec", "bitstream")
 LANGUAGES = {"C and C++": (".c", ".h", ".cpp", ".hpp"), "Rust": (".rs",), "TypeScript": (".ts",)}
-OTHERS = ("engine/", "tools/web/src/")
+OTHERS = ("engine/", "web/src/")
 """Where the product is in other languages than Python, beside `PRODUCT`; without examples and tests."""
 WIDE = 120  # columns
 SEARCH = ("choice/", "encoder.py", "targets.py")

@@ -12,7 +12,7 @@ from tools.release.wheels import clean
 
 def make_npm(sources: Path, root: Path, output: Path) -> Path:
     """Pack the package, have npm check what it would publish, install it and decode with it in Node."""
-    web, installed = sources / "tools/web", root / "tools/web/node_modules"
+    web, installed = sources / "web", root / "web/node_modules"
     if installed.exists():
         (web / "node_modules").symlink_to(installed.resolve())
     else:

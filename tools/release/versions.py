@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 OTHERS = {
-    "tools/web/package.json": r'^  "version": "(.+?)"',
+    "web/package.json": r'^  "version": "(.+?)"',
     "engine/bsmdec.h": r'^#define BSMDEC_VERSION "(.+)"',
     "engine/CMakeLists.txt": r"^project\(bsmdec VERSION (\S+)",
     "engine/rust/Cargo.toml": r'^version = "(.+)"',

@@ -1,1 +1,1 @@
-"""The page that shows streams in a browser; `tools/web` has its sources and builds it."""
+"""The page that shows streams in a browser; `web` has its sources and builds it."""

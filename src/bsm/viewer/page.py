@@ -174,7 +174,7 @@ Place = Callable[[str, bytes], dict[str, str]]
 
 
 def _built(name: str) -> bytes:
-    """A file that `tools/web` builds."""
+    """A file that `web` builds."""
     try:
         return files("bsm.viewer").joinpath(name).read_bytes()
     except OSError as error:

@@ -14,12 +14,12 @@ from tests.motion import bending
 
 ROOT = Path(__file__).parents[3]
 MOVING = Path(__file__).parent / "moving"
-MODULES = ROOT / "tools" / "web" / "node_modules"
+MODULES = ROOT / "web" / "node_modules"
 
 
 def shown_by_three(path, rate, count):
     if shutil.which("node") is None or not (MODULES / "three").is_dir():
-        pytest.skip("needs node, and three.js in tools/web (npm ci)")
+        pytest.skip("needs node, and three.js in web (npm ci)")
     words = ["node", MOVING / "three.mjs", path, str(rate), str(count), MODULES]
     done = subprocess.run(words, capture_output=True, timeout=120, check=False)
     assert done.returncode == 0, done.stderr.decode()

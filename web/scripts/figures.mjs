@@ -12,7 +12,7 @@ import { brotliCompressSync } from "node:zlib";
 import { chromium } from "playwright-core";
 import { WEB } from "./kernels.mjs";
 
-const ROOT = join(WEB, "../..");
+const ROOT = join(WEB, "..");
 const PYTHON = process.env.PYTHON ?? "python3";
 const ROUNDS = 9;
 const PAGES = 5;

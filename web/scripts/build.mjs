@@ -6,7 +6,7 @@ import { build } from "esbuild";
 import { minify } from "terser";
 import { compileKernels, compiler, fingerprint, KERNEL_BUILDS, WEB } from "./kernels.mjs";
 
-const VIEWER = join(WEB, "../../src/bsm/viewer");
+const VIEWER = join(WEB, "../src/bsm/viewer");
 const SOURCES = join(WEB, "src");
 const OPTIONS = { bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", loader: { ".html": "text" }, tsconfigRaw: { compilerOptions: { useDefineForClassFields: false } }, legalComments: "none", logLevel: "warning", write: false };
 const BUNDLED = ["three", "fzstd"];

@@ -7,7 +7,7 @@ import { delimiter, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 export const WEB = dirname(dirname(fileURLToPath(import.meta.url)));
-const ROOT = join(WEB, "../..");
+const ROOT = join(WEB, "..");
 
 /** C files below a folder of the repository. */
 function sourcesIn(folder) {
@@ -19,7 +19,7 @@ const isTable = (path) => readFileSync(join(ROOT, path), "utf8").startsWith("/* 
 
 /** All that a decoder is made of; the linker takes what those functions that are asked for need. */
 const FOUND = ["bitstream", "codec", "engine"].flatMap(sourcesIn).filter((path) => !/^codec\/(denoise|look|static\/choice|geometry\/[^g])|^engine\/(examples|python|ahead)|rate_distortion/.test(path));
-const SOURCES = [...FOUND.filter((path) => !isTable(path)), ...sourcesIn("tools/web/src")];
+const SOURCES = [...FOUND.filter((path) => !isTable(path)), ...sourcesIn("web/src")];
 const TABLES = FOUND.filter(isTable);
 
 /** Functions for the page (engine/wasm/page.c). */
@@ -52,8 +52,8 @@ export function compiler() {
 /** What tells the built kernels and all that they are built of, but for the compiler: where it is as written, they are not compiled again to compare. */
 export function fingerprint() {
     const hash = createHash("sha256");
-    const headers = ["bitstream", "codec", "engine", "tools/web/src"].flatMap((folder) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".h")).map((name) => join(folder, name))).sort();
-    const own = ["package-lock.json", "scripts/kernels.mjs", ...Object.keys(KERNEL_BUILDS)].map((name) => join("tools/web", name));
+    const headers = ["bitstream", "codec", "engine", "web/src"].flatMap((folder) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(".h")).map((name) => join(folder, name))).sort();
+    const own = ["package-lock.json", "scripts/kernels.mjs", ...Object.keys(KERNEL_BUILDS)].map((name) => join("web", name));
     for (const path of [...SOURCES, ...TABLES, ...headers, "spec/priors.bin", ...own]) hash.update(path).update(readFileSync(join(ROOT, path)));
     return hash.digest("hex");
 }
@@ -176,7 +176,7 @@ export function compileKernels({ vectors, exported = PAGE, without, fast = FAST 
             } else writeFileSync(object, compiled.get(key));
             return object;
         });
-        checkTables(clang, [objects[SOURCES.indexOf("tools/web/src/tables.c")], objects.at(-1)], priors, target);
+        checkTables(clang, [objects[SOURCES.indexOf("web/src/tables.c")], objects.at(-1)], priors, target);
         clang(TARGET, "-nostdlib", ...objects.filter((_, i) => !without?.test(SOURCES[i])), ...LINK, ...exported.map((name) => `-Wl,--export=${name}`), "-o", target);
         const features = ["--enable-bulk-memory", "--enable-sign-ext", "--enable-nontrapping-float-to-int", ...(vectors ? ["--enable-simd"] : [])];
         // The stack grows down to the first address, which it never reaches: so no pointer wraps where a constant is added.

@@ -8,11 +8,11 @@ import { parseVarint } from "../src/varint";
 import { decode, Decoder, END_OF_STREAM, Kernels, NEED_DATA, type Attribute, type Event, type Limits, type Mesh, type Wishes } from "../src/index";
 
 export const WEB = process.cwd();
-const SPEC = join(WEB, "../../spec/vectors");
+const SPEC = join(WEB, "../spec/vectors");
 export const VECTORS = join(SPEC, "1.0");
 /** Of all versions. */
 export const FOLDERS = readdirSync(SPEC).filter((name) => name.startsWith("1.")).map((name) => join(SPEC, name));
-export const VIEWER = join(WEB, "../../src/bsm/viewer");
+export const VIEWER = join(WEB, "../src/bsm/viewer");
 export const BUILDS = ["kernels.wasm", "kernels-scalar.wasm"];
 
 export const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";

@@ -16,7 +16,7 @@ const folder = mkdtempSync(join(tmpdir(), "bsm-picture-"));
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: FLAGS });
 try {
     const saved = join(folder, "page.html");
-    execFileSync(process.env.PYTHON ?? "python3", ["-m", "bsm", "view", stream, "-q", "--save", saved], { cwd: join(WEB, "../..") });
+    execFileSync(process.env.PYTHON ?? "python3", ["-m", "bsm", "view", stream, "-q", "--save", saved], { cwd: join(WEB, "..") });
     const page = await browser.newPage({ viewport: { width: 3 * SIDE, height: 3 * SIDE } });
     await page.goto(pathToFileURL(saved).href);
     await page.waitForSelector("body[data-state=complete]");
