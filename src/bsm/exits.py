@@ -43,7 +43,7 @@ EXITS = (
     Exit(11, "the result would be worse than the input; --force writes it anyway", (failures.HarmError,)),
     Exit(12, "the input ends too early", (failures.TruncatedError,)),
     Exit(130, "interrupted", (KeyboardInterrupt,)),
-    Exit(141, "the reader of a pipe stopped", (BrokenPipeError,)),
+    Exit(141, "broken pipe", (BrokenPipeError,)),
     Exit(9, "a file cannot be read or written, or exists already", (OSError,)),
     Exit(143, "terminated", (Terminated,)),
 )
