@@ -19,7 +19,7 @@ Mask = npt.NDArray[np.bool_]  # what holds for which vertex
 
 
 def as_array(values: Any, name: str, kind: type[np.float64] | None = None) -> npt.NDArray[Any]:
-    """A copy of what a user gives, as an array; `MeshError` where it is none."""
+    """Return a copy of a user's values as an array; raise `MeshError` if they are not one."""
     try:
         return np.array(values, dtype=kind)
     except (TypeError, ValueError, OverflowError) as error:

@@ -40,6 +40,6 @@ def check_options(
 
 
 def check_mapping(what: str, given: object) -> None:
-    """Raise `ArgumentError` if something is no mapping."""
+    """Raise `ArgumentError` unless the value is a mapping."""
     if not isinstance(given, Mapping):
         raise ArgumentError(f"{what} must be a mapping from names, not {type(given).__name__}")

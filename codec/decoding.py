@@ -60,7 +60,7 @@ def mask_of(*types: int) -> int:
 
 
 class StreamDecoder:
-    """What the decoders of meshes and of sequences share."""
+    """Base of the decoders of meshes and sequences."""
 
     _wanted: ClassVar[int]
 
@@ -190,7 +190,7 @@ class StreamDecoder:
             return event
 
     def _misfit(self, header: Header) -> BsmError | None:
-        """What is wrong with a header that only another decoder takes."""
+        """Return the error of a header that needs the other decoder."""
         raise NotImplementedError
 
     def _attribute(self, index: int) -> tuple[Attribute, bool] | None:
@@ -431,8 +431,8 @@ def decode_sequence(
                 case ConnectivityEvent(received, vertices=count):
                     if frames and not np.array_equal(faces, received):
                         raise MeshError(
-                            f"the faces change at frame {len(frames)}: this is no array of frames; "
-                            "bsm.decode_frames gives them one by one"
+                            f"the faces change at frame {len(frames)}, so the frames do not form one array; "
+                            "use bsm.decode_frames"
                         )
                     faces, vertices = received, count
                 case FrameEvent(_, positions):

@@ -1,4 +1,4 @@
-"""What the decoders of meshes and of sequences report."""
+"""Events that the decoders of meshes and sequences report."""
 
 from dataclasses import dataclass, field
 from enum import Enum
@@ -15,7 +15,7 @@ from bsm.codec.geometry.attributes import Attribute, Domain, Semantic
 
 @public
 class Signal(Enum):
-    """The result of `next_event` when there is no event.
+    """The result of `next_event` without an event.
 
     Examples
     --------
@@ -154,7 +154,7 @@ class RefinementEvent:
     Parameters
     ----------
     vertices : int32 array, shape (v,)
-        What was moved.
+        The vertices that moved.
     positions : float64 array, shape (v, 3)
         Where that is now, in the mesh's unit.
 

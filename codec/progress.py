@@ -13,7 +13,7 @@ def silent(done: int, total: int) -> None:
 
 
 class Nearing:
-    """Reports work of unknown length: each step takes its usual part of what is left."""
+    """Reports work of unknown length: each step takes its usual part of the rest."""
 
     def __init__(self, progress: Progress | None) -> None:
         self._progress, self._share = progress or silent, 0.0

@@ -82,7 +82,7 @@ static bool is_possible(Context *context, int64_t count, size_t size) {
     if (failed(context)) return false;
     if (count >= 0 && (count == 0 || size <= most / (uint64_t)count)) return true;
     context->starved = true;
-    return FAIL(context, LIMIT, "# things are more than memory can hold", count);
+    return FAIL(context, LIMIT, "# elements do not fit in memory", count);
 }
 
 void *host_memory(Context *context, int64_t count, size_t size) {
@@ -92,7 +92,7 @@ void *host_memory(Context *context, int64_t count, size_t size) {
     void *memory = within ? context->host.allocate(context->host.host, bytes) : NULL;
     context->starved = memory == NULL;
     if (!within) FAIL(context, LIMIT, "heap: # bytes more are over the limit", (int64_t)bytes);
-    else if (memory == NULL) FAIL(context, NO_MEMORY, "the host has no # bytes of memory", (int64_t)bytes);
+    else if (memory == NULL) FAIL(context, NO_MEMORY, "out of memory (# bytes)", (int64_t)bytes);
     else context->heap += (double)bytes;
     return memory;
 }

@@ -55,7 +55,7 @@ static bool parse_field(Context *context, Span data, const Gop *gop, Arena *aren
     uint32_t word = (uint32_t)little_endian(bytes.data, 4);
     float step;
     memcpy(&step, &word, sizeof step);
-    if (!(step > 0.0F && step < INFINITY)) return FAIL(context, CORRUPT, "a GOP whose step is no number above 0");
+    if (!(step > 0.0F && step < INFINITY)) return FAIL(context, CORRUPT, "GOP step is not positive");
     field->step = step;
     if (has_basis(gop)) {
         field->components = take_varint(&cursor);
@@ -101,7 +101,7 @@ bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const 
     Span first = take_span(&cursor, 1);
     if (failed(context)) return false;
     *gop = (Gop){.method = first.data[0] % WITH_ATTRIBUTES, .count = count + 1};
-    if (first.data[0] / METHODS != run % RUNS) return FAIL(context, CORRUPT, "a GOP of another run than run #", run);
+    if (first.data[0] / METHODS != run % RUNS) return FAIL(context, CORRUPT, "GOP belongs to a different run (expected #)", run);
     gop->frames = gop->coded = take_varint(&cursor);
     if (failed(context)) return false;
     if (gop->frames < 1 || gop->frames > longest)

@@ -182,7 +182,7 @@ bool check_packet(Context *context, const Grammar *grammar, const Packet *packet
     const uint32_t COMPLETE = BIT(BLOCK_FRAME) | BIT(GOP_FRAME) | BIT(GRID_FRAME) | BIT(VALUES_FRAME) | BIT(END_FRAME);
     const Header *header = grammar->header;
     if (!(expected_types(grammar) >> packet->type & 1))
-        return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
+        return FAIL(context, CORRUPT, "unexpected section type #", packet->type);
     if (packet->type == HEADER_FRAME) return check_run(context, grammar, packet->header);
     if (header == NULL) return true;
     if (COMPLETE >> packet->type & 1 && grammar->declared_count < header->attributes && !grammar->lossy)

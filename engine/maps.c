@@ -164,7 +164,7 @@ static const Field *field_of(const Field *fields, int count, uint64_t key) {
 static bool refuse_unknown(Context *context, const Map *map, const Field *fields, int count) {
     for (int i = 0; i < map->count; i++) {
         const Value *value = &map->value[i];
-        if (map->key[i].kind != INTEGER) return FAIL(context, CORRUPT, "the key of a field is no integer");
+        if (map->key[i].kind != INTEGER) return FAIL(context, CORRUPT, "a field key is not an integer");
         const Field *field = field_of(fields, count, map->key[i].bits);
         if (field == NULL) return FAIL(context, UNSUPPORTED, "field # is unknown to this decoder", map->key[i].whole);
         if (field->type == METHOD_FIELD && value->kind == INTEGER && value->number > field->high

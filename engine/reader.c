@@ -119,7 +119,7 @@ static int read_tag(Span bytes, Frame *frame) {
 static bool read_frame(Reader *reader, Span bytes, Frame *frame) {
     Context *context = reader->context;
     int head = read_tag(bytes, frame);
-    if (head < 0) return FAIL(context, CORRUPT, "a tag is no varint in its shortest form");
+    if (head < 0) return FAIL(context, CORRUPT, "non-canonical varint in a tag");
     if (head == 0) {
         frame->size = 0;
         return true;
@@ -153,7 +153,7 @@ static bool read_metadata(Reader *reader, Span payload, bool adding) {
     for (int i = 0; done && i < map->count; i++) {
         if (adding) done = add_entry(&reader->metadata, &map->key[i], &map->value[i]);
         else if (reader->grammar.header != NULL && find_name(&reader->metadata, map->key[i].bytes))
-            done = FAIL(context, CORRUPT, "METADATA speaks of a name again");
+            done = FAIL(context, CORRUPT, "duplicate metadata name");
     }
     if (done && adding) done = pay(reader, METADATA_WORK + ENTRY_WORK * map->count, 0);
     release_to(&reader->scratch, mark);
@@ -218,7 +218,7 @@ static bool read_packet(Reader *reader, Frame frame, Packet *packet) {
     if (is_skippable(frame.type))
         return grammar->header != NULL || FAIL(context, CORRUPT, "the first frame must be HEADER");
     if (!announces(grammar, frame.type))
-        return FAIL(context, UNSUPPORTED, "frame type # is none that the header announces", frame.type);
+        return FAIL(context, UNSUPPORTED, "section type # is not declared in the header", frame.type);
     if (!read_payload(reader, frame, packet)) return false;
     bool is_metadata = packet->type == METADATA_FRAME;
     if (is_metadata && !read_metadata(reader, frame.payload, false)) return false;
@@ -275,7 +275,7 @@ static Arrival next_whole(Reader *reader, Packet *packet) {
         if (!is_skippable(frame.type)) return A_PACKET;
     }
     if (reader->end > reader->begin) {
-        FAIL(context, CORRUPT, "bytes behind END");
+        FAIL(context, CORRUPT, "data after END");
         return NOTHING_BUT_AN_ERROR;
     }
     return reader->finished ? NO_MORE : NO_MORE_YET;

@@ -243,7 +243,7 @@ static bool parse_next(bsmdec *decoder, const Packet *packet, Gop *gop) {
     const Header *header = &decoder->mesh.header;
     Context *context = &decoder->context;
     if (packet->index < decoder->sequence.next)
-        return FAIL(context, CORRUPT, "frame # comes again behind frame #", packet->index, decoder->sequence.next - 1);
+        return FAIL(context, CORRUPT, "GOP starts at frame #, expected # or later", packet->index, decoder->sequence.next);
     if (!read_gop(decoder, packet->data, gop) || !WITHIN(context, sequence_bytes, gop_memory(header->vertices, gop, 0)))
         return false;
     int64_t last = packet->index + gop->frames - 1;
@@ -340,7 +340,7 @@ bool show(bsmdec *decoder, int64_t index) {
 
 /* A frame that may not come here. */
 static bool misplaced(bsmdec *decoder, const Packet *packet) {
-    FAIL(&decoder->context, CORRUPT, "a frame of type # may not come here", packet->type);
+    FAIL(&decoder->context, CORRUPT, "unexpected section type #", packet->type);
     return lose_gop(decoder);
 }
 
@@ -367,7 +367,7 @@ static bool accept_in_run(bsmdec *decoder, const Packet *packet) {
     if (decoder->sequence.lost) return true;
     if (!mesh->in_gops) {
         if (!mesh->has_faces && packet->type != CONNECTIVITY_FRAME)
-            return FAIL(&decoder->context, CORRUPT, "a frame of type # may not come here", packet->type);
+            return FAIL(&decoder->context, CORRUPT, "unexpected section type #", packet->type);
         if (packet->type == BLOCK_FRAME) return accept_block(decoder, packet);
         if (packet->type == VALUES_FRAME) return accept_values(decoder, packet);
         if (!mesh->has_chains && packet->type != GOP_FRAME && packet->type != END_FRAME)

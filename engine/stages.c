@@ -206,7 +206,7 @@ bool accept_section(bsmdec *decoder, const Packet *packet) {
     Context *context = &decoder->context;
     Mesh *mesh = &decoder->mesh;
     if (is_too_late(mesh, packet->type))
-        return FAIL(context, CORRUPT, "a frame of type # may not come here", packet->type);
+        return FAIL(context, CORRUPT, "unexpected section type #", packet->type);
     switch (packet->type) {
         case HEADER_FRAME:
             begin_mesh(decoder, packet->header);

@@ -80,7 +80,7 @@ int64_t take_varint(Cursor *cursor) {
     int64_t value;
     int size = parse_varint(cursor->left, &value);
     if (size <= 0) {
-        FAIL(cursor->context, CORRUPT, "a payload has no varint where one belongs");
+        FAIL(cursor->context, CORRUPT, "a payload ends where a varint is expected");
         return 0;
     }
     take_span(cursor, size);

@@ -136,7 +136,7 @@ def frames_of(stream):  # F 2 and F 3: yields (type, payload, offset of the tag)
         require(crc == int.from_bytes(stream[end : end + size], "little"), "checksum of a frame is wrong")  # F 3.3
         yield kind, stream[start:end], offset
         offset = end + size
-    require(offset == len(stream), "bytes behind END")  # F 2.3
+    require(offset == len(stream), "data after END")  # F 2.3
 
 
 # F 4: name: (key, type, low, high, default); of an array the types are those of its entries, and lengths follow
@@ -221,7 +221,7 @@ def read_frames(stream, packets):
             entries = canonical_map(payload)
             require(all(type(key) is str and type(v) is not list for key, v in entries), "metadata of a wrong type")
             names, metadata_bytes = {key for key, _ in entries}, metadata_bytes + len(payload)
-            require(not names & metadata_names, "METADATA speaks of a name again")
+            require(not names & metadata_names, "duplicate metadata name")
             require_limit(metadata_bytes, MOST_METADATA_BYTES, "metadata")
             metadata_names |= names
             continue
@@ -241,7 +241,7 @@ def read_frames(stream, packets):
             parsed = crc[4:]  # F 5.10
         rank = RANKS[kind]  # F 3.8: ascending; CONNECTIVITY is required; only what comes behind ORDER repeats
         legal = kind == HEADER if last is None else rank > last or (rank == last and rank > RANKS[ORDER])
-        require(legal and (rank <= 1 or last >= 1), f"frame type {kind} may not come here")
+        require(legal and (rank <= 1 or last >= 1), f"unexpected section type {kind}")
         require(kind != BLOCK or not header["grid"], "a block where there is a grid")
         if header and rank > RANKS[BLOCK]:
             require(len(packets[BLOCK]) == header["blocks"], "blocks are missing")  # F 3.10

@@ -62,7 +62,7 @@ class Scanner:
             self._frames += 1
             self._drop(frame.size)
         if self.ended and self._buffer:
-            raise CorruptError("bytes behind END")
+            raise CorruptError("data after END")
 
     def _drop(self, count: int) -> None:
         del self._buffer[:count]  # a bytearray does this in amortised constant time

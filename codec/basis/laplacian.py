@@ -34,7 +34,7 @@ WORK = 1 << 16
 """Operations of a factorisation, per row, that are too many; surfaces in blocks of 8,000 take an eighth of them."""
 
 _FULL, _TOO_MUCH = -1, -2
-"""What the kernel answers where there is no room for the borders, and where there are too many operations."""
+"""Answers of the kernel: not enough room for the borders, or too many operations."""
 
 
 class Fronts(NamedTuple):
@@ -195,7 +195,7 @@ def cotangent_weights(graph: Graph, faces: Faces, positions: Positions) -> Matri
 
 @dataclass(frozen=True, eq=False)
 class Held:
-    """A part that hangs, by springs, on what is known before it: its edges to those parts."""
+    """A part that springs connect to earlier, known parts: its edges to those parts."""
 
     laplacian: Laplacian
     springs: Matrix
@@ -205,7 +205,7 @@ class Held:
     stiffness: Matrix
 
     def pulls(self, ends: Matrix) -> Matrix:
-        """Sum of stiffness times what a field is at the other end, for each row: shape (n_i, m)."""
+        """Return, for each row, the sum of stiffness times the field at the other end: shape (n_i, m)."""
         pulls = np.empty((len(self.springs), ends.shape[1]))
         _kernels.pull(self.starts, self.outer, self.stiffness, np.ascontiguousarray(ends), pulls)
         return pulls

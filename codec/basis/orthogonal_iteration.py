@@ -27,7 +27,7 @@ LEAST_PIVOT = 2.0**-20  # from which columns are completed with the accuracy tha
 
 EXACT_POWER, EXACT_ITERATIONS, EXACT_SHIFT = 2, 128, 2.0**-5
 """What makes a basis exact: the sum of the Rayleigh quotients of any first columns is within a thousandth of the sum
-of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues nobody needs to tell apart."""
+of the lowest eigenvalues, on blocks of surfaces. Eigenvectors of closer eigenvalues need not be told apart."""
 START_NOISE = 0.25
 FOLLOWING_NOISE = 2.0**-8
 """How much of the hash columns is added to cosines, and to a predecessor's orthonormal columns, for blocks of several

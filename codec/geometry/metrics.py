@@ -248,7 +248,7 @@ def surface_distance(
 
 
 def sample_surface(positions: Positions, faces: Faces, samples: int, seed: int) -> Floats:
-    """Points spread evenly over the area, shape (samples, 3); no points if there is no area."""
+    """Points spread evenly over the area, shape (samples, 3); without points if the area is 0."""
     corners = positions[faces]
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     if not areas.sum() > 0.0:

@@ -71,7 +71,7 @@ class Surroundings(Suspended):
 
     @property
     def continuation(self) -> Matrix:
-        """Positions that continue what is known, shape (n, 3); zero where nothing is known."""
+        """Positions that continue the known ones, shape (n, 3); zero without any known position."""
         return self._ground[1]
 
     @cached_property
@@ -85,7 +85,7 @@ class Surroundings(Suspended):
 
 
 class Known:
-    """What a chain has decoded so far."""
+    """The decoded part of a chain."""
 
     def __init__(self, graph: Graph, stiffness: float) -> None:
         self._graph = graph
@@ -113,7 +113,7 @@ def unheld(laplacian: Laplacian, shift: float) -> Surroundings:
 
 
 def continued(factor: Factor, springs: Matrix, pulls: Matrix) -> Matrix:
-    """Values that continue what is known into the rows of a block: mean + (L + S + delta)^-1 (y - S mean)."""
+    """Values that continue the known ones into the rows of a block: mean + (L + S + delta)^-1 (y - S mean)."""
     rows, columns = pulls.shape
     check_rows(factor, rows)
     values = np.empty((rows, columns))
@@ -129,7 +129,7 @@ Predictor: TypeAlias = Callable[[Surroundings], Matrix]
 
 @dataclass(frozen=True)
 class Overrides:
-    """What is tried in place of what the specification says; nothing, unless somebody asks for it."""
+    """Replacements for parts of the specification, for research; empty by default."""
 
     dictionary: Dictionary | None = None
     predictor: Predictor | None = None
@@ -140,7 +140,7 @@ AS_SPECIFIED = Overrides()
 
 @dataclass(frozen=True)
 class ChainRules:
-    """What the stream's header says about dictionaries and chains."""
+    """The settings of dictionaries and chains in the header of the stream."""
 
     exact: bool
     key_interval: int
@@ -203,7 +203,7 @@ class Chain:
         self._subspace: Basis | None = None
 
     def around(self, block: Block) -> Surroundings:
-        """What the chain knows around a block."""
+        """Return the known values around a block."""
         laplacian = laplacian_of(block)
         shift = self._rules.shift
         return unheld(laplacian, shift) if self._known is None else self._known.around(laplacian, shift)
@@ -216,7 +216,7 @@ class Chain:
         return np.ascontiguousarray(own(around, width, partial(self._specified, around)), np.float32)
 
     def work(self, around: Surroundings, width: int) -> float:
-        """Work of `dictionary`, nanoseconds; what somebody's own takes nobody knows."""
+        """Work of `dictionary`, nanoseconds; the work of a user's own dictionary is not counted."""
         rules = self._rules
         if rules.overrides.dictionary is not None:
             return 0.0
@@ -227,7 +227,7 @@ class Chain:
         return dictionary_cost(around.laplacian.fronts, width, solutions)
 
     def continuation(self, around: Surroundings) -> Matrix:
-        """What a block is predicted to be, shape (n_i, 3)."""
+        """Return the prediction of a block, shape (n_i, 3)."""
         own = self._rules.overrides.predictor
         return around.continuation if own is None else np.ascontiguousarray(own(around), np.float64)
 

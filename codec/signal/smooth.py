@@ -105,7 +105,7 @@ def slide(positions: Positions, frames: Matrix, levels: Levels, steps: Matrix) -
 
 
 def tangent_steps(positions: Positions, faces: Faces, step: float, ratio: float) -> Matrix:
-    """What a level along a tangent moves each vertex, shape (n,); the same for encoder and decoder."""
+    """How far a level along a tangent moves each vertex, shape (n,); the same for encoder and decoder."""
     steps = np.empty(len(positions))
     given = np.ascontiguousarray(positions, np.float64), np.ascontiguousarray(faces, np.int32)
     _kernels.tangent_steps(*given, step, ratio, np.empty((len(positions), 8)), steps)

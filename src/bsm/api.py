@@ -1,4 +1,4 @@
-"""The functions of `import bsm`: one call each, on whatever is at hand."""
+"""The functions of `import bsm`; they accept any mesh-like object."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ def encode(
     metadata : mapping from str to str, int, float or bytes, optional
         Added to the metadata of the mesh.
     progress : callable, optional
-        Called in this thread with how much is done, and how much there is in all; the first number never falls. If it
-        raises an exception, the work ends, the exception reaches the caller, and no unfinished file stays.
+        Called in this thread with the finished work and the total; the first number never falls. If it raises an
+        exception, the work ends, the exception reaches the caller, and unfinished files are removed.
     **keywords
         As on the command line: `preset` ("small", "balanced", "fine", "near-lossless", "grid14", "lossless", "none"),
         one target (`theta`, `nmsve_db`, `max_error`, `bpv`, `size`), and fields of `EncodeOptions` (`step`,
@@ -74,7 +74,7 @@ def encode(
     Warns
     -----
     BsmWarning
-        Of whatever the file or the mesh has and does not come back. `Encoder.notes` says more.
+        If the stream cannot hold something in the file or mesh. `Encoder.notes` has the details.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def encode_many(
     sources : iterable of paths
         Paths, or URLs if fsspec is installed.
     target : path, optional
-        A folder, or a URL that ends in a slash; None: beside each source.
+        A folder, or a URL that ends in a slash; None: next to each source.
     jobs : int
         Number of processes; 0: one per core. Each imports the main module of your program again, so guard its work by
         ``if __name__ == "__main__"``.
@@ -247,7 +247,7 @@ def encode_sequence(
     options : SequenceOptions, optional
         Instead of keywords.
     metadata : mapping from str to str, int, float or bytes, optional
-        What belongs to the whole sequence.
+        Metadata of the whole sequence.
     mesh_attributes : sequence of Attribute
         Attributes that do not change; `SequenceDecoder.attributes` returns them. The option `attributes` sets their
         quality, as for a mesh.
@@ -314,9 +314,9 @@ def encode_frames(
     options : SequenceOptions, optional
         As in `encode_sequence`. Faces may change unless `runs` is false.
     metadata : mapping of str, optional
-        What belongs to the whole sequence.
+        Metadata of the whole sequence.
     progress : callable, optional
-        As in `encode`, where `meshes` is a list.
+        As in `encode`, if `meshes` is a list.
     **keywords
         Fields of the options. Targets need frames that share their faces.
 
@@ -328,7 +328,7 @@ def encode_frames(
     Raises
     ------
     MeshError
-        If there is no frame, or if the faces change and `runs` is false.
+        If `meshes` is empty, or if the faces change and `runs` is false.
 
     Examples
     --------
@@ -433,7 +433,7 @@ def decode_sequence(
 def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None = None) -> TriangleMesh:
     """Read a mesh from a mesh file or a stream.
 
-    `read_mesh` also returns what it changed or left out.
+    `read_mesh` also returns notes on changes and losses.
 
     Parameters
     ----------
@@ -441,7 +441,7 @@ def load(source: Source, *, limits: Limits = DEFAULT_LIMITS, reader: str | None 
         OBJ, OFF, PLY, STL, VTP, npz and BSM; with trimesh installed (``pip install 'bsm-codec[formats]'``) also GLB,
         glTF, 3MF, DAE and others.
     limits : Limits
-        What the file may ask for.
+        Largest memory and work that the file may take.
     reader : str, optional
         "openmesh" or "trimesh": use this library. None: trimesh only for formats that bsm does not know.
 

@@ -46,6 +46,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return an exit code of `bsm.exits`."""
     words, as_json = list(sys.argv[1:] if arguments is None else arguments), False
     try:
+        if words[:1] == ["help"]:
+            words = [*words[1:2], "--help"]
         if not words or words[0] not in COMMANDS:
             return _no_command(words)
         parser = command_parser(words[0])
@@ -98,7 +100,7 @@ def _no_command(words: list[str]) -> int:
     """Print help, the version, or an error that suggests a command."""
     parser = program_parser()
     if words and not words[0].startswith("-"):
-        parser.error(f"there is no command {words[0]}{suggestion(words[0], COMMANDS)}")
+        parser.error(f"unknown command {words[0]}{suggestion(words[0], COMMANDS)}")
     if parser.parse_args(words).version:
         print(f"bsm {__version__}")
         return 0
@@ -120,7 +122,7 @@ def _sentence(name: str) -> str:
 
 
 def _complete(parser: Parser, name: str) -> Parser:
-    """Add what a command takes; only its own module is imported, since most of the time to start goes into that."""
+    """Add the arguments of a command; import only its own module, since imports take most of the start."""
     module = importlib.import_module(f"bsm.commands.{name}")
     module.add_arguments(parser)
     parser.set_defaults(run=module.run)
@@ -176,8 +178,14 @@ class Parser(argparse.ArgumentParser):
             name = word.partition("=")[0]
             if not name.startswith("-"):
                 self.error(f"{word}: one input too many")
-            self.error(f"there is no option {name}{suggestion(name, self._option_string_actions)}")
+            self.error(f"unknown option {name}{suggestion(name, self._option_string_actions)}")
         return args
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        if action.choices is not None and value not in action.choices:
+            known = [str(choice) for choice in action.choices]
+            wrong = f"unknown value {value}{suggestion(str(value), known)} ({', '.join(known)})"
+            raise argparse.ArgumentError(action, wrong)
 
     def error(self, message: str) -> NoReturn:
         """Print the error and one line of usage; exit with code 2."""

@@ -1,4 +1,4 @@
-"""What the commands say, and where: results to standard output, everything else to standard error."""
+"""Output of the commands: results to standard output, everything else to standard error."""
 
 from __future__ import annotations
 
@@ -66,8 +66,8 @@ class Progress:
     """A line on the terminal, from half a second on: what goes on and for how long, and where that is known how much is
     done, with the time left; or lines of JSON that say the same to programs; or calls of a function.
 
-    What is left follows from the share of the time that is done, which parts and steps report, and from the time that
-    this took; before the first report from the seconds that the job is expected to take.
+    The remaining time follows from the elapsed time and the finished share, which parts and steps report; before the
+    first report, from the expected seconds of the job.
     """
 
     def __init__(
@@ -121,7 +121,7 @@ class Progress:
         self._at(end)
 
     def stage(self, name: str, share: float | None = None) -> None:
-        """Name what begins; what is done before it, if that is known."""
+        """Name the stage that begins, and the work done before it, if known."""
         _, low, high = self._parts[-1]
         self._parts[-1] = name, low, high
         if share is not None:
@@ -184,7 +184,7 @@ class Progress:
         self._bar.refresh()
 
     def _opened(self) -> Any:
-        """The bar; None where there is no library to draw it."""
+        """Return the bar; None without a library that draws it."""
         with self._opening:
             if self._bar is None and self._shown:
                 # Not at the top: most runs are over before a bar would be seen.
@@ -206,7 +206,7 @@ class Progress:
             return self._bar
 
     def _tick(self) -> None:
-        """Draw and tell anew each second, so that nobody takes silence for the end."""
+        """Draw again each second, so that silence does not look like the end."""
         while not self._over.wait(_PATIENCE if time.monotonic() - self._begun < _PATIENCE else max(_SECOND, 0.1)):
             if self._lines and time.monotonic() - self._reported_at >= _SECOND / 2:
                 self._report()

@@ -11,7 +11,7 @@ from bsm.files.output import Terminated
 
 @dataclass(frozen=True)
 class Exit:
-    """An exit code, what it means, and the errors that lead to it."""
+    """An exit code, its meaning, and the errors that lead to it."""
 
     code: int
     meaning: str
@@ -65,7 +65,7 @@ def exit_table() -> str:
 
 
 def behind(error: BaseException) -> BaseException:
-    """The signal behind an error, if there is one; otherwise the error."""
+    """Return the signal that caused an error, if any; otherwise the error."""
     cause: BaseException | None = error
     while cause is not None:
         if isinstance(cause, _SIGNALS):

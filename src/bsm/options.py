@@ -40,14 +40,13 @@ def encode_options(*, preset: str | None = None, **keywords: Any) -> EncodeOptio
     bounds = [name for name in asked if name in (*BOUNDS, *TARGETS, "contract", "target")]
     grids, coding = ([name for name in names if name in asked] for names in (("grid", "grid_cell"), CODING))
     if base.is_grid and (excluded := [*bounds, *grids, *coding]):
-        raise OptionError(f"the preset {preset} says what every position is; it excludes {' and '.join(excluded)}")
+        raise OptionError(f"preset {preset} fixes all positions and cannot be combined with {' and '.join(excluded)}")
     fixed = [*grids, *coding]
     excluded = [name for name in bounds if name in (*BOUNDS, "contract")]
     if grids and preset is not None and base.contract is not None:
         excluded.insert(0, f"the preset {preset}")
     if fixed and excluded:
-        excludes = " and ".join(excluded)
-        raise OptionError(f"{fixed[0]} says what is written, whatever comes of it; it excludes {excludes}")
+        raise OptionError(f"{fixed[0]} fixes the output and cannot be combined with {' and '.join(excluded)}")
     given = _fields("a mesh", EncodeOptions, _with_bounds(base, preset is not None, keywords), TARGETS, Target)
     return changed(base, **given)
 
@@ -185,4 +184,4 @@ def _refuse(name: str, what: str, known: Iterable[str]) -> NoReturn:
             raise ArgumentError(f"{name} is for {others}, not for {what}")
     close = difflib.get_close_matches(name, known, 1)
     advice = f"did you mean {close[0]}?" if close else f"there are {', '.join(sorted(known))}"
-    raise ArgumentError(f"there is no option {name} for {what}; {advice}")
+    raise ArgumentError(f"unknown option {name} for {what}; {advice}")

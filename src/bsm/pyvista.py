@@ -85,7 +85,7 @@ class SequenceReader:
     def set_active_time_point(self, number: int) -> None:
         """Choose a frame by its number."""
         if not 0 <= number < self.number_time_points:
-            raise OptionError(f"there is no frame {number}; there are {self.number_time_points}")
+            raise OptionError(f"frame {number} does not exist; the stream has {self.number_time_points}")
         self._active = number
 
     def set_active_time_value(self, time: float) -> None:

@@ -81,10 +81,10 @@ class Site:
 
 @dataclass(frozen=True)
 class Idea:
-    """What is to be done in another way; None: as the codec does it.
+    """Replacements for parts of the codec; None: the codec's own.
 
     `dictionary` is a function of a `Site` and a number of columns c: U, shape (n, c), orthonormal. `predictor` is one
-    of a `Site`: positions, shape (n, 3); what is coded is the difference. `partition` is one of the mesh's graph
+    of a `Site`: positions, shape (n, 3); the codec codes the difference. `partition` is one of the mesh's graph
     (offsets, neighbours) and a number of parts: a part for each vertex, shape (n,), which is sent, so any decoder
     decodes it.
     """
@@ -101,7 +101,7 @@ class Idea:
 
 @dataclass(frozen=True, eq=False)
 class BlockArrays:
-    """What the codec works on in one block: its site, U (n, c), and the original (n, 3) in the unit of `pulls`."""
+    """The data of one block: its site, U (n, c), and the original (n, 3) in the unit of `pulls`."""
 
     site: Site
     dictionary: Floats
@@ -158,14 +158,14 @@ def blocks(mesh: Any, idea: Idea | None = None, /, *, step: float = 0.004, **key
 def curves(
     mesh: Any, ideas: Mapping[str, Idea], /, steps: Sequence[float] = (0.016, 0.008, 0.004, 0.002), **keywords: Any
 ) -> dict[str, dict[str, Any]]:
-    """Measure ideas, by their names, beside what the codec does, "ours", all on one thread (the extra `eval`).
+    """Measure ideas by their names next to the codec, "ours", all on one thread (the extra `eval`).
 
     For each: its `points`, and `bytes_of_ours`, its bytes over ours at equal angle of normals, or None.
     """
     from bsm.evaluation.curve import Curve, compare_curves, run_curve
 
     if "ours" in ideas:
-        raise OptionError('"ours" is what the codec does; call the idea something else')
+        raise OptionError('the name "ours" stands for the codec; choose another one')
     given, found = join(as_mesh(mesh).bare, keep=False).mesh, {}
     for name, idea in {"ours": Idea(), **ideas}.items():
         codecs = [_tried(idea, changed(EncodeOptions(), **{"threads": 1, **keywords, "step": step})) for step in steps]

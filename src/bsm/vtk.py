@@ -57,7 +57,7 @@ class Playback:
     def positions(self, number: int) -> Positions:
         """Positions of a frame of a sequence, shape (n, 3), in the stream's order."""
         if not 0 <= number < self.count:
-            raise OptionError(f"there is no frame {number}; there are {self.count}")
+            raise OptionError(f"frame {number} does not exist; the stream has {self.count}")
         if number != self._shown:
             if number < self._next:
                 self._stream, self._frames = self._opened(number)

@@ -158,7 +158,7 @@ def test_options_of_the_other_kind_are_named_so(mesh):
         bsm.encode_sequence(mesh.positions[None], mesh.faces, bpv=2)
     with pytest.raises(bsm.ArgumentError, match=r"^kg is for sequences, not for a mesh$"):
         bsm.encode(mesh, kg=0.1)
-    with pytest.raises(bsm.ArgumentError, match=r"^there is no option gird for a mesh; did you mean grid[?]$"):
+    with pytest.raises(bsm.ArgumentError, match=r"^unknown option gird for a mesh; did you mean grid[?]$"):
         bsm.encode(mesh, gird=12)
 
 

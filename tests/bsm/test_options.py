@@ -153,7 +153,7 @@ def test_a_preset_that_is_a_grid_excludes_what_would_change_it(preset, more):
 @pytest.mark.parametrize("fixed", [{"grid": 4}, {"grid_cell": 0.1}, {"step": 0.1}, {"coefficients": 5}, {"bits": 12}])
 def test_what_is_fixed_excludes_bounds(fixed):
     for bound in ({"look": 2}, {"max_error": "1%"}, {"contract": Contract(0.1)}):
-        with pytest.raises(OptionError, match="whatever comes of it; it excludes"):
+        with pytest.raises(OptionError, match="fixes the output and cannot be combined with"):
             encode_options(**fixed, **bound)
     assert encode_options(**fixed).promise is None and encode_options(preset="none", **fixed).promise is None
 

@@ -19,12 +19,17 @@ from tests.shapes import torus
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["enc"], "bsm: there is no command enc; did you mean encode?"),
-        (["encdoe"], "bsm: there is no command encdoe; did you mean encode?"),
-        (["quux"], "bsm: there is no command quux"),
-        (["encode", "a.ply", "--tehta", "5"], "bsm encode: there is no option --tehta; did you mean --theta?"),
-        (["encode", "a.ply", "--qick"], "bsm encode: there is no option --qick; did you mean --quick?"),
+        (["enc"], "bsm: unknown command enc; did you mean encode?"),
+        (["encdoe"], "bsm: unknown command encdoe; did you mean encode?"),
+        (["quux"], "bsm: unknown command quux"),
+        (["encode", "a.ply", "--tehta", "5"], "bsm encode: unknown option --tehta; did you mean --theta?"),
+        (["encode", "a.ply", "--qick"], "bsm encode: unknown option --qick; did you mean --quick?"),
         (["encode", "--theta", "x", "a.ply"], "bsm encode: argument --theta: invalid float value: 'x'"),
+        (
+            ["encode", "--preset", "fien", "a.ply"],
+            "bsm encode: argument --preset: unknown value fien; did you mean fine? (small, balanced, fine, "
+            "near-lossless, grid14, lossless, none)",
+        ),
         (["encode"], "bsm encode: the following arguments are required: IN"),
         (["encode", "a.ply", "-j", "-3"], "bsm encode: argument -j/--jobs: -3 is less than 0"),
         (["tile", "a.ply", "-o", "b", "-j", "x"], "bsm tile: argument -j/--jobs: invalid whole_number value: 'x'"),
@@ -45,6 +50,24 @@ def test_wrong_words(words, message, capsys):
     first, usage = capsys.readouterr().err.splitlines()
     assert first == message
     assert usage.startswith("usage: bsm") and "--help" in usage
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_of_a_command_is_that_of_its_flag(command, capsys):
+    shown = []
+    for words in (["help", command], [command, "--help"]):
+        with pytest.raises(SystemExit) as stop:
+            main(words)
+        assert stop.value.code == 0
+        shown.append(capsys.readouterr().out)
+    assert shown[0] == shown[1] and shown[0].startswith(f"usage: bsm {command}")
+
+
+def test_help_alone_is_that_of_the_program(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["help"])
+    assert stop.value.code == 0
+    assert "COMMAND" in capsys.readouterr().out
 
 
 def test_targets_go_by_the_name_of_their_flag(tmp_path, capsys):

@@ -27,7 +27,7 @@ export class Grammar {
     check(packet: Packet): void {
         const { header, nextVertex } = this;
         const may = packet.type === "metadata" ? header : FOLLOWERS[this.last]?.includes(packet.type);
-        if (!may) throw new CorruptError(`${packet.type} may not come here`);
+        if (!may) throw new CorruptError(`unexpected section ${packet.type}`);
         if (packet.type === "metadata") checkNames(packet.entries, this.entryNames);
         if (!header) return;
         if (packet.type === "grid") checkChunk(packet, nextVertex, header);

@@ -105,7 +105,7 @@ export class Reader {
             this.skip(frame.size);
             if (packet) return packet;
         }
-        if (this.end > this.begin) throw new CorruptError("bytes behind END");
+        if (this.end > this.begin) throw new CorruptError("data after END");
         return this.eof ? END_OF_STREAM : NEED_DATA;
     }
 

@@ -81,7 +81,7 @@ fn bytes_behind_the_end_are_refused() {
     let mut stream = fs::read(folder().join("good-keys.bsm")).unwrap();
     stream.extend(b"more");
     let error = bsmdec::decode(&stream).unwrap_err();
-    assert_eq!((error.status, error.message.as_str()), (Status::Corrupt, "bytes behind END"));
+    assert_eq!((error.status, error.message.as_str()), (Status::Corrupt, "data after END"));
     assert!(bsmdec::decode_with(&stream, &Options::new().tolerant(true)).is_ok());
 }
 

@@ -147,7 +147,7 @@ def _measured(results: Sequence[dict[str, Any]]) -> Table:
 
 
 def _setting(result: dict[str, Any], point: dict[str, Any]) -> str:
-    """A codec, and what it was asked for."""
+    """A codec and its target."""
     target = point["settings"].get("target")
     return f"{result['codec']}, {target['value']:g}{_UNITS[target['kind']]}" if target else str(result["codec"])
 
@@ -172,7 +172,6 @@ def _words(tables: dict[str, Table]) -> str:
     if "draco" not in tables:
         return measured
     read = "Bytes as a share of Draco's at the same mean angle; BD-rate: the mean difference of bytes at equal error."
-    read += (
-        "\nIn pictures left is smaller, lower nearer; behind its knee a line takes 3 bits a vertex to halve the error."
-    )
+    read += "\nIn the plots, points further left are smaller, and lower points are closer. Right of its knee, a line "
+    read += "takes 3 bits per vertex to halve the error."
     return f"{measured}\n\nAgainst Draco, whole files (smaller is better):\n\n{table(*tables['draco'])}\n\n{read}"

@@ -176,7 +176,7 @@ def _decode_sequence(args: DecodeJob, console: Console, chunks: Iterator[bytes])
 
 
 def _range(text: str | None) -> tuple[int, int]:
-    """First frame, and the one behind the last."""
+    """First frame, and the one after the last."""
     first, colon, last = (text or ":").partition(":")
     try:
         chosen = int(first or 0), int(last or sys.maxsize)

@@ -65,7 +65,7 @@ def named_setting(text: str) -> tuple[str, Any]:
     known = {setting.field: setting for setting in SETTINGS}
     name = name.strip().replace("-", "_")
     if (setting := known.get(name)) is None:
-        raise argparse.ArgumentTypeError(f"there is no setting {name!r}{suggestion(name, known)}; see --help-all")
+        raise argparse.ArgumentTypeError(f"unknown setting {name!r}{suggestion(name, known)}; see --help-all")
     try:
         return name, setting.type(value.strip())
     except ValueError:

@@ -1,4 +1,4 @@
-"""bsm info: what a stream holds, without decoding it."""
+"""bsm info: list the contents of a stream without decoding it."""
 
 import argparse
 import base64

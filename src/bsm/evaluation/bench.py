@@ -93,7 +93,7 @@ def compare_with_draco(mesh: TriangleMesh, repeats: int) -> dict[str, dict[str, 
 
 
 def time_solvers(mesh: TriangleMesh, sample: int, repeats: int) -> list[Result]:
-    """What the dictionaries of all blocks cost, for each fraction of columns: exact, and by iterations."""
+    """Time of the dictionaries of all blocks, for each fraction of columns: exact, and by iterations."""
     graph = graph_of_faces(mesh.faces, len(mesh.positions))
     partition = derive_partition(graph, max(1, round(graph.size / _BLOCK_VERTICES)))
     size = block_size(partition, _OVERLAP)

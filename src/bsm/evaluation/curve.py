@@ -211,7 +211,7 @@ def paper_curves(block_size: int = 500, keeps: tuple[float, ...] = PAPER_KEEPS) 
 
 
 def our_curve(*, fine: bool = False, **changes: Any) -> Curve:
-    """Blocks at a ladder of steps, all else the defaults; with `fine`, what the codec chooses for each target."""
+    """Blocks at a ladder of steps, all else the defaults; with `fine`, the codec's choice for each target."""
     settings: list[dict[str, Any]] = [{"step": step, **changes} for step in OUR_STEPS]
     if fine:
         targets = [Target(kind, value) for kind, values in OUR_TARGETS.items() for value in values]
@@ -360,7 +360,7 @@ def rate_ratio(reference: RateCurve, tested: RateCurve, distortion: float) -> fl
 
 
 def compare_curves(reference: Result, tested: Result, angles: Sequence[float] = (7.0, 10.0)) -> Result:
-    """What a table says about one codec against another on one mesh."""
+    """One row of a table: one codec against another on one mesh."""
     curves = {m: (rate_curve_of(reference["points"], m), rate_curve_of(tested["points"], m)) for m in MEASURES}
     at_angles = {f"{a:g}": rate_ratio(*curves["theta_deg"], scaled(a, "theta_deg") or 0.0) for a in angles}
     return {
@@ -497,7 +497,7 @@ _LOOK: dict[Any, Any] = {
 
 
 class Line(NamedTuple):
-    """A line of a picture: what the legend says, and its points, of rate and error."""
+    """A line of a plot: its label, and its points of rate and error."""
 
     label: str
     points: Sequence[tuple[float, float]]
@@ -552,7 +552,7 @@ def draw_paper_figure(results: Sequence[Result], name: str) -> Picture:
 
 
 def draw_rates(panels: Mapping[str, Mapping[str, Line]], rate: str, measure: str, name: str) -> Picture:
-    """A panel for each title, with lines by their codecs; `rate` and `measure` say what the axes are."""
+    """A panel for each title, with lines by their codecs; `rate` and `measure` label the axes."""
     across = min(len(panels), 3)
     down = -(-len(panels) // across)
 
