@@ -101,7 +101,7 @@ bool parse_gop(Context *context, Span data, int64_t longest, int64_t run, const 
     Span first = take_span(&cursor, 1);
     if (failed(context)) return false;
     *gop = (Gop){.method = first.data[0] % WITH_ATTRIBUTES, .count = count + 1};
-    if (first.data[0] / METHODS != run % RUNS) return FAIL(context, CORRUPT, "GOP belongs to a different run (expected #)", run);
+    if (first.data[0] / METHODS != run % RUNS) return FAIL(context, CORRUPT, "GOP of a different run, expected #", run);
     gop->frames = gop->coded = take_varint(&cursor);
     if (failed(context)) return false;
     if (gop->frames < 1 || gop->frames > longest)

@@ -243,7 +243,7 @@ static bool parse_next(bsmdec *decoder, const Packet *packet, Gop *gop) {
     const Header *header = &decoder->mesh.header;
     Context *context = &decoder->context;
     if (packet->index < decoder->sequence.next)
-        return FAIL(context, CORRUPT, "GOP starts at frame #, expected # or later", packet->index, decoder->sequence.next);
+        return FAIL(context, CORRUPT, "GOP at frame #, expected # or later", packet->index, decoder->sequence.next);
     if (!read_gop(decoder, packet->data, gop) || !WITHIN(context, sequence_bytes, gop_memory(header->vertices, gop, 0)))
         return false;
     int64_t last = packet->index + gop->frames - 1;

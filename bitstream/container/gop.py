@@ -142,7 +142,7 @@ def frames_of_gop(data: bytes, longest: int, run: int = 0) -> int:
     """How many frames a GOP of a run has; `CorruptError` if it is none of this run, or too long."""
     cursor = Cursor(data)
     if cursor.take(1)[0] // METHODS != run % RUNS:
-        raise CorruptError(f"GOP belongs to a different run (expected {run})")
+        raise CorruptError(f"GOP of a different run, expected {run}")
     frames = cursor.varint()
     if not 1 <= frames <= longest:
         raise CorruptError(f"a GOP of {frames} frames where 1 to {longest} are legal")
