@@ -20,7 +20,7 @@ from bsm.codec.look.pictures import MOST_PIXELS
 from bsm.codec.sequence.frames import same_frames
 from bsm.codec.sequence.options import Promise
 from bsm.codec.sequence.row_prediction import ROUNDS
-from bsm.codec.static.targets import COARSEST_STEP
+from bsm.codec.static.targets import COARSEST_STEP, secant
 from bsm.codec.threads import ordered_map
 
 KNOTS = 10  # frames, evenly over a GOP, that small pictures are drawn of at every attempt, beside those that were large
@@ -38,8 +38,7 @@ ROUGH = 0  # rounds over levels in a first attempt, which only tells what weight
 FINER = 0.1  # by how much that seems better than it is, since its levels were chosen whatever they cost
 POWERS, PRIOR = (0.7, 2.0), 0.01
 """What pictures show grows with such powers of what normals let expect; and the squares that are for a power of 1."""
-SLOPE, SLOPES = 0.7, (0.4, 2.5)
-"""What is seen grows with about this power of the step; and the range of what two attempts may say about it."""
+SLOPE = 0.7  # of the step: the power that what is seen grows with
 EVENING, SMOOTHNESS = 1.2, 2.0
 """Frames are weighed by this power of what would make all look alike if errors were as weights ask, smoothed over
 several frames: weights that change quickly are dear in the temporal basis."""
@@ -62,36 +61,6 @@ class Candidate(Protocol):
 
 
 Found = TypeVar("Found", bound=Candidate)
-
-
-def secant(excess: Callable[[float], float], first: float, finest: float, slack: float) -> None:
-    """Try steps, to come to about the widest one whose excess, a logarithm, is at most 0 and above -slack."""
-    low, high = math.log(finest), math.log(COARSEST_STEP)
-    at = min(max(math.log(first), low), high)
-    kept: tuple[float, float] | None = None  # the logarithm of the step, and the excess
-    broken: tuple[float, float] | None = None
-    before: tuple[float, float] | None = None
-    for tries in range(TRIES):
-        value = excess(math.exp(at))
-        if value <= 0.0 and (kept is None or at > kept[0]):
-            kept = at, value
-        elif value > 0.0 and (broken is None or at < broken[0]):
-            broken = at, value
-        if kept is None and at <= low:
-            return
-        if kept is not None and (kept[1] > -slack * (1 + tries / 2) or at >= high):
-            return
-        slope = SLOPE
-        if before is not None and before[0] != at:
-            slope = min(max((value - before[1]) / (at - before[0]), SLOPES[0]), SLOPES[1])
-        before = at, value
-        at -= (min(value, 3.0) + slack / 2) / slope
-        if kept is not None and broken is not None:
-            room = broken[0] - kept[0]
-            if room < slack / 4:
-                return
-            at = min(max(at, kept[0] + 0.1 * room), broken[0] - 0.1 * room)
-        at = min(max(at, low), high)
 
 
 class StepSearch:
@@ -148,7 +117,7 @@ class StepSearch:
             expected = math.log(max(measured.farthest, float((measured.shares * more**-YIELD).max(initial=1e-9))))
             return max(expected, LEAST) if measured.excess > 0.0 else expected
 
-        secant(excess, first, finest, slack)
+        secant(excess, first, finest, COARSEST_STEP, TRIES, SLOPE, slack)
         for _ in range(TRIES if kept else 0):
             assert kept is not None
             step, measured, decoded, found = kept

@@ -42,12 +42,14 @@ class LearntBasis:
 
 def learn_basis(motion: Matrix, step: float, limit: int) -> LearntBasis:
     """Eigenvectors of the covariance of trajectories, all coordinates coupled."""
-    energies, vectors = np.linalg.eigh(motion.T @ motion)
-    width = len(energies)
-    count = int(np.count_nonzero(energies > WORTH * width * step**2))
+    few = len(motion) < motion.shape[1]  # then vertices have the smaller matrix, of the same energies
+    energies, vectors = np.linalg.eigh(motion @ motion.T if few else motion.T @ motion)
+    count = int(np.count_nonzero(energies > WORTH * motion.shape[1] * step**2))
     kept = energies[: -count - 1 : -1]
     exponents = np.round(OCTAVE * np.log2(np.sqrt(kept) / (PRECISION * step)))
     columns = np.ascontiguousarray(vectors[:, : -count - 1 : -1])
+    if few:
+        columns = motion.T @ columns / np.sqrt(kept)
     return LearntBasis(columns, np.clip(exponents, 0, min(limit, FINEST_EXPONENT)).astype(np.int32))
 
 

@@ -63,6 +63,13 @@ class _Scene:
         accessor |= {"normalized": True} if normalized else {}
         return self.add("accessors", accessor | (bounds_of(values) if bounds else {}))
 
+    def ones(self, places: Ints, count: int) -> int:
+        """An accessor of zeros, with ones at some places: the bytes grow with the places only."""
+        views = self.view(places.astype(np.uint32).tobytes()), self.view(np.ones(len(places), np.float32).tobytes())
+        indices = {"bufferView": views[0], "componentType": _UINT}
+        sparse = {"count": len(places), "indices": indices, "values": {"bufferView": views[1]}}
+        return self.add("accessors", {"componentType": _FLOAT, "count": count, "type": "SCALAR", "sparse": sparse})
+
     def place(self, mesh: Tree, **more: Any) -> None:
         node = self.add("nodes", {"mesh": self.add("meshes", mesh), **more})
         self.tree["scenes"][0]["nodes"].append(node)
@@ -291,9 +298,9 @@ class _Moving(_Still):
         samplers: list[Tree] = []
         channels: list[Tree] = []
 
-        def move(nodes: range, path: str, times: Array, values: Array, way: str) -> None:
+        def move(nodes: range, path: str, times: Array, values: int, way: str) -> None:
             keys = self.numbers((times / rate).astype(np.float32)[:, None], bounds=True)
-            samplers.append({"input": keys, "output": self.numbers(values.astype(np.float32)), "interpolation": way})
+            samplers.append({"input": keys, "output": values, "interpolation": way})
             place = len(samplers) - 1
             channels.extend({"sampler": place, "target": {"node": node, "path": path}} for node in nodes)
 
@@ -307,14 +314,14 @@ class _Moving(_Still):
                     zeros = self.add("accessors", {"componentType": _FLOAT, "count": len(rows), "type": "VEC4"})
                     primitive["targets"] = [{"COLOR_0": zeros} | target for target in primitive["targets"]]
             if count:
-                weights = np.vstack([np.zeros((1, count)), np.eye(count)])
-                move(run.nodes, "weights", np.arange(run.begun, end), weights.reshape(-1, 1), "LINEAR")
+                weights = self.ones(count + np.arange(count) * (count + 1), (count + 1) * count)
+                move(run.nodes, "weights", np.arange(run.begun, end), weights, "LINEAR")
                 for node in run.nodes:
                     self.tree["meshes"][self.tree["nodes"][node]["mesh"]]["weights"] = [0.0] * count
             if len(self._runs) > 1:
                 times = np.array([0, run.begun, end][run.begun == 0 : 3 - (end == self.frames)])
                 seen = np.array([0, 1, 0][run.begun == 0 : 3 - (end == self.frames)])
-                move(run.nodes, "scale", times, np.repeat(seen[:, None], 3, axis=1), "STEP")
+                move(run.nodes, "scale", times, self.numbers(np.tile(seen[:, None], 3).astype(np.float32)), "STEP")
         if channels:
             self.add("animations", {"name": "frames", "samplers": samplers, "channels": channels})
 

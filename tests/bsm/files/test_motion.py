@@ -121,6 +121,22 @@ def test_there_and_back(tmp_path, kind):
         assert (source.metadata["unit"], source.metadata["up"]) == ("centimeters", "z")
 
 
+def test_a_glb_grows_with_the_frames_and_not_with_their_square(tmp_path):
+    positions = np.random.default_rng(0).normal(size=(1200, 4, 3)).astype(np.float32).astype(np.float64)
+    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.int32)
+    sizes = []
+    for count in (300, 1200):
+        path = tmp_path / f"{count}.glb"
+        with sequence_writer(str(path), "glb", faces, count, overwrite=False) as write:
+            for frame in positions[:count]:
+                write(frame)
+        sizes.append(path.stat().st_size)
+    assert sizes[1] < 4.2 * sizes[0]
+    _, frames = frames_of(tmp_path / "1200.glb", rate=24.0)
+    same = cKDTree(positions[0]).query(frames[0])[1]
+    assert frames.shape == positions.shape and np.abs(frames - positions[:, same]).max() < 1e-3
+
+
 def corners_of(path):
     """The faces that have an area: their vertices and texture coordinates, whatever corner is the first."""
     mesh = read_mesh(path).mesh

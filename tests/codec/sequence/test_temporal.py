@@ -40,6 +40,13 @@ def test_what_costs_more_than_it_brings_is_left_out() -> None:
     assert learn_basis(np.zeros((ROWS, COLUMNS)), STEP, 1000).columns.shape == (COLUMNS, 0)
 
 
+def test_few_vertices_over_many_frames_have_the_same_components_as_the_rest_of_the_mesh_at_rest() -> None:
+    motion = np.random.default_rng(3).normal(size=(4, COLUMNS)) * [[4.0], [2.0], [1.0], [0.5]]
+    few, many = (learn_basis(rows, STEP, 1000) for rows in (motion, np.vstack([motion, np.zeros((ROWS, COLUMNS))])))
+    assert few.exponents.tolist() == many.exponents.tolist() and few.columns.shape == (COLUMNS, 4)
+    np.testing.assert_allclose(np.abs(few.columns.T @ many.columns), np.eye(4), atol=1e-12)
+
+
 def test_projection_finds_the_components_even_if_a_basis_is_not_quite_orthonormal() -> None:
     random = np.random.default_rng(2)
     basis = np.linalg.qr(random.normal(size=(COLUMNS, 5)))[0] + 0.01 * random.normal(size=(COLUMNS, 5))
