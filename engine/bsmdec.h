@@ -32,7 +32,7 @@
 extern "C" {
 #endif
 
-/* Version of this header; bsmdec_version is that of the library. */
+/* Header version; bsmdec_version() returns the library version. */
 #define BSMDEC_VERSION "1.0.0"
 
 /* Windows: define BSMDEC_SHARED before you include this header to link the DLL, BSMDEC_EXPORT to build it. */
@@ -151,13 +151,13 @@ typedef struct {
     int tolerant;                      /* 1: report damage as BSMDEC_LOSS and go on (specification, F 8) */
     int64_t start;                     /* sequences: first frame to report, 0 if negative; earlier GOPs are skipped if
                                         * possible */
-    const bsmdec_field *fields;        /* bsmdec_decode only: what a vertex holds; NULL: everything, as floats */
+    const bsmdec_field *fields;        /* bsmdec_decode only: the layout of a vertex; NULL: everything, as floats */
     size_t field_count;                /* elements of `fields` */
     size_t stride;                     /* bytes from one vertex to the next; 0: as few as the fields need, aligned */
     size_t index_size;                 /* bytes of an index: 2, 4, or 0 for 2 if that suffices */
     const bsmdec_parallel *parallel;   /* NULL: one thread */
-    int64_t layers;                    /* meshes with refinement: 1 ends behind the blocks, without it and coded
-                                        * attributes */
+    int64_t layers;                    /* meshes with refinement: 1: stop after the blocks; skip refinement and
+                                        * coded attributes */
 } bsmdec_options;
 #define BSMDEC_OPTIONS {sizeof(bsmdec_options), NULL, NULL, 0, 0, NULL, 0, 0, 0, NULL, 0}
 
@@ -171,7 +171,7 @@ BSMDEC_API bsmdec_status bsmdec_default_limits(bsmdec_limits *limits, size_t siz
 
 /* ---- Decoder ---- */
 
-/* Create a decoder. `options` may be NULL. Returns NULL only if there is no memory, or if `limits.heap` is less than a
+/* Create a decoder. `options` may be NULL. Returns NULL only if memory is exhausted, or if `limits.heap` is less than a
  * decoder takes. If the options are wrong, every call fails with BSMDEC_MISUSED, and bsmdec_last_error says what is
  * wrong with them. */
 BSMDEC_API bsmdec *bsmdec_open(const bsmdec_options *options);
@@ -188,15 +188,15 @@ BSMDEC_API bsmdec_status bsmdec_finish(bsmdec *decoder);
 
 typedef enum {
     BSMDEC_NEED_DATA,     /* nothing to report: push more bytes, or call bsmdec_finish */
-    BSMDEC_HEADER,        /* a header was read: `vertices`, `faces`, `frames` are what the stream claims */
+    BSMDEC_HEADER,        /* a header was read: `vertices`, `faces`, `frames` are the claims of the stream */
     BSMDEC_METADATA,      /* metadata entries 0 to `index` - 1 are available */
     BSMDEC_CONNECTIVITY,  /* faces are available; `vertices` and `faces` are now final for this mesh */
     BSMDEC_BLOCK,         /* block `index` was decoded; more positions are known */
     BSMDEC_REFINEMENT,    /* more vertices were refined, `index` of them so far */
     BSMDEC_ATTRIBUTE,     /* attribute `index` is available */
     BSMDEC_FRAME,         /* frame `index` of a sequence is the current one: ask for its positions now */
-    BSMDEC_LOSS,          /* tolerant decoders: something was lost, see bsmdec_last_loss; of a sequence `count` frames
-                           * from `index` on, 0 if no frame was lost */
+    BSMDEC_LOSS,          /* tolerant decoders: data was lost (bsmdec_last_loss); in sequences, frames `index` to
+                           * `index` + `count` - 1; `count` may be 0 */
     BSMDEC_END,           /* a mesh: all positions are available. A sequence: all frames were reported */
     BSMDEC_END_OF_STREAM, /* nothing follows; reported again and again */
     BSMDEC_ERROR,         /* the stream cannot be decoded, see bsmdec_last_error; reported again and again */
@@ -223,7 +223,7 @@ BSMDEC_API bsmdec_status bsmdec_next(bsmdec *decoder, bsmdec_event *event);
  *
  * Each fills an array that you own of exactly `count` elements, or of exactly `size` bytes. It returns BSMDEC_MISUSED
  * and writes nothing if the count is wrong or the data is not available; bsmdec_last_misuse says which. Another status
- * is the decoder's error: there was no memory for the call, and the decoder does not go on; or, of positions, an
+ * is the decoder's error: memory ran out during the call, and the decoder does not go on; or, of positions, an
  * earlier error, after which they are not available.
  */
 
@@ -238,16 +238,16 @@ BSMDEC_API bsmdec_status bsmdec_positions_single(bsmdec *decoder, float *coordin
 
 /* ---- Attributes ---- */
 
-/* What has a value: a vertex; a corner, that is a vertex in one face; or a face. */
+/* The owner of a value: a vertex; a corner, that is a vertex in one face; or a face. */
 enum { BSMDEC_VERTEX, BSMDEC_CORNER, BSMDEC_FACE };
-/* What the values mean. */
+/* The meaning of the values. */
 enum { BSMDEC_GENERIC, BSMDEC_COLOR, BSMDEC_NORMAL, BSMDEC_TEXCOORD };
 /* Type of the numbers. */
 enum {
     BSMDEC_UINT8, BSMDEC_INT8, BSMDEC_UINT16, BSMDEC_INT16, BSMDEC_UINT32, BSMDEC_INT32, BSMDEC_FLOAT32, BSMDEC_FLOAT64
 };
 
-/* Bytes of a number of a kind, such as 4 for BSMDEC_FLOAT32; 0 if there is no such kind. */
+/* Bytes of a number of a kind, such as 4 for BSMDEC_FLOAT32; 0 for an unknown kind. */
 BSMDEC_API size_t bsmdec_kind_size(int kind);
 
 typedef struct {
@@ -353,30 +353,30 @@ BSMDEC_API bsmdec_status bsmdec_split_values(
  *     bsmdec_release(mesh);
  */
 
-/* What bsmdec_decode gives you to read. Everything belongs to the mesh; buffers stay where they are until
+/* The result of bsmdec_decode. Everything belongs to the mesh; buffers stay where they are until
  * bsmdec_advance or bsmdec_release. After an error, only `error` is set. */
 typedef struct {
     const bsmdec_error *error;
     bsmdec *decoder;          /* for metadata, attributes of faces, losses; do not call bsmdec_next or bsmdec_split */
     int64_t vertices, faces;  /* as in the buffers: vertices are split */
-    int64_t frame, frames;    /* sequences: number of the frame in the buffers, -1 behind the last; see bsmdec_event */
+    int64_t frame, frames;    /* sequences: number of the frame in the buffers, -1 after the last; see bsmdec_event */
     int64_t losses;           /* tolerant decoding: LOSS events so far. Unknown positions are NaN */
     void *vertex_data;        /* `vertices` times `stride` bytes */
     size_t vertex_bytes, stride;
     void *index_data;         /* 3 indices of `index_size` bytes for each face */
     size_t index_size;
-    const bsmdec_field *fields; /* what a vertex holds: your fields, or, without these, positions and all attributes */
+    const bsmdec_field *fields; /* the layout of a vertex: your fields; by default positions and all attributes */
     const int *attributes;      /* of each field: the attribute; BSMDEC_POSITION; or BSMDEC_ABSENT, its bytes are 0 */
     size_t field_count;
 } bsmdec_mesh;
 
 /* Decode a whole mesh, or a sequence up to its first frame. `options` may be NULL. Returns the status, and sets `mesh`
  * in any case, also after an error: release it with bsmdec_release. BSMDEC_MISUSED if the options or fields are wrong;
- * mesh->error says what is wrong with them. */
+ * mesh->error names the fault. */
 BSMDEC_API bsmdec_status bsmdec_decode(
     const void *bytes, size_t size, const bsmdec_options *options, bsmdec_mesh **mesh);
 
-/* Decode the next frame of a sequence into the buffers. The buffers are new if `faces` or `vertices` change. Behind
+/* Decode the next frame of a sequence into the buffers. The buffers are new if `faces` or `vertices` change. After
  * the last frame mesh->frame is -1, and the buffers keep that frame. */
 BSMDEC_API bsmdec_status bsmdec_advance(bsmdec_mesh *mesh);
 
