@@ -1,9 +1,11 @@
 """Streams to meshes and frames: the decoders of `import bsm`, over the decoder in C (`engine/`)."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import wraps
 from numbers import Integral
+from threading import RLock
 from types import TracebackType
-from typing import Any, ClassVar, TypeAlias, TypeVar
+from typing import Any, ClassVar, Concatenate, ParamSpec, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -48,6 +50,8 @@ Event: TypeAlias = (
     | Signal
 )
 Self = TypeVar("Self", bound="StreamDecoder")
+Given = ParamSpec("Given")
+Result = TypeVar("Result")
 
 # Types of events, in the order of bsmdec.h.
 NEED, HEADER, METADATA, CONNECTIVITY, BLOCK, REFINEMENT, ATTRIBUTE, FRAME, LOSS, END, OVER, _ERROR, VALUES = range(13)
@@ -59,6 +63,17 @@ def mask_of(*types: int) -> int:
     return sum(1 << kind for kind in types)
 
 
+def _in_turn(method: Callable[Concatenate[Self, Given], Result]) -> Callable[Concatenate[Self, Given], Result]:
+    """Let threads that share a decoder take turns, so that an event and its arrays go to one of them."""
+
+    @wraps(method)
+    def guarded(self: Self, /, *args: Given.args, **kwargs: Given.kwargs) -> Result:
+        with self._turn:
+            return method(self, *args, **kwargs)
+
+    return guarded
+
+
 class StreamDecoder:
     """Base of the decoders of meshes and sequences."""
 
@@ -68,6 +83,7 @@ class StreamDecoder:
         self, limits: Limits, threads: int | None, *, tolerant: bool = False, start: int = 0, layers: int = 0
     ) -> None:
         self._engine: Engine | None = Engine(as_limits(limits), threads_of(threads), bool(tolerant), start, layers)
+        self._turn = RLock()
         self._tolerant = tolerant
         self._finished = False
         self._error: BsmError | None = None
@@ -84,6 +100,7 @@ class StreamDecoder:
     ) -> None:
         self.close()
 
+    @_in_turn
     def close(self) -> None:
         """Release the decoder's memory; no more events can be asked for."""
         if self._engine is not None:
@@ -99,6 +116,7 @@ class StreamDecoder:
         """How many have come with faces; by them memory and work are bounded."""
         return int((self._state if self._engine is None else self._engine.state())[2])
 
+    @_in_turn
     def receive_data(self, data: Buffer) -> None:
         """Take more bytes of the stream, in any buffer and of any number."""
         given: Any = data
@@ -114,6 +132,7 @@ class StreamDecoder:
                 plain = view if view.c_contiguous and view.nbytes == len(view) else view.tobytes()
                 self._open.push(np.frombuffer(plain, np.uint8))
 
+    @_in_turn
     def receive_eof(self) -> None:
         """Take note that no more bytes will come."""
         self._finished = True
@@ -130,6 +149,7 @@ class StreamDecoder:
             else:
                 self.receive_eof()
 
+    @_in_turn
     def next_event(self) -> Event:
         """The next event, or `NEED_DATA`; `END_OF_STREAM` after `EndEvent` and `receive_eof`; raises a `BsmError`."""
         try:
@@ -252,8 +272,9 @@ class Decoder(StreamDecoder):
         super().__init__(limits, threads, tolerant=tolerant, layers=0 if layers is None else min(int(layers), 2))
         self._sizes: tuple[int, int] | None = None
 
-    def finish(self, progress: Progress | None = None) -> TriangleMesh:
-        """Decode the rest of a complete stream and return the mesh; faster than asking for events.
+    @_in_turn
+    def decode_rest(self, progress: Progress | None = None) -> TriangleMesh:
+        """Decode the rest of a stream that was given to its end, and return the mesh; faster than asking for events.
 
         Parameters
         ----------
@@ -277,7 +298,10 @@ class Decoder(StreamDecoder):
         engine = self._open
         return TriangleMesh(engine.positions(vertices), engine.faces(faces), self.attributes, self.metadata)
 
+    finish = decode_rest  # its name in earlier releases
+
     @property
+    @_in_turn
     def attributes(self) -> tuple[Attribute, ...]:
         """Attributes that are whole; those that are computed from positions are when these are."""
         found = (self._attribute(index) for index in range(self._open.attribute_count()))
@@ -342,6 +366,7 @@ class SequenceDecoder(StreamDecoder):
         self._known: dict[int, tuple[Attribute, bool]] = {}
 
     @property
+    @_in_turn
     def attributes(self) -> tuple[Attribute, ...]:
         """Attributes of all frames of the present run, that are whole; all of them when its first frame is."""
         return tuple(attribute for attribute, _ in self._known.values())
@@ -415,7 +440,7 @@ def decode(data: bytes, limits: Limits = DEFAULT_LIMITS, threads: int | None = N
     """Decode a complete stream."""
     with Decoder(limits, threads) as decoder:
         decoder.receive_data(data)
-        return decoder.finish()
+        return decoder.decode_rest()
 
 
 def decode_sequence(

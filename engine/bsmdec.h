@@ -143,7 +143,7 @@ typedef struct {
 } bsmdec_parallel;
 
 /* How to decode: `bsmdec_options options = BSMDEC_OPTIONS;`, then set what you need. 0 and NULL are the defaults. The
- * library copies what `limits`, `allocator` and `parallel` point to. */
+ * library copies everything that the options point to, the fields and their names included. */
 typedef struct {
     size_t size;                       /* sizeof(bsmdec_options) */
     const bsmdec_limits *limits;       /* NULL: those of bsmdec_default_limits */
@@ -399,7 +399,8 @@ typedef struct {
 } bsmdec_changes;
 
 /* What BLOCK and REFINEMENT events have changed since the previous call. Available from CONNECTIVITY on. Not for
- * frames of a sequence: a frame moves every vertex. */
+ * frames of a sequence: a frame moves every vertex. Calls are not counted as work of the stream. After they took as much
+ * work as the limits allow, `final` is set only after the last block. */
 BSMDEC_API bsmdec_status bsmdec_read_changes(bsmdec *decoder, bsmdec_changes *changes);
 
 /* The vertices that no face uses; they do not change. Available from CONNECTIVITY on. */

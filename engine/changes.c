@@ -4,8 +4,8 @@
 #include "engine/arithmetic.h"
 #include "engine/decoder.h"
 
-/* Nanoseconds to look at an edge while rings are found, to find rings at all, and to report a vertex. */
-static const double LOOK = 18, CALL = 2e4, COPY = 90;
+/* Nanoseconds to look at an edge while rings are found, and to find rings at all. */
+static const double LOOK = 18, CALL = 2e4;
 
 /* Find the user's numbers of each coded vertex. */
 static bool invert_numbering(Changes *changes, const Numbering *numbering, int64_t coded) {
@@ -87,7 +87,8 @@ static bool find(bsmdec *decoder, ConstInts given, int64_t rings, Longs *starts,
         const int32_t *offset = graph->offsets.data + changes->ringed.data[i];
         edges += offset[1] - offset[0];
     }
-    return charge(&decoder->context, CALL + LOOK * (double)edges, 0);
+    changes->work += CALL + LOOK * (double)edges;
+    return true;
 }
 
 static void forget_rings(const Changes *changes, int64_t count) {
@@ -144,6 +145,30 @@ static bool smooth_some(bsmdec *decoder, ConstInts vertices, Doubles2 smoothed) 
     return true;
 }
 
+/* List all vertices that are complete, and not final yet. */
+static bool find_late(Changes *changes, Ints *found) {
+    if (!take_ints(&changes->answer, changes->missing.size, found)) return false;
+    found->size = 0;
+    for (int64_t v = 0; v < changes->missing.size; v++)
+        if (changes->missing.data[v] == 0 && !changes->final.data[v]) found->data[found->size++] = (int32_t)v;
+    return true;
+}
+
+/* Find which vertices are final once some are complete. Answers may take as much work as decoding; what they find then
+ * waits for the last block, so that the stream's own verdict is the same however often a host asks. */
+static bool find_finished(bsmdec *decoder, Ints complete, Ints *finished) {
+    Changes *changes = &decoder->changes;
+    *finished = complete;
+    if (!(decoder->mesh.header.smoothing > 0.0)) return true;
+    bool over = decoder->mesh.next_block == decoder->mesh.header.blocks;
+    if (!over && changes->work > granted_work(&decoder->context)) {
+        finished->size = 0;
+        return changes->late = true;
+    }
+    if (over && changes->late && !find_late(changes, &complete)) return false;
+    return find_final(decoder, const_ints(complete), finished);
+}
+
 /* Blend the members of a block; list them, and those of which every copy has come. */
 static void take_block(bsmdec *decoder, int64_t index, Ints *touched, Ints *complete) {
     const Mesh *mesh = &decoder->mesh;
@@ -180,10 +205,9 @@ static bool list_changed(Changes *changes, ConstInts touched, ConstInts finished
 static bool read_blocks(bsmdec *decoder, bsmdec_changes *answer) {
     const Mesh *mesh = &decoder->mesh;
     Changes *changes = &decoder->changes;
-    Context *context = &decoder->context;
     int64_t total = 0, first = changes->blocks;
     for (int64_t i = first; i < mesh->next_block; i++) total += size_of_block(&mesh->blocks, i);
-    Ints touched, complete, vertices;
+    Ints touched, complete, finished, vertices;
     Doubles2 positions;
     if (!take_ints(&changes->answer, total, &touched) || !take_ints(&changes->answer, total, &complete)
         || !begin_watching(decoder))
@@ -192,9 +216,8 @@ static bool read_blocks(bsmdec *decoder, bsmdec_changes *answer) {
     changes->blocks = mesh->next_block;
     for (int64_t i = first; i < mesh->next_block; i++)
         if (mesh->assembly.added.data[i]) take_block(decoder, i, &touched, &complete);
-    Ints finished = complete;
-    if (mesh->header.smoothing > 0.0 && !find_final(decoder, const_ints(complete), &finished)) return false;
-    if (!list_changed(changes, const_ints(touched), const_ints(finished), &vertices)
+    if (!find_finished(decoder, complete, &finished)
+        || !list_changed(changes, const_ints(touched), const_ints(finished), &vertices)
         || !take_doubles2(&changes->answer, vertices.size, 3, &positions))
         return false;
     int64_t moved = vertices.size - finished.size;
@@ -204,11 +227,9 @@ static bool read_blocks(bsmdec *decoder, bsmdec_changes *answer) {
         && !smooth_some(decoder, const_ints(finished), (Doubles2){positions.data + 3 * moved, finished.size, 3}))
         return false;
     bool lasting = mesh->header.gop_frames == 0; /* frames move them later */
-    if (!charge(context, COPY * (double)count_copies(changes, const_ints(vertices)), 0)
-        || !into_unit(context, &mesh->header, positions))
-        return false;
-    return answer_with(decoder, const_ints(vertices), const_doubles2(positions), lasting ? moved : vertices.size,
-        answer);
+    return into_unit(&decoder->context, &mesh->header, positions)
+        && answer_with(decoder, const_ints(vertices), const_doubles2(positions), lasting ? moved : vertices.size,
+            answer);
 }
 
 static bool has_unread_blocks(const bsmdec *decoder) {

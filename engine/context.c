@@ -167,6 +167,12 @@ static bool note(Context *context, double amount, double received) {
     return true;
 }
 
+double granted_work(const Context *context) {
+    const bsmdec_limits *limits = &context->limits;
+    double vertices = (double)(context->spent.vertices + context->spent.shown);
+    return lesser(limits->work + limits->work_per_vertex * vertices, limits->most_work);
+}
+
 /* Work to come, and the bytes that ask for it (M 14.3, M 14.9). */
 bool charge(Context *context, double work, double received) {
     const bsmdec_limits *limits = &context->limits;
@@ -176,9 +182,8 @@ bool charge(Context *context, double work, double received) {
     double own = work - limits->work_per_byte * received;
     spent->spent += work;
     spent->owed += own > 0.0 ? own : 0.0;
-    double granted = limits->work + limits->work_per_vertex * (double)(spent->vertices + spent->shown);
     return within_limit(context, "most_work", spent->spent, limits->most_work)
-        && within_limit(context, "work", spent->owed, lesser(granted, limits->most_work));
+        && within_limit(context, "work", spent->owed, granted_work(context));
 }
 
 static double granted_memory(const bsmdec_limits *limits, int64_t vertices, double received) {

@@ -129,6 +129,8 @@ ARENA_ARRAYS(Doubles, double, doubles)
 bool within_limit(Context *context, const char *name, double value, double limit);
 #define WITHIN(context, name, value) within_limit(context, #name, (double)(value), (context)->limits.name)
 bool charge(Context *context, double work, double received);
+/* The work that limits allow beside that of bytes. */
+double granted_work(const Context *context);
 bool reserve(Context *context, double memory, double received);
 bool fits_memory(Context *context, double memory);
 /* Make the charges of a ledger from number `first` up to `end`. */

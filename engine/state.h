@@ -97,7 +97,8 @@ enum { BLOCK_OF_HELPER = BSMDEC_VALUES + 1 };
 /* What is remembered of the present mesh to answer what has changed, and the last answer. */
 typedef struct {
     Arena memory, answer;
-    bool begun;
+    bool begun, late;        /* `late`: vertices that may be final wait for the last block */
+    double work;             /* of all answers */
     Ints missing;            /* copies of each vertex that have not come */
     Bytes final, marks;
     Doubles2 blended;

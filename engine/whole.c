@@ -61,6 +61,16 @@ static bool find_fields(Whole *whole) {
     return true;
 }
 
+/* Replace a name of the caller by one of our own. */
+static bool copy_name(Arena *arena, const char **name) {
+    if (*name == NULL) return true;
+    const size_t size = strlen(*name) + 1;
+    char *own;
+    if (!TAKE(arena, (int64_t)size, own)) return false;
+    *name = memcpy(own, *name, size);
+    return true;
+}
+
 /* Fields as the caller wants them. */
 static bool copy_fields(Whole *whole, const bsmdec_options *options) {
     bsmdec *decoder = whole->given.decoder;
@@ -81,6 +91,7 @@ static bool copy_fields(Whole *whole, const bsmdec_options *options) {
         if (end > stride) stride = end;
         if (kind_size(field->kind) > widest) widest = kind_size(field->kind);
         whole->fields[i] = *field;
+        if (!copy_name(&whole->fixed, &whole->fields[i].name)) return false;
     }
     whole->given.stride = options->stride > 0 ? stride : (stride + widest - 1) / widest * widest;
     whole->given.field_count = options->field_count;

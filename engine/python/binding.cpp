@@ -1,6 +1,8 @@
 // bsmdec as a class of Python. Arrays are numpy's own; nothing is decoded under the interpreter's lock.
 #include <cstring>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -31,25 +33,54 @@ const struct {
     LIMIT(most_work), LIMIT(memory), LIMIT(memory_per_vertex), LIMIT(memory_per_byte), LIMIT(most_memory),
 #undef LIMIT
 };
-const char *const KINDS[] = {"uint8", "int8", "uint16", "int16", "uint32", "int32", "float32", "float64"};
+const nb::dlpack::dtype KINDS[] = {nb::dtype<uint8_t>(), nb::dtype<int8_t>(), nb::dtype<uint16_t>(), nb::dtype<int16_t>(),
+    nb::dtype<uint32_t>(), nb::dtype<int32_t>(), nb::dtype<float>(), nb::dtype<double>()};
 
-struct Array {
-    nb::object numpy;
-    void *data;
-    size_t bytes;
+// Numbers of our own, which become an array of numpy without another copy.
+template <typename Number = uint8_t> struct Array {
+    size_t rows = 0, columns = 0, bytes = 0;
+    nb::dlpack::dtype kind = nb::dtype<Number>();
+    std::unique_ptr<uint8_t[]> memory;
+
+    Array() = default;
+    Array(size_t rows, size_t columns, nb::dlpack::dtype kind = nb::dtype<Number>())
+        : rows(rows), columns(columns), bytes(rows * (columns > 0 ? columns : 1) * kind.bits / 8), kind(kind),
+          memory(new uint8_t[bytes]) {}
+    Array(const void *from, size_t rows, size_t columns = 0, nb::dlpack::dtype kind = nb::dtype<Number>())
+        : Array(rows, columns, kind) {
+        if (bytes > 0) std::memcpy(memory.get(), from, bytes);
+    }
+
+    Number *data() { return (Number *)memory.get(); }
+    nb::object numpy() {
+        const size_t shape[] = {rows, columns};
+        uint8_t *all = memory.release();
+        nb::capsule owner(all, [](void *held) noexcept { delete[] (uint8_t *)held; });
+        return nb::cast(nb::ndarray<nb::numpy>(all, columns > 0 ? 2 : 1, shape, owner, nullptr, kind));
+    }
 };
 
-Array array_of(const char *kind, size_t rows, size_t columns = 0) {
-    nb::object shape = columns > 0 ? nb::object(nb::make_tuple(rows, columns)) : nb::object(nb::int_(rows));
-    nb::object made = nb::module_::import_("numpy").attr("empty")(shape, kind);
-    auto view = nb::cast<nb::ndarray<nb::c_contig, nb::device::cpu>>(made);
-    return {made, view.data(), view.nbytes()};
-}
+// What the decoder said about a call, copied while it could not say anything else.
+struct Outcome {
+    bsmdec_status status;
+    bsmdec_error error;
+    std::string misuse;
+    double state[STATE_NUMBERS];
+};
 
-nb::object copy_of(const void *data, const char *kind, size_t rows, size_t columns = 0) {
-    Array made = array_of(kind, rows, columns);
-    if (made.bytes > 0) std::memcpy(made.data, data, made.bytes);
-    return made.numpy;
+struct Changed {
+    Array<int32_t> vertices;
+    Array<double> positions;
+    Array<bool> final;
+    explicit Changed(const bsmdec_changes &found)
+        : vertices(found.vertices, (size_t)found.count), positions(found.positions, (size_t)found.count, 3),
+          final(found.final, (size_t)found.count) {}
+};
+
+nb::list list_of(const double *numbers, size_t count) {
+    nb::list all;
+    for (size_t i = 0; i < count; i++) all.append(numbers[i]);
+    return all;
 }
 
 // Text that a message may have cut inside a character.
@@ -71,6 +102,7 @@ void run_tasks(void *, int count, void (*task)(void *context, int index), void *
     for (std::thread &thread : threads) thread.join();
 }
 
+// Only `locked` touches the decoder: each call copies what it returns before another thread can have the decoder.
 class Decoder {
   public:
     Decoder(nb::object limits, int64_t threads, bool tolerant, int64_t start, int64_t layers)
@@ -106,147 +138,190 @@ class Decoder {
     nb::tuple next(uint32_t wanted) {
         wanted |= 1u << BSMDEC_NEED_DATA | 1u << BSMDEC_END_OF_STREAM;
         bsmdec_event event;
-        bsmdec_status status;
         do {
-            status = locked([&] {
+            Outcome outcome = locked([&] {
                 bsmdec_status found;
-                int left = 64;  // then signals are looked at
+                int left = 64; // then signals are looked at
                 do found = bsmdec_next(decoder, &event);
                 while (found == BSMDEC_OK && --left > 0 && !(wanted >> event.type & 1));
                 return found;
             });
             if (PyErr_CheckSignals() != 0) throw nb::python_error();
-            if (status != BSMDEC_OK) raise_error();
+            check(outcome);
         } while (!(wanted >> event.type & 1));
         return nb::make_tuple((int)event.type, event.index, event.count, event.vertices, event.faces);
     }
 
     // Check the packets that have come without decoding them; no other call makes sense for this decoder.
-    void skim() { check(locked([&] { return decoder_skim(decoder); })); }
+    void skim() {
+        check(locked([&] { return decoder_skim(decoder); }));
+    }
 
     nb::object faces(size_t count) {
-        Array made = array_of("int32", count, 3);
-        check(locked([&] { return bsmdec_faces(decoder, (uint32_t *)made.data, 3 * count); }));
-        return made.numpy;
+        Array<uint32_t> made(count, 3, nb::dtype<int32_t>());
+        check(locked([&] { return bsmdec_faces(decoder, made.data(), 3 * count); }));
+        return made.numpy();
     }
 
     nb::object positions(size_t count) {
-        Array made = array_of("float64", count, 3);
-        check(locked([&] { return bsmdec_positions(decoder, (double *)made.data, 3 * count); }));
-        return made.numpy;
+        Array<double> made(count, 3);
+        check(locked([&] { return bsmdec_positions(decoder, made.data(), 3 * count); }));
+        return made.numpy();
     }
 
-    nb::tuple changes() {
-        bsmdec_changes found;
-        check(locked([&] { return bsmdec_read_changes(decoder, &found); }));
-        return tuple_of(found);
-    }
+    nb::tuple changes() { return changed_by(bsmdec_read_changes); }
 
-    nb::tuple loose() {
-        bsmdec_changes found;
-        check(locked([&] { return bsmdec_read_loose(decoder, &found); }));
-        return tuple_of(found);
-    }
+    nb::tuple loose() { return changed_by(bsmdec_read_loose); }
 
     nb::tuple losses() {
-        bsmdec_losses found;
-        check(locked([&] { return bsmdec_read_losses(decoder, &found); }));
-        return nb::make_tuple(copy_of(found.missing, "int32", (size_t)found.missing_count),
-            copy_of(found.degraded, "int32", (size_t)found.degraded_count));
+        Array<int32_t> missing, degraded;
+        check(locked([&] {
+            bsmdec_losses found;
+            bsmdec_status status = bsmdec_read_losses(decoder, &found);
+            if (status != BSMDEC_OK) return status;
+            missing = {found.missing, (size_t)found.missing_count};
+            degraded = {found.degraded, (size_t)found.degraded_count};
+            return status;
+        }));
+        return nb::make_tuple(missing.numpy(), degraded.numpy());
     }
 
     nb::tuple metadata(int64_t index) {
         bsmdec_metadata entry;
-        check(locked([&] { return bsmdec_metadata_at(decoder, index, &entry); }));
-        const char *bytes = (const char *)entry.bytes;
+        std::string name, bytes;
+        check(locked([&] {
+            bsmdec_status status = bsmdec_metadata_at(decoder, index, &entry);
+            if (status != BSMDEC_OK) return status;
+            name = entry.name;
+            bytes.assign((const char *)entry.bytes, entry.size);
+            return status;
+        }));
         nb::object value = entry.type == BSMDEC_WHOLE ? nb::object(nb::int_(entry.whole))
             : entry.type == BSMDEC_NUMBER             ? nb::object(nb::float_(entry.number)) : entry.type == BSMDEC_TEXT
-            ? nb::object(nb::str(bytes, entry.size)) : nb::object(nb::bytes(bytes, entry.size));
-        return nb::make_tuple(nb::str(entry.name), value);
+            ? nb::object(nb::str(bytes.data(), bytes.size())) : nb::object(nb::bytes(bytes.data(), bytes.size()));
+        return nb::make_tuple(name, value);
     }
 
-    int attribute_count() { return bsmdec_attribute_count(decoder); }
+    int attribute_count() {
+        int count = 0;
+        locked([&] { return count = bsmdec_attribute_count(decoder), BSMDEC_OK; });
+        return count;
+    }
 
     // (name, domain, semantic, values, indices or None, whether it moves); None if it is not whole.
     nb::object attribute(int index) {
-        bsmdec_attribute shape;
-        if (locked([&] { return bsmdec_attribute_at(decoder, index, &shape); }) != BSMDEC_OK) return nb::none();
-        Array made = array_of(KINDS[shape.kind], (size_t)shape.rows, (size_t)shape.components);
-        check(locked([&] { return bsmdec_attribute_values(decoder, index, made.data, made.bytes); }));
-        return nb::make_tuple(shape.name, shape.domain, shape.semantic, made.numpy, indices(index, shape),
-            shape.moves != 0);
+        bsmdec_attribute shape = {};
+        std::string name;
+        Array<> values;
+        Array<uint32_t> corners;
+        Outcome outcome = locked([&] {
+            bsmdec_status status = bsmdec_attribute_at(decoder, index, &shape);
+            if (status != BSMDEC_OK) return status;
+            name = shape.name;
+            values = {(size_t)shape.rows, (size_t)shape.components, KINDS[shape.kind]};
+            status = bsmdec_attribute_values(decoder, index, values.data(), values.bytes);
+            return status == BSMDEC_OK ? read_indices(index, shape, &corners) : status;
+        });
+        if (outcome.status == BSMDEC_MISUSED) return nb::none();
+        check(outcome);
+        return nb::make_tuple(name, shape.domain, shape.semantic, values.numpy(), or_none(corners), shape.moves != 0);
     }
 
     // The part that came last: (name, domain, semantic, indices or None, rows, values).
     nb::tuple values(int index) {
-        bsmdec_values found;
-        check(locked([&] { return bsmdec_read_values(decoder, index, &found); }));
-        const bsmdec_attribute &shape = found.attribute;
-        return nb::make_tuple(shape.name, shape.domain, shape.semantic, indices(index, shape),
-            copy_of(found.rows, "int32", (size_t)found.count),
-            copy_of(found.values, KINDS[shape.kind], (size_t)found.count, (size_t)shape.components));
+        bsmdec_attribute shape = {};
+        std::string name;
+        Array<uint32_t> corners;
+        Array<int32_t> rows;
+        Array<> values;
+        check(locked([&] {
+            bsmdec_values found;
+            bsmdec_status status = bsmdec_read_values(decoder, index, &found);
+            if (status != BSMDEC_OK) return status;
+            shape = found.attribute;
+            name = shape.name;
+            rows = {found.rows, (size_t)found.count};
+            values = {found.values, (size_t)found.count, (size_t)shape.components, KINDS[shape.kind]};
+            return read_indices(index, shape, &corners);
+        }));
+        return nb::make_tuple(name, shape.domain, shape.semantic, or_none(corners), rows.numpy(), values.numpy());
     }
 
     // The numbers of engine/header.h, in the order of `list_header`.
     nb::list header() {
         double numbers[MOST_HEADER_NUMBERS] = {};
         locked([&] { return decoder_header(decoder, numbers), BSMDEC_OK; });
-        nb::list all;
-        for (double number : numbers) all.append(number);
-        return all;
+        return list_of(numbers, MOST_HEADER_NUMBERS);
     }
 
     nb::list state() {
         double numbers[STATE_NUMBERS];
         locked([&] { return decoder_state(decoder, numbers), BSMDEC_OK; });
-        nb::list all;
-        for (double number : numbers) all.append(number);
-        return all;
+        return list_of(numbers, STATE_NUMBERS);
     }
 
     // The loss of the last LOSS event, as an error.
-    nb::object loss() { return error_of(*bsmdec_last_loss(decoder)); }
+    nb::object loss() {
+        Outcome outcome;
+        locked([&] {
+            outcome.error = *bsmdec_last_loss(decoder);
+            return decoder_state(decoder, outcome.state), BSMDEC_OK;
+        });
+        return error_of(outcome);
+    }
 
   private:
     bsmdec *decoder;
     nb::object given;
     std::mutex mutex; // threads of Python may share a decoder, which belongs to one at a time
 
-    template <typename Work> bsmdec_status locked(Work work) {
+    template <typename Work> Outcome locked(Work work) {
         nb::gil_scoped_release released;
         std::lock_guard<std::mutex> guard(mutex);
-        return work();
+        Outcome outcome = {};
+        outcome.status = work();
+        if (outcome.status == BSMDEC_OK) return outcome;
+        outcome.error = *bsmdec_last_error(decoder);
+        outcome.misuse = bsmdec_last_misuse(decoder);
+        decoder_state(decoder, outcome.state);
+        return outcome;
     }
 
-    static nb::tuple tuple_of(const bsmdec_changes &found) {
-        size_t count = (size_t)found.count;
-        return nb::make_tuple(copy_of(found.vertices, "int32", count), copy_of(found.positions, "float64", count, 3),
-            copy_of(found.final, "bool", count));
+    nb::tuple changed_by(bsmdec_status (*read)(bsmdec *, bsmdec_changes *)) {
+        std::optional<Changed> changed;
+        check(locked([&] {
+            bsmdec_changes found;
+            bsmdec_status status = read(decoder, &found);
+            if (status == BSMDEC_OK) changed.emplace(found);
+            return status;
+        }));
+        return nb::make_tuple(changed->vertices.numpy(), changed->positions.numpy(), changed->final.numpy());
     }
 
-    nb::object indices(int index, const bsmdec_attribute &shape) {
-        if (shape.indices == 0) return nb::none();
-        Array made = array_of("int32", (size_t)shape.indices / 3, 3);
-        check(locked(
-            [&] { return bsmdec_attribute_indices(decoder, index, (uint32_t *)made.data, (size_t)shape.indices); }));
-        return made.numpy;
+    // Called under the lock.
+    bsmdec_status read_indices(int index, const bsmdec_attribute &shape, Array<uint32_t> *corners) {
+        if (shape.indices == 0) return BSMDEC_OK;
+        *corners = {(size_t)shape.indices / 3, 3, nb::dtype<int32_t>()};
+        return bsmdec_attribute_indices(decoder, index, corners->data(), (size_t)shape.indices);
     }
 
-    nb::object error_of(const bsmdec_error &error) {
-        return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")(
-            (int)error.status, text_of(error.message), error.offset, error.frame, error.block, given, state());
+    static nb::object or_none(Array<uint32_t> &corners) {
+        return corners.memory == nullptr ? nb::none() : corners.numpy();
     }
 
-    [[noreturn]] void raise_error() {
-        nb::object error = error_of(*bsmdec_last_error(decoder));
+    nb::object error_of(const Outcome &outcome) {
+        const bsmdec_error &error = outcome.error;
+        return nb::module_::import_("bsm.bitstream.limits").attr("decoder_error")((int)error.status,
+            text_of(error.message), error.offset, error.frame, error.block, given,
+            list_of(outcome.state, STATE_NUMBERS));
+    }
+
+    void check(const Outcome &outcome) {
+        if (outcome.status == BSMDEC_OK) return;
+        if (outcome.error.status != outcome.status) throw nb::value_error(outcome.misuse.c_str());
+        nb::object error = error_of(outcome);
         PyErr_SetObject((PyObject *)Py_TYPE(error.ptr()), error.ptr());
         throw nb::python_error();
-    }
-
-    void check(bsmdec_status status) {
-        if (status == BSMDEC_OK) return;
-        if (status != BSMDEC_MISUSED) raise_error();
-        throw nb::value_error(bsmdec_last_misuse(decoder));
     }
 };
 

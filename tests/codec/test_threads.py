@@ -1,3 +1,4 @@
+import sys
 import threading
 import time
 from dataclasses import replace
@@ -5,10 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from bsm._engine import Decoder as Engine
+from bsm.bitstream.limits import DEFAULT_LIMITS
 from bsm.codec.basis.laplacian import factorize, laplacian_of
 from bsm.codec.basis.orthogonal_iteration import first_columns, orthogonal_iteration
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.decoding import decode
+from bsm.codec.decoding import BLOCK, CONNECTIVITY, END_OF_STREAM, NEED_DATA, BlockEvent, Decoder, decode
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import EncodeOptions, changed
@@ -73,3 +76,77 @@ def test_dictionaries_are_computed_without_the_interpreter_lock():
         time.sleep(0.0005)
     running.join()
     assert steps > 3
+
+
+def test_threads_that_share_a_decoder_take_turns():
+    """Each event reaches one thread, with the arrays that belong to it."""
+    data = encode(patch(100, 100), changed(EncodeOptions(threads=1, step=1e-3), block_size=100))
+
+    def blocks_of(workers):
+        found, errors = [], []
+        with Decoder(threads=1) as decoder:
+
+            def run():
+                try:
+                    while (event := decoder.next_event()) is not END_OF_STREAM and event is not NEED_DATA:
+                        if isinstance(event, BlockEvent):
+                            arrays = event.vertices, event.positions, event.final
+                            found.append((event.index, *(array.tobytes() for array in arrays)))
+                except BaseException as error:
+                    errors.append(error)
+
+            decoder.receive_data(data)
+            decoder.receive_eof()
+            threads = [threading.Thread(target=run) for _ in range(workers)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            assert not errors, errors
+            return sorted(found), decoder.decode_rest().positions
+
+    alone, positions = blocks_of(1)
+    assert len(alone) == 100
+    for _ in range(3):
+        shared, same = blocks_of(6)
+        assert shared == alone and np.array_equal(same, positions)
+
+
+def test_what_a_shared_engine_returns_stays_as_it_was():
+    """Arrays are copied before another thread can have the decoder that they come from."""
+    mesh, apart = patch(60, 60), np.random.default_rng(1).random((5000, 3))
+    mesh = replace(mesh, positions=np.concatenate([mesh.positions, apart]))
+    engine = Engine(DEFAULT_LIMITS, 1, True)
+    options = changed(EncodeOptions(threads=1, step=1e-3, keep_order=True), block_size=100)
+    engine.push(np.frombuffer(encode(mesh, options), np.uint8))
+    engine.finish()
+    while engine.next(1 << CONNECTIVITY)[0] != CONNECTIVITY:
+        pass
+    loose, bad, moved, over = engine.loose(), [], [], threading.Event()
+
+    def ask_for_loose():
+        while not over.is_set():
+            bad.extend(
+                [array for array, known in zip(engine.loose(), loose, strict=True) if not (array == known).all()]
+            )
+
+    def ask_for_changes():
+        while not over.is_set():
+            vertices, _, final = engine.changes()
+            moved.append(vertices[final])
+
+    threads = [threading.Thread(target=ask) for ask in (ask_for_loose, ask_for_changes) * 2]
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    for thread in threads:
+        thread.start()
+    while engine.next(1 << BLOCK)[0] == BLOCK:
+        pass
+    over.set()
+    for thread in threads:
+        thread.join()
+    sys.setswitchinterval(interval)
+    vertices, _, final = engine.changes()
+    moved.append(vertices[final])
+    assert len(loose[0]) == 5000 and not bad
+    assert np.array_equal(np.sort(np.concatenate(moved)), np.arange(3600))

@@ -314,6 +314,24 @@ def test_frames_come_one_after_the_other(decoder: ctypes.CDLL, name: str) -> Non
         assert decoder.bsmdec_advance(byref(found)) == 0 and found.frame == -1
 
 
+def test_names_of_fields_may_go_after_the_call(decoder: ctypes.CDLL) -> None:
+    """The faces change, so the attribute is looked for again."""
+    stream, mesh, name = (VECTORS / "good-sequence-moving-runs.bsm").read_bytes(), POINTER(Mesh)(), b"velocity"
+    text = ctypes.create_string_buffer(name)
+    field = Field(0, ctypes.cast(text, c_char_p), FLOAT32, 2, 0)
+    options = Options(None, None, False, 0)
+    options.fields, options.field_count = ctypes.addressof(field), 1
+    assert decoder.bsmdec_decode(stream, len(stream), byref(options), byref(mesh)) == 0
+    text.value = b"part"
+    frames = frames_in(moving_events_of(stream))
+    while (found := mesh.contents).frame >= 0:
+        moving = next(a for a in frames[found.frame].attributes if a.name == "velocity")
+        assert np.array_equal(found.vertex(0)[: len(moving.values)], moving.values.astype(np.float32))
+        assert found.fields[0].name == name
+        assert decoder.bsmdec_advance(mesh) == 0
+    decoder.bsmdec_release(mesh)
+
+
 def test_a_sequence_says_how_many_frames_come(decoder: ctypes.CDLL) -> None:
     for name, frames in (("good-sequence-long", None), ("good-sequence-unknown-end", 0), ("good-chain", 0)):
         stream = (VECTORS / f"{name}.bsm").read_bytes()

@@ -58,7 +58,7 @@ def test_a_service_has_an_absolute_bound():
     limits = Limits.service()
     with Decoder(limits) as decoder, pytest.raises(LimitError, match="most_work"):
         decoder.receive_data(BOMBS["narrow"]())
-        decoder.finish()
+        decoder.decode_rest()
     for bound in ("most_work", "most_memory"):
         assert getattr(Limits(), bound) > getattr(limits, bound)
 

@@ -109,7 +109,7 @@ def _of_runs(frames: list[np.ndarray], runs: list[tuple[int, int, np.ndarray]], 
 
 def _completed(decoder: Decoder | SequenceDecoder, attributes: dict[str, Attribute]) -> list[Attribute]:
     """Return attributes from events, in the order of the mesh, and recomputed normals, which have no event."""
-    mesh = decoder if isinstance(decoder, SequenceDecoder) else decoder.finish()
+    mesh = decoder if isinstance(decoder, SequenceDecoder) else decoder.decode_rest()
     return [attributes.get(a.name, a) for a in mesh.attributes if a.name in attributes or a.semantic == "normal"]
 
 

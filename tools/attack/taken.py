@@ -124,7 +124,7 @@ def decode_all(data: bytes, how: str, limits: Limits) -> Taken:
         try:
             decoder.receive_data(data)
             if how == "whole" and isinstance(decoder, Decoder):
-                decoder.finish()
+                decoder.decode_rest()
             decoder.receive_eof()
             while (event := decoder.next_event()) is not END_OF_STREAM and event is not NEED_DATA:
                 match event:

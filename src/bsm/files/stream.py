@@ -36,7 +36,7 @@ def decode_whole(
     with Decoder(limits, threads, layers=layers) as decoder:
         for chunk in chunks:
             decoder.receive_data(chunk)
-        return decoder.finish(progress)
+        return decoder.decode_rest(progress)
 
 
 Note = Callable[[str], None]

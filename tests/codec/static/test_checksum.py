@@ -56,7 +56,7 @@ def test_a_part_of_it_is_decoded_without():
     data = unlike(good("refined"))
     with Decoder(layers=1) as decoder:
         decoder.receive_data(data)
-        decoder.finish()
+        decoder.decode_rest()
 
 
 def test_what_is_lost_is_reported_once():

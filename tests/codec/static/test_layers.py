@@ -74,13 +74,13 @@ def test_the_layer_can_be_left_out() -> None:
     blocks = base(MESH).draft.decoded
     with Decoder(layers=1) as decoder:
         decoder.receive_data(REFINED)
-        assert np.abs(decoder.finish().positions - blocks).max() < 1e-12
+        assert np.abs(decoder.decode_rest().positions - blocks).max() < 1e-12
     original = base(MESH).prepared.mesh.positions
     errors = []
     for layers in (1, 2, None):
         with Decoder(layers=layers) as decoder:
             decoder.receive_data(REFINED)
-            errors.append(np.abs(decoder.finish().positions - original).max())
+            errors.append(np.abs(decoder.decode_rest().positions - original).max())
     assert errors[0] > errors[1] == errors[2]
     with pytest.raises(OptionError):
         Decoder(layers=0)
@@ -90,7 +90,7 @@ def test_a_stream_cut_behind_the_base_is_the_base_for_who_wants_no_more() -> Non
     cut = REFINED[: offset_of(REFINED, FrameType.REFINEMENT, 0)]
     with Decoder(layers=1) as decoder:
         decoder.receive_data(cut)
-        assert np.abs(decoder.finish().positions - base(MESH).draft.decoded).max() < 1e-12
+        assert np.abs(decoder.decode_rest().positions - base(MESH).draft.decoded).max() < 1e-12
     with pytest.raises(TruncatedError):
         decode(cut)
     tolerant = events_of(cut, tolerant=True)

@@ -3,15 +3,17 @@
 import numpy as np
 import pytest
 
+from bsm._engine import Decoder as Engine
 from bsm.bitstream.errors import LimitError, OptionError
 from bsm.bitstream.limits import DEFAULT_LIMITS, Limits
 from bsm.codec.basis.laplacian import dictionary_cost, laplacian_of, solve_cost
 from bsm.codec.blocks.overlap import derive_partition, grow_blocks
-from bsm.codec.decoding import Decoder, decode
+from bsm.codec.decoding import BLOCK, Decoder, decode, mask_of
 from bsm.codec.geometry.graph import graph_of_faces
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.codec.static.encoder import encode
 from bsm.codec.static.options import PRESETS, EncodeOptions, changed
+from tests.shapes import patch
 from tools.vectors.meshes import torus
 
 NOTHING_ELSE = {"work_per_vertex": 0.0, "work_per_byte": 0.0}
@@ -35,7 +37,7 @@ def work_of(stream, limits=DEFAULT_LIMITS):
     """What decoding costs by the decoder's own count."""
     with Decoder(limits) as decoder:
         decoder.receive_data(stream)
-        decoder.finish()
+        decoder.decode_rest()
         return decoder.work
 
 
@@ -95,3 +97,38 @@ def test_a_mesh_that_was_made_on_a_grid_is_sent_on_it_where_blocks_would_be_refu
 def test_the_default_allows_wide_dictionaries():
     stream = encode(torus(60, 50), changed(EncodeOptions(), bits=12, keep=0.4, block_size=500, key_interval=0))
     assert len(decode(stream, DEFAULT_LIMITS).positions) == 3000
+
+
+def test_asking_what_changed_is_not_work_of_the_stream():
+    """However often a host asks, the verdict is the same; where answers take too long, the end makes vertices final."""
+    mesh = patch(60, 60)
+    stream = encode(mesh, changed(EncodeOptions(threads=1, step=1e-3), block_size=100))
+
+    def asked(times, **limits):
+        engine = Engine(Limits(**limits))
+        engine.push(np.frombuffer(stream, np.uint8))
+        engine.finish()
+        final, positions = [], np.full((3600, 3), np.nan)
+        while engine.next(mask_of(BLOCK))[0] == BLOCK:
+            for _ in range(times):
+                vertices, places, ended = engine.changes()
+                positions[vertices] = places
+                final.append(vertices[ended])
+        return engine.state()[1], final, positions
+
+    work, final, positions = asked(1)
+    assert asked(0)[0] == asked(3)[0] == work
+    assert sum(map(len, final[:-1])) > 3000
+    assert np.array_equal(np.sort(np.concatenate(final)), np.arange(3600))
+    assert np.array_equal(positions, decode(stream).positions)
+    below, enough = 0.0, work
+    while enough > 1.001 * below:
+        middle = (below + enough) / 2
+        try:
+            asked(0, work=middle, work_per_vertex=0.0)
+            enough = middle
+        except LimitError:
+            below = middle
+    scarce, late, same = asked(2, work=enough, work_per_vertex=0.0)
+    assert scarce == work and sum(map(len, late[:-2])) < 2500
+    assert np.array_equal(np.sort(np.concatenate(late)), np.arange(3600)) and np.array_equal(same, positions)
