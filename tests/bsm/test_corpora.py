@@ -49,7 +49,7 @@ def test_the_table_has_all_rows_and_failures_first():
 def test_patterns_behind_file_urls_are_expanded(corpus, tmp_path):
     jobs = plan([f"file://{corpus}/*.off"], f"file://{tmp_path}/out/", lambda _: ".bsm")
     assert [job.output.rpartition("/")[2] for job in jobs] == ["broken.bsm", "other.bsm", "part.bsm"]
-    with pytest.raises(FileNotFoundError, match="nothing has such a name"):
+    with pytest.raises(FileNotFoundError, match="no such file"):
         plan([f"file://{corpus}/*.xyz"], None, lambda _: ".bsm")
     with pytest.raises(OptionError, match="two outputs"):
         plan([str(corpus / "part.off"), str(corpus / "part.off")], f"{tmp_path}/out/", lambda _: ".bsm")

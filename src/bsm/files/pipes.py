@@ -92,7 +92,7 @@ def expanded(url: str) -> list[str]:
         files, path = _system(url)
         found = sorted(files.unstrip_protocol(name) for name in files.glob(path))
     if not found:
-        raise FileNotFoundError(errno.ENOENT, "nothing has such a name", url)
+        raise FileNotFoundError(errno.ENOENT, "no such file", url)
     return found
 
 

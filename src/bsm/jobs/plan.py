@@ -84,5 +84,5 @@ def _behind(given: str, name: str) -> list[str]:
         return [name]
     found = sorted(glob.glob(name))  # of a file:// URL, which no shell expands
     if not found:
-        raise FileNotFoundError(errno.ENOENT, "nothing has such a name", given)
+        raise FileNotFoundError(errno.ENOENT, "no such file", given)
     return found
