@@ -16,7 +16,6 @@ from bsm.bitstream.container.gop import write_gop_body
 from bsm.bitstream.container.header import Header
 from bsm.bitstream.container.writer import Writer
 from bsm.bitstream.errors import ArgumentError, MeshError, OptionError, public
-from bsm.bitstream.limits import NAMED_LIMITS
 from bsm.codec.arrays import Matrix, Order, Positions
 from bsm.codec.choices import check_mapping
 from bsm.codec.geometry.attributes import Attribute, has
@@ -90,6 +89,10 @@ class SequenceEncoder:
         The numbers of the first frames of all runs so far.
     samples : int
         Vertices times frames so far.
+    kg : float
+        The error of Karni and Gotsman so far, in percent, measured on decoded frames.
+    worst_look : float or None
+        The look of the frame with the largest error of normals so far; None if nothing of it can be seen.
 
     Examples
     --------
@@ -126,6 +129,14 @@ class SequenceEncoder:
         if self.options.frame_rate:
             self._metadata = {**metadata, "frame_rate": float(self.options.frame_rate)}
         packets.Metadata(self._metadata).require_readable()
+
+    @property
+    def kg(self) -> float:
+        return self._verifier.kg
+
+    @property
+    def worst_look(self) -> float | None:
+        return self._verifier.worst_look
 
     def chunks(self, frames: Iterable[Frame], progress: Progress | None = None) -> Iterator[bytes]:
         """The stream, stream frame by stream frame; each GOP is given as soon as its frames are there.
@@ -189,9 +200,7 @@ class SequenceEncoder:
         shown: list[Positions] | None = None,
     ) -> Iterator[bytes]:
         steps: Progress = silent
-        self._verifier = verifier = SequenceVerifier(
-            NAMED_LIMITS[options.limits](), self._metadata, options.threads, shown
-        )
+        self._verifier = verifier = SequenceVerifier(options, self._metadata, shown)
         meshes = Meshes()
         writer = Writer()
         number = 0
@@ -266,7 +275,7 @@ class SequenceEncoder:
                 positions = prepared.units.back(frame)
                 self._checksum = checksum_of(positions, self._checksum)
                 moving = tuple(coder.expected(group.moving[coder.name][number]) for coder in coders)
-                self._verifier.expect_frame(ExpectedFrame(positions, moving))
+                self._verifier.expect_frame(ExpectedFrame(positions, group.positions[number], moving))
             for body in bodies:
                 if 0 < self._count < run.first + self._done + body.frames:
                     raise OptionError(f"{self._count} frames were announced and more came")

@@ -166,6 +166,8 @@ class StepSearch:
         for part in np.array_split(np.array(self._knots, np.int64), PARTS):
             if len(part) and measured.excess <= 0.0:
                 self._draw(int(part[measured.shares[part].argmax()]), measured, decoded)
+        if len(measured.errors) and measured.excess <= 0.0:
+            self._draw(int(measured.errors.argmax()), measured, decoded)  # which the verification will look at, too
         begin = time.perf_counter()
         for looks in count(1):
             if measured.excess > 0.0 or (index := measured.doubtful) is None or not measured.most[index] > 1.0:
@@ -304,6 +306,14 @@ def _evening(shares: Matrix) -> Matrix:
     weights = np.convolve(padded, bell / bell.sum(), mode="valid")
     evening: Matrix = np.exp(np.clip(weights - weights.mean(), -WIDEST, WIDEST))
     return evening
+
+
+def look_of_frame(original: Positions, decoded: Positions, faces: Faces) -> float | None:
+    """How a frame of a moving mesh looks; None if nothing of it can be seen."""
+    try:
+        return LookMetric(TriangleMesh(original, faces)).look(decoded).moving
+    except MeshError:
+        return None
 
 
 def shading_error(original: Positions, decoded: Positions, faces: Faces) -> float:

@@ -1,5 +1,6 @@
-"""Checks that a sequence decodes to what its encoder expects, by the decoder in C, while it is written."""
+"""Checks of a sequence by the decoder in C while it is written, and how far its frames are off."""
 
+import math
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,36 +9,55 @@ import numpy as np
 import numpy.typing as npt
 
 from bsm.bitstream.errors import BsmError, LimitError, VerificationError
-from bsm.bitstream.limits import Limits
-from bsm.codec.arrays import Faces, Order, Positions
+from bsm.bitstream.limits import NAMED_LIMITS
+from bsm.codec.arrays import Faces, Matrix, Order, Positions
 from bsm.codec.decoding import SequenceDecoder
 from bsm.codec.events import ConnectivityEvent, EndEvent, FrameEvent, Signal
 from bsm.codec.geometry.mesh import Metadata
 from bsm.codec.sequence.attributes import Expected
+from bsm.codec.sequence.options import SequenceOptions
+from bsm.codec.sequence.step_search import look_of_frame, shading_error
 from bsm.codec.static.attributes.encoding import PreparedAttribute
 from bsm.codec.static.verification import Original, require, require_attributes, require_positions
+
+ROUNDING = 1e-6
+"""By how much a distance or a look may exceed its bound, relatively: it was measured in other units."""
 
 
 @dataclass(frozen=True, eq=False)
 class ExpectedFrame:
-    """Positions of the closed loop, in the order of coding and the unit of the mesh, and what moves with them."""
+    """A frame in the order of coding: positions of the closed loop, the original in BSM units, and what moves."""
 
     positions: Positions
+    original: Matrix
     moving: tuple[Expected, ...] = ()
 
 
 class SequenceVerifier:
-    """Decodes a sequence chunk by chunk and compares each frame; `shown` collects the decoded positions."""
+    """Decodes a sequence chunk by chunk, compares each frame, and measures the promise of the options.
 
-    def __init__(
-        self, limits: Limits, metadata: Metadata, threads: int | None, shown: list[Positions] | None = None
-    ) -> None:
-        self._decoder = SequenceDecoder(limits, threads)
-        self._metadata, self._shown = metadata, shown
+    `shown` collects the decoded positions.
+    """
+
+    def __init__(self, options: SequenceOptions, metadata: Metadata, shown: list[Positions] | None = None) -> None:
+        self._decoder = SequenceDecoder(NAMED_LIMITS[options.limits](), options.threads)
+        self._promise, self._metadata, self._shown = options.promise, metadata, shown
         self._meshes: deque[tuple[Original, tuple[PreparedAttribute, ...]]] = deque()
         self._frames: deque[ExpectedFrame] = deque()
         self._ended = False
+        self._wrong = self._extent = 0.0  # sums of squares over all frames
+        self._worst: tuple[float, Positions, Positions, Faces] | None = None
         self.faces: Faces = np.zeros((0, 3), np.int32)
+
+    @property
+    def kg(self) -> float:
+        """The error of Karni and Gotsman so far, in percent, see `SequenceComparison`."""
+        return 100.0 * math.sqrt(self._wrong / self._extent) if self._extent else math.inf if self._wrong else 0.0
+
+    @property
+    def worst_look(self) -> float | None:
+        """The look of the frame whose normals are farthest off; None if nothing of it can be seen."""
+        return look_of_frame(*self._worst[1:]) if self._worst else None
 
     def expect_mesh(self, original: Original, carried: Sequence[PreparedAttribute]) -> None:
         """Announce a run, with the attributes that do not move."""
@@ -67,6 +87,9 @@ class SequenceVerifier:
         if last:
             require(self._ended and not self._frames and not self._meshes, "the decoder did not return all frames")
             require(self._decoder.metadata == dict(self._metadata), "the decoded metadata differ")
+            if self._promise is not None and self._promise.look < math.inf:
+                look, most = self.worst_look or 0.0, self._promise.look
+                require(look <= most * (1.0 + ROUNDING), f"a frame has a look of {look:.4g}, not {most:g} at most")
         return chunk
 
     def _begin(self, faces: Faces, vertices: int) -> None:
@@ -79,6 +102,7 @@ class SequenceVerifier:
         require(bool(self._frames), "the decoder returned a frame that was not encoded")
         expected = self._frames.popleft()
         require_positions(frame.positions, expected.positions, self._matched, self._original.loose)
+        self._measure(frame, expected)
         if not self._checked:
             moving = {each.number for each in expected.moving}
             still = [attribute for number, attribute in enumerate(frame.attributes) if number not in moving]
@@ -88,6 +112,21 @@ class SequenceVerifier:
             _require_near(frame.attributes[each.number].values, each, self._matched)
         if self._shown is not None:
             self._shown.append(frame.positions)
+
+    def _measure(self, frame: FrameEvent, expected: ExpectedFrame) -> None:
+        """Add up errors, and require that no vertex is farther off than was promised."""
+        units = self._original.prepared.units
+        original = units.back(expected.original)[self._matched]
+        apart = np.square(frame.positions - original).sum(axis=1)
+        self._wrong += float(apart.sum())
+        self._extent += float(np.square(original - original.mean(axis=0)).sum())
+        if self._promise is not None:
+            far, most = math.sqrt(float(apart.max())), self._promise.reach(units.scale) * units.scale
+            rounding = ROUNDING * most + 8.0 * float(np.finfo(np.float64).eps * np.abs(original).max())
+            require(far <= most + rounding, f"vertex {apart.argmax()} of frame {frame.index} is off by {far:.4g}")
+        error = shading_error(original, frame.positions, frame.faces)
+        if self._worst is None or error > self._worst[0]:
+            self._worst = error, original, frame.positions, frame.faces
 
 
 def _require_near(decoded: npt.NDArray[np.generic], moving: Expected, matched: Order) -> None:

@@ -183,7 +183,7 @@ def encode_many(
     options: dict[str, Any] = {**keywords}
     threads = options.pop("threads", 1 if run.side_by_side and len(planned) > 1 else None)
     entries = metadata or {}
-    job = EncodeJob(force=overwrite, quiet=True, metadata=entries, options=options, threads=threads, compared=False)
+    job = EncodeJob(force=overwrite, quiet=True, metadata=entries, options=options, threads=threads)
     return run_many(run, job, Console(quiet=True, heard=progress), encode_one, planned)
 
 

@@ -230,6 +230,16 @@ def test_permutation_restores_the_order(npz, tmp_path, capsys):
     assert result(capsys, "compare", npz, stream, "--permutation", order)["kg"] < 1
 
 
+@pytest.mark.parametrize("more", [(), ("-q",)], ids=["loud", "quiet"])
+def test_what_only_wide_limits_allow_is_written_for_them(tmp_path, more):
+    positions, faces = bending(2, 60, 40)
+    np.savez(tmp_path / "large.npz", positions=positions, faces=faces)
+    words = ["encode", str(tmp_path / "large.npz"), "-o", str(tmp_path / "a.bsm"), "--quick", *more]
+    words += ["--set", "block_size=2300"]
+    assert main(words) == 2 and not (tmp_path / "a.bsm").exists()
+    assert main([*words, "--set", "limits=wide"]) == 0
+
+
 @pytest.mark.parametrize("words", [["--kg", 1, "--bpvf", 2], ["--set", "doi=1,2"], ["--bpv", 2], ["--gop", 0]])
 def test_options_that_do_not_go_with_a_sequence(npz, tmp_path, words):
     assert bsm("encode", npz, "-o", tmp_path / "a.bsm", *words) != 0

@@ -69,5 +69,5 @@ def run(args: argparse.Namespace, console: Console) -> int:
         metadata[name] = value
     more = {"output": "", "metadata": metadata, "options": options, "threads": threads, "members": members}
     more["format"] = "npy" if args.piped_frames else args.format
-    job = asked(EncodeJob, args, **more, compared=not args.quiet or args.json)
+    job = asked(EncodeJob, args, **more)
     return run_jobs(many, job, console, encode_one, jobs)

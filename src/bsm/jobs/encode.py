@@ -4,18 +4,12 @@ from __future__ import annotations
 
 import math
 import time
-from collections import deque
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-import numpy.typing as npt
-
-from bsm.bitstream.errors import MeshError, OptionError, counted
-from bsm.codec.arrays import Positions
-from bsm.codec.events import Signal
+from bsm.bitstream.errors import OptionError, counted
+from bsm.codec.arrays import Order, Positions
 from bsm.codec.geometry.mesh import TriangleMesh
 from bsm.comparison import write_permutation
 from bsm.console import Console, Progress, finite
@@ -31,7 +25,6 @@ from bsm.libraries import PROVENANCE, with_metadata
 from bsm.options import encode_options, sequence_options
 
 if TYPE_CHECKING:
-    from bsm.codec.events import FrameEvent
     from bsm.codec.sequence.options import SequenceOptions
 
 READ = 0.08  # of the time of a mesh
@@ -49,7 +42,6 @@ class EncodeJob(Task):
     metadata: Mapping[str, str] = field(default_factory=dict)
     options: Mapping[str, Any] = field(default_factory=dict)
     threads: int | None = None
-    compared: bool = True
     members: tuple[str, ...] = ()
     animation: str | None = None
     cache_mesh: str | None = None
@@ -133,27 +125,18 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
     entries = {**source.metadata, **rate, **job.metadata}
     metadata, generations = with_provenance(entries, job.provenance, job.input, job.options, chosen)
     encoder = SequenceEncoder(source.faces, chosen, source.count, metadata, source.attributes)
-    check = VerifyingDecoder(looks=chosen.promise is None or chosen.promise.look == math.inf)
-    size = 0
+    loops, size = Loops(), 0
     overwrite = job.may_replace(job.output)
     with open_output(job.output, overwrite=overwrite) as file, console.progress("encoding") as progress:
         frames = source.frames if source.meshes is None else source.meshes
-        given = _staged(check.taken(frames, job.compared), source.count, chosen, progress)
+        given = _staged(frames, source.count, chosen, loops, progress)
         for chunk in encoder.chunks(given, progress):
             size += file.write(chunk)
             file.flush()
-            if job.compared:
-                check.compare(chunk, encoder.vertex_order)
     seconds = time.perf_counter() - begin
     runs = encoder.run_starts[1:]
-    notes = [
-        *source.notes,
-        *generations,
-        *encoder.notes,
-        *([describe_runs(runs)] if runs else check.loops.descriptions()),
-    ]
-    look = check.worst_look
-    if look is not None:
+    notes = [*source.notes, *generations, *encoder.notes, *([describe_runs(runs)] if runs else loops.descriptions())]
+    if (chosen.promise is None or chosen.promise.look == math.inf) and (look := encoder.worst_look) is not None:
         notes.append(f"no look is promised: the worst frame has a look of {look:.2g}, where the default has at most 1")
     vertices, faces, bpvf = len(encoder.vertex_order), len(encoder.face_order), 8 * size / encoder.samples
     taken = sum(size_of(name) or 0 for name in job.members) if job.members else size_of(job.input)
@@ -162,15 +145,15 @@ def _encode_sequence(job: EncodeJob, console: Console, source: Frames) -> Facts:
         console,
         notes,
         encoder.vertex_order,
-        f"{counted(frames=check.frames)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
-        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {check.kg:.3g} %, {seconds:.2f} s",
+        f"{counted(frames=loops.frames)} of {counted(vertices=vertices, faces=faces)}{' at the end' if runs else ''}, "
+        f"{came_to(taken, size)}, {bpvf:.3f} bits per vertex and frame; KG error {encoder.kg:.3g} %, {seconds:.2f} s",
     )
-    counts = {"input": job.input, "output": job.output, "frames": check.frames, "vertices": vertices, "faces": faces}
+    counts = {"input": job.input, "output": job.output, "frames": loops.frames, "vertices": vertices, "faces": faces}
     sizes = {"input_bytes": taken, "output_bytes": size, "bytes": size, "bpvf_total": bpvf}
-    return {**counts, **sizes, "kg": finite(check.kg), "seconds": seconds, "notes": notes}
+    return {**counts, **sizes, "kg": finite(encoder.kg), "seconds": seconds, "notes": notes}
 
 
-def _finish(job: EncodeJob, console: Console, notes: list[str], order: npt.NDArray[np.int64], summary: str) -> None:
+def _finish(job: EncodeJob, console: Console, notes: list[str], order: Order, summary: str) -> None:
     for note in notes:
         console.note(f"{job.input}: {note}")
     if job.permutation:
@@ -179,89 +162,14 @@ def _finish(job: EncodeJob, console: Console, notes: list[str], order: npt.NDArr
 
 
 def _staged(
-    frames: Iterator[Positions | TriangleMesh], count: int, chosen: SequenceOptions, progress: Progress
+    frames: Iterator[Positions | TriangleMesh], count: int, chosen: SequenceOptions, loops: Loops, progress: Progress
 ) -> Iterator[Positions | TriangleMesh]:
     """The frames, which begin a stage with each GOP."""
     for number, frame in enumerate(frames):
-        longest = chosen.longest(len(frame.positions if isinstance(frame, TriangleMesh) else frame))
+        positions = frame.positions if isinstance(frame, TriangleMesh) else frame
+        loops.take(positions)
+        longest = chosen.longest(len(positions))
         if not chosen.low_delay and number and number % longest == 0:
             gops = f" of {-(-count // longest)}" if count else ""
             progress.stage(f"encoding GOP {1 + number // longest}{gops}")
         yield frame
-
-
-def kept(positions: Positions) -> Callable[[np.ndarray], Positions]:
-    """What gives some rows of positions again, kept in half their memory: in single precision within their box, which
-    is finer than any reported error. Positions that are not finite may be anything: the encoder refuses them."""
-    with np.errstate(all="ignore"):
-        low, high = positions.min(axis=0), positions.max(axis=0)
-        middle, size = low / 2 + high / 2, float((high / 2 - low / 2).max()) or 1.0
-        offsets = ((positions - middle) / size).astype(np.float32)
-    return lambda order: np.asarray(offsets[order].astype(np.float64) * size + middle)
-
-
-@dataclass
-class VerifyingDecoder:
-    """Hears what a decoder makes of a stream while it is written, and holds only the frames that are not out yet."""
-
-    frames: int = 0
-    loops: Loops = field(default_factory=Loops)
-    looks: bool = False  # find the frame whose normals are farthest off
-    _worst: tuple[float, TriangleMesh, Positions] | None = None
-    _waiting: deque[Callable[[np.ndarray], Positions]] = field(default_factory=deque)
-    _squares: float = 0.0
-    _extent: float = 0.0
-
-    def __post_init__(self) -> None:
-        from bsm.codec.decoding import SequenceDecoder
-
-        self._decoder = SequenceDecoder()
-
-    def taken(
-        self, frames: Iterator[Positions] | Iterator[TriangleMesh], compared: bool
-    ) -> Iterator[Positions | TriangleMesh]:
-        """The frames, which are also kept until they have been compared."""
-        for frame in frames:
-            positions = frame.positions if isinstance(frame, TriangleMesh) else frame
-            self.frames += 1
-            self.loops.take(positions)
-            if compared:
-                self._waiting.append(kept(positions))
-            yield frame
-
-    def compare(self, chunk: bytes, order: np.ndarray) -> None:
-        """Decode a piece of the stream and add up the error of its frames; vertex j of a decoded one is `order[j]`."""
-        from bsm.codec.events import FrameEvent
-
-        self._decoder.receive_data(chunk)
-        while not isinstance(event := self._decoder.next_event(), Signal):
-            if isinstance(event, FrameEvent):
-                frame = self._waiting.popleft()(order)
-                self._squares += float(np.square(event.positions - frame).sum())
-                self._extent += float(np.square(frame - frame.mean(axis=0)).sum())
-                if self.looks:
-                    self._take_worst(frame, event)
-
-    def _take_worst(self, frame: Positions, event: FrameEvent) -> None:
-        """Keep a frame if its normals are farther off than those of all before."""
-        from bsm.codec.sequence.step_search import shading_error
-
-        error = shading_error(frame, event.positions, event.faces)
-        if self._worst is None or error > self._worst[0]:
-            self._worst = error, TriangleMesh(frame, event.faces), event.positions
-
-    @property
-    def worst_look(self) -> float | None:
-        """How the frame looks whose normals are farthest off, see `codec.look.measure.Look.moving`; None: unknown."""
-        from bsm.codec.look.measure import LookMetric
-
-        with suppress(MeshError):  # nothing of it can be seen
-            return LookMetric(self._worst[1]).look(self._worst[2]).moving if self._worst else None
-        return None
-
-    @property
-    def kg(self) -> float:
-        """Karni and Gotsman's error so far, in percent, see `codec.sequence.targets.SequenceComparison`."""
-        if self._squares == 0.0:
-            return 0.0
-        return 100.0 * math.sqrt(self._squares / self._extent) if self._extent else math.inf

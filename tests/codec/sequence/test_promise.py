@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 
-from bsm.bitstream.errors import OptionError, TargetError
+from bsm.bitstream.errors import OptionError, TargetError, VerificationError
 from bsm.codec.arrays import Faces, Positions
 from bsm.codec.decoding import decode_sequence
 from bsm.codec.geometry.mesh import TriangleMesh
@@ -15,6 +16,7 @@ from bsm.codec.look.measure import LookMetric
 from bsm.codec.sequence.encoder import SequenceEncoder
 from bsm.codec.sequence.options import PROMISES, Promise, SequenceOptions
 from bsm.codec.sequence.step_search import Measured, StepSearch, shading_error
+from bsm.codec.sequence.targets import compare_sequences
 from tests.motion import bending
 
 
@@ -92,6 +94,28 @@ def test_low_delay_keeps_promises_frame_by_frame(look: float) -> None:
     original = positions[:, encoder.vertex_order]
     assert 0.0014 < farthest(original, decoded) <= 0.002
     assert max(looks(original, decoded, found)) <= look
+
+
+@pytest.mark.parametrize("promise", [Promise(0.002), Promise(0.5, 1.0), Promise(1e-3, absolute=True)])
+@pytest.mark.parametrize("low_delay", [0, 1])
+def test_a_search_that_takes_a_step_too_coarse_is_caught(
+    promise: Promise, low_delay: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(StepSearch, "run", lambda search, encode, first, finest: encode(0.04, None, 1))
+    with pytest.raises(VerificationError, match=r"is off by|has a look of"):
+        kept(*bending(4), promise, low_delay=low_delay)
+
+
+@pytest.mark.parametrize("changes", [{}, {"keep_order": True}, {"step": 0.01, "promise": None}])
+def test_the_encoder_reports_errors_of_decoded_frames(changes: dict[str, Any]) -> None:
+    positions, faces = bending(7)
+    chosen = SequenceOptions(**{"block_size": 100, "promise": Promise(0.01, 1.0), "threads": 1, "gop": 4} | changes)
+    encoder = SequenceEncoder(faces, chosen, 7)
+    decoded, found = decode_sequence(b"".join(encoder.chunks(positions)), threads=1)
+    original = positions[:, encoder.vertex_order]
+    assert encoder.kg == pytest.approx(compare_sequences(original, decoded, found).kg, rel=1e-9)
+    wrong = [shading_error(*pair, found) for pair in zip(original, decoded, strict=True)]
+    assert encoder.worst_look == pytest.approx(looks(original, decoded, found)[int(np.argmax(wrong))], rel=1e-6)
 
 
 def test_few_frames_are_drawn_and_the_worst_is_among_them(monkeypatch: pytest.MonkeyPatch) -> None:

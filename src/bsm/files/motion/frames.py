@@ -135,10 +135,12 @@ class Loops:
     """Remembers a few vertices of each frame, and tells which frames repeat others."""
 
     def __init__(self) -> None:
+        self.frames = 0
         self._kept: list[npt.NDArray[np.float64]] = []
         self._diagonal = 0.0
 
     def take(self, frame: Positions) -> None:
+        self.frames += 1
         if not self._kept:
             with np.errstate(over="ignore"):  # what is as large as that is refused elsewhere
                 self._diagonal = float(np.linalg.norm(np.ptp(frame, axis=0)))
