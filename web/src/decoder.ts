@@ -184,8 +184,10 @@ function withoutType({ type: _, ...attribute }: AttributeEvent): Attribute {
 /** Decode a complete stream. */
 export function decode(kernels: Kernels, data: Uint8Array, limits: Partial<Limits> = {}): Mesh {
     const decoder = new Decoder(kernels, limits);
-    decoder.receiveData(data);
-    const mesh = decoder.finish();
-    decoder.release();
-    return mesh;
+    try {
+        decoder.receiveData(data);
+        return decoder.finish();
+    } finally {
+        decoder.release();
+    }
 }

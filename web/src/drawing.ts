@@ -141,8 +141,7 @@ export class Drawing {
     /** A later run begins: its frames are shown when they are there. */
     private turn(run: number): void {
         this.flush();
-        this.run = run;
-        this.growing = false;
+        [this.run, this.growing] = [run, false];
         this.faces = new Int32Array(0);
         [this.points, this.normals, this.origin] = [new Float32Array(0), new Float32Array(0), new Int32Array(0)];
         [this.carried.length, this.shape] = [0, undefined];
@@ -279,6 +278,8 @@ export class Drawing {
 
     /** The mesh is whole: part its vertices where its attributes do, and sort its faces by parts and materials. */
     private finish(): void {
+        this.flush();
+        this.growing = false; // nothing is "grown" after the whole picture
         const { faces, origin, points, carried } = this;
         const isThere = (corner: number): boolean => origin[faces[corner]] >= 0;
         const all = upTo(faces.length / 3);

@@ -36,7 +36,8 @@ export interface RawEvent {
 
 /** One decoder, in a memory of its own. */
 export class Engine {
-    private readonly exports: Exports;
+    /** Undefined once it is released, or has failed by itself: nothing is called then. */
+    private exports?: Exports;
 
     constructor(
         private readonly kernels: Kernels,
@@ -198,16 +199,30 @@ export class Engine {
 
     /** Leave the memory to the next decoder. */
     release(): void {
+        const { exports } = this;
+        if (!exports) return;
         this.call("page_close");
-        this.kernels.take(this.exports);
+        this.kernels.take(exports);
+        this.exports = undefined;
+    }
+
+    private get own(): Exports {
+        if (!this.exports) throw new Error("this decoder was released");
+        return this.exports;
     }
 
     private get buffer(): ArrayBuffer {
-        return this.exports.memory.buffer;
+        return this.own.memory.buffer;
     }
 
     private call(name: string, ...args: number[]): number {
-        return (this.exports[name] as Call)(...args) >>> 0;
+        const { own } = this;
+        try {
+            return (own[name] as Call)(...args) >>> 0;
+        } catch (error) {
+            this.exports = undefined; // memory that a trap has left in disorder is never used again
+            throw error;
+        }
     }
 
     /** A count and three places; without them the error of the stream is thrown. */
@@ -241,7 +256,7 @@ export class Engine {
         try {
             return work(at);
         } finally {
-            this.call("page_give", at, size);
+            if (this.exports) this.call("page_give", at, size);
         }
     }
 

@@ -128,6 +128,7 @@ export class BSMGeometry extends BufferGeometry {
     }
 
     private begin({ vertices, corners, loose }: BegunPicture): void {
+        this.refuseIfWhole();
         this.points = new Float32Array(3 * vertices);
         this.normals = new Float32Array(3 * vertices);
         this.origin = new Int32Array(vertices).fill(-1);
@@ -141,6 +142,7 @@ export class BSMGeometry extends BufferGeometry {
     }
 
     private grow({ vertices, positions, normals, origin, refined, index, blocks }: GrownPicture): void {
+        this.refuseIfWhole();
         const { points: p, normals: n } = this;
         for (let row = 0; row < vertices.length; row++) {
             const [to, from] = [3 * vertices[row], 3 * row];
@@ -160,6 +162,11 @@ export class BSMGeometry extends BufferGeometry {
         [this.boundingBox, this.boundingSphere] = [null, null]; // those of what was there before
         this.blocks = blocks;
         this.progress.onBlock?.(this);
+    }
+
+    /** Growth has the stream's vertices and faces; a whole mesh has parted and sorted ones. */
+    private refuseIfWhole(): void {
+        if (this.worn) throw new Error("this geometry is whole and cannot grow");
     }
 
     private take(shape: Shape): void {

@@ -16,11 +16,11 @@ export class Helper {
     }
 
     receiveData(data: Uint8Array): void {
-        this.engine.push(data);
+        if (!this.over) this.engine.push(data);
     }
 
     receiveEof(): void {
-        this.engine.finish();
+        if (!this.over) this.engine.finish();
     }
 
     /** Leave the memory to the next decoder; this one is not to be asked for anything more. */

@@ -4,7 +4,7 @@ import type { Picture } from "./drawing";
 import { errorLike, type BsmError } from "./errors";
 import type { Limits } from "./limits";
 import { needOf, type Build, type Need } from "./peek";
-import { here, type Source } from "./source";
+import { here, isPage, PAGE, type Source } from "./source";
 import { processors } from "./threads";
 
 export { here, placeOf, type Source } from "./source";
@@ -183,20 +183,21 @@ export class Pool {
         hand.streams.clear();
         if (this.hands.includes(hand)) this.hands.splice(this.hands.indexOf(hand), 1);
         for (const other of this.hands) for (const stream of streams) other.streams.delete(stream);
-        if (hand.ready) return streams.forEach((stream) => stream.fail(error));
-        this.settle();
-        for (const stream of [...streams, ...this.waiting.splice(0)]) void this.stay(stream);
+        if (!hand.ready) this.settle();
+        for (const stream of streams) if (hand.ready || stream.begun) stream.fail(error);
+        if (!hand.ready) for (const stream of [...streams, ...this.waiting.splice(0)]) void this.stay(stream);
     }
 
     /** Decode in this thread. */
     private async stay(stream: PooledStream): Promise<void> {
-        const { openDesk } = await this.source.local(stream.need.build);
+        const task = (stream.task = this.task++);
+        const local = await this.source.local(stream.need.build).catch((error: unknown) => stream.fail(new Error(`${error}`)));
         let worker: StreamWorker | undefined;
-        stream.task = this.task++;
+        const hear = (report: Report): void => (stream.task === task ? stream.hear(report) : undefined);
         stream.work((message) => {
             setTimeout(() => {
-                if (stream.closed) return worker?.stop();
-                if ("start" in message) worker = openDesk({ ...message.start, helpers: [] }, (report) => stream.hear(report));
+                if (stream.closed || "stop" in message) worker?.stop();
+                else if ("start" in message) worker = local?.openDesk({ ...message.start, helpers: [] }, hear);
                 else if ("data" in message) worker?.take(message.data);
             });
         }, []);
@@ -222,6 +223,8 @@ interface Places {
 /** A stream of a pool. All that came is kept until its end, for a build that knows more. */
 class PooledStream implements StreamDecoding {
     closed = false;
+    /** Whether something was heard of it. */
+    begun = false;
     task = -1;
     need: Need = { build: "whole", vertices: 0 };
     private readonly pieces: (Uint8Array | null)[] = [];
@@ -248,6 +251,7 @@ class PooledStream implements StreamDecoding {
         if (this.closed) return;
         this.closed = true;
         this.say?.({ task: this.task, stop: true }, []);
+        this.pieces.length = 0;
         this.places.end(this);
     }
 
@@ -266,7 +270,7 @@ class PooledStream implements StreamDecoding {
     work(say: (message: Message, moved: Transferable[]) => void, helpers: MessagePort[]): void {
         const { tolerant, drawing, worthwhile, limits = {} } = this.wishes;
         const { kernels, reported } = this;
-        if (!kernels) return;
+        if (!kernels || this.closed) return;
         this.say = say;
         say({ task: this.task, start: { kernels, limits, tolerant, drawing, reported, worthwhile, helpers } }, helpers);
         for (const data of this.pieces) say({ task: this.task, data }, []);
@@ -275,6 +279,7 @@ class PooledStream implements StreamDecoding {
     hear(report: Report): void {
         const { listener } = this;
         if (this.closed) return;
+        this.begun = true;
         if ("picture" in report) listener.onPicture?.(report.picture);
         else if ("event" in report) listener.onEvent?.(report.event);
         else if ("taken" in report) listener.onTaken?.(report.taken);
@@ -282,7 +287,7 @@ class PooledStream implements StreamDecoding {
         else if ("problem" in report) {
             // Lesser builds do not know everything, nor what to say of it.
             if (this.need.build !== "whole") this.restart();
-            else this.fail(errorLike(report.problem));
+            else this.fail(errorLike(isPage(joined(this.pieces.slice(0, 64))) ? { ...report.problem, problem: PAGE, place: {} } : report.problem));
         } else if ("fault" in report) this.fail(new Error(report.fault));
         else if ("over" in report) {
             this.close();
@@ -304,7 +309,7 @@ class PooledStream implements StreamDecoding {
     /** Begin again with the decoder of everything, which reports what has not been reported yet. */
     private restart(): void {
         this.say?.({ task: this.task, stop: true }, []);
-        this.say = undefined;
+        [this.say, this.task] = [undefined, -1];
         this.places.end(this);
         this.places.begin(this, { ...this.need, build: "whole" });
     }

@@ -53,6 +53,7 @@ export class Team {
     /** Begin with another stream: `count` helpers at most, who take all of its bytes; how many they are. */
     begin(start: Omit<Start, "share" | "helpers">, count: number, listener: TeamListener): number {
         const among = 1 + Math.min(count, this.members.length);
+        for (const member of this.members) this.say(member, { task: this.task, stop: true });
         this.listener = listener;
         this.task++;
         this.busy = among - 1;
@@ -119,10 +120,10 @@ export class Team {
     }
 
     private hear(answer: Answer): void {
-        if ("fault" in answer) this.fail(answer.fault);
         if (!("task" in answer) || answer.task !== this.task) return;
-        if ("shared" in answer) this.listener?.onBlock(answer.shared);
-        else if ("through" in answer && --this.busy === 0) this.listener?.onOver("all helpers are through");
+        if ("fault" in answer) this.fail(answer.fault);
+        else if ("shared" in answer) this.listener?.onBlock(answer.shared);
+        else if (("through" in answer || "problem" in answer) && --this.busy === 0) this.listener?.onOver("all helpers are through");
     }
 
     private fail(problem: string): void {

@@ -12,6 +12,16 @@ export { BSMGeometry, BSMSequence, type Progress, type SequenceEvents };
 /** Threads of all loaders that name no decoder's path of their own. */
 let shared: Pool | undefined;
 
+/** Loads by the signals that stop them. A signal outlives loads: it has one listener, which keeps none that is over. */
+const stoppable = new WeakMap<AbortSignal, Set<AbortController>>();
+
+function stoppedBy(signal: AbortSignal): Set<AbortController> {
+    const found = stoppable.get(signal) ?? new Set();
+    if (!stoppable.has(signal)) signal.addEventListener("abort", () => found.forEach((load) => load.abort(signal.reason)));
+    stoppable.set(signal, found);
+    return found;
+}
+
 /**
  * Loads BSM streams; everything is done in threads of their own, which are kept for the next stream. The geometry of a
  * sequence is that of its first frame; `frames` and `showFrame` have the others, and `BSMSequence` plays them.
@@ -165,21 +175,25 @@ export class BSMLoader extends Loader<BSMGeometry> {
     }
 
     /** The geometry of a stream that is given its bytes, until somebody or an error stops it. */
-    private decoded(progress: Progress | undefined, give: (stream: StreamDecoding, signal?: AbortSignal) => Promise<void>): Promise<BSMGeometry> {
-        const over = new AbortController();
-        const stoppers = [over, this.aborting, this.manager.abortController as AbortController | undefined, progress];
+    private decoded(progress: Progress | undefined, give: (stream: StreamDecoding, signal: AbortSignal) => Promise<void>): Promise<BSMGeometry> {
+        const own = new AbortController();
+        const stoppers = [this.aborting, this.manager.abortController as AbortController | undefined, progress];
         const signals = stoppers.flatMap((stopper) => stopper?.signal ?? []);
         const found = new Promise<BSMGeometry>((keep, fail) => {
             for (const signal of signals) signal.throwIfAborted();
             const stream = this.open(keep, fail, progress);
-            const stop = (error: unknown): void => {
+            const fall = (error: unknown): void => {
                 stream.close();
                 fail(error);
             };
-            for (const signal of signals) signal.addEventListener("abort", () => stop(signal.reason), { signal: over.signal });
-            give(stream, AbortSignal.any?.(signals)).catch(stop);
+            own.signal.onabort = () => fall(own.signal.reason);
+            for (const signal of signals) stoppedBy(signal).add(own);
+            give(stream, own.signal).catch(fall);
         });
-        return found.finally(() => over.abort());
+        return found.finally(() => {
+            for (const signal of signals) stoppedBy(signal).delete(own);
+            own.abort();
+        });
     }
 
     /** Give a stream its bytes as they come. */

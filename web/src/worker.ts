@@ -59,30 +59,33 @@ export interface StreamWorker {
 }
 
 export type Guard = (work: () => void) => void;
-export type Open = (start: Start, kernels: Kernels, say: Say, guarded: Guard) => Pick<StreamWorker, "take"> & { close?: () => void };
+/** `close` is called once, at the end or after what is wrong: everything is given back there. */
+export type Open = (start: Start, kernels: Kernels, say: Say, guarded: Guard) => Pick<StreamWorker, "take"> & { close: () => void };
 
-/** Return a worker that takes the bytes of a stream; after a fault it reports nothing more. */
+/** Return a worker that takes the bytes of a stream; after its end or a fault it takes and reports nothing more. */
 export function openDesk(open: Open, start: Start, say: Say, kernels = new Kernels(start.kernels)): StreamWorker {
     let over = false;
     let worker: ReturnType<Open> | undefined;
+    const stop = (): void => {
+        if (!over) worker?.close();
+        over = true;
+    };
     const guarded: Guard = (work) => {
         if (over) return;
         try {
             work();
         } catch (error) {
-            over = true;
-            worker?.close?.();
+            stop();
             say(error instanceof BsmError ? { problem: error.described } : { fault: `${error}` });
         }
     };
-    guarded(() => (worker = open(start, kernels, (report, moved) => over || say(report, moved), guarded)));
-    return {
-        take: (data) => guarded(() => worker?.take(data)),
-        stop: () => {
-            over = true;
-            worker?.close?.();
-        },
+    const tell: Say = (report, moved) => {
+        if (over) return;
+        if ("over" in report || "through" in report) stop();
+        say(report, moved);
     };
+    guarded(() => (worker = open(start, kernels, tell, guarded)));
+    return { take: (data) => guarded(() => worker?.take(data)), stop };
 }
 
 /** Take orders from one end of a line. A thread has the kernels of its first stream for all. */
@@ -139,6 +142,10 @@ export class Reporter {
         this.taken += data?.length ?? 0;
     }
 
+    close(): void {
+        this.decoder.release();
+    }
+
     /** Report everything that is known now, be it that an error follows; return what the decoder waits for then. */
     report(): Signal | typeof NEED_BLOCK {
         try {
@@ -156,10 +163,7 @@ export class Reporter {
             if (typeof event === "string") {
                 this.drawing?.flush();
                 if (event === NEED_DATA) this.say({ taken: this.taken });
-                if (event === END_OF_STREAM) {
-                    this.decoder.release();
-                    this.say({ over: true });
-                }
+                if (event === END_OF_STREAM) this.say({ over: true });
                 return event;
             }
             if (this.drawing) this.drawing.accept(event);

@@ -1,13 +1,13 @@
 /** The workers of the whole decoder: one decodes and has helpers where that is worthwhile, the other helps. */
 import { Decoder, END_OF_STREAM, NEED_BLOCK, NEED_DATA } from "./decoder";
-import { openDesk as opened, serveWith, Reporter, type StreamWorker, type Guard, type Say, type Start } from "./worker";
+import { openDesk as opened, serveWith, Reporter, type StreamWorker, type Guard, type Open, type Say, type Start } from "./worker";
 import type { Header } from "./header";
 import { Helper } from "./helper";
 import type { Share, SharedBlock } from "./share";
 import type { Kernels } from "./kernels";
 import { helpersFor, Team } from "./team";
 
-type Taking = Pick<StreamWorker, "take">;
+type Taking = ReturnType<Open>;
 
 class DecodingWorker implements Taking {
     private readonly reporter: Reporter;
@@ -39,6 +39,7 @@ class DecodingWorker implements Taking {
 
     close(): void {
         this.team?.close();
+        this.reporter.close();
     }
 
     private findHelpers(header: Header): number {
@@ -71,7 +72,6 @@ class DecodingWorker implements Taking {
 
     private report(): void {
         const wait = this.reporter.report();
-        if (wait === END_OF_STREAM) this.close();
         if (wait === NEED_BLOCK && this.over !== undefined) throw new Error(`a block does not come: ${this.over}`);
     }
 }
@@ -93,13 +93,14 @@ class HelpingWorker implements Taking {
         if (data) helper.receiveData(data);
         else helper.receiveEof();
         for (let shared; (shared = helper.nextBlock()) !== NEED_DATA; ) {
-            if (shared === END_OF_STREAM) {
-                helper.release();
-                return this.say({ through: true });
-            }
+            if (shared === END_OF_STREAM) return this.say({ through: true });
             const { block } = shared;
             this.say({ shared }, block && [block.vertices.buffer, block.positions.buffer, block.weights.buffer]);
         }
+    }
+
+    close(): void {
+        this.helper.release();
     }
 }
 

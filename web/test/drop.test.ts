@@ -27,6 +27,7 @@ describe("a mesh that is dropped", { skip: !given || (!existsSync(CHROMIUM) && `
                 }, base64(readFileSync(mesh)));
             await drop();
             await page.getByRole("progressbar").waitFor();
+            assert.ok(await page.getByText("nothing leaves it").isHidden(), "the card that asks for a mesh hides the progress");
             await page.waitForFunction(() => Number(document.body.dataset.layers) >= 2, undefined, { timeout: PATIENCE });
             assert.equal(await page.locator("h1").textContent(), "ball.ply");
             assert.match(await page.locator("[data-part=claim]").innerText(), /^\d[\d.]* times smaller$/);

@@ -546,6 +546,15 @@ describe("the package in Chromium", { skip: !existsSync(CHROMIUM) && `no Chromiu
         assert.deepEqual([seen.reason, seen.offset], ["enough", true]);
     });
 
+    test("says that a page was sent where a stream or a part of the decoder was asked for", async () => {
+        for (const name of ["page.bsm", "own/small.wasm", "own/small-worker.js"]) site.extra.set(`/${name}`, "<!DOCTYPE html><html><body>Not here</body></html>");
+        const seen = await found(`
+            const problem = (loader, url) => loader.loadAsync(url).then(() => "none", ({ message }) => message);
+            return { stream: await problem(new BSMLoader(), "/page.bsm"), kernels: await problem(new BSMLoader().setDecoderPath("/own/"), "/stream/${STREAM}.bsm") };`);
+        assert.equal(seen.stream, "/page.bsm: the server sent an HTML page; is the address right?");
+        assert.match(String(seen.kernels), /^.stream.good-labels.bsm: http:.*own.small.wasm: the server sent an HTML page; is the address right.$/);
+    });
+
     test("is a plug-in of GLTFLoader", async () => {
         await serveScenes();
         const seen = await found(`

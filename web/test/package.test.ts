@@ -47,6 +47,21 @@ const drawn = await new Promise((keep, fail) => {
 });
 console.log(JSON.stringify([positions.length > 0, faces.length === drawn, problem.message.includes("the checksum of a frame")]));
 `;
+/** Five rounds of 20 loads; how many of their geometries are kept at the end. */
+const ROUNDS = `
+import { readFileSync } from "node:fs";
+import { BSMLoader } from "bsm-decoder/three";
+const data = new Uint8Array(readFileSync(process.argv[2]));
+const loader = new BSMLoader();
+const stop = new AbortController();
+const kept = [];
+for (let round = 0; round < 5; round++) {
+    for (const geometry of await Promise.all(Array.from({ length: 20 }, () => loader.parseAsync(data, { signal: stop.signal })))) kept.push(new WeakRef(geometry));
+    await new Promise((go) => setTimeout(go, 20));
+    gc();
+}
+console.log(kept.filter((one) => one.deref()).length);
+`;
 
 test("threads have names of their own, by which webpack makes files of them", () => {
     const names = [...readFileSync(join(WEB, "built/pool.js"), "utf8").matchAll(/"\.\/[a-z-]*worker\.js",import\.meta\.url\),\{type:"module",name:"([^"]*)"/g)].map(([, name]) => name);
@@ -98,5 +113,12 @@ describe("the package", () => {
     test("decodes in Node", () => {
         writeFileSync(join(folder, "program.js"), PROGRAM);
         for (const name of ["good-labels", "good-light"]) assert.deepEqual(JSON.parse(run(process.execPath, "program.js", join(VECTORS, `${name}.bsm`))), [true, true, true]);
+    });
+
+    test("keeps nothing of loads that are over in Node, and warns of nothing", () => {
+        writeFileSync(join(folder, "rounds.js"), ROUNDS);
+        const { status, stdout, stderr } = spawnSync(process.execPath, ["--expose-gc", "rounds.js", join(VECTORS, "good-labels.bsm")], { cwd: folder, encoding: "utf8" });
+        assert.deepEqual([status, stderr], [0, ""]);
+        assert.ok(Number(stdout) < 20, `${stdout} of 100 geometries are kept`);
     });
 });

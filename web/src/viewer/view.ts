@@ -447,7 +447,7 @@ export class View {
                 return this.finish();
             }
             if (!this.encode) throw new Error(`This page has no encoder beside it, and shows .bsm alone. To see a mesh: bsm view ${file.name}`);
-            this.part("work").hidden = false;
+            [this.part("invite").hidden, this.part("work").hidden] = [true, false];
             const bar = this.root.querySelector("progress")!;
             const preset = this.control<HTMLSelectElement>("preset").value;
             const report = (stage: string, share: number): void => {
@@ -466,7 +466,10 @@ export class View {
         } catch (error) {
             if (!working.signal.aborted) this.complain(`${file.name} cannot be shown. ${error instanceof Error ? error.message : error}`);
         } finally {
-            if (this.working === working) this.part("work").hidden = true;
+            if (this.working === working) {
+                this.part("work").hidden = true;
+                this.part("invite").hidden = this.root.dataset.state !== "empty";
+            }
         }
     }
 
