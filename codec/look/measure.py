@@ -222,7 +222,8 @@ class LookMetric:
         how much they are turned from these, where that is more: gloss shows what no picture here does."""
         assert self._own is not None
         pictures, own = self._own
-        cosines = (normals * own).reshape(-1, 3).astype(np.float64).sum(axis=1).clip(-1.0, 1.0)
+        # From the chord: two normals of no length are equal.
+        cosines = (1.0 - np.square((normals - own).reshape(-1, 3).astype(np.float64)).sum(axis=1) / 2.0).clip(-1.0, 1.0)
         turned, placed = np.degrees(np.arccos(cosines)).reshape(-1, 3).mean(axis=1), self._placed(positions)
 
         def seen(canvas: Canvas, side: int) -> tuple[Matrix, float]:
@@ -245,6 +246,10 @@ class LookMetric:
         own = self._own[1].reshape(-1, 3, 3)
         facing = np.einsum("fd,fcd->fc", sums, own) <= 0.0
         return bool(facing[np.sqrt(np.square(sums).sum(axis=1)) > LEAST_AREA].any())
+
+    def bare_distance(self, positions: Positions) -> float:
+        """The distance of positions, shape (n, 3), with normals that follow from them."""
+        return summed(self._of(self._versions(positions)[0], self._sides)).distance
 
     def distance(self, positions: Positions) -> float:
         """The distance alone of `look` at `positions`, shape (n, 3)."""
@@ -413,11 +418,16 @@ def own_normals(mesh: TriangleMesh) -> Normals | None:
     """Normals of corners that the mesh has as an attribute, of length 1, shape (m, 9); None: it has none."""
     for attribute in mesh.attributes:
         if attribute.semantic == "normal" and attribute.components == 3 and attribute.domain != "face":
-            corners = np.asarray(at_corners(attribute, mesh.faces), np.float64)
-            lengths = np.sqrt(np.square(corners).sum(axis=-1, keepdims=True))
-            unit = np.divide(corners, lengths, out=np.zeros_like(corners), where=lengths > 0)
-            return np.ascontiguousarray(unit.reshape(-1, 9), np.float32)
+            return of_length_1(at_corners(attribute, mesh.faces))
     return None
+
+
+def of_length_1(normals: npt.NDArray[Any]) -> Normals:
+    """Normals of corners, shape (m, 3, 3), of length 1 or 0; shape (m, 9)."""
+    corners = np.asarray(normals, np.float64)
+    lengths = np.sqrt(np.square(corners).sum(axis=-1, keepdims=True))
+    unit = np.divide(corners, lengths, out=np.zeros_like(corners), where=lengths > 0)
+    return np.ascontiguousarray(unit.reshape(-1, 9), np.float32)
 
 
 def look_values(mesh: TriangleMesh, semantic: Semantic) -> Matrix | None:

@@ -22,7 +22,7 @@ from bsm.codec.static.choice.grids import exact, rounded, rounded_to_cells
 from bsm.codec.static.options import EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft
 from bsm.codec.static.targets import WIDEST, Contract, Target, search_step
-from bsm.codec.static.verification import Original, verify
+from bsm.codec.static.verification import Original, require, verify
 from bsm.codec.static.ways.block_coder import as_of_decoders
 
 
@@ -50,6 +50,7 @@ class Attempt:
         return 8.0 * self.size / self.header.vertices
 
 
+UNCERTAIN = 1e-9  # of a target, in logarithms: rounding of the measures
 PREPARED, TRY = 0.04, 0.3  # of the time, what preparing takes; of what is left, a try
 VERIFIED, VERIFIED_GRID = 0.1, 0.4  # of the time, what the check takes
 SIZES, PROMISED_SIZES = (1e-290, 1e290), (1e-42, 1e30)
@@ -155,9 +156,9 @@ class Encoder:
         """What the options ask for, without a target."""
         _ = self._input.carried  # raises what is wrong with attributes first
         promise, given, near = self.options.promise, self._input, self._begun(progress)
-        return self._verified(
-            given.dressed(self._bare(near)) if promise is None else smallest(given, promise, near), near
-        )
+        if promise is None:
+            return self._verified(given.dressed(self._bare(near)), near)
+        return self._verified(smallest(given, promise, near), near, promise)
 
     def _begun(self, progress: Progress | None) -> Nearing:
         """Prepare, and return what reports the rest."""
@@ -193,21 +194,25 @@ class Encoder:
             raise OptionError("there is no target to search for")
         _ = self._input.carried  # raises what is wrong with attributes first
         near = self._begun(progress)
+        contract = self.options.promise
         if self.options.sets_coding:
             found = self._at_step(target, near)
+        elif target.shrinks_with_step:
+            found = self._within_size(target, near)
         else:
-            found = self._within_size(target, near) if target.shrinks_with_step else self._within_error(target, near)
-        self._verified(found.draft, near)
+            contract = self._within_error(target)
+            found = self._judged(smallest(self._input, contract, near))
+        self._verified(found.draft, near, None if self.options.sets_coding else contract)
+        over = target.excess(found)
+        require(over <= UNCERTAIN, f"the target is {target.value:g} and {target.reached(found):g} was reached")
         return found
 
-    def _within_error(self, target: Target, near: Nearing) -> Attempt:
-        """The smallest stream within a bound on its error, and whatever else is promised."""
+    def _within_error(self, target: Target) -> Contract:
+        """Return a bound on the error that is the target, and the promised bounds."""
         promise = self.options.promise or Contract(WIDEST)
         if target.kind == "theta_deg":
-            contract = replace(promise, angle=target.value, alike=True)
-        else:
-            contract = replace(promise, visual=max(10.0 ** (target.value / 10.0), sys.float_info.min))
-        return self._judged(smallest(self._input, contract, near))
+            return replace(promise, angle=target.value, alike=True)
+        return replace(promise, visual=max(10.0 ** (target.value / 10.0), sys.float_info.min))
 
     def _within_size(self, target: Target, near: Nearing) -> Attempt:
         """The best stream of a size, which keeps whatever is promised."""
@@ -215,8 +220,9 @@ class Encoder:
         anything = Contract(WIDEST)
         most = target.bytes_of(self._input.prepared.graph.size)
         found = self._input.search(promise or anything, near).best(promise or anything, most)
-        if found is not None:
-            return self._judged(self._input.dressed(found))
+        dressed = None if found is None else self._input.dressed(found)
+        if dressed is not None and not (promise and self._input.broken(dressed, promise)):
+            return self._judged(dressed)
         asked, none = f"{target.worded(target.value)} at most cannot be", self._input.search(anything, near)
         if promise is None:
             least = self._judged(self._input.dressed(none.smallest(anything)))
@@ -255,13 +261,15 @@ class Encoder:
         decoded = self._input.prepared.units.into(draft.decoded)
         return Attempt(draft, self._reference.compare(decoded))
 
-    def _verified(self, draft: Draft, near: Nearing) -> Draft:
-        """The draft, once the decoder has given back what it promises."""
+    def _verified(self, draft: Draft, near: Nearing, contract: Contract | None = None) -> Draft:
+        """Return the draft, after the decoder has returned what it promises, and that keeps the contract."""
         near.to(1.0 - (VERIFIED_GRID if self.options.is_grid else VERIFIED))
         original = Original(self._input.given, self._input.joined, self._input.prepared)
         with as_of_decoders(self.options.limits):
             limits, threads = NAMED_LIMITS[self.options.limits](), self.options.threads
             verify(draft, original, self._input.carried, self._input.given.metadata, limits, threads)
+        broken = "" if contract is None else self._input.broken(draft, contract)
+        require(not broken, f"{contract} was promised, and the decoded mesh has {broken}")
         near.to(1.0)
         return draft
 

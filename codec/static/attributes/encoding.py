@@ -25,7 +25,7 @@ from bsm.codec.arrays import Indices, Levels, Matrix, Order
 from bsm.codec.geometry.attributes import Attribute, Semantic
 from bsm.codec.geometry.mesh import Metadata, TriangleMesh
 from bsm.codec.geometry.welding import row_numbers
-from bsm.codec.look.measure import painted
+from bsm.codec.look.measure import of_length_1, painted
 from bsm.codec.look.pictures import Normals
 from bsm.codec.static.attributes.levels import (
     KINDS,
@@ -92,7 +92,7 @@ class PreparedAttribute:
         """What normals a decoder will have at corners, shape (m, 9), where it has these positions, shape (n, 3)."""
         recompute = self.declaration.coding == RECOMPUTED
         values = recomputed(self.surface, positions) if recompute else restored(self.declaration, self.levels)
-        return np.ascontiguousarray(values[self.surface.faces].reshape(-1, 9), np.float32)
+        return of_length_1(values[self.surface.faces])
 
     @property
     def size(self) -> int:

@@ -97,7 +97,7 @@ def quantized(values: Values, semantic: str, quality: Quality, name: str) -> Qua
     if quality.way == "angle" or (quality.way == "bits" and normals and is_float):
         if not (is_float and normals):
             raise OptionError(f"{name!r}: only normals of three floats can be kept to an angle")
-        return _octahedral(values, quality, name)
+        return _normals(values, quality, name)
     if not is_float:
         return _whole(values, quality)
     if quality.way == "exact" or (quality.way == "bits" and quality.amount > MOST_BITS):
@@ -184,18 +184,26 @@ def _rounded(values: Values, semantic: str, quality: Quality, name: str) -> Quan
     return QuantizedValues(fields, levels, f"within {error:.3g}" if error else "exact")
 
 
-def _octahedral(values: Values, quality: Quality, name: str) -> QuantizedValues:
-    """Normals as points of an octahedron, unfolded to a square."""
+def _normals(values: Values, quality: Quality, name: str) -> QuantizedValues:
+    """Normals as points of an octahedron, unfolded to a square; or of a cube, if some have no length and keep none."""
     wide = values.astype(np.float64)
     lengths = np.linalg.norm(wide, axis=1, keepdims=True)
     units = np.where(lengths > 0.0, wide / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
     tried = range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)
     if quality.way == "bits":
         tried = range(max(LEAST_NORMAL_BITS, min(int(quality.amount), MOST_NORMAL_BITS)), MOST_NORMAL_BITS + 1)[:1]
+    some = (lengths == 0.0).any()
+    fields: dict[str, Any]
     for bits in tried:
         largest = 2**bits - 2
-        levels = _places(units, largest)
-        back = coders.octahedral_normals(levels, largest // 2).astype(values.dtype).astype(np.float64)
+        if some:
+            step = 2.0 ** (1 - bits)  # a power of two, so that 0 comes back as 0
+            levels = np.rint((wide / np.where(lengths > 0.0, lengths, 1.0) + 1.0) / step).astype(np.int64)
+            fields = _affine(LEVELS, levels, np.full(3, -1.0), step)
+            back = np.where(lengths > 0.0, levels * step - 1.0, units)
+        else:
+            levels, fields = _places(units, largest), {"coding": OCTAHEDRAL, "largest": (largest, largest)}
+            back = coders.octahedral_normals(levels, largest // 2).astype(values.dtype).astype(np.float64)
         across = np.linalg.norm(np.cross(back, units), axis=1)
         off = float(np.degrees(np.arctan2(across, (back * units).sum(axis=1))).max())
         if quality.way == "bits" or off <= quality.amount:
@@ -203,11 +211,10 @@ def _octahedral(values: Values, quality: Quality, name: str) -> QuantizedValues:
     else:
         raise TargetError(f"{name!r}: normals can be kept within {off:.2g} degrees, not {quality.amount:g}")
     note = [f"{bits} bits, within {off:.2g} degrees"]
-    if not (lengths > 0.0).all():
+    if some:
         note.append(f"{int((lengths == 0.0).sum())} of no length")
     if np.abs(lengths - 1.0)[lengths > 0.0].max(initial=0.0) > 1e-3:
         note.append("all of length one now")
-    fields = {"coding": OCTAHEDRAL, "largest": (largest, largest)}
     return QuantizedValues(fields, levels, ", ".join(note))
 
 

@@ -19,8 +19,8 @@ from bsm.codec.look.measure import AttributeLook, has_look, own_normals
 from bsm.codec.look.pictures import FEW, Normals
 from bsm.codec.progress import Nearing
 from bsm.codec.static.attributes.encoding import PreparedAttribute, carry, place_of, with_attributes
-from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, Quality, qualities
-from bsm.codec.static.choice.bounds import Measures
+from bsm.codec.static.attributes.quality import LEAST_NORMAL_BITS, MOST_BITS, MOST_NORMAL_BITS, Quality, qualities
+from bsm.codec.static.choice.bounds import Bounds, Measures
 from bsm.codec.static.choice.search import Search
 from bsm.codec.static.options import LARGE_BLOCKS, EncodeOptions
 from bsm.codec.static.preamble_encoding import Draft, JoinedMesh, Parts, Prepared, join, prepare
@@ -36,6 +36,7 @@ class Input:
     def __init__(self, given: TriangleMesh, options: EncodeOptions) -> None:
         self.given, self.options = given, options
         self.coded = options  # how the shape is coded, which the best effort chooses
+        self.looks: list[tuple[int, AttributeLook]] = []  # attributes whose quality the look decides
 
     @cached_property
     def joined(self) -> JoinedMesh:
@@ -84,8 +85,33 @@ class Input:
         return with_attributes(draft, self.carried, self.given.metadata)
 
     def search(self, contract: Contract, near: Nearing | None) -> Search:
-        measures = Measures(self.prepared, self.options.threads, self.normals, alike=contract.alike, near=near)
-        return Search(measures, self.coded, lambda draft: self.dressed(draft).size)
+        self.measures = Measures(self.prepared, self.options.threads, self.normals, alike=contract.alike, near=near)
+        return Search(self.measures, self.coded, lambda draft: self.dressed(draft).size)
+
+    @cached_property
+    def free_normals(self) -> int | None:
+        """Which attribute are normals without a requested quality, so that they may be what the look needs."""
+        options = self.options
+        if options.normals != "look" or "*" in dict(options.attributes) or self.normals is None:
+            return None
+        first = next(at for at, (attribute, _) in enumerate(self.wanted) if attribute.semantic == "normal")
+        attribute, quality = self.wanted[first]
+        asked = attribute.name in dict(options.attributes) or not np.isfinite(self.normals).all()
+        return None if asked or attribute.domain == "face" or quality.way != "bits" else first
+
+    def broken(self, draft: Draft, contract: Contract) -> str:
+        """The bounds of a contract that a draft, with its attributes, breaks, in words; empty: it keeps them all."""
+        bounds, positions = Bounds(self.measures, contract), _decoded(self, draft)
+        metric, free = bounds.metric, self.free_normals
+        if metric is None:
+            return "" if bounds.keeps(positions) else bounds.had
+        if free is None:
+            seen = [metric.distance(positions)]
+        else:
+            normals = self.carried[free].normals(positions)
+            seen = [metric.bare_distance(positions), metric.shaded(positions, normals)]
+        seen += [look.distance(positions, self.carried[at].at_corners) for at, look in self.looks]
+        return "" if bounds.keeps(positions, max(seen)) else bounds.had
 
 
 def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
@@ -93,18 +119,21 @@ def smallest(given: Input, contract: Contract, near: Nearing | None) -> Draft:
     if given.options.effort == "best":
         _choose_blocks(given, contract)
     search = given.search(contract, near)
-    looks = _roughened(given, contract.look) if search.metric is not None and contract.look < math.inf else []
+    if search.metric is not None and contract.look < math.inf:
+        given.looks = _roughened(given, contract.look)
     asked = contract
     for _ in range(TRIES):
-        if looks:
+        if given.looks:
             given.carried = given.carry(given.wanted)
         kept = _shaded(given, search, asked)
         positions = _decoded(given, kept)
-        seen = max((look.distance(positions, given.carried[at].at_corners) for at, look in looks), default=0.0)
+        seen = max((look.distance(positions, given.carried[at].at_corners) for at, look in given.looks), default=0.0)
         if seen <= contract.look:
-            break
+            return kept
         asked = replace(asked, look=asked.look * contract.look / seen * (1.0 - SLACK))
-    return kept
+    raise TargetError(
+        f"{contract} cannot be kept on this mesh; with its colors or under a checker, it has a look of {seen:.3g}"
+    )
 
 
 def _choose_blocks(given: Input, contract: Contract) -> None:
@@ -152,7 +181,7 @@ def _roughen(given: Input, at: int, attribute: Attribute, most: float) -> Attrib
 
 def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     """The smallest stream that keeps a contract; normals without a requested quality are what the look needs."""
-    bare, metric, free = search.smallest(contract), search.metric, _free_normals(given)
+    bare, metric, free = search.smallest(contract), search.metric, given.free_normals
     if free is None or metric is None or contract.look == math.inf:
         return given.dressed(bare)
     recomputed, decoded, asked = given.carry_with(free, Quality("recompute")), _decoded(given, bare), contract.look
@@ -160,24 +189,22 @@ def _shaded(given: Input, search: Search, contract: Contract) -> Draft:
     def looks(carried: tuple[PreparedAttribute, ...], positions: Positions) -> bool:
         return metric.shaded(positions, carried[free].normals(positions)) <= asked
 
-    def enough(bits: int) -> bool:
-        carried = given.carry_with(free, Quality("bits", bits))
-        if looks(carried, decoded):
-            given.carried = carried
-            return True
-        return False
+    finer = [*(Quality("bits", bits) for bits in range(LEAST_NORMAL_BITS, MOST_NORMAL_BITS + 1)), Quality("exact")]
+
+    def enough(at: int) -> bool:
+        return looks(given.carry_with(free, finer[at]), decoded)
 
     may = not metric.against_faces
     if may and looks(recomputed, decoded):
         given.carried = recomputed
         return given.dressed(bare)
-    _first(enough, LEAST_NORMAL_BITS, int(given.wanted[free][1].amount))
+    given.carried = given.carry_with(free, finer[_first(enough, 0, len(finer) - 1)])
     kept = given.dressed(bare)
     if may and metric.spent <= FINER and looks(recomputed, given.prepared.positions):
-        finer = search.shaded_by(recomputed[free].normals)
+        other_search = search.shaded_by(recomputed[free].normals)
         with suppress(TargetError):
             for _ in range(TRIES):
-                draft = finer.smallest(contract)
+                draft = other_search.smallest(contract)
                 other, decoded = with_attributes(draft, recomputed, given.given.metadata), _decoded(given, draft)
                 if other.size >= kept.size:
                     break
@@ -195,22 +222,11 @@ def _decoded(given: Input, draft: Draft) -> Positions:
 
 
 def _first(holds: Callable[[int], bool], low: int, high: int) -> int:
-    """The first number from `low` on for which something holds, if it holds for all behind it; at most `high`."""
+    """Return the first number from `low` on for which something holds, if it holds from there on; or else `high`."""
     while low < high:
         middle = (low + high) // 2
         low, high = (low, middle) if holds(middle) else (middle + 1, high)
     return low
-
-
-def _free_normals(given: Input) -> int | None:
-    """Which attribute are normals without a requested quality, so that they may be what the look needs."""
-    options = given.options
-    if options.normals != "look" or "*" in dict(options.attributes) or given.normals is None:
-        return None
-    first = next(at for at, (attribute, _) in enumerate(given.wanted) if attribute.semantic == "normal")
-    attribute, quality = given.wanted[first]
-    asked = attribute.name in dict(options.attributes) or not np.isfinite(given.normals).all()
-    return None if asked or attribute.domain == "face" or quality.way != "bits" else first
 
 
 def kept_whole(colours: Attribute) -> bool:

@@ -16,7 +16,7 @@ from bsm.codec.progress import Progress
 from bsm.codec.signal.chain import AS_SPECIFIED, Chain, ChainRules, Overrides, even_interval
 from bsm.codec.signal.smooth import in_frames, local_frames, raised, slide, smooth, smoothing_spectrum, tangent_steps
 from bsm.codec.signal.transform import MeasuredSpectrum, packed_range, project, smallest_step
-from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate, turned
+from bsm.codec.static.choice.bounds import COARSEST, MENDED, Bounds, Candidate, turned
 from bsm.codec.static.choice.settling import RATIO, Sensitivity
 from bsm.codec.static.choice.shaping import Aim
 from bsm.codec.static.coding import STIFFNESS, Adaptive, Packed, Scheme
@@ -157,12 +157,14 @@ PULLED, STEADY, NEAR = 0.085, 0.3, 16.0
 """Where a look is asked for, what a bit is worth at a look of 1, over the mean cost of an error of one step along the
 normal, and the power of the look that it goes with; and how far a vertex may be brought from its place, in steps of the
 layer."""
+MENDED_ASIDE = 3.0  # or so many of its own steps in the plane, which are wide where the surface is flat
+ROOM = 1.8  # of steps that are within reach: their diagonal over the reach
 FOLDED = 0.02  # edges folded over, for each face, of which more are not mended: that takes long, and blocks do not suit
 NOISE = 0.008
 """Errors that are looked at to learn where they are seen, over the look that is asked for and the mean edge."""
-ASLANT = 1.5, 2.2
-"""The most that steps in the plane are, over those that would be right if errors counted alike seen or not: where the
-farthest vertex is bound, and where all errors are."""
+ASLANT = 2.2
+"""The most that steps in the plane are, where all errors are bound, over those that would be right if errors counted
+alike, seen or not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,7 +204,7 @@ class RefinementBase:
     def within(self, reaches: Matrix, layer: Layer, levels: Levels) -> tuple[Levels, Matrix]:
         """These levels, but the nearest ones where a vertex is farther off than it may be; and their known steps."""
         levels, known = levels.copy(), self.known_steps(layer, levels)
-        for _ in range(3):  # heights that are mended change steps of others
+        for _ in range(9):  # heights that are mended change steps of others
             error = levels * known - self.offsets
             far = np.square(error).sum(axis=1) > reaches**2
             if not far.any():
@@ -338,7 +340,8 @@ class Refined:
 
         def unfold(flat: bool) -> Candidate | None:
             directions = base.wanted(known)[1].reshape(-1, 9)
-            other = self._bounds.measures.shaper.unfold(positions, levels, directions, self._bounds.reaches, flat)
+            reach = np.minimum(self._bounds.reaches, np.maximum(MENDED * layer.step, MENDED_ASIDE * known.max(axis=1)))
+            other = self._bounds.measures.shaper.unfold(positions, levels, directions, reach, flat)
             return None if other is None else self._leveled(step, base, layer, other, base.known_steps(layer, other))
 
         evened = self._sensitivity is not None
@@ -349,12 +352,14 @@ class Refined:
         base, bounds = self._base, self._bounds
         kept, worth = dict[float, tuple[Layer, Levels, Matrix]](), PULLED * self._look**STEADY
 
+        # Half a diagonal of steps is within the least reach, so that all vertices can be.
+        room = (ROOM * float(bounds.reaches.min()) / step) ** 2 - 1.0
+        widest = min(max(math.sqrt(max(room, 0.0) / 2.0), 1.0), RATIO)
+
         def settle(even: float) -> tuple[Layer, Levels, Matrix]:
-            aslant = ASLANT[bounds.contract.visual < math.inf]
-            layer = Layer(single(step), min(max(aslant * even / step, 1.0), RATIO))
+            layer = Layer(single(step), min(max(ASLANT * even / step, 1.0), widest))
             steps, known = base.expected_steps(layer), partial(base.known_steps, layer)
             reach = np.minimum(bounds.reaches, NEAR * layer.step)
-            even = even if bounds.contract.visual < math.inf else math.inf  # a bound on the farthest is of a few
             levels = seen.levels(base.offsets, base.frames, steps, known, worth, reach, even)
             return layer, *base.within(bounds.reaches, layer, levels)
 
@@ -365,7 +370,7 @@ class Refined:
                 kept[even if over <= 0.0 else 0.0] = found
             return over
 
-        if excess(math.inf) > 0.0:
+        if excess(math.inf) > 0.0 and bounds.contract.visual < math.inf:
             secant(excess, bounds.even_step, step, COARSEST)
         return kept[max(kept)]
 

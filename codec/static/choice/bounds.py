@@ -25,6 +25,7 @@ COARSEST, ANGLE_OF_LOOK = 0.05, 1.3
 NEARLY = 0.87, 1.08  # shares of what is asked for outside of which a few sides are enough
 LEAST = 1e-6  # share of a bound below which all is as good as it can be
 MARGIN = 1e-9  # of a bound on distances, for what rounding may add
+MENDED = 4.0  # steps that a vertex may be off where folds are mended: farther ones stand out as spikes
 FINEST_PART = 0.1
 """No part is bound more tightly than this, over the bound of the whole: where that is 1 % of the diagonal, it is half a
 pixel in a picture of 512."""
@@ -134,9 +135,14 @@ class Bounds:
         farther, _, visual = self._shares(positions)
         return math.log(max(farther, visual, LEAST))
 
+    @property
+    def metric(self) -> LookMetric | None:
+        """None: no look is asked for, or nothing can be seen."""
+        return None if self.contract.look == math.inf else self.measures.look
+
     def breaks(self, positions: Matrix) -> bool:
         """Whether some sides show, one after another, that positions look far worse than they may."""
-        metric = None if self.contract.look == math.inf else self.measures.look
+        metric = self.metric
         return metric is not None and metric.breaks(self._decoded(positions), NEARLY[1] ** 3 * self.contract.look)
 
     def keeps(self, positions: Matrix, look: float | None = None) -> bool:
@@ -197,7 +203,7 @@ class Bounds:
 
     def _glance(self, positions: Matrix, least: float, most: float) -> tuple[float, float | None]:
         """Distances in pictures, from a few sides and, if that is within these numbers, from all."""
-        metric = None if self.contract.look == math.inf else self.measures.look
+        metric = self.metric
         if metric is None:
             return 0.0, 0.0
         few, whole = metric.glance(self._decoded(positions), least, most)

@@ -17,7 +17,7 @@ from bsm.bitstream.fields.grid import find_lattice, ordered
 from bsm.bitstream.once import cached_property
 from bsm.codec.arrays import Levels, Matrix
 from bsm.codec.geometry.mesh import extent_of
-from bsm.codec.static.choice.bounds import COARSEST, Bounds, Candidate
+from bsm.codec.static.choice.bounds import COARSEST, MENDED, Bounds, Candidate
 from bsm.codec.static.choice.shaping import SAMPLE, Aim
 from bsm.codec.static.preamble_encoding import FEW_VERTICES, Draft, Prepared
 from bsm.codec.static.units import single
@@ -215,8 +215,9 @@ class Gridded:
         candidate = self._candidate(grid, places - least)
 
         def unfold(flat: bool) -> Candidate | None:
-            directions = held / self._prepared.units.scale * np.eye(3).reshape(1, 9)
-            turned = self._shaper.unfold(candidate.positions, places, directions, self._bounds.reaches, flat)
+            cell = held / self._prepared.units.scale
+            directions, reach = cell * np.eye(3).reshape(1, 9), np.minimum(self._bounds.reaches, MENDED * cell)
+            turned = self._shaper.unfold(candidate.positions, places, directions, reach, flat)
             return None if turned is None else self._placed(held, turned)
 
         return replace(candidate, unfold=unfold)

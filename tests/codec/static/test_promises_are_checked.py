@@ -1,0 +1,103 @@
+"""A search that returns a value too coarse is found out: nothing is written, and the exit code is 10."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bsm
+from bsm.codec.geometry.attributes import Attribute
+from bsm.codec.geometry.mesh import TriangleMesh
+from bsm.codec.look.measure import LookMetric, own_normals
+from bsm.codec.static import encoder
+from bsm.codec.static.choice import attributes, grids, search
+from bsm.codec.static.choice.bounds import Bounds
+from bsm.codec.static.choice.search import Search
+from bsm.codec.static.encoder import Encoder, encode
+from bsm.codec.static.options import PRESETS, EncodeOptions
+from bsm.codec.static.targets import Contract, Target
+from bsm.exits import exit_of
+from tests.shapes import patch
+
+MESH = patch(12, 12)
+COARSE = 3  # bits of a grid that keeps no promise
+
+
+def shaded(mesh: TriangleMesh, zero: int = 0) -> TriangleMesh:
+    """A mesh with normals at vertices, some of no length."""
+    normals = np.tile([0.0, 0.0, 1.0], (len(mesh.positions), 1))
+    normals[:, :2] = 0.3 * np.sin(9.0 * mesh.positions[:, :2])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    normals[:zero] = 0.0
+    return replace(mesh, attributes=(Attribute("normal", normals.astype(np.float32), "vertex", "normal"),))
+
+
+def textured(mesh: TriangleMesh) -> TriangleMesh:
+    places = mesh.positions[:, :2].astype(np.float32)
+    return replace(mesh, attributes=(Attribute("uv", places, "vertex", "texcoord"),))
+
+
+def rounded(given: Search, *_: object) -> object:
+    return grids.rounded(given._prepared, COARSE)
+
+
+def the_coarsest_step(attempt: Callable[[float], object], target: Target, first: float, *_: object) -> object:
+    return attempt(first / 10.0 if target.shrinks_with_step else first * 10.0)
+
+
+BROKEN = {
+    "the smallest stream": (MESH, {}, Search, "smallest", rounded),
+    "the best of a size": (MESH, {"target": Target("size", 2000)}, Search, "best", rounded),
+    "an angle": (MESH, {"target": Target("theta_deg", 0.5)}, Search, "smallest", rounded),
+    "a visual error": (MESH, {"target": Target("nmsve_db", -60.0)}, Search, "smallest", rounded),
+    "a bound": (MESH, {"contract": Contract(1e-4)}, Search, "smallest", rounded),
+    "whether bounds are kept": (MESH, {}, search, "widest", lambda way, *_, **__: way.at(0.05)),
+    "normals": (shaded(MESH), {}, attributes, "_first", lambda _, low, high: low),
+    "texture coordinates": (textured(MESH), {}, attributes, "_first", lambda _, low, high: low),
+    "a step": (
+        MESH,
+        {"target": Target("nmsve_db", -60.0), "coefficients": 30},
+        encoder,
+        "search_step",
+        the_coarsest_step,
+    ),
+    "a size": (MESH, {"target": Target("size", 100), "coefficients": 30}, encoder, "search_step", the_coarsest_step),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_a_broken_search_is_found_out(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh, options, owner, attribute, broken = BROKEN[name]
+    monkeypatch.setattr(owner, attribute, broken)
+    if name == "whether bounds are kept":
+        monkeypatch.setattr(search, "unfolded", lambda found, *_: found)
+    with pytest.raises((bsm.VerificationError, bsm.TargetError)) as caught:
+        list(Encoder(mesh, EncodeOptions(threads=1, **options)).chunks())
+    assert exit_of(caught.value).code == 10
+
+
+@pytest.mark.parametrize("preset", ["small", "balanced", "fine"])
+@pytest.mark.parametrize("zero", [0, 1, 40])
+def test_the_look_holds_with_normals_of_no_length(preset: str, zero: int) -> None:
+    mesh, options = shaded(MESH, zero), replace(PRESETS[preset], threads=1)
+    made = Encoder(mesh, options)
+    decoded = bsm.decode(made.encode())
+    assert options.promise is not None
+    assert LookMetric(mesh).compare(decoded).distance <= options.promise.look * 1.001
+    own = own_normals(decoded)
+    assert own is not None
+    lengths = np.square(own.reshape(-1, 3)).sum(axis=1)
+    assert (lengths < 0.5).sum() == np.isin(mesh.faces, np.arange(zero)).sum()
+
+
+def test_a_draft_is_judged_by_what_is_decoded(tmp_path: Path) -> None:
+    made = Encoder(shaded(MESH), EncodeOptions(threads=1))
+    draft, promise = made.draft(), made.options.promise
+    assert promise is not None
+    assert made._input.broken(draft, promise) == ""
+    assert "look" in made._input.broken(draft, replace(promise, look=promise.look / 50.0))
+    assert "vertex" in made._input.broken(draft, replace(promise, farthest=1e-7))
+    assert Bounds(made._input.measures, promise).keeps(made._input.prepared.units.into(draft.decoded))
+    assert len(encode(MESH, EncodeOptions(threads=1))) > 0
